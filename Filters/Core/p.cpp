@@ -1,0 +1,1 @@
+int hopPlaceholder() { return 0; }

@@ -1,0 +1,3 @@
+#include "vtkHighOrderParticleIsosurface.h"
+#include "vtkObjectFactory.h"
+vtkStandardNewMacro(vtkHighOrderParticleIsosurface);

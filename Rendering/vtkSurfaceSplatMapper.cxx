@@ -1,0 +1,3 @@
+#include "vtkSurfaceSplatMapper.h"
+#include "vtkObjectFactory.h"
+vtkStandardNewMacro(vtkSurfaceSplatMapper);
