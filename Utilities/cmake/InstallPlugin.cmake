@@ -1,0 +1,42 @@
+# install_plugin(NAME MODULE_TARGET...): put the plugin where ParaView looks for plugins.
+#
+# ParaView finds a plugin by its name in <prefix>/<lib>/paraview-<version>/plugins/NAME/NAME.so, and
+# lists it (plugin manager, LoadDistributedPlugin) if an XML file names it and bin/paraview.conf
+# names that XML file, one path a line, relative to bin/. Distributions leave that file out.
+# The plugin's own libraries lie beside it; it is of no use as a library, so no header is installed.
+option(REGISTER_PLUGIN "On install, list the plugin in ParaView's bin/paraview.conf" ON)
+
+function (_paraview_library_dir output)
+  get_target_property(library ParaView::RemotingCore LOCATION)
+  get_filename_component(directory "${library}" DIRECTORY)
+  file(RELATIVE_PATH directory "${ParaView_PREFIX_PATH}" "${directory}")
+  set("${output}" "${directory}" PARENT_SCOPE)
+endfunction ()
+
+if (CMAKE_INSTALL_PREFIX_INITIALIZED_TO_DEFAULT)
+  set(CMAKE_INSTALL_PREFIX "${ParaView_PREFIX_PATH}" CACHE PATH
+    "ParaView looks for plugins below its own prefix only" FORCE)
+endif ()
+
+function (install_plugin name)
+  _paraview_library_dir(library_dir)
+  set(plugins_dir "${library_dir}/${PARAVIEW_PLUGIN_SUBDIR}")
+
+  # ParaView's macros would install static archives and headers too: their directory is left out,
+  # and what a running ParaView needs is installed here.
+  set_property(DIRECTORY "${PROJECT_SOURCE_DIR}/Plugin" PROPERTY EXCLUDE_FROM_ALL ON)
+  set_property(TARGET ${name} ${ARGN} PROPERTY EXCLUDE_FROM_ALL OFF)
+  set_property(TARGET ${name} ${ARGN} PROPERTY INSTALL_RPATH "$ORIGIN")
+  install(TARGETS ${name} ${ARGN} LIBRARY DESTINATION "${plugins_dir}/${name}")
+
+  set(plugins_xml "${name}.plugins.xml")
+  file(WRITE "${PROJECT_BINARY_DIR}/${plugins_xml}"
+    "<Plugins>\n  <Plugin name=\"${name}\" auto_load=\"0\"/>\n</Plugins>\n")
+  install(FILES "${PROJECT_BINARY_DIR}/${plugins_xml}" DESTINATION "${plugins_dir}")
+
+  if (REGISTER_PLUGIN)
+    configure_file("${PROJECT_SOURCE_DIR}/Utilities/cmake/RegisterPlugin.cmake.in"
+      "${PROJECT_BINARY_DIR}/RegisterPlugin.cmake" @ONLY)
+    install(SCRIPT "${PROJECT_BINARY_DIR}/RegisterPlugin.cmake")
+  endif ()
+endfunction ()
