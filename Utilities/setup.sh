@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# Make the plugin ready to use from this checkout: install what is missing (Debian 12), build into build/.
+#   bash Utilities/setup.sh [CMAKE_OPTION ...]
+# Asks for nothing but bash and apt-get, and for root or sudo only where a package is missing.
+set -euo pipefail
+
+project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build=$project/build
+
+packages=(
+  g++ cmake ninja-build
+  paraview paraview-dev python3-paraview python3-dev libglm-dev
+  xvfb                                  # pictures where there is no display
+  python3-pytest libgtest-dev           # tests
+  # paraview-dev's CMake files look these up, but its package does not depend on them.
+  qtbase5-dev qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools
+  libglew-dev liblz4-dev liblzma-dev libdouble-conversion-dev libutfcpp-dev libopenmpi-dev
+  libboost-dev libpugixml-dev libjpeg-dev libpng-dev libtiff-dev libfreetype-dev libgl2ps-dev
+)
+
+say() { printf '== %s\n' "$*"; }
+fail() { printf 'error: %s\n' "$*" >&2; exit 1; }
+
+missing_packages() {
+  local package
+  for package in "${packages[@]}"; do
+    [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || echo "$package"
+  done
+}
+
+install_packages() { # PACKAGE ...
+  command -v apt-get >/dev/null ||
+    fail "this script installs Debian packages; elsewhere see 'Building' in README.md"
+  local as_root=(env)
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null ||
+      fail "not root and no sudo; have an administrator run: apt-get install --no-install-recommends $*"
+    as_root=(sudo env)
+  fi
+  say "installing $# packages: $*"
+  as_root+=(DEBIAN_FRONTEND=noninteractive apt-get -q -o Acquire::Retries=3 -o Dpkg::Use-Pty=0)
+  "${as_root[@]}" update
+  "${as_root[@]}" install -y --no-install-recommends "$@"
+}
+
+configure_and_build() { # CMAKE_OPTION ...
+  local generator=()
+  # A build folder keeps the generator it was made with.
+  [ -e "$build/CMakeCache.txt" ] || generator=(-G Ninja)
+  say "configuring"
+  cmake -S "$project" -B "$build" "${generator[@]}" -DCMAKE_BUILD_TYPE=Release "$@"
+  say "building"
+  cmake --build "$build" --parallel "$(nproc)"
+}
+
+mapfile -t missing < <(missing_packages)
+[ "${#missing[@]}" -eq 0 ] || install_packages "${missing[@]}"
+configure_and_build "$@"
