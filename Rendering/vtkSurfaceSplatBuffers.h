@@ -1,0 +1,74 @@
+/**
+ * @class vtkSurfaceSplatBuffers
+ * @brief the particles on the GPU, as buffer textures that shaders index by particle
+ *
+ * All methods need the OpenGL context of the window that Upload() was called with.
+ */
+
+#ifndef vtkSurfaceSplatBuffers_h
+#define vtkSurfaceSplatBuffers_h
+
+#include "vtkNew.h"
+#include "vtkType.h"
+
+#include <array>
+#include <vector>
+
+class vtkOpenGLBufferObject;
+class vtkOpenGLRenderWindow;
+class vtkShaderProgram;
+class vtkTextureObject;
+class vtkWindow;
+struct vtkSurfaceSplatParticles;
+
+/** One array of texels: a buffer object and the texture through which shaders read it. */
+class vtkSurfaceSplatTexels
+{
+public:
+  vtkSurfaceSplatTexels();
+  ~vtkSurfaceSplatTexels();
+
+  void Upload(vtkOpenGLRenderWindow* window, const std::vector<float>& rgba);
+  void Upload(vtkOpenGLRenderWindow* window, const std::vector<unsigned char>& rgba);
+  void Activate();
+  void Deactivate();
+  void SetSampler(vtkShaderProgram* program, const char* name);
+  void ReleaseGraphicsResources(vtkWindow* window);
+
+private:
+  template <typename T>
+  void UploadTexels(vtkOpenGLRenderWindow* window, const std::vector<T>& rgba, int vtkType);
+
+  vtkNew<vtkOpenGLBufferObject> Buffer;
+  vtkNew<vtkTextureObject> Texture;
+};
+
+class vtkSurfaceSplatBuffers
+{
+public:
+  /**
+   * Replaces the content. The number of particles is cut to what the driver can address
+   * (GL_MAX_TEXTURE_BUFFER_SIZE); compare GetNumberOfParticles() to notice.
+   */
+  void Upload(vtkOpenGLRenderWindow* window, const vtkSurfaceSplatParticles& particles);
+
+  vtkIdType GetNumberOfParticles() const { return this->NumberOfParticles; }
+
+  /** What was subtracted from the model coordinates. */
+  const std::array<double, 3>& GetOrigin() const { return this->Origin; }
+
+  void Activate();
+  void Deactivate();
+  /** Tells a program where the textures are; they must be active. */
+  void SetSamplers(vtkShaderProgram* program);
+  void ReleaseGraphicsResources(vtkWindow* window);
+
+private:
+  vtkIdType NumberOfParticles = 0;
+  std::array<double, 3> Origin = { 0., 0., 0. };
+  vtkSurfaceSplatTexels CentreRadius;
+  vtkSurfaceSplatTexels Normal;
+  vtkSurfaceSplatTexels PointIds; // four bytes, as the selection passes write them
+};
+
+#endif

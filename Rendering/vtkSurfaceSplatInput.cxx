@@ -1,0 +1,134 @@
+#include "vtkSurfaceSplatInput.h"
+
+#include "vtkAppendPolyData.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCellType.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkIdList.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+#include "vtkUnsignedIntArray.h"
+
+#include <numeric>
+
+namespace
+{
+// Thresholding or clipping particles gives an unstructured grid of vertices.
+vtkSmartPointer<vtkPolyData> PointSetAsParticles(vtkPointSet* input)
+{
+  auto particles = vtkSmartPointer<vtkPolyData>::New();
+  particles->SetPoints(input->GetPoints());
+  particles->GetPointData()->ShallowCopy(input->GetPointData());
+  particles->GetFieldData()->ShallowCopy(input->GetFieldData());
+
+  vtkNew<vtkCellArray> vertices;
+  vtkNew<vtkIdList> vertexCells;
+  vtkNew<vtkIdList> points;
+  for (vtkIdType cell = 0; cell < input->GetNumberOfCells(); ++cell)
+  {
+    const int type = input->GetCellType(cell);
+    if (type == VTK_VERTEX || type == VTK_POLY_VERTEX)
+    {
+      input->GetCellPoints(cell, points);
+      vertices->InsertNextCell(points);
+      vertexCells->InsertNextId(cell);
+    }
+  }
+  particles->SetVerts(vertices);
+  particles->GetCellData()->CopyAllocate(input->GetCellData(), vertexCells->GetNumberOfIds());
+  for (vtkIdType i = 0; i < vertexCells->GetNumberOfIds(); ++i)
+  {
+    particles->GetCellData()->CopyData(input->GetCellData(), vertexCells->GetId(i), i);
+  }
+  return particles;
+}
+
+vtkSmartPointer<vtkIdTypeArray> Numbers(const char* name, vtkIdType count)
+{
+  auto numbers = vtkSmartPointer<vtkIdTypeArray>::New();
+  numbers->SetName(name);
+  numbers->SetNumberOfTuples(count);
+  std::iota(numbers->GetPointer(0), numbers->GetPointer(0) + count, vtkIdType(0));
+  return numbers;
+}
+
+void RememberBlock(vtkPolyData* particles, unsigned int flatIndex)
+{
+  using namespace vtkSurfaceSplatInput;
+  const vtkIdType cells = particles->GetNumberOfCells();
+  vtkNew<vtkUnsignedIntArray> block;
+  block->SetName(BlockIndexName);
+  block->SetNumberOfTuples(cells);
+  block->FillValue(flatIndex);
+  particles->GetCellData()->AddArray(block);
+  particles->GetCellData()->AddArray(Numbers(BlockCellIdName, cells));
+  particles->GetPointData()->AddArray(
+    Numbers(BlockPointIdName, particles->GetNumberOfPoints()));
+}
+
+// Selections find the block of a particle through its cell.
+void EnsureVertexCells(vtkPolyData* particles)
+{
+  if (particles->GetNumberOfVerts() > 0)
+  {
+    return;
+  }
+  vtkNew<vtkCellArray> vertices;
+  for (vtkIdType point = 0; point < particles->GetNumberOfPoints(); ++point)
+  {
+    vertices->InsertNextCell(1, &point);
+  }
+  particles->GetCellData()->Initialize();
+  particles->SetVerts(vertices);
+  particles->SetLines(nullptr);
+  particles->SetPolys(nullptr);
+  particles->SetStrips(nullptr);
+}
+
+vtkSmartPointer<vtkPolyData> CompositeAsParticles(vtkCompositeDataSet* input)
+{
+  vtkNew<vtkAppendPolyData> merge;
+  vtkSmartPointer<vtkCompositeDataIterator> blocks;
+  blocks.TakeReference(input->NewIterator());
+  for (blocks->InitTraversal(); !blocks->IsDoneWithTraversal(); blocks->GoToNextItem())
+  {
+    vtkSmartPointer<vtkPolyData> particles =
+      vtkSurfaceSplatInput::AsParticles(blocks->GetCurrentDataObject());
+    if (particles->GetNumberOfPoints() > 0)
+    {
+      EnsureVertexCells(particles);
+      RememberBlock(particles, blocks->GetCurrentFlatIndex());
+      merge->AddInputData(particles);
+    }
+  }
+  if (merge->GetNumberOfInputConnections(0) == 0)
+  {
+    return vtkSmartPointer<vtkPolyData>::New();
+  }
+  merge->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  merge->Update();
+  return merge->GetOutput();
+}
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> vtkSurfaceSplatInput::AsParticles(vtkDataObject* data)
+{
+  if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    return CompositeAsParticles(composite);
+  }
+  auto particles = vtkSmartPointer<vtkPolyData>::New();
+  if (auto* polydata = vtkPolyData::SafeDownCast(data))
+  {
+    particles->ShallowCopy(polydata);
+    return particles;
+  }
+  auto* points = vtkPointSet::SafeDownCast(data);
+  return points && points->GetPoints() ? PointSetAsParticles(points) : particles;
+}

@@ -1,0 +1,33 @@
+/**
+ * @file  vtkSurfaceSplatInput.h
+ * @brief any data object as one polydata of particles
+ */
+
+#ifndef vtkSurfaceSplatInput_h
+#define vtkSurfaceSplatInput_h
+
+#include "vtkSmartPointer.h"
+
+class vtkDataObject;
+class vtkPolyData;
+
+namespace vtkSurfaceSplatInput
+{
+/**
+ * Arrays of a merged input that lead back to its blocks, for selections. Inputs that are not
+ * composite do not have them.
+ */
+constexpr const char* BlockPointIdName = "SurfaceSplatPointId";
+constexpr const char* BlockCellIdName = "SurfaceSplatCellId";
+constexpr const char* BlockIndexName = "SurfaceSplatBlockIndex";
+
+/**
+ * Polydata comes back as a shallow copy, other point sets with their points and vertex cells, the
+ * blocks of a composite merged into one, so that their disks meet without seams and the nearest one
+ * wins. Of arrays only those common to all blocks are kept. Other data, and nullptr, give a polydata
+ * without points.
+ */
+vtkSmartPointer<vtkPolyData> AsParticles(vtkDataObject* data);
+}
+
+#endif

@@ -1,0 +1,115 @@
+#include "vtkSurfaceSplatParticles.h"
+
+#include "vtkCellArray.h"
+#include "vtkDataArray.h"
+#include "vtkMath.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkSMPTools.h"
+
+#include <atomic>
+#include <cmath>
+#include <numeric>
+
+namespace
+{
+void CollectIds(vtkPolyData* input, vtkSurfaceSplatParticles& particles)
+{
+  vtkCellArray* vertices = input->GetVerts();
+  const vtkIdType cells = vertices ? vertices->GetNumberOfCells() : 0;
+  if (cells == 0)
+  {
+    particles.PointIds.resize(input->GetNumberOfPoints());
+    std::iota(particles.PointIds.begin(), particles.PointIds.end(), vtkIdType(0));
+    return;
+  }
+  particles.PointIds.reserve(vertices->GetNumberOfConnectivityIds());
+  particles.CellIds.reserve(vertices->GetNumberOfConnectivityIds());
+  vtkIdType size = 0;
+  const vtkIdType* points = nullptr;
+  for (vtkIdType cell = 0; cell < cells; ++cell)
+  {
+    vertices->GetCellAtId(cell, size, points);
+    particles.PointIds.insert(particles.PointIds.end(), points, points + size);
+    particles.CellIds.insert(particles.CellIds.end(), size, cell);
+  }
+}
+
+std::array<double, 3> MiddleOfFinitePoints(vtkPoints* points)
+{
+  std::array<double, 3> middle;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    double range[2];
+    points->GetData()->GetFiniteRange(range, axis);
+    middle[axis] = range[0] <= range[1] ? 0.5 * range[0] + 0.5 * range[1] : 0.;
+  }
+  return middle;
+}
+
+bool IsFinite(const double v[3])
+{
+  return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+}
+
+// Reads one particle; false, with nothing written, if it cannot be drawn.
+bool ReadParticle(vtkPoints* points, vtkIdType id, double radius, vtkDataArray* normals,
+  const std::array<double, 3>& origin, float centreRadius[4], float normal[4])
+{
+  double position[3];
+  points->GetPoint(id, position);
+  double direction[3] = { 0., 0., 0. };
+  if (normals)
+  {
+    normals->GetTuple(id, direction);
+    if (!IsFinite(direction) || vtkMath::Normalize(direction) == 0.)
+    {
+      return false;
+    }
+  }
+  if (!IsFinite(position) || !std::isfinite(radius) || radius <= 0.)
+  {
+    return false;
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    centreRadius[axis] = static_cast<float>(position[axis] - origin[axis]);
+    normal[axis] = static_cast<float>(direction[axis]);
+  }
+  centreRadius[3] = static_cast<float>(radius);
+  return true;
+}
+}
+
+//------------------------------------------------------------------------------
+vtkSurfaceSplatParticles vtkSurfaceSplatParticles::FromPolyData(
+  vtkPolyData* input, vtkDataArray* radii, double fallbackRadius, vtkDataArray* normals)
+{
+  vtkSurfaceSplatParticles particles;
+  if (!input || input->GetNumberOfPoints() == 0)
+  {
+    return particles;
+  }
+  CollectIds(input, particles);
+  particles.Origin = MiddleOfFinitePoints(input->GetPoints());
+
+  const vtkIdType count = particles.GetNumberOfParticles();
+  particles.CentreRadius.assign(4 * count, 0.f);
+  particles.Normal.assign(4 * count, 0.f);
+  std::atomic<vtkIdType> skipped(0);
+  vtkSMPTools::For(0, count, [&](vtkIdType begin, vtkIdType end) {
+    for (vtkIdType i = begin; i < end; ++i)
+    {
+      const vtkIdType id = particles.PointIds[i];
+      const double radius = radii ? radii->GetComponent(id, 0) : fallbackRadius;
+      if (!ReadParticle(input->GetPoints(), id, radius, normals, particles.Origin,
+            &particles.CentreRadius[4 * i], &particles.Normal[4 * i]))
+      {
+        particles.Normal[4 * i + 2] = 1.f; // any direction: shaders need not mind a zero one
+        ++skipped;
+      }
+    }
+  });
+  particles.Skipped = skipped;
+  return particles;
+}

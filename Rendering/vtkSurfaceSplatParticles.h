@@ -1,0 +1,44 @@
+/**
+ * @struct vtkSurfaceSplatParticles
+ * @brief  the particles of a polydata, ready for the GPU
+ *
+ * Positions are kept relative to the middle of the particles, so that float32 resolves details of
+ * 1e-2 at coordinates of 1e6.
+ *
+ * One particle per point of a vertex cell, in the order of the cells; without vertex cells, one per
+ * point. A particle that cannot be drawn (position or normal not finite, normal zero, radius not
+ * positive) keeps its place with radius 0, so that particle numbers stay those of the cells.
+ */
+
+#ifndef vtkSurfaceSplatParticles_h
+#define vtkSurfaceSplatParticles_h
+
+#include "vtkType.h"
+
+#include <array>
+#include <vector>
+
+class vtkDataArray;
+class vtkPolyData;
+
+struct vtkSurfaceSplatParticles
+{
+  std::array<double, 3> Origin = { 0., 0., 0. };
+  std::vector<float> CentreRadius; ///< 4 a particle: position - Origin, radius (world units)
+  std::vector<float> Normal;       ///< 4 a particle: unit normal, 0
+  std::vector<vtkIdType> PointIds; ///< 1 a particle: the point it was made from
+  std::vector<vtkIdType> CellIds;  ///< 1 a particle: its vertex cell; empty without vertex cells
+  vtkIdType Skipped = 0;           ///< particles that cannot be drawn
+
+  vtkIdType GetNumberOfParticles() const { return static_cast<vtkIdType>(this->PointIds.size()); }
+
+  /**
+   * Reads the particles of a polydata.
+   * @param radii one radius a point, or nullptr: all have `fallbackRadius`.
+   * @param normals one vector a point (any length but 0), or nullptr: normals stay (0, 0, 0).
+   */
+  static vtkSurfaceSplatParticles FromPolyData(
+    vtkPolyData* input, vtkDataArray* radii, double fallbackRadius, vtkDataArray* normals);
+};
+
+#endif

@@ -1,0 +1,317 @@
+#include "vtkSurfaceSplatRepresentation.h"
+
+#include "vtkActor.h"
+#include "vtkAlgorithm.h"
+#include "vtkCellData.h"
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMatrix4x4.h"
+#include "vtkObjectFactory.h"
+#include "vtkPVRenderView.h"
+#include "vtkPolyData.h"
+#include "vtkProperty.h"
+#include "vtkRenderer.h"
+#include "vtkScalarsToColors.h"
+#include "vtkSurfaceSplatInput.h"
+#include "vtkSurfaceSplatMapper.h"
+#include "vtkTransform.h"
+
+vtkStandardNewMacro(vtkSurfaceSplatRepresentation);
+
+//------------------------------------------------------------------------------
+vtkSurfaceSplatRepresentation::vtkSurfaceSplatRepresentation()
+  : Particles(vtkSmartPointer<vtkPolyData>::New())
+{
+  this->Actor->SetMapper(this->Mapper);
+}
+
+vtkSurfaceSplatRepresentation::~vtkSurfaceSplatRepresentation() = default;
+
+//------------------------------------------------------------------------------
+int vtkSurfaceSplatRepresentation::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  // Clients and render servers have the representation, but not its input.
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkSurfaceSplatRepresentation::RequestData(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const bool hasInput = inputs[0]->GetNumberOfInformationObjects() == 1;
+  this->Particles = vtkSurfaceSplatInput::AsParticles(
+    hasInput ? vtkDataObject::GetData(inputs[0], 0) : nullptr);
+  return this->Superclass::RequestData(request, inputs, outputs);
+}
+
+//------------------------------------------------------------------------------
+int vtkSurfaceSplatRepresentation::ProcessViewRequest(
+  vtkInformationRequestKey* request, vtkInformation* inInfo, vtkInformation* outInfo)
+{
+  if (!this->Superclass::ProcessViewRequest(request, inInfo, outInfo))
+  {
+    return 0; // not visible
+  }
+  if (request == vtkPVView::REQUEST_UPDATE())
+  {
+    this->ProvideParticles(inInfo, outInfo);
+  }
+  else if (request == vtkPVView::REQUEST_RENDER())
+  {
+    auto* particles = vtkPolyData::SafeDownCast(vtkPVView::GetDeliveredPiece(inInfo, this));
+    this->Mapper->SetInputDataObject(particles);
+    this->UpdateColoring();
+
+    // Merged blocks say where their particles came from.
+    using namespace vtkSurfaceSplatInput;
+    const bool merged = particles && particles->GetCellData()->HasArray(BlockIndexName);
+    this->Mapper->SetPointIdArrayName(merged ? BlockPointIdName : nullptr);
+    this->Mapper->SetCellIdArrayName(merged ? BlockCellIdName : nullptr);
+    this->Mapper->SetCompositeIdArrayName(merged ? BlockIndexName : nullptr);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatRepresentation::ProvideParticles(
+  vtkInformation* inInfo, vtkInformation* outInfo)
+{
+  vtkPVView::SetPiece(inInfo, this, this->Particles);
+
+  double bounds[6];
+  this->Mapper->GetDiskBounds(this->Particles, bounds);
+  vtkNew<vtkMatrix4x4> matrix;
+  this->Actor->GetMatrix(matrix);
+  vtkPVRenderView::SetGeometryBounds(inInfo, this, bounds, matrix);
+
+  // Particles stay on their ranks, and the other data follows their partition: redistribution cuts
+  // by cells and fails on ranks without particles and on coincident ones.
+  outInfo->Set(vtkPVRenderView::NEED_ORDERED_COMPOSITING(), this->IsTranslucent() ? 1 : 0);
+  vtkPVRenderView::SetOrderedCompositingConfiguration(
+    inInfo, this, vtkPVRenderView::USE_BOUNDS_FOR_REDISTRIBUTION);
+}
+
+//------------------------------------------------------------------------------
+bool vtkSurfaceSplatRepresentation::IsTranslucent()
+{
+  vtkScalarsToColors* table = this->Mapper->GetLookupTable();
+  return this->Actor->GetProperty()->GetOpacity() < 1. ||
+    (this->Mapper->GetScalarVisibility() && table && !table->IsOpaque());
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatRepresentation::UpdateColoring()
+{
+  vtkInformation* info = this->GetInputArrayInformation(0);
+  const char* name = info && info->Has(vtkDataObject::FIELD_NAME())
+    ? info->Get(vtkDataObject::FIELD_NAME())
+    : nullptr;
+  if (!name || !name[0] || !info->Has(vtkDataObject::FIELD_ASSOCIATION()))
+  {
+    this->Mapper->SetScalarVisibility(false);
+    this->Mapper->SelectColorArray(static_cast<const char*>(nullptr));
+    return;
+  }
+  this->Mapper->SetScalarVisibility(true);
+  this->Mapper->SelectColorArray(name);
+  this->Mapper->SetUseLookupTableScalarRange(true);
+  switch (info->Get(vtkDataObject::FIELD_ASSOCIATION()))
+  {
+    case vtkDataObject::FIELD_ASSOCIATION_CELLS:
+      this->Mapper->SetScalarMode(VTK_SCALAR_MODE_USE_CELL_FIELD_DATA);
+      break;
+    case vtkDataObject::FIELD_ASSOCIATION_NONE:
+      this->Mapper->SetScalarMode(VTK_SCALAR_MODE_USE_FIELD_DATA);
+      this->Mapper->SetFieldDataTupleId(0);
+      break;
+    default:
+      this->Mapper->SetScalarMode(VTK_SCALAR_MODE_USE_POINT_FIELD_DATA);
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkSurfaceSplatRepresentation::AddToView(vtkView* view)
+{
+  auto* renderView = vtkPVRenderView::SafeDownCast(view);
+  if (!renderView)
+  {
+    return false;
+  }
+  renderView->GetRenderer()->AddActor(this->Actor);
+  renderView->RegisterPropForHardwareSelection(this, this->Actor);
+  return this->Superclass::AddToView(view);
+}
+
+bool vtkSurfaceSplatRepresentation::RemoveFromView(vtkView* view)
+{
+  auto* renderView = vtkPVRenderView::SafeDownCast(view);
+  if (!renderView)
+  {
+    return false;
+  }
+  renderView->GetRenderer()->RemoveActor(this->Actor);
+  renderView->UnRegisterPropForHardwareSelection(this, this->Actor);
+  return this->Superclass::RemoveFromView(view);
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatRepresentation::SetVisibility(bool visible)
+{
+  this->Actor->SetVisibility(visible);
+  this->Superclass::SetVisibility(visible);
+}
+
+vtkDataObject* vtkSurfaceSplatRepresentation::GetRenderedDataObject(int)
+{
+  return this->Particles;
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatRepresentation::SetRadiusArrayName(const char* name)
+{
+  this->Mapper->SetRadiusArrayName(name);
+}
+
+void vtkSurfaceSplatRepresentation::SetRadiusScale(double scale)
+{
+  this->Mapper->SetRadiusScale(scale);
+}
+
+void vtkSurfaceSplatRepresentation::SetRadius(double radius)
+{
+  this->Mapper->SetRadius(radius);
+}
+
+void vtkSurfaceSplatRepresentation::SetColorByNormalDirection(bool on)
+{
+  this->Mapper->SetColorByNormalDirection(on);
+}
+
+void vtkSurfaceSplatRepresentation::SetOutwardColor(double r, double g, double b)
+{
+  this->Mapper->SetOutwardColor(r, g, b);
+}
+
+void vtkSurfaceSplatRepresentation::SetInwardColor(double r, double g, double b)
+{
+  this->Mapper->SetInwardColor(r, g, b);
+}
+
+void vtkSurfaceSplatRepresentation::SetLookupTable(vtkScalarsToColors* table)
+{
+  this->Mapper->SetLookupTable(table);
+}
+
+void vtkSurfaceSplatRepresentation::SetMapScalars(int map)
+{
+  this->Mapper->SetColorMode(map ? VTK_COLOR_MODE_MAP_SCALARS : VTK_COLOR_MODE_DIRECT_SCALARS);
+}
+
+void vtkSurfaceSplatRepresentation::SetBackfaceRepresentation(int sides)
+{
+  constexpr int onlyOutward = 401; // the values of ParaView's surface representation
+  constexpr int onlyInward = 402;
+  this->Actor->GetProperty()->SetBackfaceCulling(sides == onlyOutward);
+  this->Actor->GetProperty()->SetFrontfaceCulling(sides == onlyInward);
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatRepresentation::SetAmbient(double value)
+{
+  this->Actor->GetProperty()->SetAmbient(value);
+}
+
+void vtkSurfaceSplatRepresentation::SetAmbientColor(double r, double g, double b)
+{
+  this->Actor->GetProperty()->SetAmbientColor(r, g, b);
+}
+
+void vtkSurfaceSplatRepresentation::SetDiffuse(double value)
+{
+  this->Actor->GetProperty()->SetDiffuse(value);
+}
+
+void vtkSurfaceSplatRepresentation::SetDiffuseColor(double r, double g, double b)
+{
+  this->Actor->GetProperty()->SetDiffuseColor(r, g, b);
+}
+
+void vtkSurfaceSplatRepresentation::SetSpecular(double value)
+{
+  this->Actor->GetProperty()->SetSpecular(value);
+}
+
+void vtkSurfaceSplatRepresentation::SetSpecularColor(double r, double g, double b)
+{
+  this->Actor->GetProperty()->SetSpecularColor(r, g, b);
+}
+
+void vtkSurfaceSplatRepresentation::SetSpecularPower(double value)
+{
+  this->Actor->GetProperty()->SetSpecularPower(value);
+}
+
+void vtkSurfaceSplatRepresentation::SetOpacity(double value)
+{
+  this->Actor->GetProperty()->SetOpacity(value);
+}
+
+void vtkSurfaceSplatRepresentation::SetInterpolation(int value)
+{
+  this->Actor->GetProperty()->SetInterpolation(value);
+}
+
+void vtkSurfaceSplatRepresentation::SetRoughness(double value)
+{
+  this->Actor->GetProperty()->SetRoughness(value);
+}
+
+void vtkSurfaceSplatRepresentation::SetMetallic(double value)
+{
+  this->Actor->GetProperty()->SetMetallic(value);
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatRepresentation::SetPosition(double x, double y, double z)
+{
+  this->Actor->SetPosition(x, y, z);
+}
+
+void vtkSurfaceSplatRepresentation::SetScale(double x, double y, double z)
+{
+  this->Actor->SetScale(x, y, z);
+}
+
+void vtkSurfaceSplatRepresentation::SetOrientation(double x, double y, double z)
+{
+  this->Actor->SetOrientation(x, y, z);
+}
+
+void vtkSurfaceSplatRepresentation::SetOrigin(double x, double y, double z)
+{
+  this->Actor->SetOrigin(x, y, z);
+}
+
+void vtkSurfaceSplatRepresentation::SetUserTransform(const double matrix[16])
+{
+  vtkNew<vtkTransform> transform;
+  transform->SetMatrix(matrix);
+  this->Actor->SetUserTransform(transform);
+}
+
+void vtkSurfaceSplatRepresentation::SetPickable(int pickable)
+{
+  this->Actor->SetPickable(pickable);
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatRepresentation::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Mapper:\n";
+  this->Mapper->PrintSelf(os, indent.GetNextIndent());
+}

@@ -1,0 +1,102 @@
+/**
+ * @class vtkSurfaceSplatRepresentation
+ * @brief ParaView's representation 'Surface Splats': oriented particles drawn by
+ * vtkSurfaceSplatMapper
+ *
+ * Takes polydata and other point sets, or composites of them, whose blocks are drawn as one surface.
+ * Particles carry point normals and, in a point array, radii; see the mapper for what happens
+ * without.
+ */
+
+#ifndef vtkSurfaceSplatRepresentation_h
+#define vtkSurfaceSplatRepresentation_h
+
+#include "vtkHighOrderParticleRenderingModule.h" // for export macro
+#include "vtkNew.h"                              // for vtkNew
+#include "vtkPVDataRepresentation.h"
+#include "vtkSmartPointer.h" // for vtkSmartPointer
+
+class vtkActor;
+class vtkPolyData;
+class vtkScalarsToColors;
+class vtkSurfaceSplatMapper;
+
+class VTKHIGHORDERPARTICLERENDERING_EXPORT vtkSurfaceSplatRepresentation
+  : public vtkPVDataRepresentation
+{
+public:
+  static vtkSurfaceSplatRepresentation* New();
+  vtkTypeMacro(vtkSurfaceSplatRepresentation, vtkPVDataRepresentation);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  int ProcessViewRequest(vtkInformationRequestKey* request, vtkInformation* inInfo,
+    vtkInformation* outInfo) override;
+  void SetVisibility(bool visible) override;
+  vtkDataObject* GetRenderedDataObject(int port) override;
+
+  ///@{
+  /** Forwarded to vtkSurfaceSplatMapper, which documents them. */
+  void SetRadiusArrayName(const char* name);
+  void SetRadiusScale(double scale);
+  void SetRadius(double radius);
+  void SetColorByNormalDirection(bool on);
+  void SetOutwardColor(double r, double g, double b);
+  void SetInwardColor(double r, double g, double b);
+  void SetLookupTable(vtkScalarsToColors* table);
+  ///@}
+
+  /** 1: colours through the lookup table; 0: arrays of 2 to 4 components are colours. */
+  void SetMapScalars(int map);
+
+  /** 400: both sides; 401: only the outward one; 402: only the inward one. */
+  void SetBackfaceRepresentation(int sides);
+
+  ///@{
+  /** Forwarded to vtkProperty. */
+  void SetAmbient(double value);
+  void SetAmbientColor(double r, double g, double b);
+  void SetDiffuse(double value);
+  void SetDiffuseColor(double r, double g, double b);
+  void SetSpecular(double value);
+  void SetSpecularColor(double r, double g, double b);
+  void SetSpecularPower(double value);
+  void SetOpacity(double value);
+  void SetInterpolation(int value);
+  void SetRoughness(double value);
+  void SetMetallic(double value);
+  ///@}
+
+  ///@{
+  /** Forwarded to vtkActor. */
+  void SetPosition(double x, double y, double z);
+  void SetScale(double x, double y, double z);
+  void SetOrientation(double x, double y, double z);
+  void SetOrigin(double x, double y, double z);
+  void SetUserTransform(const double matrix[16]);
+  void SetPickable(int pickable);
+  ///@}
+
+protected:
+  vtkSurfaceSplatRepresentation();
+  ~vtkSurfaceSplatRepresentation() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputs,
+    vtkInformationVector* outputs) override;
+  bool AddToView(vtkView* view) override;
+  bool RemoveFromView(vtkView* view) override;
+
+private:
+  vtkSurfaceSplatRepresentation(const vtkSurfaceSplatRepresentation&) = delete;
+  void operator=(const vtkSurfaceSplatRepresentation&) = delete;
+
+  void ProvideParticles(vtkInformation* inInfo, vtkInformation* outInfo);
+  void UpdateColoring();
+  bool IsTranslucent();
+
+  vtkNew<vtkSurfaceSplatMapper> Mapper;
+  vtkNew<vtkActor> Actor;
+  vtkSmartPointer<vtkPolyData> Particles; // of this process; empty where it has no data
+};
+
+#endif
