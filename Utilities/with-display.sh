@@ -8,6 +8,7 @@ set -euo pipefail
 [ -z "${DISPLAY:-}" ] || exec "$@"
 
 exec {number}< <(exec setpriv --pdeathsig TERM Xvfb -displayfd 1 -screen 0 1280x1024x24 -noreset -nolisten tcp 2>/dev/null)
-trap 'kill $!' EXIT
+server=$!
+trap 'kill "$server" && wait "$server" || true' EXIT
 read -r -t 60 -u "$number" DISPLAY || { echo "error: the virtual display (Xvfb) did not start" >&2; exit 1; }
 DISPLAY=:$DISPLAY "$@"

@@ -1,0 +1,152 @@
+"""Draw a high-order isosurface from a solver's file: what demo.sh runs in pvbatch.
+
+    pvbatch demo.py PLUGIN [FILE.vtu|.pvtu] [OUT.png] [--array NAME] [--isovalue C ...] [--color NAME]
+                    [--spacing S] [--density RHO] [--method NAME]
+
+Without --array the first scalar point array is taken, without --isovalue the middle of its range.
+"""
+
+import argparse
+import time
+from pathlib import Path
+
+from paraview import simple
+
+# A channel flow past a cylinder: surfaces of equal pressure, coloured by the flow through them.
+DEMO = {
+    "file": Path(__file__).parent.parent / "Testing" / "Data" / "ngsolve_cylinder_ns_tet_p3.vtu",
+    "array": "pressure",
+    "isovalue": [0.05, 0.15, 0.3, 0.45, 0.6, 0.75, 0.9],
+    "color": "velocity",
+}
+
+# Arrays that describe the mesh, not the solution.
+BOOKKEEPING = ("vtk", "RationalWeights", "GlobalIds", "GlobalNodeID")
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(prog="demo.sh", description=__doc__.splitlines()[0])
+    parser.add_argument("plugin", help=argparse.SUPPRESS)
+    parser.add_argument("paths", nargs="*", metavar="FILE.vtu OUT.png", help="what to read, what to write")
+    parser.add_argument("--array", help="point array to contour")
+    parser.add_argument("--isovalue", type=float, nargs="+", metavar="C")
+    parser.add_argument("--color", help="point array to colour by")
+    parser.add_argument("--spacing", type=float, help="distance of particles, world units")
+    parser.add_argument("--density", type=float, help="AngularDensity: more particles where the surface bends")
+    parser.add_argument("--method", help="how particles are distributed")
+    arguments = parser.parse_args()
+    arguments.output = next((p for p in arguments.paths if p.endswith(".png")), "isosurface.png")
+    arguments.file = next((p for p in arguments.paths if not p.endswith(".png")), None)
+    if arguments.file and not Path(arguments.file).is_file():
+        parser.error(f"no such file: {arguments.file}")
+    return arguments
+
+
+def fill_in(arguments):
+    """The demo's own file comes with the array and the values that make a good picture."""
+    if arguments.file is None:
+        arguments.file = str(DEMO["file"])
+        for key in ("array", "isovalue", "color"):
+            if getattr(arguments, key) is None:
+                setattr(arguments, key, DEMO[key])
+
+
+def read(path):
+    readers = {".vtu": simple.XMLUnstructuredGridReader, ".pvtu": simple.XMLPartitionedUnstructuredGridReader}
+    if Path(path).suffix not in readers:
+        raise SystemExit(f"error: {path}: expected a .vtu or .pvtu file")
+    reader = readers[Path(path).suffix](FileName=[path])
+    reader.UpdatePipeline()
+    return reader
+
+
+def choose_array(reader, name):
+    arrays = {a.GetName(): a for a in reader.PointData.values()}
+    if name is None:
+        scalars = [n for n, a in arrays.items() if a.GetNumberOfComponents() == 1 and not n.startswith(BOOKKEEPING)]
+        name = next(iter(scalars), None)
+    if name not in arrays:
+        raise SystemExit(f"error: no point array {name or 'with one component'}; there are: {', '.join(arrays)}")
+    return arrays[name]
+
+
+def make_particles(reader, array, arguments):
+    """The filter, run. Returns it and the seconds it took."""
+    options = {"Spacing": arguments.spacing, "AngularDensity": arguments.density, "Method": arguments.method}
+    particles = simple.HighOrderParticleIsosurface(
+        Input=reader,
+        ContourBy=["POINTS", array.GetName()],
+        Isosurfaces=arguments.isovalue or [sum(array.GetRange(0)) / 2],
+        **{key: value for key, value in options.items() if value is not None},
+    )
+    start = time.perf_counter()
+    particles.UpdatePipeline()
+    return particles, time.perf_counter() - start
+
+
+def draw(reader, particles, color, output):
+    view = simple.CreateView("RenderView")
+    view.ViewSize = [1600, 1000]
+    view.OrientationAxesVisibility = 0
+    view.UseColorPaletteForBackground = 0
+    view.BackgroundColorMode = "Gradient"
+    view.Background, view.Background2 = [0.98, 0.98, 0.97], [0.78, 0.83, 0.88]
+
+    surface = simple.Show(particles, view)
+    surface.SetRepresentationType("Surface Splats")
+    if particles.GetDataInformation().GetNumberOfPoints() > 0:
+        simple.ColorBy(surface, ("POINTS", color))
+        table = simple.GetColorTransferFunction(color)
+        table.ApplyPreset("Viridis (matplotlib)", True)
+        surface.RescaleTransferFunctionToDataRange(False, True)
+        surface.SetScalarBarVisibility(view, True)
+        legend = simple.GetScalarBar(table, view)
+        legend.TitleColor = legend.LabelColor = [0.1, 0.1, 0.1]
+
+    outline = simple.Show(reader, view)
+    outline.SetRepresentationType("Outline")
+    outline.AmbientColor = outline.DiffuseColor = [0.25, 0.25, 0.25]
+    outline.ColorArrayName = ["POINTS", ""]
+
+    view.CameraFocalPoint = [0, 0, 0]
+    view.CameraPosition = [-0.75, -1.1, 0.65]
+    view.CameraViewUp = [0, 0, 1]
+    simple.ResetCamera(view)
+    simple.GetActiveCamera().Dolly(1.35)
+    simple.SaveScreenshot(output, view)
+
+
+def diagonal(proxy):
+    x0, x1, y0, y1, z0, z1 = proxy.GetDataInformation().GetBounds()
+    return ((x1 - x0) ** 2 + (y1 - y0) ** 2 + (z1 - z0) ** 2) ** 0.5
+
+
+def report(reader, particles, array, seconds, output):
+    count = particles.GetDataInformation().GetNumberOfPoints()
+    print(f"file                      {Path(reader.FileName[0]).name}")
+    print(f"isosurface                {array.GetName()} = {', '.join(f'{c:g}' for c in particles.Isosurfaces)}")
+    print(f"particles                 {count}")
+    print(f"seconds                   {seconds:.2f}")
+    if count > 0:
+        evaluations = particles.FieldData["Evaluations"].GetRange(0)[1]
+        residual = particles.PointData["Residual"].GetRange(0)[1]
+        print(f"evaluations a particle    {evaluations / count:.1f}")
+        print(f"largest residual          {residual:.2e} ({residual / diagonal(reader):.1e} of the bounding diagonal)")
+    else:
+        print("the surface is empty      choose another value with --isovalue; the array's range is "
+              "[{:g}, {:g}]".format(*array.GetRange(0)))
+    print(f"picture                   {output}")
+
+
+def main():
+    arguments = parse_arguments()
+    fill_in(arguments)
+    simple.LoadPlugin(arguments.plugin, remote=False, ns=vars(simple))
+    reader = read(arguments.file)
+    array = choose_array(reader, arguments.array)
+    particles, seconds = make_particles(reader, array, arguments)
+    draw(reader, particles, arguments.color or array.GetName(), arguments.output)
+    report(reader, particles, array, seconds, arguments.output)
+
+
+main()
