@@ -1,0 +1,60 @@
+#pragma once
+
+#include "Domain.h"
+
+#include <glm/vec4.hpp>
+
+namespace hop
+{
+
+/// One Bernstein coefficient of an element: the control point (x, y, z) and the field's f.
+using Coefficient = glm::dvec4;
+
+/// Value and derivatives of (x, y, z, f) with respect to the reference coordinates at one point.
+struct Jet
+{
+  Coefficient value{ 0.0 };
+  /// d/du, d/dv, d/dw
+  std::array<Coefficient, 3> first{};
+  /// uu, uv, uw, vv, vw, ww
+  std::array<Coefficient, 6> second{};
+};
+
+/// A non-owning view of an element in Bernstein form.
+struct BernsteinForm
+{
+  Domain domain = Domain::Hexahedron;
+  Degrees degrees{ 1, 1, 1 };
+  /// coefficientCount(domain, degrees) of them, in the order of coefficientIndex.
+  const Coefficient* coefficients = nullptr;
+};
+
+/// Value and first derivatives; `second` is left zero.
+Jet evaluateGradient(const BernsteinForm& form, const ReferencePoint& u);
+
+/// Value, first and second derivatives.
+Jet evaluateHessian(const BernsteinForm& form, const ReferencePoint& u);
+
+/// Values of all Bernstein basis functions at u.
+/// \param basis room for coefficientCount(domain, degrees) values; they sum to one.
+void evaluateBasis(
+  Domain domain, const Degrees& degrees, const ReferencePoint& u, double* basis);
+
+/// Bisects a polynomial over `domain` at the middle of the edges that run along `direction` (one of
+/// facts(domain).edgeDirections), by de Casteljau's algorithm on every lattice line.
+/// \param coefficients replaced by those of the half at the start of the direction
+/// \param second receives those of the other half
+template <class Value>
+void bisect(Domain domain, const Degrees& degrees, const LatticePoint& direction,
+  std::vector<Value>& coefficients, std::vector<Value>& second);
+
+/// Smallest and largest value that the convex hull property allows f on the element.
+struct Range
+{
+  double lower = 0.0;
+  double upper = 0.0;
+};
+
+Range fieldRange(const BernsteinForm& form);
+
+} // namespace hop

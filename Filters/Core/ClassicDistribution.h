@@ -1,0 +1,42 @@
+#pragma once
+
+#include "Energy.h"
+#include "Monitor.h"
+#include "Particles.h"
+
+namespace hop
+{
+
+/// What the paper's distribution may be told.
+struct ClassicParameters
+{
+  SpacingLaw law;
+  /// Seed of the random numbers that bias split and delete; the same seed, the same particles.
+  std::uint64_t seed = 1;
+  /// 0: as many particles as the spacing asks for. Otherwise this many, and the spacing follows.
+  std::int64_t particleCount = 0;
+  /// A request that would need more particles than this is refused before it is begun.
+  std::int64_t particleLimit = 100'000'000;
+};
+
+/// The distribution of Meyer, Nelson, Kirby and Whitaker (IEEE TVCG 13(5), 2007), sections 3 and 4,
+/// with its misprints corrected (see Energy.h):
+///  - particles repel each other with the cotangent energy, where their normals are less than 90
+///    degrees apart, and move in the tangent plane, one after the other (Gauss-Seidel), each with a
+///    step length lambda of its own that follows whether its energy fell, no farther than h;
+///  - after each step Newton's method puts the particle back on the surface;
+///  - when the whole energy changes by less than 0.15% from sweep to sweep, crowded particles are
+///    deleted and lonely ones split, by a biased coin, until fewer than 1% want to;
+///  - lists of neighbours come from spatial bins and are renewed every five sweeps;
+///  - all of this happens first at a coarse spacing, which is then halved level by level, each
+///    particle becoming four;
+///  - with a fixed number of particles, the spacing follows the energy instead.
+///
+/// Where the paper is silent: seeds come from boxes that hold all of the surface (SurfaceBoxes.h);
+/// those that no particle covers are added at every level, so that no component that was seeded is
+/// lost. Particles on the rim of the domain miss the neighbours beyond it; their ideal energy is
+/// that of the neighbours that can exist (4 on a face, 2 on an edge).
+Distribution distributeClassic(const Isosurface& surface, const ClassicParameters& parameters,
+  const Monitor& monitor, const ParallelFor& parallelFor);
+
+} // namespace hop

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "Bernstein.h"
+
+#include <cstdint>
+#include <limits>
+
+namespace hop
+{
+
+/// What lies behind a face of an element.
+struct FaceNeighbor
+{
+  /// Index of the neighbour, or -1: the face is a boundary.
+  int element = -1;
+  /// The neighbour's corners that coincide with this face's corners 0, 1 and last: they carry the
+  /// face's own coordinates over.
+  std::array<std::uint8_t, 3> corners{};
+};
+
+/// An element in Bernstein form, within an ElementMesh.
+struct Element
+{
+  Domain domain = Domain::Hexahedron;
+  Degrees degrees{ 1, 1, 1 };
+  std::size_t firstCoefficient = 0;
+  /// Cell of the input that it came from.
+  std::int64_t cell = -1;
+  /// Equal numbers name coincident corners, within the mesh.
+  std::array<std::int64_t, MaximumCorners> corners{};
+};
+
+/// The elements that can hold surface, and how they join.
+struct ElementMesh
+{
+  std::vector<Element> elements;
+  std::vector<Coefficient> coefficients;
+  /// MaximumFaces entries an element; empty until findFaceNeighbors has run.
+  std::vector<FaceNeighbor> neighbors;
+
+  BernsteinForm form(int element) const
+  {
+    const Element& e = this->elements[element];
+    return { e.domain, e.degrees, this->coefficients.data() + e.firstCoefficient };
+  }
+
+  const FaceNeighbor& neighbor(int element, int face) const
+  {
+    return this->neighbors[static_cast<std::size_t>(element) * MaximumFaces + face];
+  }
+};
+
+/// A place in the mesh.
+struct Location
+{
+  int element = -1;
+  ReferencePoint u;
+};
+
+/// Fills mesh.neighbors: two faces are joined when their corners carry the same numbers and their
+/// middles coincide within `tolerance` (world units; two curved faces may share all corners and
+/// still be different). Where three or more elements claim one face, none is joined.
+void findFaceNeighbors(ElementMesh& mesh, double tolerance);
+
+/// The same place, seen from the element behind `face`, on which `location` lies.
+/// \pre the face has a neighbour
+Location crossFace(const ElementMesh& mesh, const Location& location, int face);
+
+} // namespace hop

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "Monitor.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace hop
+{
+
+/// A uniform grid of bins over points in world space. Memory in proportion to the points: only bins
+/// that hold points exist.
+class ParticleBins
+{
+public:
+  /// \param binSize edge of a bin, > 0; widened if the bounds would not fit 2^21 bins a direction
+  ParticleBins(const std::vector<glm::dvec3>& points, double binSize);
+
+  /// Calls visit(index) for every point in the bins that touch the cube of half-width `radius`
+  /// around a position, in a fixed order. Points farther than radius come along: the caller tests.
+  template <class Visit>
+  void visit(const glm::dvec3& position, double radius, const Visit& visit) const;
+
+private:
+  glm::i64vec3 binOf(const glm::dvec3& position) const;
+  static std::uint64_t key(const glm::i64vec3& bin);
+
+  glm::dvec3 Origin{ 0.0 };
+  double BinSize = 1.0;
+  std::vector<int> Order;                              // point indices, bin by bin
+  std::unordered_map<std::uint64_t, std::pair<int, int>> Bins; // range in Order
+};
+
+/// Lists of neighbours, one after the other: those of i are at [start[i], start[i + 1]).
+struct NeighborLists
+{
+  std::vector<std::size_t> start;
+  std::vector<int> neighbor;
+};
+
+/// For every point the points within radii[i] of it, itself excepted, in a fixed order.
+NeighborLists findNeighbors(const std::vector<glm::dvec3>& points,
+  const std::vector<double>& radii, const ParallelFor& parallelFor);
+
+template <class Visit>
+void ParticleBins::visit(
+  const glm::dvec3& position, double radius, const Visit& visit) const
+{
+  const glm::i64vec3 lower = this->binOf(position - radius);
+  const glm::i64vec3 upper = this->binOf(position + radius);
+  for (auto z = lower.z; z <= upper.z; ++z)
+  {
+    for (auto y = lower.y; y <= upper.y; ++y)
+    {
+      for (auto x = lower.x; x <= upper.x; ++x)
+      {
+        const auto bin = this->Bins.find(key({ x, y, z }));
+        for (int i = bin == this->Bins.end() ? 0 : bin->second.first;
+             bin != this->Bins.end() && i < bin->second.second; ++i)
+        {
+          visit(this->Order[i]);
+        }
+      }
+    }
+  }
+}
+
+} // namespace hop

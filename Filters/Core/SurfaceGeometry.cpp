@@ -1,0 +1,79 @@
+#include "SurfaceGeometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hop
+{
+namespace
+{
+
+LocalMap localMap(const Jet& jet)
+{
+  // A determinant this small beside the product of the column lengths is rounding error.
+  constexpr double singularRatio = 1e-12;
+  LocalMap map;
+  map.position = { glm::dvec3(jet.value) };
+  map.jacobian =
+    glm::dmat3(glm::dvec3(jet.first[0]), glm::dvec3(jet.first[1]), glm::dvec3(jet.first[2]));
+  const double determinant = glm::determinant(map.jacobian);
+  const double scale = glm::length(map.jacobian[0]) * glm::length(map.jacobian[1]) *
+    glm::length(map.jacobian[2]);
+  map.singular = !(std::abs(determinant) > singularRatio * scale);
+  map.inverse = map.singular ? glm::dmat3(0.0) : glm::inverse(map.jacobian);
+  return map;
+}
+
+glm::dmat3 symmetric(const std::array<Coefficient, 6>& second, int component)
+{
+  const auto entry = [&](int i) { return second[i][component]; };
+  return { entry(0), entry(1), entry(2), entry(1), entry(3), entry(4), entry(2), entry(4),
+    entry(5) };
+}
+
+} // namespace
+
+FieldPoint fieldPoint(const Jet& jet, double isovalue)
+{
+  FieldPoint point;
+  point.map = localMap(jet);
+  point.value = jet.value.w - isovalue;
+  point.gradient = { glm::transpose(point.map.inverse) *
+    glm::dvec3(jet.first[0].w, jet.first[1].w, jet.first[2].w) };
+  return point;
+}
+
+glm::dmat3 worldHessian(const Jet& jet, const FieldPoint& point)
+{
+  glm::dmat3 inner = symmetric(jet.second, 3);
+  for (int i = 0; i < 3; ++i)
+  {
+    inner -= point.gradient.xyz[i] * symmetric(jet.second, i);
+  }
+  return glm::transpose(point.map.inverse) * inner * point.map.inverse;
+}
+
+Curvature curvature(const WorldVector& gradient, const glm::dmat3& hessian)
+{
+  const double slope = length(gradient);
+  if (!(slope > 0.0))
+  {
+    return {};
+  }
+  const glm::dvec3 n = gradient.xyz / slope;
+  const glm::dmat3 projector = glm::dmat3(1.0) - glm::outerProduct(n, n);
+  const glm::dmat3 g = projector * hessian * projector / slope;
+  const double trace = g[0][0] + g[1][1] + g[2][2];
+  const double frobenius2 = glm::dot(g[0], g[0]) + glm::dot(g[1], g[1]) + glm::dot(g[2], g[2]);
+  // trace and frobenius2 are k1 + k2 and k1^2 + k2^2 for the normal +grad F; the mean curvature
+  // changes its sign with the normal.
+  return { -0.5 * trace, 0.5 * (trace * trace - frobenius2), std::sqrt(frobenius2) };
+}
+
+WorldVector surfaceNormal(const WorldVector& gradient)
+{
+  const double slope = length(gradient);
+  return slope > 0.0 ? (-1.0 / slope) * gradient : WorldVector{};
+}
+
+} // namespace hop

@@ -1,1 +1,0 @@
-int hopPlaceholder() { return 0; }

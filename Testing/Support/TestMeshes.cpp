@@ -1,0 +1,119 @@
+#include "TestMeshes.h"
+
+#include "NodalBasis.h"
+
+#include <cmath>
+
+namespace hop::testing
+{
+namespace
+{
+
+/// Linear shape functions of the corners, by which straight elements are filled with nodes.
+glm::dvec3 linearMap(
+  Domain domain, const std::vector<glm::dvec3>& corners, const ReferencePoint& u)
+{
+  std::vector<double> weights(corners.size());
+  evaluateBasis(domain, { 1, 1, 1 }, u, weights.data());
+  glm::dvec3 x(0.0);
+  for (int c = 0; c < static_cast<int>(corners.size()); ++c)
+  {
+    const LatticePoint at = cornerLatticePoint(domain, { 1, 1, 1 }, c);
+    x += weights[coefficientIndex(domain, { 1, 1, 1 }, at)] * corners[c];
+  }
+  return x;
+}
+
+/// The corners of the parts of a small cube, as corners of the hexahedron (VTK's order).
+std::vector<std::vector<int>> partsOfCube(Domain domain)
+{
+  switch (domain)
+  {
+    case Domain::Tetrahedron:
+      return { { 0, 1, 2, 6 }, { 0, 2, 3, 6 }, { 0, 3, 7, 6 }, { 0, 7, 4, 6 }, { 0, 4, 5, 6 },
+        { 0, 5, 1, 6 } };
+    case Domain::Wedge:
+      return { { 0, 1, 2, 4, 5, 6 }, { 0, 2, 3, 4, 6, 7 } };
+    default:
+      return { { 0, 1, 2, 3, 4, 5, 6, 7 } };
+  }
+}
+
+} // namespace
+
+void appendElement(ElementMesh& mesh, const MeshRecipe& recipe,
+  const std::vector<glm::dvec3>& corners, const std::vector<std::int64_t>& numbers)
+{
+  const std::vector<LatticePoint> lattice = latticePoints(recipe.domain, recipe.degrees);
+  const NodalBasis basis(recipe.domain, recipe.degrees, lattice);
+  std::vector<Coefficient> nodal;
+  for (const LatticePoint& point : lattice)
+  {
+    const glm::dvec3 x = recipe.map(
+      linearMap(recipe.domain, corners, latticePosition(recipe.degrees, point)));
+    nodal.emplace_back(x, recipe.field(x));
+  }
+  Element element;
+  element.domain = recipe.domain;
+  element.degrees = recipe.degrees;
+  element.firstCoefficient = mesh.coefficients.size();
+  element.cell = static_cast<std::int64_t>(mesh.elements.size());
+  element.corners.fill(-1);
+  std::copy(numbers.begin(), numbers.end(), element.corners.begin());
+  mesh.elements.push_back(element);
+  mesh.coefficients.resize(mesh.coefficients.size() + nodal.size());
+  basis.toBernstein(&nodal[0].x, 4, &mesh.coefficients[element.firstCoefficient].x);
+}
+
+ElementMesh makeMesh(const MeshRecipe& recipe)
+{
+  ElementMesh mesh;
+  const int n = recipe.cells;
+  const auto& unitCorners = facts(Domain::Hexahedron).corners;
+  for (int cube = 0; cube < n * n * n; ++cube)
+  {
+    const glm::dvec3 origin(cube % n, cube / n % n, cube / (n * n));
+    for (const std::vector<int>& part : partsOfCube(recipe.domain))
+    {
+      std::vector<glm::dvec3> corners;
+      std::vector<std::int64_t> numbers;
+      for (const int c : part)
+      {
+        const glm::dvec3 grid = origin + unitCorners[c].xyz;
+        corners.push_back(2.0 * grid / static_cast<double>(n) - 1.0);
+        numbers.push_back(
+          std::llround(grid.x + (n + 1) * (grid.y + (n + 1) * grid.z)));
+      }
+      appendElement(mesh, recipe, corners, numbers);
+    }
+  }
+  findFaceNeighbors(mesh, 1e-9);
+  return mesh;
+}
+
+Map wavyMap(double amount)
+{
+  return [amount](const glm::dvec3& x)
+  {
+    return x + amount *
+      glm::dvec3(std::sin(1.7 * x.y + 0.4 * x.z), std::sin(1.3 * x.z - 0.6 * x.x),
+        std::cos(1.5 * x.x + 0.5 * x.y));
+  };
+}
+
+ReferencePoint insidePoint(Domain domain, glm::dvec3 t)
+{
+  if (domain == Domain::Hexahedron)
+  {
+    return { t };
+  }
+  // Roots make the points fill the simplex evenly.
+  const double third = domain == Domain::Tetrahedron ? std::cbrt(t.z) : 1.0;
+  const double a = std::sqrt(t.x);
+  const glm::dvec3 flat(a * (1.0 - t.y), a * t.y, 0.0);
+  return domain == Domain::Tetrahedron
+    ? ReferencePoint{ third * glm::dvec3(flat.x, flat.y, 1.0 - a) }
+    : ReferencePoint{ { flat.x, flat.y, t.z } };
+}
+
+} // namespace hop::testing

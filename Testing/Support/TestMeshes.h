@@ -1,0 +1,44 @@
+#pragma once
+
+#include "ElementMesh.h"
+
+#include <functional>
+
+namespace hop::testing
+{
+
+using Map = std::function<glm::dvec3(const glm::dvec3&)>;
+using Field = std::function<double(const glm::dvec3&)>;
+
+/// How a test mesh is made: the cube [-1,1]^3 in cells^3 small cubes, each one hexahedron, two
+/// wedges or six tetrahedra of the given degrees, bent by `map`.
+struct MeshRecipe
+{
+  Domain domain = Domain::Hexahedron;
+  Degrees degrees{ 2, 2, 2 };
+  int cells = 2;
+  /// World position of a point of the straight cube; the elements interpolate it at their nodes.
+  Map map = [](const glm::dvec3& x) { return x; };
+  /// Field as a function of world position, interpolated likewise.
+  Field field = [](const glm::dvec3& x) { return x.x; };
+};
+
+/// The mesh with its face neighbours found.
+ElementMesh makeMesh(const MeshRecipe& recipe);
+
+/// One element of the given corners (in the order of facts(domain).corners), straight-sided before
+/// `map` bends it.
+void appendElement(ElementMesh& mesh, const MeshRecipe& recipe,
+  const std::vector<glm::dvec3>& corners, const std::vector<std::int64_t>& numbers);
+
+/// A smooth bend of the cube, invertible, that moves points by up to `amount`.
+Map wavyMap(double amount);
+
+/// All domains, for tests that go through every one of them.
+inline const std::array<Domain, 3> allDomains{ Domain::Hexahedron, Domain::Tetrahedron,
+  Domain::Wedge };
+
+/// A point inside the domain from three numbers in [0,1).
+ReferencePoint insidePoint(Domain domain, glm::dvec3 t);
+
+} // namespace hop::testing
