@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Make the plugin ready to use from this checkout: install what is missing (Debian 12), build into build/.
+# Make the plugin ready to use from this checkout: install what is missing (Debian 12 to sid), build into build/.
 #   bash Utilities/setup.sh [CMAKE_OPTION ...]
 # Asks for nothing but bash and apt-get, and for root or sudo only where a package is missing.
 set -euo pipefail
@@ -13,10 +13,13 @@ packages=(
   xvfb                                  # pictures where there is no display
   python3-pytest libgtest-dev           # tests
   # paraview-dev's CMake files look these up, but its package does not depend on them.
-  qtbase5-dev qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools
   libglew-dev liblz4-dev liblzma-dev libdouble-conversion-dev libutfcpp-dev libopenmpi-dev
   libboost-dev libpugixml-dev libjpeg-dev libpng-dev libtiff-dev libfreetype-dev libgl2ps-dev
 )
+case "$(. /etc/os-release 2>/dev/null && echo "${VERSION_CODENAME:-}")" in
+  bookworm | trixie) packages+=(qtbase5-dev qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools) ;;
+  *) packages+=(libvtk9-dev qt6-base-dev qt6-tools-dev qt6-tools-dev-tools xsltproc) ;;
+esac
 
 say() { printf '== %s\n' "$*"; }
 fail() { printf 'error: %s\n' "$*" >&2; exit 1; }

@@ -6,6 +6,7 @@
 if (NOT ParaView_DIR AND NOT Python3_EXECUTABLE AND NOT Python3_ROOT_DIR AND EXISTS "/usr/bin/python3")
   set(Python3_EXECUTABLE "/usr/bin/python3" CACHE FILEPATH "The Python that ParaView was built with")
 endif ()
+include(DebianParaView)
 find_package(Python3 REQUIRED COMPONENTS Interpreter Development.Module)
 
 # Without components every Qt module of ParaView would be asked for. Its own configuration files use
