@@ -16,9 +16,11 @@ packages=(
   libglew-dev liblz4-dev liblzma-dev libdouble-conversion-dev libutfcpp-dev libopenmpi-dev
   libboost-dev libpugixml-dev libjpeg-dev libpng-dev libtiff-dev libfreetype-dev libgl2ps-dev
 )
+qt5=(qtbase5-dev qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools)
 case "$(. /etc/os-release 2>/dev/null && echo "${VERSION_CODENAME:-}")" in
-  bookworm | trixie) packages+=(qtbase5-dev qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools) ;;
-  *) packages+=(libvtk9-dev qt6-base-dev qt6-tools-dev qt6-tools-dev-tools xsltproc) ;;
+  bookworm) packages+=("${qt5[@]}" clang-format-14) ;;
+  forky | sid) packages+=(libvtk9-dev qt6-base-dev qt6-tools-dev qt6-tools-dev-tools xsltproc) ;;
+  *) packages+=("${qt5[@]}") ;;
 esac
 
 say() { printf '== %s\n' "$*"; }
