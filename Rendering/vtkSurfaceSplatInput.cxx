@@ -67,8 +67,7 @@ void RememberBlock(vtkPolyData* particles, unsigned int flatIndex)
   block->FillValue(flatIndex);
   particles->GetCellData()->AddArray(block);
   particles->GetCellData()->AddArray(Numbers(BlockCellIdName, cells));
-  particles->GetPointData()->AddArray(
-    Numbers(BlockPointIdName, particles->GetNumberOfPoints()));
+  particles->GetPointData()->AddArray(Numbers(BlockPointIdName, particles->GetNumberOfPoints()));
 }
 
 // Selections find the block of a particle through its cell.

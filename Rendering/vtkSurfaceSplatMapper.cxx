@@ -207,9 +207,9 @@ void vtkSurfaceSplatMapper::UploadParticles(vtkRenderer* renderer, vtkPolyData* 
   {
     return;
   }
-  vtkSurfaceSplatParticles particles = vtkSurfaceSplatParticles::FromPolyData(input,
-    this->GetRadiusArray(input), this->GetFallbackRadius(input),
-    input->GetPointData()->GetNormals());
+  vtkSurfaceSplatParticles particles =
+    vtkSurfaceSplatParticles::FromPolyData(input, this->GetRadiusArray(input),
+      this->GetFallbackRadius(input), input->GetPointData()->GetNormals());
   gpu.Buffers.Upload(vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()), particles);
   if (gpu.Buffers.GetNumberOfParticles() < particles.GetNumberOfParticles())
   {
@@ -231,7 +231,12 @@ void vtkSurfaceSplatMapper::UploadColors(vtkRenderer* renderer, vtkPolyData* inp
 {
   // The base class's shader code for cell colours looks one RGBA up per primitive: just what a
   // particle is, whether its colour comes from a point or from a cell array.
-  enum ColorSource { Points, Cells, Field }; // what MapScalars() returns
+  enum ColorSource
+  {
+    Points,
+    Cells,
+    Field
+  }; // what MapScalars() returns
   int source = Points;
   vtkUnsignedCharArray* colors = this->MapScalars(input, 1.0, source);
   const std::vector<vtkIdType>& ids =

@@ -97,19 +97,21 @@ vtkSurfaceSplatParticles vtkSurfaceSplatParticles::FromPolyData(
   particles.CentreRadius.assign(4 * count, 0.f);
   particles.Normal.assign(4 * count, 0.f);
   std::atomic<vtkIdType> skipped(0);
-  vtkSMPTools::For(0, count, [&](vtkIdType begin, vtkIdType end) {
-    for (vtkIdType i = begin; i < end; ++i)
+  vtkSMPTools::For(0, count,
+    [&](vtkIdType begin, vtkIdType end)
     {
-      const vtkIdType id = particles.PointIds[i];
-      const double radius = radii ? radii->GetComponent(id, 0) : fallbackRadius;
-      if (!ReadParticle(input->GetPoints(), id, radius, normals, particles.Origin,
-            &particles.CentreRadius[4 * i], &particles.Normal[4 * i]))
+      for (vtkIdType i = begin; i < end; ++i)
       {
-        particles.Normal[4 * i + 2] = 1.f; // any direction: shaders need not mind a zero one
-        ++skipped;
+        const vtkIdType id = particles.PointIds[i];
+        const double radius = radii ? radii->GetComponent(id, 0) : fallbackRadius;
+        if (!ReadParticle(input->GetPoints(), id, radius, normals, particles.Origin,
+              &particles.CentreRadius[4 * i], &particles.Normal[4 * i]))
+        {
+          particles.Normal[4 * i + 2] = 1.f; // any direction: shaders need not mind a zero one
+          ++skipped;
+        }
       }
-    }
-  });
+    });
   particles.Skipped = skipped;
   return particles;
 }

@@ -43,8 +43,8 @@ int vtkSurfaceSplatRepresentation::RequestData(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   const bool hasInput = inputs[0]->GetNumberOfInformationObjects() == 1;
-  this->Particles = vtkSurfaceSplatInput::AsParticles(
-    hasInput ? vtkDataObject::GetData(inputs[0], 0) : nullptr);
+  this->Particles =
+    vtkSurfaceSplatInput::AsParticles(hasInput ? vtkDataObject::GetData(inputs[0], 0) : nullptr);
   return this->Superclass::RequestData(request, inputs, outputs);
 }
 

@@ -1,0 +1,98 @@
+// One actor with disks in one window, and its pixels as points in space.
+#pragma once
+
+#include "vtkNew.h"
+#include "vtkSmartPointer.h"
+
+#include <glm/glm.hpp>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+class vtkActor;
+class vtkDataArray;
+class vtkPolyData;
+class vtkRenderWindow;
+class vtkRenderer;
+class vtkSurfaceSplatMapper;
+
+// Particles spread evenly (Fibonacci) over a sphere, with normals outward; the name of the radius
+// array is 'Radius'. Without vertex cells.
+vtkSmartPointer<vtkPolyData> FibonacciSphere(
+  int count, double sphereRadius, double diskRadius, glm::dvec3 centre = glm::dvec3(0.));
+
+// Particles at given places with given normals and one radius. Without vertex cells.
+vtkSmartPointer<vtkPolyData> Disks(
+  const std::vector<glm::dvec3>& positions, const std::vector<glm::dvec3>& normals, double radius);
+
+// Adds one vertex cell a point: `order[cell]` is the point of the cell, or the cell's number.
+void AddVertexCells(vtkPolyData* particles, const std::vector<vtkIdType>& order = {});
+
+class SplatScene
+{
+public:
+  static constexpr int Size = 256; // pixels, both ways
+
+  // All positions that a scene gives or takes are relative to `centre`.
+  explicit SplatScene(vtkPolyData* particles, glm::dvec3 centre = glm::dvec3(0.));
+  ~SplatScene();
+
+  // Looks at the centre. `halfHeight` is what half the picture shows there. A light shines from the
+  // camera until the renderer is given others.
+  void LookFrom(glm::dvec3 direction, bool parallel, double distance = 4., double halfHeight = 1.3);
+
+  // Unlit, so that colours come out as they are.
+  void ShowPlainColors();
+
+  // Draws and reads the picture; fails the test on an OpenGL error.
+  void Render();
+
+  // After Render(): what is seen at a pixel, or nothing where it is background.
+  std::optional<glm::dvec3> PositionAt(int x, int y) const;
+  glm::dvec3 ColorAt(int x, int y) const; // 0 to 255
+  int CountDrawnPixels() const;
+
+  // Direction from a point to the eye, and where the ray of a pixel enters a sphere around the centre.
+  glm::dvec3 ToEye(glm::dvec3 position) const;
+  std::optional<glm::dvec3> HitSphere(int x, int y, double radius) const;
+
+  // Calls for every pixel whose ray hits the sphere at more than `minimalCosine` to its surface:
+  // away from the outline. Returns how many there were.
+  int ForEachPixelOnSphere(double radius, double minimalCosine,
+    const std::function<void(int x, int y, glm::dvec3 onSphere)>& check) const;
+
+  vtkNew<vtkSurfaceSplatMapper> Mapper;
+  vtkNew<vtkActor> Actor;
+  vtkNew<vtkRenderer> Renderer;
+  vtkSmartPointer<vtkRenderWindow> Window;
+
+private:
+  struct Ray
+  {
+    glm::dvec3 Origin;
+    glm::dvec3 Direction; // length 1 along the axis of the camera
+  };
+  Ray RayOf(int x, int y) const;
+
+  glm::dvec3 Centre;
+  glm::dvec3 Eye = { 0., 0., 4. }; // relative to the centre
+  glm::dvec3 Right, Up, Back;      // unit vectors of the camera
+  bool Parallel = false;
+  double Distance = 4.;
+  double HalfHeight = 1.3;
+  double Near = 1.;
+  double Far = 7.;
+  std::vector<float> Depth;
+  std::vector<unsigned char> Color;
+};
+
+// Counts the warnings of an object and keeps the last one's text; errors count as well.
+class WarningCounter
+{
+public:
+  explicit WarningCounter(vtkSurfaceSplatMapper* mapper);
+  int Count = 0;
+  std::string Text;
+};

@@ -1,0 +1,272 @@
+// Where disks are drawn: depth and normals against the analytic sphere, sizes, clipping.
+#include "SplatScene.h"
+
+#include "vtkActor.h"
+#include "vtkLight.h"
+#include "vtkPlane.h"
+#include "vtkPolyData.h"
+#include "vtkProperty.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderer.h"
+#include "vtkShaderProperty.h"
+#include "vtkSurfaceSplatMapper.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+namespace
+{
+constexpr int Count = 5000;
+constexpr double DiskRadius = 0.04; // 0.74 of the spacing of 5,000 particles on the unit sphere
+// A disk touches the sphere in its middle and is this far outside at its rim.
+const double RimHeight = std::sqrt(1. + DiskRadius * DiskRadius) - 1.;
+// Away from the outline by more than the disks that stand over it, seen from the side.
+constexpr double Inside = 0.3;
+
+struct View
+{
+  glm::dvec3 Direction;
+  bool Parallel;
+
+  friend std::ostream& operator<<(std::ostream& os, const View& view)
+  {
+    return os << (view.Parallel ? "parallel" : "perspective") << " from " << view.Direction.x << " "
+              << view.Direction.y << " " << view.Direction.z;
+  }
+};
+
+class DisksOnSphere : public testing::TestWithParam<View>
+{
+};
+
+// The sphere's pixels must be on the sphere, at most a rim's height outside, and none missing.
+void ExpectUnitSphere(const SplatScene& scene)
+{
+  const int pixels = scene.ForEachPixelOnSphere(1., Inside,
+    [&](int x, int y, glm::dvec3 onSphere)
+    {
+      const auto position = scene.PositionAt(x, y);
+      ASSERT_TRUE(position) << "hole at pixel " << x << ", " << y;
+      const double height = glm::length(*position) - 1.;
+      ASSERT_GT(height, -2e-5) << "at pixel " << x << ", " << y;
+      ASSERT_LT(height, RimHeight + 2e-5) << "at pixel " << x << ", " << y;
+      ASSERT_LT(glm::distance(*position, onSphere), (RimHeight + 4e-5) / Inside);
+    });
+  ASSERT_GT(pixels, 15000);
+}
+}
+
+TEST_P(DisksOnSphere, DepthIsTheSphereWithoutHoles)
+{
+  SplatScene scene(FibonacciSphere(Count, 1., DiskRadius));
+  scene.LookFrom(GetParam().Direction, GetParam().Parallel);
+  scene.Render();
+  ExpectUnitSphere(scene);
+}
+
+TEST_P(DisksOnSphere, DepthIsRightAtCoordinatesOfAMillion)
+{
+  const glm::dvec3 centre(1e6, -2e6, 3e6);
+  SplatScene scene(FibonacciSphere(Count, 1., DiskRadius, centre), centre);
+  scene.LookFrom(GetParam().Direction, GetParam().Parallel);
+  scene.Render();
+  ExpectUnitSphere(scene);
+}
+
+TEST_P(DisksOnSphere, NormalsAreTheSpheres)
+{
+  SplatScene scene(FibonacciSphere(Count, 1., DiskRadius));
+  scene.LookFrom(GetParam().Direction, GetParam().Parallel);
+  // The normal that VTK's lighting uses, as a colour.
+  scene.Actor->GetShaderProperty()->AddFragmentShaderReplacement("//VTK::Light::Impl", false,
+    "//VTK::Light::Impl\n  gl_FragData[0] = vec4(0.5 * normalVCVSOutput + 0.5, 1.0);\n", false);
+  scene.Render();
+
+  const glm::dvec3 back = glm::normalize(GetParam().Direction);
+  const glm::dvec3 right = glm::normalize(
+    glm::cross(std::abs(back.y) < 0.9 ? glm::dvec3(0., 1., 0.) : glm::dvec3(1., 0., 0.), back));
+  const glm::dvec3 up = glm::cross(back, right);
+  double sum = 0.;
+  const int pixels = scene.ForEachPixelOnSphere(1., Inside,
+    [&](int x, int y, glm::dvec3 expected)
+    {
+      const glm::dvec3 seen = scene.ColorAt(x, y) / 127.5 - 1.;
+      const glm::dvec3 normal = glm::normalize(seen.x * right + seen.y * up + seen.z * back);
+      const double angle = std::acos(std::clamp(glm::dot(normal, expected), -1., 1.));
+      ASSERT_LT(angle, DiskRadius + 0.01) << "at pixel " << x << ", " << y;
+      sum += angle;
+    });
+  // Of the tangent planes over a pixel the one that touches farthest away is the outermost, so that
+  // outer zones of disks are seen more than their middles.
+  EXPECT_LT(sum / pixels, 0.8 * DiskRadius);
+}
+
+TEST_P(DisksOnSphere, ClippingPlaneCutsThroughDisks)
+{
+  for (const glm::dvec3& centre : { glm::dvec3(0.), glm::dvec3(1e6, -2e6, 3e6) })
+  {
+    SplatScene scene(FibonacciSphere(Count, 1., DiskRadius, centre), centre);
+    scene.LookFrom(GetParam().Direction, GetParam().Parallel);
+    // Keeps what lies 0.2 or more towards the viewer's upper right, whatever the view.
+    const glm::dvec3 axis =
+      glm::normalize(glm::cross(GetParam().Direction, glm::dvec3(0.3, 0.9, 0.31)));
+    const glm::dvec3 origin = centre + 0.2 * axis;
+    vtkNew<vtkPlane> plane;
+    plane->SetNormal(axis.x, axis.y, axis.z);
+    plane->SetOrigin(origin.x, origin.y, origin.z);
+    scene.Mapper->AddClippingPlane(plane);
+    scene.Render();
+    int kept = 0;
+    int cut = 0;
+    scene.ForEachPixelOnSphere(1., Inside,
+      [&](int x, int y, glm::dvec3 onSphere)
+      {
+        const double side = glm::dot(onSphere, axis) - 0.2;
+        const auto position = scene.PositionAt(x, y);
+        if (side > 0.01)
+        {
+          ASSERT_TRUE(position);
+          ASSERT_LT(glm::distance(*position, onSphere), 0.01);
+          ++kept;
+        }
+        else if (side < -0.01)
+        {
+          ASSERT_FALSE(position && glm::distance(*position, onSphere) < 0.01);
+          ++cut;
+        }
+      });
+    EXPECT_GT(kept, 3000);
+    EXPECT_GT(cut, 3000);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Views, DisksOnSphere,
+  testing::Values(View{ { 0., 0., 1. }, false }, View{ { 0., 0., 1. }, true },
+    View{ { -1., 2., 0.5 }, false }, View{ { 0.3, -1., -2. }, true }));
+
+TEST(DiskGeometry, FollowsTheActorsTransform)
+{
+  SplatScene scene(FibonacciSphere(Count, 1., DiskRadius));
+  scene.LookFrom({ 1., 1., 2. }, false);
+  scene.Actor->SetScale(0.5, 1., 0.8);
+  scene.Actor->SetPosition(0.1, 0., -0.1);
+  scene.Render();
+  int pixels = 0;
+  for (int y = 0; y < SplatScene::Size; ++y)
+  {
+    for (int x = 0; x < SplatScene::Size; ++x)
+    {
+      if (const auto position = scene.PositionAt(x, y))
+      {
+        const glm::dvec3 model = (*position - glm::dvec3(0.1, 0., -0.1)) / glm::dvec3(0.5, 1., 0.8);
+        ASSERT_GT(glm::length(model), 1. - 1e-4);
+        ASSERT_LT(glm::length(model), 1. + RimHeight + 1e-4);
+        ++pixels;
+      }
+    }
+  }
+  EXPECT_GT(pixels, 8000);
+}
+
+TEST(DiskGeometry, ALightFromTheSideShadesByItsAngle)
+{
+  SplatScene scene(FibonacciSphere(Count, 1., DiskRadius));
+  scene.LookFrom({ 0., 0., 1. }, true);
+  vtkNew<vtkLight> light;
+  light->SetLightTypeToSceneLight();
+  light->SetPosition(3., 0., 4.);
+  light->SetFocalPoint(0., 0., 0.);
+  scene.Renderer->AddLight(light);
+  scene.Render();
+  scene.ForEachPixelOnSphere(1., Inside,
+    [&](int x, int y, glm::dvec3 normal)
+    {
+      const double expected = 255. * std::max(0., glm::dot(normal, glm::dvec3(0.6, 0., 0.8)));
+      ASSERT_NEAR(scene.ColorAt(x, y).g, expected, 255. * (DiskRadius + 0.01));
+    });
+}
+
+namespace
+{
+double PixelsOfADisk(double radius)
+{
+  const double pixel = 2. * 1.3 / SplatScene::Size;
+  return M_PI * radius * radius / (pixel * pixel);
+}
+}
+
+TEST(DiskGeometry, ADiskHasItsRadiusAndTilt)
+{
+  SplatScene scene(Disks({ { 0., 0., 0. } }, { { 0., 0., 2. } }, 0.5));
+  scene.LookFrom({ 0., 0., 1. }, true);
+  scene.Render();
+  EXPECT_NEAR(scene.CountDrawnPixels(), PixelsOfADisk(0.5), 0.01 * PixelsOfADisk(0.5));
+
+  scene.Mapper->SetRadiusScale(0.5);
+  scene.Render();
+  EXPECT_NEAR(scene.CountDrawnPixels(), PixelsOfADisk(0.25), 0.02 * PixelsOfADisk(0.25));
+
+  scene.Mapper->SetRadiusScale(1.);
+  scene.LookFrom({ std::sqrt(3.), 0., 1. }, true); // 60 degrees off
+  scene.Render();
+  EXPECT_NEAR(scene.CountDrawnPixels(), 0.5 * PixelsOfADisk(0.5), 0.02 * PixelsOfADisk(0.5));
+}
+
+TEST(DiskGeometry, BothSidesAreVisibleUnlessCulled)
+{
+  SplatScene scene(Disks({ { 0., 0., 0. } }, { { 0., 0., 1. } }, 0.5));
+  for (bool parallel : { false, true })
+  {
+    scene.LookFrom({ 0., 0., -1. }, parallel);
+    scene.Actor->GetProperty()->BackfaceCullingOff();
+    scene.Render();
+    EXPECT_NEAR(scene.CountDrawnPixels(), PixelsOfADisk(0.5), 0.01 * PixelsOfADisk(0.5));
+
+    scene.Actor->GetProperty()->BackfaceCullingOn();
+    scene.Render();
+    EXPECT_EQ(scene.CountDrawnPixels(), 0);
+
+    scene.LookFrom({ 0., 0., 1. }, parallel);
+    scene.Render();
+    EXPECT_NEAR(scene.CountDrawnPixels(), PixelsOfADisk(0.5), 0.01 * PixelsOfADisk(0.5));
+  }
+}
+
+TEST(DiskGeometry, BoundsIncludeTheDisksAndNeedNoCells)
+{
+  vtkSmartPointer<vtkPolyData> sphere = FibonacciSphere(Count, 1., DiskRadius);
+  vtkNew<vtkSurfaceSplatMapper> mapper;
+  mapper->SetInputDataObject(sphere);
+  mapper->SetRadiusScale(2.);
+  double points[6];
+  sphere->GetPoints()->GetBounds(points);
+  const double* bounds = mapper->GetBounds();
+  for (int i = 0; i < 6; ++i)
+  {
+    EXPECT_NEAR(bounds[i], points[i] + (i % 2 ? 2. : -2.) * DiskRadius, 1e-12);
+  }
+}
+
+TEST(DiskGeometry, GraphicsResourcesAreReleasedAndBuiltAgain)
+{
+  vtkSmartPointer<vtkPolyData> sphere = FibonacciSphere(Count, 1., DiskRadius);
+  SplatScene scene(sphere);
+  scene.Render();
+  ExpectUnitSphere(scene);
+  scene.Mapper->ReleaseGraphicsResources(scene.Window);
+  scene.Render();
+  ExpectUnitSphere(scene);
+
+  // The same mapper in a second window, while the first one still lives.
+  vtkNew<vtkRenderWindow> window;
+  window->SetSize(64, 64);
+  vtkNew<vtkRenderer> renderer;
+  renderer->AddActor(scene.Actor);
+  window->AddRenderer(renderer);
+  window->Render();
+  scene.Render();
+  ExpectUnitSphere(scene);
+}
