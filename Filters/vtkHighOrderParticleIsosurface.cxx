@@ -1,3 +1,370 @@
 #include "vtkHighOrderParticleIsosurface.h"
+
+#include "ClassicDistribution.h"
+#include "GridElements.h"
+#include "ParticlePacker.h"
+#include "Threads.h"
+
+#include "vtkBoundingBox.h"
+#include "vtkCellData.h"
+#include "vtkCommunicator.h"
+#include "vtkContourValues.h"
+#include "vtkDataArray.h"
+#include "vtkDataObjectTree.h"
+#include "vtkDataObjectTreeIterator.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace
+{
+
+constexpr double automaticSpacingPerSide = 0.01;
+constexpr double warnUndersampledShare = 0.01;
+
+/// The leaves of a composite data set that can be processed, with where they belong.
+std::vector<vtkSmartPointer<vtkDataObjectTreeIterator>> gridLeaves(vtkDataObjectTree* tree)
+{
+  std::vector<vtkSmartPointer<vtkDataObjectTreeIterator>> leaves;
+  auto iterator = vtk::TakeSmartPointer(tree->NewTreeIterator());
+  iterator->VisitOnlyLeavesOn();
+  for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+  {
+    if (vtkUnstructuredGrid::SafeDownCast(iterator->GetCurrentDataObject()))
+    {
+      auto here = vtk::TakeSmartPointer(tree->NewTreeIterator());
+      here->VisitOnlyLeavesOn();
+      here->InitTraversal();
+      while (here->GetCurrentFlatIndex() != iterator->GetCurrentFlatIndex())
+      {
+        here->GoToNextItem();
+      }
+      leaves.push_back(here);
+    }
+  }
+  return leaves;
+}
+
+/// The box around all boxes of all ranks. Every rank has to call it.
+vtkBoundingBox overAllRanks(const vtkBoundingBox& local)
+{
+  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
+  if (!controller || controller->GetNumberOfProcesses() < 2)
+  {
+    return local;
+  }
+  double lower[3], upper[3], globalLower[3], globalUpper[3];
+  local.GetMinPoint(lower);
+  local.GetMaxPoint(upper);
+  controller->AllReduce(lower, globalLower, 3, vtkCommunicator::MIN_OP);
+  controller->AllReduce(upper, globalUpper, 3, vtkCommunicator::MAX_OP);
+  return vtkBoundingBox(globalLower[0], globalUpper[0], globalLower[1], globalUpper[1],
+    globalLower[2], globalUpper[2]);
+}
+
+std::string listOfArrays(vtkDataSetAttributes* attributes)
+{
+  std::string list;
+  for (int a = 0; a < attributes->GetNumberOfArrays(); ++a)
+  {
+    const char* name = attributes->GetArrayName(a);
+    list += std::string(list.empty() ? "" : ", ") + (name ? name : "(unnamed)");
+  }
+  return list.empty() ? "none" : list;
+}
+
+} // namespace
+
 vtkStandardNewMacro(vtkHighOrderParticleIsosurface);
+
+vtkHighOrderParticleIsosurface::vtkHighOrderParticleIsosurface() = default;
+vtkHighOrderParticleIsosurface::~vtkHighOrderParticleIsosurface() = default;
+
+void vtkHighOrderParticleIsosurface::SetValue(int i, double value)
+{
+  this->ContourValues->SetValue(i, value);
+}
+
+double vtkHighOrderParticleIsosurface::GetValue(int i)
+{
+  return this->ContourValues->GetValue(i);
+}
+
+void vtkHighOrderParticleIsosurface::SetNumberOfContours(int number)
+{
+  this->ContourValues->SetNumberOfContours(number);
+}
+
+vtkIdType vtkHighOrderParticleIsosurface::GetNumberOfContours()
+{
+  return this->ContourValues->GetNumberOfContours();
+}
+
+vtkMTimeType vtkHighOrderParticleIsosurface::GetMTime()
+{
+  return std::max(this->Superclass::GetMTime(), this->ContourValues->GetMTime());
+}
+
+int vtkHighOrderParticleIsosurface::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObjectTree");
+  return 1;
+}
+
+int vtkHighOrderParticleIsosurface::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataObject");
+  return 1;
+}
+
+int vtkHighOrderParticleIsosurface::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
+  {
+    return this->RequestDataObject(request, inputs, outputs);
+  }
+  return this->Superclass::ProcessRequest(request, inputs, outputs);
+}
+
+/// vtkPolyData for a grid, a composite of the input's own kind for a composite.
+int vtkHighOrderParticleIsosurface::RequestDataObject(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
+  vtkDataObject* output = vtkDataObject::GetData(outputs, 0);
+  if (!input)
+  {
+    return 0;
+  }
+  vtkSmartPointer<vtkDataObject> wanted;
+  if (auto* tree = vtkDataObjectTree::SafeDownCast(input))
+  {
+    wanted.TakeReference(tree->NewInstance());
+  }
+  else
+  {
+    wanted = vtkSmartPointer<vtkPolyData>::New();
+  }
+  if (!output || !output->IsA(wanted->GetClassName()))
+  {
+    outputs->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), wanted);
+  }
+  return 1;
+}
+
+int vtkHighOrderParticleIsosurface::RequestData(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
+  vtkDataObject* output = vtkDataObject::GetData(outputs, 0);
+  std::vector<vtkUnstructuredGrid*> grids;
+  std::vector<vtkSmartPointer<vtkPolyData>> results;
+  if (auto* tree = vtkDataObjectTree::SafeDownCast(input))
+  {
+    auto* outputTree = vtkDataObjectTree::SafeDownCast(output);
+    outputTree->CopyStructure(tree);
+    for (const auto& leaf : gridLeaves(tree))
+    {
+      grids.push_back(vtkUnstructuredGrid::SafeDownCast(leaf->GetCurrentDataObject()));
+      results.push_back(vtkSmartPointer<vtkPolyData>::New());
+      outputTree->SetDataSet(leaf, results.back());
+    }
+  }
+  else
+  {
+    grids.push_back(vtkUnstructuredGrid::SafeDownCast(input));
+    results.emplace_back(vtkPolyData::SafeDownCast(output));
+  }
+
+  // Ranks agree on the scale before any of them may return.
+  const Scale scale = this->FindScale(grids);
+  if (!this->CheckParameters())
+  {
+    return 1;
+  }
+  const double share = 1.0 / std::max<std::size_t>(1, grids.size());
+  for (std::size_t g = 0; g < grids.size() && !this->CheckAbort(); ++g)
+  {
+    this->Process(grids[g], scale, static_cast<double>(g) * share, share, results[g]);
+  }
+  return 1;
+}
+
+vtkHighOrderParticleIsosurface::Scale vtkHighOrderParticleIsosurface::FindScale(
+  const std::vector<vtkUnstructuredGrid*>& grids)
+{
+  vtkBoundingBox box;
+  for (vtkUnstructuredGrid* grid : grids)
+  {
+    double bounds[6];
+    grid->GetBounds(bounds);
+    if (grid->GetNumberOfPoints() > 0)
+    {
+      box.AddBounds(bounds);
+    }
+  }
+  box = overAllRanks(box);
+  Scale scale;
+  if (box.IsValid())
+  {
+    scale.Spacing =
+      this->Spacing > 0.0 ? this->Spacing : automaticSpacingPerSide * box.GetMaxLength();
+    scale.Tolerance = this->Tolerance * box.GetDiagonalLength();
+  }
+  return scale;
+}
+
+bool vtkHighOrderParticleIsosurface::CheckParameters()
+{
+  const double* values = this->ContourValues->GetValues();
+  const vtkIdType count = this->GetNumberOfContours();
+  if (!std::all_of(values, values + count, [](double value) { return std::isfinite(value); }))
+  {
+    vtkErrorMacro("An isovalue is NaN or infinite; give finite ones.");
+    return false;
+  }
+  if (!std::isfinite(this->Spacing))
+  {
+    vtkErrorMacro("Spacing is NaN or infinite; give a length, or 0 for the automatic one.");
+    return false;
+  }
+  if (this->Spacing < 0.0)
+  {
+    vtkWarningMacro("Spacing " << this->Spacing
+                               << " is negative; the automatic spacing is used instead.");
+  }
+  return true;
+}
+
+/// The array to contour by; nullptr, and an error that says what to do, if there is none.
+vtkDataArray* vtkHighOrderParticleIsosurface::FindScalars(vtkUnstructuredGrid* grid)
+{
+  vtkInformation* choice = this->GetInputArrayInformation(0);
+  const char* name = choice->Get(vtkDataObject::FIELD_NAME());
+  if (choice->Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_CELLS)
+  {
+    vtkErrorMacro("'" << (name ? name : "")
+                      << "' is asked for as a cell array; an isosurface needs a point array. The "
+                         "grid's point arrays: "
+                      << listOfArrays(grid->GetPointData()) << ".");
+    return nullptr;
+  }
+  vtkDataArray* scalars = name && *name ? grid->GetPointData()->GetArray(name)
+                                        : grid->GetPointData()->GetScalars();
+  if (!scalars)
+  {
+    const bool isCellArray = name && grid->GetCellData()->HasArray(name);
+    vtkErrorMacro("There is no "
+      << (name && *name ? "point array '" + std::string(name) + "'" : "active point scalar")
+      << (isCellArray ? ", only a cell array of that name" : "")
+      << "; choose one with ContourBy. The grid's point arrays: "
+      << listOfArrays(grid->GetPointData()) << ".");
+  }
+  else if (scalars->GetNumberOfComponents() != 1)
+  {
+    vtkErrorMacro("Point array '" << scalars->GetName() << "' has "
+                                  << scalars->GetNumberOfComponents()
+                                  << " components; choose a scalar array with ContourBy.");
+    scalars = nullptr;
+  }
+  return scalars;
+}
+
+void vtkHighOrderParticleIsosurface::Process(vtkUnstructuredGrid* grid, const Scale& scale,
+  double progressBegin, double progressShare, vtkPolyData* output)
+{
+  const vtkIdType isovalueCount = this->GetNumberOfContours();
+  if (grid->GetNumberOfCells() == 0 || isovalueCount == 0)
+  {
+    return;
+  }
+  vtkDataArray* scalars = this->FindScalars(grid);
+  if (!scalars)
+  {
+    return;
+  }
+  const double* values = this->ContourValues->GetValues();
+  const hop::ParallelFor parallelFor = smpParallelFor();
+  const auto work = [&]()
+  {
+    const GridElements elements =
+      buildGridElements(grid, scalars, { values, values + isovalueCount }, parallelFor);
+    const std::string remarks = elements.census.describe();
+    if (!remarks.empty())
+    {
+      vtkWarningMacro("Not every cell is as it should be:" << remarks);
+    }
+    std::vector<IsovalueParticles> particles;
+    for (vtkIdType i = 0; i < isovalueCount && !this->CheckAbort(); ++i)
+    {
+      hop::Monitor monitor;
+      monitor.report = [&](double fraction)
+      {
+        this->UpdateProgress(
+          progressBegin + progressShare * (static_cast<double>(i) + fraction) / isovalueCount);
+        return !this->CheckAbort();
+      };
+      hop::ClassicParameters parameters;
+      parameters.law = { scale.Spacing, this->AngularDensity };
+      parameters.seed = static_cast<std::uint64_t>(this->Seed);
+      parameters.particleCount = this->NumberOfParticles;
+      particles.push_back({ values[i],
+        hop::distributeClassic(
+          { &elements.mesh, values[i], scale.Tolerance }, parameters, monitor, parallelFor) });
+      this->Review(particles.back().distribution, values[i]);
+    }
+    packParticles(grid, elements, particles, parallelFor, output);
+  };
+  withThreads(work);
+}
+
+/// Tells the user what a distribution could not do.
+void vtkHighOrderParticleIsosurface::Review(
+  const hop::Distribution& distribution, double isovalue)
+{
+  const hop::DistributionReport& report = distribution.report;
+  const double count = static_cast<double>(distribution.particles.size());
+  if (!report.error.empty())
+  {
+    vtkErrorMacro("Isovalue " << isovalue << ": " << report.error
+                              << ". Choose a larger Spacing.");
+  }
+  else if (!report.converged)
+  {
+    vtkWarningMacro("Isovalue " << isovalue
+                                << ": the particles did not come to rest; they lie on the surface, "
+                                   "but less evenly than they should.");
+  }
+  if (report.particlesUndersampled > warnUndersampledShare * count)
+  {
+    vtkWarningMacro("Isovalue " << isovalue << ": at " << report.particlesUndersampled << " of "
+                                << distribution.particles.size()
+                                << " particles the surface bends faster than their spacing can "
+                                   "follow. Choose a smaller Spacing or a larger AngularDensity.");
+  }
+}
+
+void vtkHighOrderParticleIsosurface::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Spacing: " << this->Spacing << "\n";
+  os << indent << "AngularDensity: " << this->AngularDensity << "\n";
+  os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "Method: " << this->Method << "\n";
+  os << indent << "Seed: " << this->Seed << "\n";
+  os << indent << "NumberOfParticles: " << this->NumberOfParticles << "\n";
+  os << indent << "ContourValues:\n";
+  this->ContourValues->PrintSelf(os, indent.GetNextIndent());
+}

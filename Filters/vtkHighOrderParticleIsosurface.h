@@ -1,11 +1,173 @@
+/**
+ * @class vtkHighOrderParticleIsosurface
+ * @brief isosurfaces of high-order finite elements as evenly spread, oriented particles
+ *
+ * Input: vtkUnstructuredGrid (or a composite data set of them) with high-order cells and a scalar
+ * point array F. Output: vtkPolyData (or a composite of the input's kind) with one point and one
+ * vertex cell a particle. Each particle lies on the isosurface F = c of the elements' true
+ * polynomials, not of linear pieces, and particles stand at an even spacing in world space, closer
+ * where the surface bends if AngularDensity asks for it.
+ *
+ * After M. Meyer, B. Nelson, R. M. Kirby, R. Whitaker, "Particle Systems for Efficient and Accurate
+ * High-Order Finite Element Visualization", IEEE TVCG 13(5), 2007.
+ *
+ * Cells: linear and Lagrange hexahedra, tetrahedra and wedges of degree 1 to 10, with uniform or
+ * anisotropic degrees, and the quadratic cells whose nodes fill a Lagrange lattice. Other cells,
+ * and cells with values that are not finite or without volume, are skipped, counted, and named in
+ * one warning. Ghost cells (vtkGhostType) carry particles over borders but own none.
+ *
+ * Point data of the output: `Normals` (unit, towards lower values, as Contour orients them),
+ * `Radius` (the particle's own spacing, world units), `Mean_Curvature` (with respect to Normals;
+ * 1/r on a sphere with high values inside), `Gauss_Curvature`, `Residual` (|F - c|/|grad F|, world
+ * units), `Isovalue`, `vtkOriginalCellIds`, `ParametricCoordinates` (of VTK's cell), and every
+ * numeric point array of the input evaluated by the element's own polynomials, in double precision;
+ * an input array of one of these names gives way. Cell arrays are copied to the vertex cells.
+ * Points are ordered by isovalue, then by cell.
+ *
+ * Field data of the output: `Evaluations` (of element polynomials), `Iterations` (relaxation
+ * sweeps), `ElementsDropped` (cells that provably hold no surface), `CellsSkipped`,
+ * `BoxesUnresolved` (parts of cells that may hold surface, but from whose middle none was reached),
+ * `ParticlesRejected` and `ParticlesUndersampled` (curvature times spacing above 2), one value each.
+ *
+ * The same input and Seed give the same output, bit for bit, for any number of threads.
+ */
 #ifndef vtkHighOrderParticleIsosurface_h
 #define vtkHighOrderParticleIsosurface_h
-#include "vtkHighOrderParticleFiltersModule.h"
+
+#include "vtkHighOrderParticleFiltersModule.h" // for the export macro
+#include "vtkNew.h"                            // for the isovalues
 #include "vtkPolyDataAlgorithm.h"
-class VTKHIGHORDERPARTICLEFILTERS_EXPORT vtkHighOrderParticleIsosurface : public vtkPolyDataAlgorithm
+
+#include <vector> // for the blocks of the input
+
+class vtkContourValues;
+class vtkDataArray;
+class vtkUnstructuredGrid;
+
+namespace hop
+{
+struct Distribution;
+}
+
+class VTKHIGHORDERPARTICLEFILTERS_EXPORT vtkHighOrderParticleIsosurface
+  : public vtkPolyDataAlgorithm
 {
 public:
   static vtkHighOrderParticleIsosurface* New();
   vtkTypeMacro(vtkHighOrderParticleIsosurface, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The isovalues, as in vtkContourFilter. None by default.
+   */
+  void SetValue(int i, double value);
+  double GetValue(int i);
+  void SetNumberOfContours(int number);
+  vtkIdType GetNumberOfContours();
+  ///@}
+
+  ///@{
+  /**
+   * Distance of neighbouring particles where the surface is flat, world units. Values <= 0 stand
+   * for 1/100 of the longest side of the input's bounds. Default 0.
+   */
+  vtkSetMacro(Spacing, double);
+  vtkGetMacro(Spacing, double);
+  ///@}
+
+  ///@{
+  /**
+   * How much denser particles stand where the surface bends (rho of the paper's eq. 6): the spacing
+   * becomes s / (1 + rho D s / 2 pi), with the curvature magnitude D. About the number of particles
+   * around a tube. 0 spreads them evenly. Range 0 to 100, default 0.
+   */
+  vtkSetClampMacro(AngularDensity, double, 0.0, 100.0);
+  vtkGetMacro(AngularDensity, double);
+  ///@}
+
+  ///@{
+  /**
+   * Largest distance |F - c|/|grad F| of a particle from the isosurface, as a fraction of the
+   * diagonal of the input's bounds. Range 1e-14 to 1e-2, default 1e-8.
+   */
+  vtkSetClampMacro(Tolerance, double, 1e-14, 1e-2);
+  vtkGetMacro(Tolerance, double);
+  ///@}
+
+  enum MethodType
+  {
+    CLASSIC = 0
+  };
+
+  ///@{
+  /**
+   * How particles are distributed. CLASSIC, the only one so far and the default, is the paper's
+   * Gauss-Seidel relaxation with split and delete.
+   */
+  vtkSetClampMacro(Method, int, CLASSIC, CLASSIC);
+  vtkGetMacro(Method, int);
+  ///@}
+
+  ///@{
+  /**
+   * Seed of the random choices in the distribution. Default 1.
+   */
+  vtkSetMacro(Seed, int);
+  vtkGetMacro(Seed, int);
+  ///@}
+
+  ///@{
+  /**
+   * If positive, the number of particles for each isovalue and block; the spacing then follows.
+   * 0 lets Spacing decide. Default 0.
+   */
+  vtkSetClampMacro(NumberOfParticles, vtkIdType, 0, VTK_ID_MAX);
+  vtkGetMacro(NumberOfParticles, vtkIdType);
+  ///@}
+
+  /**
+   * Also counts changes of the isovalues.
+   */
+  vtkMTimeType GetMTime() override;
+
+protected:
+  vtkHighOrderParticleIsosurface();
+  ~vtkHighOrderParticleIsosurface() override;
+
+  int ProcessRequest(vtkInformation* request, vtkInformationVector** inputs,
+    vtkInformationVector* outputs) override;
+  int RequestDataObject(vtkInformation* request, vtkInformationVector** inputs,
+    vtkInformationVector* outputs);
+  int RequestData(vtkInformation* request, vtkInformationVector** inputs,
+    vtkInformationVector* outputs) override;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+
+private:
+  vtkHighOrderParticleIsosurface(const vtkHighOrderParticleIsosurface&) = delete;
+  void operator=(const vtkHighOrderParticleIsosurface&) = delete;
+
+  /** What follows from the bounds of the whole input, over all blocks and ranks. */
+  struct Scale
+  {
+    double Spacing = 0.0;
+    double Tolerance = 0.0;
+  };
+  Scale FindScale(const std::vector<vtkUnstructuredGrid*>& grids);
+  bool CheckParameters();
+  vtkDataArray* FindScalars(vtkUnstructuredGrid* grid);
+  void Process(vtkUnstructuredGrid* grid, const Scale& scale, double progressBegin,
+    double progressShare, vtkPolyData* output);
+  void Review(const hop::Distribution& distribution, double isovalue);
+
+  vtkNew<vtkContourValues> ContourValues;
+  double Spacing = 0.0;
+  double AngularDensity = 0.0;
+  double Tolerance = 1e-8;
+  int Method = CLASSIC;
+  int Seed = 1;
+  vtkIdType NumberOfParticles = 0;
 };
+
 #endif
