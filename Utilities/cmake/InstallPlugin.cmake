@@ -22,10 +22,11 @@ function (install_plugin name)
   _paraview_library_dir(library_dir)
   set(plugins_dir "${library_dir}/${PARAVIEW_PLUGIN_SUBDIR}")
 
-  # ParaView's macros would install static archives and headers too: their directory is left out,
-  # and what a running ParaView needs is installed here.
+  # ParaView's macros would install static archives too: the install rules of their directory are
+  # left out, though not its targets, and what a running ParaView needs is installed here.
   set_property(DIRECTORY "${PROJECT_SOURCE_DIR}/Plugin" PROPERTY EXCLUDE_FROM_ALL ON)
   set_property(TARGET ${name} ${ARGN} PROPERTY EXCLUDE_FROM_ALL OFF)
+  add_custom_target(plugin ALL DEPENDS ${name} ${ARGN})
   set_property(TARGET ${name} ${ARGN} PROPERTY INSTALL_RPATH "$ORIGIN")
   install(TARGETS ${name} ${ARGN} LIBRARY DESTINATION "${plugins_dir}/${name}")
 
