@@ -30,10 +30,14 @@ constexpr double smallestLambda = 1e-4;
 // Ends that the paper leaves open.
 constexpr int maximumSweeps = 60;
 constexpr int maximumPopulationRounds = 40;
+constexpr int maximumCoarseRounds = 8;
 constexpr double coarsestSpacingPerExtent = 0.1;
 constexpr double boxSizePerSpacing = 3.0;
 constexpr double smallestBoxPerExtent = 1.0 / 400.0;
 constexpr double listSlack = 1.25;
+/// Where curvature times spacing exceeds this, neighbours cannot pack hexagonally: particles there
+/// come and go for ever, so they do not keep the system from counting as settled.
+constexpr double bentTooFar = 1.0;
 /// Scaled distance of particles that nothing will part any more, as in a corner of the domain.
 constexpr double overlapDistance = 0.1;
 
@@ -79,7 +83,8 @@ private:
   bool place(const Location& start, double maximumTravel, SurfaceWalker& walker, Mover& mover) const;
   bool displace(const Mover& from, const WorldVector& step, Mover& to);
   void addUncovered(const std::vector<Mover>& seeds);
-  void relaxLevel(bool fixedNumber);
+  void relaxLevel(int maximumRounds, bool fixedNumber);
+  bool bendsTooFar(const Mover& mover);
   void renewNeighbors();
   double sweep();
   void relaxParticle(std::size_t i);
@@ -371,6 +376,13 @@ bool ClassicSystem::overlapsEarlier(std::size_t i) const
     });
 }
 
+bool ClassicSystem::bendsTooFar(const Mover& mover)
+{
+  const Evaluated at = this->Walker.evaluateCurved(mover.at.location);
+  const double magnitude = curvature(at.point.gradient, at.hessian).magnitude;
+  return magnitude * this->Law.at(magnitude) > bentTooFar;
+}
+
 /// Splits lonely particles and deletes crowded ones by a biased coin, and overlapping ones always.
 /// \return whether enough wanted to that the system has to settle again
 bool ClassicSystem::changePopulation()
@@ -384,7 +396,7 @@ bool ClassicSystem::changePopulation()
     const Mover& m = this->Movers[i];
     const double bias = this->Dice.uniform() * (m.energy - m.ideal) / m.ideal;
     fates[i] = bias < splitBelow ? Fate::Split : bias > deleteAbove ? Fate::Delete : Fate::Stay;
-    changes += fates[i] != Fate::Stay;
+    changes += fates[i] != Fate::Stay && !this->bendsTooFar(m);
     if (this->overlapsEarlier(i))
     {
       fates[i] = Fate::Delete;
@@ -427,9 +439,10 @@ void ClassicSystem::followEnergy()
 }
 
 /// Relaxes, and changes the population unless the number of particles is fixed, until settled.
-void ClassicSystem::relaxLevel(bool fixedNumber)
+void ClassicSystem::relaxLevel(int maximumRounds, bool fixedNumber)
 {
-  for (int round = 0; round < maximumPopulationRounds; ++round)
+  this->Report.converged = true;
+  for (int round = 0; round < maximumRounds; ++round)
   {
     double last = 0.0;
     bool steady = false;
@@ -562,7 +575,7 @@ Distribution ClassicSystem::run()
       this->splitByFour(oldSpacing);
     }
     this->addUncovered(seeds);
-    this->relaxLevel(false);
+    this->relaxLevel(level < levels ? maximumCoarseRounds : maximumPopulationRounds, false);
     if (level == 0 && fixedNumber)
     {
       // On a flat surface the number goes with 1/s^2.
@@ -580,7 +593,7 @@ Distribution ClassicSystem::run()
   if (fixedNumber && this->proceed())
   {
     this->forceCount(static_cast<std::size_t>(this->Parameters.particleCount));
-    this->relaxLevel(true);
+    this->relaxLevel(maximumPopulationRounds, true);
   }
   return this->finish();
 }
