@@ -24,6 +24,7 @@ vtkSurfaceSplatRepresentation::vtkSurfaceSplatRepresentation()
   : Particles(vtkSmartPointer<vtkPolyData>::New())
 {
   this->Actor->SetMapper(this->Mapper);
+  this->SetMapScalars(1);
 }
 
 vtkSurfaceSplatRepresentation::~vtkSurfaceSplatRepresentation() = default;
@@ -312,6 +313,39 @@ void vtkSurfaceSplatRepresentation::SetPickable(int pickable)
 void vtkSurfaceSplatRepresentation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Mapper:\n";
-  this->Mapper->PrintSelf(os, indent.GetNextIndent());
+  const auto print = [&os, indent](const char* name, const double* v, int size) {
+    os << indent << name << ":";
+    for (int c = 0; c < size; ++c)
+    {
+      os << " " << v[c];
+    }
+    os << "\n";
+  };
+  vtkProperty* property = this->Actor->GetProperty();
+  const char* radiusName = this->Mapper->GetRadiusArrayName();
+  os << indent << "RadiusArrayName: " << (radiusName ? radiusName : "(none)") << "\n";
+  os << indent << "RadiusScale: " << this->Mapper->GetRadiusScale() << "\n";
+  os << indent << "Radius: " << this->Mapper->GetRadius() << "\n";
+  os << indent << "ColorByNormalDirection: " << this->Mapper->GetColorByNormalDirection() << "\n";
+  print("OutwardColor", this->Mapper->GetOutwardColor(), 3);
+  print("InwardColor", this->Mapper->GetInwardColor(), 3);
+  os << indent << "ColorMode: " << this->Mapper->GetColorModeAsString() << "\n";
+  os << indent << "BackfaceCulling: " << property->GetBackfaceCulling() << "\n";
+  os << indent << "FrontfaceCulling: " << property->GetFrontfaceCulling() << "\n";
+  os << indent << "Ambient: " << property->GetAmbient() << "\n";
+  print("AmbientColor", property->GetAmbientColor(), 3);
+  os << indent << "Diffuse: " << property->GetDiffuse() << "\n";
+  print("DiffuseColor", property->GetDiffuseColor(), 3);
+  os << indent << "Specular: " << property->GetSpecular() << "\n";
+  print("SpecularColor", property->GetSpecularColor(), 3);
+  os << indent << "SpecularPower: " << property->GetSpecularPower() << "\n";
+  os << indent << "Opacity: " << property->GetOpacity() << "\n";
+  os << indent << "Interpolation: " << property->GetInterpolationAsString() << "\n";
+  os << indent << "Roughness: " << property->GetRoughness() << "\n";
+  os << indent << "Metallic: " << property->GetMetallic() << "\n";
+  print("Position", this->Actor->GetPosition(), 3);
+  print("Scale", this->Actor->GetScale(), 3);
+  print("Orientation", this->Actor->GetOrientation(), 3);
+  print("Origin", this->Actor->GetOrigin(), 3);
+  os << indent << "Pickable: " << this->Actor->GetPickable() << "\n";
 }

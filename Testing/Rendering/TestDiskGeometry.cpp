@@ -189,6 +189,23 @@ TEST(DiskGeometry, ALightFromTheSideShadesByItsAngle)
     });
 }
 
+TEST(DiskGeometry, TheInwardSideIsLitAsWell)
+{
+  SplatScene scene(FibonacciSphere(Count, 1., DiskRadius));
+  scene.LookFrom({ 0., 0., 1. }, false, 0.3, 0.3); // from within
+  scene.Render();                                  // with the light at the camera
+  for (int y = 0; y < SplatScene::Size; ++y)
+  {
+    for (int x = 0; x < SplatScene::Size; ++x)
+    {
+      const auto position = scene.PositionAt(x, y);
+      ASSERT_TRUE(position);
+      const double expected = -255. * glm::normalize(*position).z; // the normal, seen from inside
+      ASSERT_NEAR(scene.ColorAt(x, y).g, expected, 255. * (DiskRadius + 0.01));
+    }
+  }
+}
+
 namespace
 {
 double PixelsOfADisk(double radius)

@@ -1,0 +1,221 @@
+"""Particles in ParaView's render view as 'Surface Splats': chosen, coloured, selected, drawn by ranks."""
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+from paraview import servermanager, simple
+from paraview.vtk.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
+
+SIZE = 300
+BACKGROUND = (0, 255, 0)  # a colour that no lit surface of these tests has
+
+
+def particles(center=(0.0, 0.0, 0.0)):
+    """A sphere of radius 0.5 as particles close enough to leave no hole: points, normals, radii."""
+    sphere = simple.Sphere(Center=center, ThetaResolution=60, PhiResolution=60)
+    return simple.Calculator(Input=sphere, Function="0.035", ResultArrayName="Radius")
+
+
+def make_view():
+    view = simple.CreateView("RenderView")
+    view.ViewSize = [SIZE, SIZE]
+    view.OrientationAxesVisibility = 0
+    view.UseColorPaletteForBackground = 0
+    view.Background = [c / 255 for c in BACKGROUND]
+    view.CameraPosition = [0, -4, 0]
+    view.CameraViewUp = [0, 0, 1]
+    view.CameraFocalPoint = [0, 0, 0]
+    view.CameraParallelProjection = 1
+    view.CameraParallelScale = 1.0
+    simple.SetActiveView(view)
+    return view
+
+
+@pytest.fixture
+def view():
+    return make_view()
+
+
+def show(source, view):
+    display = simple.Show(source, view)
+    display.ColorArrayName = ["POINTS", ""]
+    display.SetRepresentationType("Surface Splats")
+    return display
+
+
+def read_png(path):
+    reader = vtkPNGReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    image = reader.GetOutput()
+    width, height, _ = image.GetDimensions()
+    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1)[:, :, :3].astype(int)
+
+
+@pytest.fixture
+def picture(view, tmp_path):
+    """picture(): the view's pixels, bottom row first, (height, width, RGB)."""
+
+    def shoot():
+        path = tmp_path / "picture.png"
+        simple.SaveScreenshot(str(path), view, ImageResolution=[SIZE, SIZE])
+        return read_png(path)
+
+    return shoot
+
+
+def drawn(pixels):
+    return np.any(pixels != BACKGROUND, axis=2)
+
+
+def disk_of_sphere(x=0.0, radius=0.5):
+    """Which pixels a sphere at (x, 0, 0) covers."""
+    across = (np.arange(SIZE) + 0.5) / (SIZE / 2) - 1
+    return (across[None, :] - x) ** 2 + across[:, None] ** 2 < radius**2
+
+
+def test_a_sphere_of_particles_covers_the_sphere(view, picture):
+    show(particles(), view)
+    covered = drawn(picture())
+    assert np.all(covered[disk_of_sphere(radius=0.49)])
+    assert not np.any(covered[~disk_of_sphere(radius=0.52)])
+
+
+def test_own_properties_reach_the_drawing(view, picture):
+    display = show(particles(), view)
+    assert (display.RadiusArray, display.RadiusScale, display.DefaultRadius) == ("Radius", 1.0, 0.0)
+    assert display.ColorByNormalDirection == 0
+    full = drawn(picture()).sum()
+    display.RadiusScale = 0.1
+    assert 0 < drawn(picture()).sum() < 0.6 * full
+
+
+def vertices(source):
+    """The same particles with one vertex cell each."""
+    mask = simple.MaskPoints(Input=source, OnRatio=1, GenerateVertices=1, SingleVertexPerCell=1)
+    mask.MaximumNumberofPoints = 100000
+    return mask
+
+
+@pytest.mark.parametrize("association", ["POINTS", "CELLS"])
+def test_color_by_array_follows_the_lookup_table(view, picture, association):
+    source = simple.Calculator(Input=vertices(particles()), Function="coordsX", ResultArrayName="x")
+    if association == "CELLS":
+        source = simple.PointDatatoCellData(Input=source, PassPointData=1)
+    display = show(source, view)
+    simple.ColorBy(display, (association, "x"))
+    table = simple.GetColorTransferFunction("x")
+    table.RGBPoints = [-0.5, 1, 0, 0, -1e-6, 1, 0, 0, 1e-6, 0, 0, 1, 0.5, 0, 0, 1]
+    table.ColorSpace = "RGB"
+    display.SetScalarBarVisibility(view, True)
+    bar = simple.GetScalarBar(table, view)
+    assert bar.Title == "x" and bar.Visibility == 1
+    bar.Visibility = 0
+    pixels = picture()
+    left = pixels[SIZE // 2, int(0.35 * SIZE)]
+    right = pixels[SIZE // 2, int(0.65 * SIZE)]
+    assert left[0] > 100 and left[2] < 0.1 * left[0]
+    assert right[2] > 100 and right[0] < 0.1 * right[2]
+
+
+@pytest.mark.parametrize("flip, channel", [(False, 2), (True, 0)], ids=["outward-blue", "inward-red"])
+def test_color_by_the_direction_of_the_normal(view, picture, flip, channel):
+    source = particles()
+    if flip:
+        source = simple.ProgrammableFilter(Input=source)
+        source.Script = (
+            "output.ShallowCopy(inputs[0].VTKObject)\n"
+            "output.PointData.append(-inputs[0].PointData['Normals'], 'Normals')\n"
+            "output.VTKObject.GetPointData().SetActiveNormals('Normals')\n"
+        )
+    show(source, view).ColorByNormalDirection = 1
+    pixels = picture()[disk_of_sphere(radius=0.4)]
+    assert np.all(np.argmax(pixels, axis=1) == channel)
+
+
+def test_one_side_can_be_culled(view, picture):
+    display = show(particles(), view)
+    display.ColorByNormalDirection = 1
+    display.BackfaceRepresentation = "Cull Frontface"
+    pixels = picture()[disk_of_sphere(radius=0.4)]
+    assert np.all(np.argmax(pixels, axis=1) == 0), "the far side from within, red"
+
+
+def test_blocks_of_a_composite_are_drawn(view, picture):
+    group = simple.GroupDatasets(Input=[particles((-0.5, 0, 0)), particles((0.5, 0, 0))])
+    show(group, view)
+    covered = drawn(picture())
+    assert np.all(covered[disk_of_sphere(-0.5, 0.49) | disk_of_sphere(0.5, 0.49)])
+    assert not np.any(covered[~(disk_of_sphere(-0.5, 0.52) | disk_of_sphere(0.5, 0.52))])
+
+
+def test_thresholded_particles_are_still_particles(view, picture):
+    height = simple.Calculator(Input=vertices(particles()), Function="coordsX", ResultArrayName="x")
+    half = simple.Threshold(Input=height, Scalars=["POINTS", "x"], LowerThreshold=0.0, UpperThreshold=1.0)
+    show(half, view)
+    covered = drawn(picture())
+    right = np.arange(SIZE)[None, :] > 0.52 * SIZE
+    left = np.arange(SIZE)[None, :] < 0.48 * SIZE
+    assert np.all(covered[disk_of_sphere(radius=0.48) & right])
+    assert not np.any(covered & left)
+
+
+@pytest.mark.parametrize("script", ["", "output.VTKObject.GetPoints().Reset()"], ids=["no-arrays", "no-points"])
+def test_input_that_lacks_something_is_no_crash(view, picture, script):
+    points = simple.ProgrammableFilter(Input=simple.PointSource(NumberOfPoints=50, Radius=0.3))
+    points.CopyArrays = 0
+    points.Script = "output.DeepCopy(inputs[0].VTKObject)\n" + script
+    show(points, view)
+    assert np.any(drawn(picture())) == (script == "")
+
+
+def test_selection_finds_the_particle_under_the_cursor(view):
+    source = particles()
+    show(source, view)
+    simple.Render(view)
+    middle = SIZE // 2
+    simple.SelectSurfacePoints(Rectangle=[middle, middle, middle, middle], View=view)
+    selected = simple.ExtractSelection(Input=source)
+    selected.Selection = source.GetSelectionInput(source.Port)
+    simple.UpdatePipeline(proxy=selected)
+    found = servermanager.Fetch(selected)
+    assert found.GetNumberOfPoints() == 1
+    assert np.linalg.norm(np.array(found.GetPoint(0)) - [0, -0.5, 0]) < 0.04
+
+
+RANKS = """
+import sys
+from paraview import simple
+sys.path.insert(0, {folder!r})
+import test_surface_splats as here
+simple.LoadPlugin({plugin!r}, remote=False, ns=vars(simple))
+view = here.make_view()
+display = here.show(here.particles(), view)
+display.Opacity = {opacity}
+simple.SaveScreenshot({path!r}, view, ImageResolution=[here.SIZE, here.SIZE])
+"""
+
+
+@pytest.mark.parametrize("opacity", [1.0, 0.5])
+def test_two_ranks_draw_their_halves(plugin, tmp_path, opacity):
+    if not (shutil.which("mpirun") and shutil.which("pvbatch")):
+        pytest.skip("no mpirun or no pvbatch")
+    script = tmp_path / "ranks.py"
+    path = tmp_path / "ranks.png"
+    script.write_text(
+        RANKS.format(folder=str(Path(__file__).parent), plugin=str(plugin), path=str(path), opacity=opacity)
+    )
+    # This process may be an MPI program itself; its children must not take themselves for its ranks.
+    environment = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_", "PMIX_", "PRTE_"))}
+    environment.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+    command = ["mpirun", "-np", "2", "--oversubscribe", "pvbatch", "--sym", str(script)]
+    run = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=120)
+    assert run.returncode == 0, run.stdout + run.stderr
+    covered = drawn(read_png(path))
+    assert np.all(covered[disk_of_sphere(radius=0.49)])
+    assert not np.any(covered[~disk_of_sphere(radius=0.52)])
