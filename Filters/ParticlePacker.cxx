@@ -35,9 +35,10 @@ const std::set<std::string> ownArrays{ "Normals", "Radius", "Mean_Curvature", "G
 class Packer
 {
 public:
-  Packer(vtkUnstructuredGrid* grid, const GridElements& elements,
+  Packer(vtkUnstructuredGrid* grid, vtkDataArray* scalars, const GridElements& elements,
     const hop::ParallelFor& parallelFor, vtkPolyData* output)
     : Grid(grid)
+    , Scalars(scalars)
     , Elements(elements)
     , Parallel(parallelFor)
     , Output(output)
@@ -66,6 +67,7 @@ private:
   }
 
   vtkUnstructuredGrid* Grid;
+  vtkDataArray* Scalars;
   const GridElements& Elements;
   const hop::ParallelFor& Parallel;
   vtkPolyData* Output;
@@ -208,11 +210,19 @@ void Packer::addPointArrays()
     {
       values->SetComponentName(c, array->GetComponentName(c));
     }
-    this->evaluate(array, values);
     this->Output->GetPointData()->AddArray(values);
-    if (array == source->GetScalars())
+    if (array == this->Scalars)
     {
+      // As Contour: this array is the isovalue, not the isovalue with noise of the tolerance's size.
+      for (std::size_t i = 0; i < this->Rows.size(); ++i)
+      {
+        values->SetValue(static_cast<vtkIdType>(i), this->Rows[i].isovalue);
+      }
       this->Output->GetPointData()->SetScalars(values);
+    }
+    else
+    {
+      this->evaluate(array, values);
     }
   }
 }
@@ -317,9 +327,9 @@ void Packer::addReport(const std::vector<IsovalueParticles>& isovalues)
 
 } // namespace
 
-void packParticles(vtkUnstructuredGrid* grid, const GridElements& elements,
-  const std::vector<IsovalueParticles>& isovalues, const hop::ParallelFor& parallelFor,
-  vtkPolyData* output)
+void packParticles(vtkUnstructuredGrid* grid, vtkDataArray* scalars,
+  const GridElements& elements, const std::vector<IsovalueParticles>& isovalues,
+  const hop::ParallelFor& parallelFor, vtkPolyData* output)
 {
-  Packer(grid, elements, parallelFor, output).pack(isovalues);
+  Packer(grid, scalars, elements, parallelFor, output).pack(isovalues);
 }

@@ -325,7 +325,7 @@ void vtkHighOrderParticleIsosurface::Process(vtkUnstructuredGrid* grid, const Sc
           { &elements.mesh, values[i], scale.Tolerance }, parameters, monitor, parallelFor) });
       this->Review(particles.back().distribution, values[i]);
     }
-    packParticles(grid, elements, particles, parallelFor, output);
+    packParticles(grid, scalars, elements, particles, parallelFor, output);
   };
   withThreads(work);
 }

@@ -20,8 +20,8 @@
  * `Radius` (the particle's own spacing, world units), `Mean_Curvature` (with respect to Normals;
  * 1/r on a sphere with high values inside), `Gauss_Curvature`, `Residual` (|F - c|/|grad F|, world
  * units), `Isovalue`, `vtkOriginalCellIds`, `ParametricCoordinates` (of VTK's cell), and every
- * numeric point array of the input evaluated by the element's own polynomials, in double precision;
- * an input array of one of these names gives way. Cell arrays are copied to the vertex cells.
+ * numeric point array of the input evaluated by the element's own polynomials, in double precision
+ * (the contoured one holds the isovalue); an input array of one of these names gives way. Cell arrays are copied to the vertex cells.
  * Points are ordered by isovalue, then by cell.
  *
  * Field data of the output: `Evaluations` (of element polynomials), `Iterations` (relaxation

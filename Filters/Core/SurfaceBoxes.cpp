@@ -32,6 +32,10 @@ public:
   {
     this->Form = this->Mesh.form(element);
     std::vector<Piece> stack{ this->wholeElement() };
+    if (!isFinite(stack.back()))
+    {
+      return;
+    }
     while (!stack.empty())
     {
       Piece piece = std::move(stack.back());
@@ -62,6 +66,14 @@ private:
       piece.corners.push_back(latticePosition(cornerDegrees, point).xyz);
     }
     return piece;
+  }
+
+  /// Halving would spread a NaN, and no box with one could be dropped or grow small enough.
+  static bool isFinite(const Piece& piece)
+  {
+    return std::all_of(piece.coefficients.begin(), piece.coefficients.end(),
+      [](const Coefficient& c)
+      { return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z) && std::isfinite(c.w); });
   }
 
   bool mayHoldSurface(const Piece& piece) const

@@ -17,7 +17,8 @@ struct SurfaceBox
 
 /// Splits every element into boxes (de Casteljau) until a box provably holds no surface, because its
 /// coefficients of f lie on one side of the isovalue, or is no larger than `wantedSize`, or was
-/// halved MaximumBisections times. The boxes that remain hold all of the surface.
+/// halved MaximumBisections times. The boxes that remain hold all of the surface. Elements with a
+/// coefficient that is NaN or infinite give none.
 /// \param wantedSize world units, > 0
 /// \return boxes in the order of the elements, the same for any number of threads
 std::vector<SurfaceBox> findSurfaceBoxes(const ElementMesh& mesh, double isovalue,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace hop
 {
@@ -10,16 +11,21 @@ namespace
 
 LocalMap localMap(const Jet& jet)
 {
-  // A determinant this small beside the product of the column lengths is rounding error.
-  constexpr double singularRatio = 1e-12;
+  // A column this short beside the others or beside the coordinates, and a determinant this small
+  // beside the product of the columns' lengths, are rounding errors.
+  constexpr double roundedColumn = 1e-13;
+  constexpr double roundedDeterminant = 1e-12;
   LocalMap map;
   map.position = { glm::dvec3(jet.value) };
   map.jacobian =
     glm::dmat3(glm::dvec3(jet.first[0]), glm::dvec3(jet.first[1]), glm::dvec3(jet.first[2]));
+  const double lengths[] = { glm::length(map.jacobian[0]), glm::length(map.jacobian[1]),
+    glm::length(map.jacobian[2]) };
+  const auto [shortest, longest] = std::minmax_element(std::begin(lengths), std::end(lengths));
   const double determinant = glm::determinant(map.jacobian);
-  const double scale = glm::length(map.jacobian[0]) * glm::length(map.jacobian[1]) *
-    glm::length(map.jacobian[2]);
-  map.singular = !(std::abs(determinant) > singularRatio * scale);
+  map.singular =
+    !(*shortest > roundedColumn * std::max(*longest, glm::length(map.position.xyz))) ||
+    !(std::abs(determinant) > roundedDeterminant * lengths[0] * lengths[1] * lengths[2]);
   map.inverse = map.singular ? glm::dmat3(0.0) : glm::inverse(map.jacobian);
   return map;
 }

@@ -1,5 +1,6 @@
 #include "SurfaceWalker.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -75,22 +76,45 @@ struct Exit
   int face = -1;
 };
 
-/// Where the step leaves the domain, if it does.
-Exit findExit(Domain domain, const ReferencePoint& u, const ReferenceVector& du,
+/// Where the step leaves the element, if it does. At an edge several faces stand in the way at once:
+/// the boundary goes first, because an inner face leads on only once the boundary holds the step.
+Exit findExit(const ElementMesh& mesh, const Location& location, const ReferenceVector& du,
   const ActiveFaces& active)
 {
-  const auto& faces = facts(domain).faces;
+  const auto& faces = facts(mesh.elements[location.element].domain).faces;
   Exit exit;
+  bool throughBoundary = false;
   for (int f = 0; f < static_cast<int>(faces.size()); ++f)
   {
     const double rate = glm::dot(faces[f].inward.xyz, du.xyz);
-    const double inside = std::max(0.0, margin(faces[f], u));
-    if (rate < 0.0 && inside < -rate * exit.fraction && !active.holds(f))
+    if (!(rate < 0.0) || active.holds(f))
     {
-      exit = { inside / -rate, f };
+      continue;
+    }
+    const double distance = margin(faces[f], location.u);
+    const double fraction = distance < onFace ? 0.0 : distance / -rate;
+    const bool boundary = mesh.neighbor(location.element, f).element < 0;
+    if (fraction < exit.fraction ||
+      (fraction == exit.fraction && fraction < 1.0 && boundary && !throughBoundary))
+    {
+      exit = { fraction, f };
+      throughBoundary = boundary;
     }
   }
   return exit;
+}
+
+/// The face of the neighbour through which a point arrives: the one that holds the shared corners.
+int entryFace(const ElementMesh& mesh, const FaceNeighbor& neighbor)
+{
+  const DomainFacts& there = facts(mesh.elements[neighbor.element].domain);
+  const auto holdsAll = [&](const Face& face)
+  {
+    return std::all_of(neighbor.corners.begin(), neighbor.corners.end(),
+      [&](std::uint8_t corner) { return margin(face, there.corners[corner]) < onFace; });
+  };
+  return static_cast<int>(
+    std::find_if(there.faces.begin(), there.faces.end(), holdsAll) - there.faces.begin());
 }
 
 } // namespace
@@ -117,6 +141,7 @@ Location SurfaceWalker::move(const Evaluated& start, const WorldVector& step)
   const WorldPoint target = start.point.map.position + step;
   Evaluated at = start;
   ActiveFaces active;
+  int entry = -1;
   for (int hops = 0; hops < MaximumHops; ++hops)
   {
     if (at.point.map.singular)
@@ -126,14 +151,19 @@ Location SurfaceWalker::move(const Evaluated& start, const WorldVector& step)
     const Domain domain = mesh.elements[at.location.element].domain;
     const ReferenceVector du =
       pullAlong(domain, active, at.point.map, target - at.point.map.position);
-    const Exit exit = findExit(domain, at.location.u, du, active);
+    const Exit exit = findExit(mesh, at.location, du, active);
     at.location.u = at.location.u + exit.fraction * du;
     if (exit.face < 0)
     {
       break;
     }
-    if (mesh.neighbor(at.location.element, exit.face).element >= 0)
+    const FaceNeighbor& neighbor = mesh.neighbor(at.location.element, exit.face);
+    // Where the walls of two elements meet, each sends the step into the other: straight back
+    // through the face it came by. Then it can only follow that face.
+    const bool comesBack = exit.face == entry && exit.fraction == 0.0 && active.count > 0;
+    if (neighbor.element >= 0 && !comesBack)
     {
+      entry = entryFace(mesh, neighbor);
       at.location = crossFace(mesh, at.location, exit.face);
       active = {};
     }
@@ -163,7 +193,7 @@ WorldVector SurfaceWalker::newtonStep(const Evaluated& at) const
   while (active.count < 2)
   {
     const ReferenceVector du = at.point.map.pull(step);
-    const Exit exit = findExit(domain, at.location.u, du, active);
+    const Exit exit = findExit(mesh, at.location, du, active);
     const bool blocked = exit.face >= 0 &&
       margin(facts(domain).faces[exit.face], at.location.u) < onFace &&
       mesh.neighbor(at.location.element, exit.face).element < 0;
