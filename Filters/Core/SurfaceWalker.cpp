@@ -117,6 +117,23 @@ int entryFace(const ElementMesh& mesh, const FaceNeighbor& neighbor)
     std::find_if(there.faces.begin(), there.faces.end(), holdsAll) - there.faces.begin());
 }
 
+bool onBoundary(const ElementMesh& mesh, const Location& location, int face)
+{
+  return mesh.neighbor(location.element, face).element < 0 &&
+    margin(facts(mesh.elements[location.element].domain).faces[face], location.u) < onFace;
+}
+
+/// \pre the place lies on one
+int firstBoundaryFace(const ElementMesh& mesh, const Location& location)
+{
+  int face = 0;
+  while (!onBoundary(mesh, location, face))
+  {
+    ++face;
+  }
+  return face;
+}
+
 } // namespace
 
 Evaluated SurfaceWalker::evaluate(const Location& location)
@@ -180,34 +197,41 @@ Location SurfaceWalker::move(const Evaluated& start, const WorldVector& step)
   return at.location;
 }
 
-WorldVector SurfaceWalker::newtonStep(const Evaluated& at) const
+/// The step of Newton's method. One that would leave through the boundary looks for the surface along
+/// the boundary instead, and so do those that follow (`alongWall`): an overshoot would otherwise send
+/// the next one back inside, past the rim.
+WorldVector SurfaceWalker::newtonStep(const Evaluated& at, bool& alongWall) const
 {
   const WorldVector& gradient = at.point.gradient;
   const double slope2 = dot(gradient, gradient);
   WorldVector step = (-at.point.value / slope2) * gradient;
 
-  // A step that would leave through the boundary looks for the surface along the boundary instead.
   const ElementMesh& mesh = *this->Surface.mesh;
   const Domain domain = mesh.elements[at.location.element].domain;
   ActiveFaces active;
-  while (active.count < 2)
+  const auto hold = [&](int face)
   {
-    const ReferenceVector du = at.point.map.pull(step);
-    const Exit exit = findExit(mesh, at.location, du, active);
-    const bool blocked = exit.face >= 0 &&
-      margin(facts(domain).faces[exit.face], at.location.u) < onFace &&
-      mesh.neighbor(at.location.element, exit.face).element < 0;
-    if (!blocked)
-    {
-      break;
-    }
-    active.add(exit.face);
+    active.add(face);
     const WorldVector along =
       at.point.map.push(pullAlong(domain, active, at.point.map, gradient));
     const double rate = dot(along, gradient);
     // Where the surface all but touches the boundary there is no curve to find.
     step = rate > 1e-6 * slope2 ? (-at.point.value / rate) * along : WorldVector{};
+  };
+  if (alongWall && boundaryFaceCount(mesh, at.location) == 1)
+  {
+    hold(firstBoundaryFace(mesh, at.location));
   }
+  while (active.count < 2)
+  {
+    const Exit exit = findExit(mesh, at.location, at.point.map.pull(step), active);
+    if (exit.face < 0 || !onBoundary(mesh, at.location, exit.face))
+    {
+      break;
+    }
+    hold(exit.face);
+  }
+  alongWall = active.count > 0;
   return step;
 }
 
@@ -215,6 +239,7 @@ bool SurfaceWalker::project(const Location& start, double maximumTravel, Evaluat
 {
   Evaluated at = this->evaluate(start);
   double travel = 0.0;
+  bool alongWall = false;
   for (int step = 0; step < MaximumNewtonSteps; ++step)
   {
     const double slope = length(at.point.gradient);
@@ -227,7 +252,7 @@ bool SurfaceWalker::project(const Location& start, double maximumTravel, Evaluat
       result = at;
       return true;
     }
-    const WorldVector motion = this->newtonStep(at);
+    const WorldVector motion = this->newtonStep(at, alongWall);
     travel += length(motion);
     if (!(travel > 0.0) || travel > maximumTravel)
     {
@@ -244,8 +269,7 @@ int boundaryFaceCount(const ElementMesh& mesh, const Location& location)
   int count = 0;
   for (int f = 0; f < static_cast<int>(faces.size()); ++f)
   {
-    count += margin(faces[f], location.u) < onFace &&
-      mesh.neighbor(location.element, f).element < 0;
+    count += onBoundary(mesh, location, f);
   }
   return count;
 }

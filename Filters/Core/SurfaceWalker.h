@@ -60,7 +60,7 @@ public:
   static constexpr int MaximumNewtonSteps = 25;
 
 private:
-  WorldVector newtonStep(const Evaluated& at) const;
+  WorldVector newtonStep(const Evaluated& at, bool& alongWall) const;
 
   Isosurface Surface;
   std::int64_t Evaluations = 0;
