@@ -538,7 +538,9 @@ int ClassicSystem::chooseLevels(double extent)
 
 bool ClassicSystem::tooMany(int levels)
 {
-  const double expected = static_cast<double>(this->Movers.size()) * std::pow(4.0, levels);
+  const double expected = this->Parameters.particleCount > 0
+    ? static_cast<double>(this->Parameters.particleCount)
+    : static_cast<double>(this->Movers.size()) * std::pow(4.0, levels);
   if (expected <= static_cast<double>(this->Parameters.particleLimit))
   {
     return false;
