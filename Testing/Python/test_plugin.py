@@ -1,25 +1,76 @@
-"""The plugin as ParaView sees it: its name, its proxies, their labels and defaults."""
+"""The plugin as ParaView sees it: its name, its proxies, their labels, menu and defaults."""
+
+import re
 
 import pytest
 from paraview import servermanager, simple
 
 NAME = "HighOrderParticleIsosurface"
+PROXIES = [("filters", NAME), ("representations", "SurfaceSplatRepresentation")]
 
 
-def prototype(group, name):
-    proxy = servermanager.ProxyManager().SMProxyManager.GetPrototypeProxy(group, name)
+def proxy_manager():
+    return servermanager.vtkSMProxyManager.GetProxyManager().GetActiveSessionProxyManager()
+
+
+def new_proxy(group, name):
+    proxy = proxy_manager().NewProxy(group, name)
     assert proxy is not None, f"no proxy {name} in group {group}"
     return proxy
 
 
+def state(vtk_object):
+    """What PrintSelf says of the object's own settings: {name: text}."""
+    lines = re.findall(r"^  ?(\w[\w ]*): (.*)$", str(vtk_object), re.MULTILINE)
+    return {name: value for name, value in lines if name != "Modified Time"}
+
+
 def test_plugin_is_loaded_under_its_name(plugin):
     manager = servermanager.vtkSMProxyManager.GetProxyManager().GetPluginManager()
-    loaded = manager.GetLocalInformation()
-    names = [loaded.GetPluginName(i) for i in range(loaded.GetNumberOfPlugins()) if loaded.GetPluginLoaded(i)]
-    assert NAME in names
+    known = manager.GetLocalInformation()
+    loaded = [known.GetPluginName(i) for i in range(known.GetNumberOfPlugins()) if known.GetPluginLoaded(i)]
+    assert NAME in loaded
     assert plugin.name == NAME + ".so"
 
 
-def test_filter_is_a_filter_with_its_label():
-    assert prototype("filters", NAME).GetXMLLabel() == "High-Order Particle Isosurface"
+def test_filter_has_its_label_and_its_place_in_the_filters_menu():
+    proxy = new_proxy("filters", NAME)
+    assert proxy.GetXMLLabel() == "High-Order Particle Isosurface"
+    hints = proxy.GetHints()
+    assert hints is not None and hints.FindNestedElementByName("ShowInMenu") is not None
     assert callable(getattr(simple, NAME))
+
+
+def test_filter_speaks_the_names_of_contour():
+    properties = getattr(simple, NAME)(Input=simple.UnstructuredCellTypes()).ListProperties()
+    wanted = {"ContourBy", "Isosurfaces", "Spacing", "AngularDensity", "Tolerance", "Method", "Seed"}
+    assert wanted <= set(properties)
+
+
+@pytest.mark.parametrize("source, fits", [
+    (simple.UnstructuredCellTypes, True),  # an unstructured grid
+    (simple.Sphere, False),  # polygons
+    (simple.Wavelet, False),  # an image
+])
+def test_filter_is_enabled_for_unstructured_grids_only(source, fits):
+    made = source()
+    made.UpdatePipeline()
+    selected = new_proxy("filters", NAME).GetProperty("Input")
+    selected.AddUncheckedInputConnection(made.SMProxy, 0)
+    assert bool(selected.IsInDomains()) == fits
+
+
+def test_representation_is_offered_for_particles():
+    representation = simple.Show(simple.Sphere(), simple.CreateView("RenderView"))
+    assert "Surface Splats" in representation.GetProperty("Representation").Available
+
+
+@pytest.mark.parametrize("group, name", PROXIES)
+def test_defaults_of_the_xml_are_those_of_the_class(group, name):
+    proxy = new_proxy(group, name)
+    vtk_object = proxy.GetClientSideObject()
+    of_the_class = state(vtk_object)
+    assert len(of_the_class) > 3, "PrintSelf says too little to compare"
+    proxy.MarkAllPropertiesAsModified()
+    proxy.UpdateVTKObjects()
+    assert state(vtk_object) == of_the_class
