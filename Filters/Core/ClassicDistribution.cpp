@@ -94,7 +94,9 @@ private:
   bool overlapsEarlier(std::size_t i) const;
   bool addBeside(const Mover& parent, double distance, double angle);
   void splitByFour(double oldSpacing);
+  double excessEnergy() const;
   void followEnergy();
+  void balancePopulation();
   void forceCount(std::size_t count);
   int chooseLevels(double extent);
   bool tooMany(int levels);
@@ -424,24 +426,43 @@ bool ClassicSystem::changePopulation()
   return true;
 }
 
+/// By how much the mean energy exceeds the ideal one, as a relative change of spacing: in hexagonal
+/// packing dE/ds = -6 E'(beta) beta / s.
+double ClassicSystem::excessEnergy() const
+{
+  constexpr double neighbors = 6.0;
+  const double slope =
+    -neighbors * pairEnergyDerivative(HexagonalDistance) * HexagonalDistance / idealEnergy();
+  double energy = 0.0;
+  double ideal = 0.0;
+  for (const Mover& m : this->Movers)
+  {
+    energy += m.energy;
+    ideal += m.ideal;
+  }
+  return ideal > 0.0 ? (energy / ideal - 1.0) / slope : 0.0;
+}
+
 /// With a fixed number of particles the spacing changes until their mean energy is the ideal one.
 void ClassicSystem::followEnergy()
 {
-  double excess = 0.0;
-  for (const Mover& m : this->Movers)
-  {
-    excess += (m.energy - m.ideal) / m.ideal / static_cast<double>(this->Movers.size());
-  }
-  // In hexagonal packing dE/ds = -6 E'(beta) beta / s.
-  const double slope =
-    -6.0 * pairEnergyDerivative(HexagonalDistance) * HexagonalDistance / idealEnergy();
-  this->Law.spacing *= 1.0 - std::clamp(excess / slope, -0.1, 0.1);
+  this->Law.spacing *= 1.0 - std::clamp(this->excessEnergy(), -0.1, 0.1);
+}
+
+/// The biased coin is content while every energy is above 0.65 of the ideal one: evenly so with an
+/// eighth too few particles. This takes the population to where the mean energy is ideal.
+void ClassicSystem::balancePopulation()
+{
+  const double change = std::clamp(-2.0 * this->excessEnergy(), -0.2, 0.2);
+  this->forceCount(static_cast<std::size_t>(
+    std::llround((1.0 + change) * static_cast<double>(this->Movers.size()))));
 }
 
 /// Relaxes, and changes the population unless the number of particles is fixed, until settled.
 void ClassicSystem::relaxLevel(int maximumRounds, bool fixedNumber)
 {
   this->Report.converged = true;
+  bool balanced = false;
   for (int round = 0; round < maximumRounds; ++round)
   {
     double last = 0.0;
@@ -469,7 +490,12 @@ void ClassicSystem::relaxLevel(int maximumRounds, bool fixedNumber)
     }
     if (fixedNumber ? steady : !this->changePopulation())
     {
-      return;
+      if (fixedNumber || balanced)
+      {
+        return;
+      }
+      this->balancePopulation();
+      balanced = true;
     }
   }
   this->Report.converged = false;
