@@ -1,12 +1,17 @@
 #include "CellBases.h"
 
+#include "Bernstein.h"
+#include "Random.h"
+
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDataArray.h"
 #include "vtkGenericCell.h"
 #include "vtkNew.h"
+#include "vtkSmartPointer.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -16,33 +21,56 @@ namespace
 
 constexpr hop::Degrees degreesFromCount{ 0, 0, 0 };
 
+bool isBezier(int cellType)
+{
+  return cellType == VTK_BEZIER_HEXAHEDRON || cellType == VTK_BEZIER_TETRAHEDRON ||
+    cellType == VTK_BEZIER_WEDGE;
+}
+
 bool isLagrange(int cellType)
 {
   return cellType == VTK_LAGRANGE_HEXAHEDRON || cellType == VTK_LAGRANGE_TETRAHEDRON ||
     cellType == VTK_LAGRANGE_WEDGE;
 }
 
-/// Cell types whose nodes fill a Lagrange lattice, by the domain on which they live.
+/// The domain on which cells of a type are polynomial.
 std::optional<hop::Domain> domainOf(int cellType)
 {
   switch (cellType)
   {
     case VTK_HEXAHEDRON:
     case VTK_VOXEL:
+    case VTK_QUADRATIC_HEXAHEDRON:
+    case VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON:
     case VTK_TRIQUADRATIC_HEXAHEDRON:
     case VTK_LAGRANGE_HEXAHEDRON:
+    case VTK_BEZIER_HEXAHEDRON:
+    case VTK_PYRAMID:
+    case VTK_QUADRATIC_PYRAMID:
+    case VTK_TRIQUADRATIC_PYRAMID:
       return hop::Domain::Hexahedron;
     case VTK_TETRA:
     case VTK_QUADRATIC_TETRA:
     case VTK_LAGRANGE_TETRAHEDRON:
+    case VTK_BEZIER_TETRAHEDRON:
       return hop::Domain::Tetrahedron;
     case VTK_WEDGE:
+    case VTK_QUADRATIC_WEDGE:
+    case VTK_QUADRATIC_LINEAR_WEDGE:
     case VTK_BIQUADRATIC_QUADRATIC_WEDGE:
     case VTK_LAGRANGE_WEDGE:
+    case VTK_BEZIER_WEDGE:
       return hop::Domain::Wedge;
     default:
       return {};
   }
+}
+
+/// Lagrange cells whose points do not fill a lattice, but which VTK knows all the same.
+bool isEnriched(int cellType, vtkIdType points)
+{
+  return (cellType == VTK_LAGRANGE_TETRAHEDRON && points == 15) ||
+    (cellType == VTK_LAGRANGE_WEDGE && points == 21);
 }
 
 /// The degree at which the domain has that many nodes, or the given degrees if they have.
@@ -51,13 +79,13 @@ std::optional<hop::Degrees> fittingDegrees(
 {
   if (given != degreesFromCount)
   {
-    const bool inRange = std::min({ given[0], given[1], given[2] }) >= 1 &&
-      std::max({ given[0], given[1], given[2] }) <= hop::MaximumDegree;
-    return inRange && hop::coefficientCount(domain, given) == nodes
+    const auto [lowest, highest] = std::minmax_element(given.begin(), given.end());
+    return *lowest >= 1 && *highest <= hop::MaximumInputDegree &&
+        hop::coefficientCount(domain, given) == nodes
       ? std::optional<hop::Degrees>(given)
       : std::nullopt;
   }
-  for (int p = 1; p <= hop::MaximumDegree; ++p)
+  for (int p = 1; p <= hop::MaximumInputDegree; ++p)
   {
     if (hop::coefficientCount(domain, { p, p, p }) == nodes)
     {
@@ -67,10 +95,92 @@ std::optional<hop::Degrees> fittingDegrees(
   return {};
 }
 
+/// Number of points of a cell type that has but one.
+vtkIdType usualPointCount(int cellType)
+{
+  return vtk::TakeSmartPointer(vtkGenericCell::InstantiateCell(cellType))->GetNumberOfPoints();
+}
+
+std::vector<double> shapeFunctions(vtkCell* cell, const hop::ReferencePoint& u)
+{
+  // VTK's cells write as many values as they have points, some a few more.
+  std::vector<double> weights(cell->GetNumberOfPoints() + 32);
+  const hop::ReferencePoint parametric = parametricCoordinates(cell->GetCellType(), u);
+  cell->InterpolateFunctions(&parametric.xyz.x, weights.data());
+  weights.resize(cell->GetNumberOfPoints());
+  return weights;
+}
+
+/// Whether a basis gives back VTK's shape functions away from the points where it was sampled.
+bool reproduces(vtkCell* cell, const hop::NodalBasis& basis)
+{
+  constexpr int trials = 20;
+  constexpr double tolerance = 1e-9;
+  const int nodes = basis.nodeCount();
+  std::vector<double> unit(static_cast<std::size_t>(nodes) * nodes, 0.0);
+  for (int node = 0; node < nodes; ++node)
+  {
+    unit[node * nodes + node] = 1.0;
+  }
+  std::vector<double> coefficients(static_cast<std::size_t>(basis.coefficientCount()) * nodes);
+  basis.toBernstein(unit.data(), nodes, coefficients.data());
+  std::vector<double> bernstein(basis.coefficientCount());
+  hop::Random random(1);
+  for (int trial = 0; trial < trials; ++trial)
+  {
+    // In every domain, simplices included.
+    const hop::ReferencePoint u{ glm::dvec3(
+      random.uniform() / 3.0, random.uniform() / 3.0, random.uniform() / 3.0) };
+    hop::evaluateBasis(basis.domain(), basis.degrees(), u, bernstein.data());
+    const std::vector<double> expected = shapeFunctions(cell, u);
+    for (int node = 0; node < nodes; ++node)
+    {
+      double value = 0.0;
+      for (int i = 0; i < basis.coefficientCount(); ++i)
+      {
+        value += bernstein[i] * coefficients[i * nodes + node];
+      }
+      if (!(std::abs(value - expected[node]) < tolerance))
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// VTK's own shape functions in the Bernstein basis of the lowest degree that holds them.
+std::shared_ptr<const CellBasis> sampleBasis(vtkCell* cell, hop::Domain domain)
+{
+  constexpr hop::Degrees candidates[] = { { 1, 1, 1 }, { 2, 2, 1 }, { 2, 2, 2 }, { 3, 3, 3 },
+    { 4, 4, 4 } };
+  for (const hop::Degrees& degrees : candidates)
+  {
+    if (domain == hop::Domain::Tetrahedron && degrees[0] != degrees[2])
+    {
+      continue;
+    }
+    std::vector<double> samples;
+    for (const hop::LatticePoint& point : hop::latticePoints(domain, degrees))
+    {
+      const std::vector<double> values =
+        shapeFunctions(cell, hop::latticePosition(degrees, point));
+      samples.insert(samples.end(), values.begin(), values.end());
+    }
+    const hop::NodalBasis basis = hop::NodalBasis::sampled(domain, degrees, samples);
+    if (reproduces(cell, basis))
+    {
+      return std::make_shared<const CellBasis>(CellBasis{ basis, false });
+    }
+  }
+  return nullptr;
+}
+
 } // namespace
 
-CellBases::CellBases(vtkUnstructuredGrid* grid)
+CellBases::CellBases(vtkUnstructuredGrid* grid, hop::NodeSpacing spacing)
   : Grid(grid)
+  , Spacing(spacing)
   , HigherOrderDegrees(grid->GetCellData()->GetHigherOrderDegrees())
 {
 }
@@ -78,8 +188,9 @@ CellBases::CellBases(vtkUnstructuredGrid* grid)
 /// The degrees that the file gives for this cell; zeros if it leaves them to the number of points.
 hop::Degrees CellBases::explicitDegrees(vtkIdType cell) const
 {
+  const int type = this->Grid->GetCellType(cell);
   if (!this->HigherOrderDegrees || this->HigherOrderDegrees->GetNumberOfComponents() != 3 ||
-    !isLagrange(this->Grid->GetCellType(cell)))
+    !(isLagrange(type) || isBezier(type)))
   {
     return degreesFromCount;
   }
@@ -88,7 +199,7 @@ hop::Degrees CellBases::explicitDegrees(vtkIdType cell) const
   return { static_cast<int>(tuple[0]), static_cast<int>(tuple[1]), static_cast<int>(tuple[2]) };
 }
 
-std::shared_ptr<const hop::NodalBasis> CellBases::basisOf(vtkIdType cell)
+std::shared_ptr<const CellBasis> CellBases::basisOf(vtkIdType cell)
 {
   const Key key{ this->Grid->GetCellType(cell), this->Grid->GetCellSize(cell),
     this->explicitDegrees(cell) };
@@ -100,35 +211,58 @@ std::shared_ptr<const hop::NodalBasis> CellBases::basisOf(vtkIdType cell)
   return entry->second;
 }
 
-std::shared_ptr<const hop::NodalBasis> CellBases::makeBasis(vtkIdType cell, const Key& key) const
+std::shared_ptr<const CellBasis> CellBases::makeBasis(vtkIdType cell, const Key& key) const
 {
-  const auto& [type, nodes, given] = key;
+  const auto& [type, points, given] = key;
   const std::optional<hop::Domain> domain = domainOf(type);
-  if (!domain)
+  const bool onLattice = (isLagrange(type) || isBezier(type)) && !isEnriched(type, points);
+  // VTK's cells do not survive a wrong number of points: they are asked for after the check only.
+  if (!domain || (onLattice && !fittingDegrees(*domain, given, points)))
   {
     return nullptr;
   }
-  const std::optional<hop::Degrees> degrees = fittingDegrees(*domain, given, nodes);
-  if (!degrees)
+  if (!onLattice && !isEnriched(type, points) && points != usualPointCount(type))
   {
     return nullptr;
   }
   vtkNew<vtkGenericCell> vtk;
   this->Grid->GetCell(cell, vtk);
-  const double* parametric = vtk->GetParametricCoords();
-  std::vector<hop::LatticePoint> order;
-  for (vtkIdType node = 0; parametric && node < nodes; ++node)
-  {
-    const auto onLattice = [&](int axis)
-    { return static_cast<int>(std::lround(parametric[3 * node + axis] * (*degrees)[axis])); };
-    order.push_back({ onLattice(0), onLattice(1), onLattice(2) });
-  }
   try
   {
-    return std::make_shared<const hop::NodalBasis>(*domain, *degrees, order);
+    return onLattice ? this->makeLatticeBasis(vtk, key) : sampleBasis(vtk, *domain);
   }
   catch (const std::invalid_argument&)
   {
-    return nullptr; // nodes that do not fill the lattice: no Lagrange cell after all
+    return nullptr;
   }
+}
+
+std::shared_ptr<const CellBasis> CellBases::makeLatticeBasis(vtkCell* vtk, const Key& key) const
+{
+  const auto& [type, points, given] = key;
+  const hop::Domain domain = *domainOf(type);
+  const hop::Degrees degrees = *fittingDegrees(domain, given, points);
+  const double* parametric = vtk->GetParametricCoords();
+  std::vector<hop::LatticePoint> order;
+  for (vtkIdType node = 0; parametric && node < points; ++node)
+  {
+    const auto onLattice = [&](int axis)
+    { return static_cast<int>(std::lround(parametric[3 * node + axis] * degrees[axis])); };
+    order.push_back({ onLattice(0), onLattice(1), onLattice(2) });
+  }
+  return std::make_shared<const CellBasis>(isBezier(type)
+      ? CellBasis{ hop::NodalBasis::bezier(domain, degrees, order), true }
+      : CellBasis{ hop::NodalBasis::lagrange(domain, degrees, order, this->Spacing), false });
+}
+
+hop::ReferencePoint parametricCoordinates(int cellType, const hop::ReferencePoint& u)
+{
+  if (cellType != VTK_TRIQUADRATIC_PYRAMID)
+  {
+    return u;
+  }
+  // Base at height 1/2, apex above its middle at height 1.
+  const glm::dvec2 shrunk =
+    (1.0 - u.xyz.z) * glm::dvec2(u.xyz) + u.xyz.z * glm::dvec2(0.5, 0.5);
+  return { { shrunk.x, shrunk.y, 0.5 + 0.5 * u.xyz.z } };
 }

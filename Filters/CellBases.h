@@ -1,6 +1,7 @@
 #pragma once
 
 #include "NodalBasis.h"
+#include "Space.h"
 
 #include "vtkType.h"
 
@@ -8,28 +9,47 @@
 #include <memory>
 #include <tuple>
 
+class vtkCell;
 class vtkDataArray;
 class vtkUnstructuredGrid;
 
-/// The nodal bases of a grid's cells: one a combination of cell type and degrees, shared by all
-/// cells of that kind. The order of the nodes is asked from VTK's own cells, through their
-/// parametric coordinates, so that VTK stays the one authority on it.
+/// How the cells of one kind are rewritten as elements.
+struct CellBasis
+{
+  hop::NodalBasis basis;
+  /// Bezier: nodal values are Bernstein coefficients, and the grid's RationalWeights apply.
+  bool bezier = false;
+};
+
+/// The bases of a grid's cells: one a combination of cell type, number of points and degrees, shared
+/// by all cells of that kind. VTK stays the one authority on its cells: the order of the nodes of
+/// Lagrange and Bezier cells comes from their parametric coordinates, and the shape functions of all
+/// other cells are sampled from VTK's own InterpolateFunctions.
+///
+/// Pyramids live on the hexahedron's domain, as in VTK's parametric coordinates, where their shape
+/// functions are polynomial: its upper face collapses to the apex.
 class CellBases
 {
 public:
-  explicit CellBases(vtkUnstructuredGrid* grid);
+  CellBases(vtkUnstructuredGrid* grid, hop::NodeSpacing spacing);
 
   /// The basis of a cell, or nullptr: its type is not supported, or its number of points does not
   /// fit its degrees. Not for several threads at once.
-  std::shared_ptr<const hop::NodalBasis> basisOf(vtkIdType cell);
+  std::shared_ptr<const CellBasis> basisOf(vtkIdType cell);
 
 private:
   using Key = std::tuple<int, vtkIdType, hop::Degrees>;
 
   hop::Degrees explicitDegrees(vtkIdType cell) const;
-  std::shared_ptr<const hop::NodalBasis> makeBasis(vtkIdType cell, const Key& key) const;
+  std::shared_ptr<const CellBasis> makeBasis(vtkIdType cell, const Key& key) const;
+  std::shared_ptr<const CellBasis> makeLatticeBasis(vtkCell* vtk, const Key& key) const;
 
   vtkUnstructuredGrid* Grid;
+  hop::NodeSpacing Spacing;
   vtkDataArray* HigherOrderDegrees;
-  std::map<Key, std::shared_ptr<const hop::NodalBasis>> Known;
+  std::map<Key, std::shared_ptr<const CellBasis>> Known;
 };
+
+/// VTK's parametric coordinates of a cell of that type at a reference point. They are the reference
+/// coordinates themselves except for the 19-node pyramid, whose own are those of a true pyramid.
+hop::ReferencePoint parametricCoordinates(int cellType, const hop::ReferencePoint& u);

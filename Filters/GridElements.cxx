@@ -1,5 +1,6 @@
 #include "GridElements.h"
 
+#include "BernsteinProduct.h"
 #include "SurfaceGeometry.h"
 
 #include "vtkCellArray.h"
@@ -9,6 +10,7 @@
 #include "vtkDataSetAttributes.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
+#include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
@@ -19,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <sstream>
 
 namespace
@@ -30,38 +33,57 @@ enum class Verdict : char
   Drop,
   BrokenConnectivity,
   NotFinite,
+  BadWeights,
   Unsupported,
   Hidden
+};
+
+/// What is read of one cell.
+struct CellValues
+{
+  vtkNew<vtkIdList> ids;
+  /// Nodal values of the field, `components` a node: one, or all of a vector's for its magnitude.
+  std::vector<double> field;
+  /// Empty unless the cell is rational.
+  std::vector<double> weights;
 };
 
 class Builder
 {
 public:
-  Builder(vtkUnstructuredGrid* grid, vtkDataArray* scalars, const std::vector<double>& isovalues,
-    const hop::ParallelFor& parallelFor)
+  Builder(vtkUnstructuredGrid* grid, const ScalarChoice& scalars, hop::NodeSpacing spacing,
+    const std::vector<double>& isovalues, const hop::ParallelFor& parallelFor)
     : Grid(grid)
     , Scalars(scalars)
+    , Spacing(spacing)
     , Isovalues(isovalues)
     , Parallel(parallelFor)
   {
+    this->Result.squared = scalars.component == ScalarChoice::Magnitude;
+    this->Components = this->Result.squared ? scalars.array->GetNumberOfComponents() : 1;
+    this->Result.rationalWeights = grid->GetPointData()->GetRationalWeights();
   }
 
   GridElements build();
 
 private:
   void judgeCells();
-  Verdict judge(vtkIdList* ids, std::vector<double>& values) const;
+  Verdict read(vtkIdType cell, const CellBasis& basis, CellValues& values) const;
   void count(const std::vector<Verdict>& verdicts);
   void convertElements();
-  void convert(int element, vtkIdList* ids);
+  void convert(int element, CellValues& values);
   void numberCorners();
   void dropCollapsed();
-  bool canHoldSurface(const hop::NodalBasis& basis, const std::vector<double>& values) const;
+  bool canHoldSurface(const CellBasis& basis, const CellValues& values) const;
+  bool straddles(double lower, double upper) const;
+  hop::Degrees elementDegrees(const hop::NodalBasis& basis) const;
 
   vtkUnstructuredGrid* Grid;
-  vtkDataArray* Scalars;
+  ScalarChoice Scalars;
+  hop::NodeSpacing Spacing;
   const std::vector<double>& Isovalues;
   const hop::ParallelFor& Parallel;
+  int Components = 1;
   GridElements Result;
   std::vector<hop::JacobianSign> Signs;
   double Tolerance = 0.0;
@@ -77,12 +99,19 @@ GridElements Builder::build()
   return std::move(this->Result);
 }
 
+/// Squares have twice the degree.
+hop::Degrees Builder::elementDegrees(const hop::NodalBasis& basis) const
+{
+  const hop::Degrees& d = basis.degrees();
+  return this->Result.squared ? hop::Degrees{ 2 * d[0], 2 * d[1], 2 * d[2] } : d;
+}
+
 /// Sorts out which cells become elements. Only values are read here, not coordinates.
 void Builder::judgeCells()
 {
   const vtkIdType cells = this->Grid->GetNumberOfCells();
-  CellBases known(this->Grid);
-  std::vector<std::shared_ptr<const hop::NodalBasis>> bases(cells);
+  CellBases known(this->Grid, this->Spacing);
+  std::vector<std::shared_ptr<const CellBasis>> bases(cells);
   for (vtkIdType cell = 0; cell < cells; ++cell)
   {
     bases[cell] = known.basisOf(cell);
@@ -92,8 +121,7 @@ void Builder::judgeCells()
   hop::runParallel(this->Parallel, cells,
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
-      vtkNew<vtkIdList> ids;
-      std::vector<double> values;
+      CellValues values;
       for (std::ptrdiff_t cell = begin; cell < end; ++cell)
       {
         if (ghosts && (ghosts->GetValue(cell) & vtkDataSetAttributes::HIDDENCELL))
@@ -102,9 +130,7 @@ void Builder::judgeCells()
         }
         else if (bases[cell])
         {
-          this->Grid->GetCells()->GetCellAtId(cell, ids);
-          values.resize(ids->GetNumberOfIds());
-          verdicts[cell] = this->judge(ids, values);
+          verdicts[cell] = this->read(cell, *bases[cell], values);
           if (verdicts[cell] == Verdict::Keep && !this->canHoldSurface(*bases[cell], values))
           {
             verdicts[cell] = Verdict::Drop;
@@ -113,64 +139,96 @@ void Builder::judgeCells()
       }
     });
   this->count(verdicts);
+  hop::ElementMesh& mesh = this->Result.mesh;
   std::size_t coefficients = 0;
   for (vtkIdType cell = 0; cell < cells; ++cell)
   {
     if (verdicts[cell] == Verdict::Keep)
     {
       hop::Element element;
-      element.domain = bases[cell]->domain();
-      element.degrees = bases[cell]->degrees();
+      element.domain = bases[cell]->basis.domain();
+      element.degrees = this->elementDegrees(bases[cell]->basis);
       element.firstCoefficient = coefficients;
+      element.rational = bases[cell]->bezier && this->Result.rationalWeights;
       element.cell = cell;
-      coefficients += bases[cell]->nodeCount();
-      this->Result.mesh.elements.push_back(element);
+      coefficients += hop::coefficientCount(element.domain, element.degrees);
+      mesh.elements.push_back(element);
       this->Result.bases.push_back(bases[cell]);
     }
   }
-  this->Result.mesh.coefficients.resize(coefficients);
+  mesh.coefficients.resize(coefficients);
+  mesh.weights.resize(this->Result.rationalWeights ? coefficients : 0);
 }
 
-Verdict Builder::judge(vtkIdList* ids, std::vector<double>& values) const
+Verdict Builder::read(vtkIdType cell, const CellBasis& basis, CellValues& values) const
 {
+  this->Grid->GetCells()->GetCellAtId(cell, values.ids);
+  const vtkIdType nodes = values.ids->GetNumberOfIds();
   const vtkIdType points = this->Grid->GetNumberOfPoints();
-  for (vtkIdType node = 0; node < ids->GetNumberOfIds(); ++node)
+  values.field.clear();
+  values.weights.clear();
+  for (vtkIdType node = 0; node < nodes; ++node)
   {
-    const vtkIdType id = ids->GetId(node);
+    const vtkIdType id = values.ids->GetId(node);
     if (id < 0 || id >= points)
     {
       return Verdict::BrokenConnectivity;
     }
-    values[node] = this->Scalars->GetComponent(id, 0);
-    if (!std::isfinite(values[node]))
+    for (int c = 0; c < this->Components; ++c)
     {
-      return Verdict::NotFinite;
+      const int component = this->Result.squared ? c : this->Scalars.component;
+      values.field.push_back(this->Scalars.array->GetComponent(id, component));
+      if (!std::isfinite(values.field.back()))
+      {
+        return Verdict::NotFinite;
+      }
+    }
+    if (basis.bezier && this->Result.rationalWeights)
+    {
+      values.weights.push_back(this->Result.rationalWeights->GetComponent(id, 0));
+      if (!(values.weights.back() > 0.0) || !std::isfinite(values.weights.back()))
+      {
+        return Verdict::BadWeights;
+      }
     }
   }
   return Verdict::Keep;
 }
 
-/// Nodal values on both sides of an isovalue decide at once; else the convex hull of the Bernstein
-/// coefficients does, widened by the rounding errors of the conversion.
-bool Builder::canHoldSurface(
-  const hop::NodalBasis& basis, const std::vector<double>& values) const
+bool Builder::straddles(double lower, double upper) const
 {
-  const auto straddles = [this](double lower, double upper)
-  {
-    return std::any_of(this->Isovalues.begin(), this->Isovalues.end(),
-      [&](double c) { return lower <= c && c <= upper; });
-  };
-  const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
-  if (straddles(*lowest, *highest))
+  return std::any_of(this->Isovalues.begin(), this->Isovalues.end(),
+    [&](double c) { return lower <= c && c <= upper; });
+}
+
+/// Nodal values on both sides of an isovalue decide at once; else the convex hull of the Bernstein
+/// coefficients does, widened by the rounding errors of the conversion. A magnitude is no larger
+/// than the longest control vector. Positive weights change no hull.
+bool Builder::canHoldSurface(const CellBasis& cell, const CellValues& values) const
+{
+  const auto [lowest, highest] = std::minmax_element(values.field.begin(), values.field.end());
+  if (!this->Result.squared && this->straddles(*lowest, *highest))
   {
     return true;
   }
-  std::vector<double> coefficients(values.size());
-  basis.toBernstein(values.data(), 1, coefficients.data());
-  const auto [lower, upper] = std::minmax_element(coefficients.begin(), coefficients.end());
-  const double slack = 8.0 * std::numeric_limits<double>::epsilon() * basis.conversionNorm() *
-    std::max(std::abs(*lowest), std::abs(*highest));
-  return straddles(*lower - slack, *upper + slack);
+  std::vector<double> control(
+    static_cast<std::size_t>(cell.basis.coefficientCount()) * this->Components);
+  cell.basis.toBernstein(values.field.data(), this->Components, control.data());
+  const double slack = 8.0 * std::numeric_limits<double>::epsilon() *
+    cell.basis.conversionNorm() * std::max(std::abs(*lowest), std::abs(*highest));
+  if (!this->Result.squared)
+  {
+    const auto [lower, upper] = std::minmax_element(control.begin(), control.end());
+    return this->straddles(*lower - slack, *upper + slack);
+  }
+  double longest2 = 0.0;
+  for (std::size_t i = 0; i < control.size(); i += this->Components)
+  {
+    longest2 = std::max(longest2,
+      std::inner_product(
+        &control[i], &control[i] + this->Components, &control[i], 0.0));
+  }
+  return this->straddles(0.0, std::sqrt(longest2) + this->Components * slack);
 }
 
 void Builder::count(const std::vector<Verdict>& verdicts)
@@ -192,6 +250,9 @@ void Builder::count(const std::vector<Verdict>& verdicts)
       case Verdict::NotFinite:
         census.notFinite.add(cell);
         break;
+      case Verdict::BadWeights:
+        census.badWeights.add(cell);
+        break;
       default:
         break;
     }
@@ -205,27 +266,67 @@ void Builder::convertElements()
   hop::runParallel(this->Parallel, static_cast<std::ptrdiff_t>(mesh.elements.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
-      vtkNew<vtkIdList> ids;
+      CellValues values;
       for (std::ptrdiff_t e = begin; e < end; ++e)
       {
-        this->convert(static_cast<int>(e), ids);
+        this->convert(static_cast<int>(e), values);
         this->Signs[e] = hop::jacobianSign(mesh.form(static_cast<int>(e)));
       }
     });
 }
 
-void Builder::convert(int element, vtkIdList* ids)
+/// Writes an element's coefficients: homogeneous ones and their weights for a rational cell, those of
+/// the squared magnitude where that is the field.
+void Builder::convert(int element, CellValues& values)
 {
-  const hop::Element& e = this->Result.mesh.elements[element];
-  this->Grid->GetCells()->GetCellAtId(e.cell, ids);
-  std::vector<hop::Coefficient> nodal(ids->GetNumberOfIds());
-  for (vtkIdType node = 0; node < ids->GetNumberOfIds(); ++node)
+  hop::ElementMesh& mesh = this->Result.mesh;
+  const hop::Element& e = mesh.elements[element];
+  const CellBasis& cell = *this->Result.bases[element];
+  this->read(e.cell, cell, values);
+
+  // x, y, z, then the field; all times the weight.
+  const int width = 3 + this->Components;
+  const int nodes = cell.basis.nodeCount();
+  std::vector<double> nodal(static_cast<std::size_t>(nodes) * width);
+  for (int node = 0; node < nodes; ++node)
   {
-    this->Grid->GetPoints()->GetPoint(ids->GetId(node), &nodal[node].x);
-    nodal[node].w = this->Scalars->GetComponent(ids->GetId(node), 0);
+    double* row = &nodal[static_cast<std::size_t>(node) * width];
+    this->Grid->GetPoints()->GetPoint(values.ids->GetId(node), row);
+    std::copy_n(&values.field[static_cast<std::size_t>(node) * this->Components],
+      this->Components, row + 3);
+    if (e.rational)
+    {
+      std::transform(
+        row, row + width, row, [w = values.weights[node]](double value) { return w * value; });
+    }
   }
-  this->Result.bases[element]->toBernstein(
-    &nodal[0].x, 4, &this->Result.mesh.coefficients[e.firstCoefficient].x);
+  const int count = cell.basis.coefficientCount();
+  std::vector<double> control(static_cast<std::size_t>(count) * width);
+  cell.basis.toBernstein(nodal.data(), width, control.data());
+  std::vector<double> weights(count, 1.0);
+  if (e.rational)
+  {
+    cell.basis.toBernstein(values.weights.data(), 1, weights.data());
+  }
+
+  hop::Coefficient* coefficients = &mesh.coefficients[e.firstCoefficient];
+  if (this->Result.squared)
+  {
+    weights = hop::squareField(cell.basis.domain(), cell.basis.degrees(), width, control, weights,
+      coefficients);
+  }
+  else
+  {
+    for (int i = 0; i < count; ++i)
+    {
+      coefficients[i] = { control[4 * i], control[4 * i + 1], control[4 * i + 2],
+        control[4 * i + 3] };
+    }
+  }
+  if (e.rational)
+  {
+    std::copy(weights.begin(), weights.end(), &mesh.weights[e.firstCoefficient]);
+  }
 }
 
 /// Takes out elements without volume and those whose coordinates are not finite.
@@ -273,8 +374,9 @@ void Builder::numberCorners()
     glm::dvec3 previous;
     for (int c = 0; c < static_cast<int>(hop::facts(form.domain).corners.size()); ++c)
     {
-      const glm::dvec3 x(form.coefficients[hop::coefficientIndex(form.domain, form.degrees,
-        hop::cornerLatticePoint(form.domain, form.degrees, c))]);
+      const glm::dvec3 x(hop::controlPoint(form,
+        hop::coefficientIndex(form.domain, form.degrees,
+          hop::cornerLatticePoint(form.domain, form.degrees, c))));
       corners->InsertNextPoint(x.x, x.y, x.z);
       largest = std::max({ largest, std::abs(x.x), std::abs(x.y), std::abs(x.z) });
       const double edge = c > 0 ? glm::distance(x, previous) : 0.0;
@@ -321,7 +423,8 @@ void describeCells(std::ostream& text, const SkippedCells& cells, const std::str
 
 vtkIdType CellCensus::skipped() const
 {
-  vtkIdType sum = this->brokenConnectivity.count + this->notFinite.count + this->collapsed.count;
+  vtkIdType sum = this->brokenConnectivity.count + this->notFinite.count +
+    this->badWeights.count + this->collapsed.count;
   for (const auto& [type, cells] : this->unsupported)
   {
     sum += cells.count;
@@ -337,17 +440,19 @@ std::string CellCensus::describe() const
     describeCells(text, cells,
       std::string("of type ") + vtkCellTypes::GetClassNameFromTypeId(type) +
         " skipped: not a supported 3-D cell, or its number of points fits no degree up to " +
-        std::to_string(hop::MaximumDegree));
+        std::to_string(hop::MaximumInputDegree));
   }
   describeCells(text, this->brokenConnectivity, "skipped: point ids outside the grid");
   describeCells(text, this->notFinite, "skipped: coordinates or values that are NaN or infinite");
+  describeCells(text, this->badWeights, "skipped: RationalWeights that are not positive");
   describeCells(text, this->collapsed, "skipped: without volume");
   describeCells(text, this->folded, "kept, but partly inverted: the Jacobian changes its sign");
   return text.str();
 }
 
-GridElements buildGridElements(vtkUnstructuredGrid* grid, vtkDataArray* scalars,
-  const std::vector<double>& isovalues, const hop::ParallelFor& parallelFor)
+GridElements buildGridElements(vtkUnstructuredGrid* grid, const ScalarChoice& scalars,
+  hop::NodeSpacing spacing, const std::vector<double>& isovalues,
+  const hop::ParallelFor& parallelFor)
 {
-  return Builder(grid, scalars, isovalues, parallelFor).build();
+  return Builder(grid, scalars, spacing, isovalues, parallelFor).build();
 }

@@ -11,6 +11,15 @@
 class vtkDataArray;
 class vtkUnstructuredGrid;
 
+/// What to contour by: a point array's component, or the magnitude of its tuples.
+struct ScalarChoice
+{
+  static constexpr int Magnitude = -1;
+
+  vtkDataArray* array = nullptr;
+  int component = 0;
+};
+
 /// Cells that were left out, for one reason: how many, and the first.
 struct SkippedCells
 {
@@ -34,6 +43,8 @@ struct CellCensus
   SkippedCells brokenConnectivity;
   /// Coordinates or values that are NaN or infinite.
   SkippedCells notFinite;
+  /// Rational Bezier cells with weights that are not positive.
+  SkippedCells badWeights;
   /// Jacobian determinant zero wherever it was looked at.
   SkippedCells collapsed;
   /// Kept, but the Jacobian determinant changes its sign: partly inverted.
@@ -50,11 +61,22 @@ struct GridElements
 {
   hop::ElementMesh mesh;
   /// One an element.
-  std::vector<std::shared_ptr<const hop::NodalBasis>> bases;
+  std::vector<std::shared_ptr<const CellBasis>> bases;
+  /// The grid's RationalWeights, or nullptr; they apply to Bezier cells.
+  vtkDataArray* rationalWeights = nullptr;
+  /// Whether the mesh's field is the square of the chosen scalar: the magnitude of a vector is no
+  /// polynomial, its square is, and |v| = c where |v|^2 = c^2.
+  bool squared = false;
   CellCensus census;
+
+  /// The value of the mesh's field on the isosurface of the chosen scalar.
+  double fieldIsovalue(double isovalue) const
+  {
+    return this->squared ? isovalue * isovalue : isovalue;
+  }
 };
 
-/// \param scalars one component, one value a point
-/// \param isovalues at least one
-GridElements buildGridElements(vtkUnstructuredGrid* grid, vtkDataArray* scalars,
-  const std::vector<double>& isovalues, const hop::ParallelFor& parallelFor);
+/// \param isovalues of the chosen scalar, at least one
+GridElements buildGridElements(vtkUnstructuredGrid* grid, const ScalarChoice& scalars,
+  hop::NodeSpacing spacing, const std::vector<double>& isovalues,
+  const hop::ParallelFor& parallelFor);

@@ -16,6 +16,8 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <functional>
+#include <numeric>
 #include <set>
 #include <string>
 
@@ -32,10 +34,24 @@ struct Row
 const std::set<std::string> ownArrays{ "Normals", "Radius", "Mean_Curvature", "Gauss_Curvature",
   "Residual", "Isovalue", "vtkOriginalCellIds", "ParametricCoordinates" };
 
+/// Rational basis functions R_i = w_i B_i / sum_j w_j B_j from polynomial ones.
+void applyRationalWeights(const std::vector<double>& weights, std::vector<double>& basis)
+{
+  if (weights.empty())
+  {
+    return;
+  }
+  std::transform(
+    basis.begin(), basis.end(), weights.begin(), basis.begin(), std::multiplies<double>());
+  const double sum = std::accumulate(basis.begin(), basis.end(), 0.0);
+  std::transform(
+    basis.begin(), basis.end(), basis.begin(), [sum](double value) { return value / sum; });
+}
+
 class Packer
 {
 public:
-  Packer(vtkUnstructuredGrid* grid, vtkDataArray* scalars, const GridElements& elements,
+  Packer(vtkUnstructuredGrid* grid, const ScalarChoice& scalars, const GridElements& elements,
     const hop::ParallelFor& parallelFor, vtkPolyData* output)
     : Grid(grid)
     , Scalars(scalars)
@@ -55,6 +71,7 @@ private:
   void addPointArrays();
   void addCellArrays();
   void addReport(const std::vector<IsovalueParticles>& isovalues);
+  std::vector<double> rationalWeights(int element, vtkIdList* ids) const;
   void evaluate(vtkDataArray* source, vtkDoubleArray* target);
   void evaluateRun(vtkDataArray* source, vtkDoubleArray* target, std::size_t begin,
     std::size_t end, vtkIdList* ids) const;
@@ -67,7 +84,7 @@ private:
   }
 
   vtkUnstructuredGrid* Grid;
-  vtkDataArray* Scalars;
+  ScalarChoice Scalars;
   const GridElements& Elements;
   const hop::ParallelFor& Parallel;
   vtkPolyData* Output;
@@ -176,7 +193,11 @@ void Packer::addOwnArrays()
   // Places on a face may have left the domain by a rounding error.
   this->addArray("ParametricCoordinates", 3,
     [&](const Row& row, double* out)
-    { writeVector(glm::clamp(row.particle->location.u.xyz, 0.0, 1.0), out); });
+    {
+      const hop::ReferencePoint u{ glm::clamp(row.particle->location.u.xyz, 0.0, 1.0) };
+      writeVector(
+        parametricCoordinates(this->Grid->GetCellType(this->cellOf(row)), u).xyz, out);
+    });
 
   vtkNew<vtkIdTypeArray> cells;
   cells->SetName("vtkOriginalCellIds");
@@ -197,7 +218,8 @@ void Packer::addPointArrays()
     vtkDataArray* array = source->GetArray(a);
     const std::string name = array && array->GetName() ? array->GetName() : "";
     const bool isLabel = array == source->GetGlobalIds() || array == source->GetPedigreeIds() ||
-      name == vtkDataSetAttributes::GhostArrayName() || name == "vtkOriginalPointIds";
+      array == source->GetRationalWeights() || name == vtkDataSetAttributes::GhostArrayName() ||
+      name == "vtkOriginalPointIds";
     if (name.empty() || isLabel || ownArrays.count(name) > 0)
     {
       continue;
@@ -211,7 +233,7 @@ void Packer::addPointArrays()
       values->SetComponentName(c, array->GetComponentName(c));
     }
     this->Output->GetPointData()->AddArray(values);
-    if (array == this->Scalars)
+    if (array == this->Scalars.array && array->GetNumberOfComponents() == 1)
     {
       // As Contour: this array is the isovalue, not the isovalue with noise of the tolerance's size.
       for (std::size_t i = 0; i < this->Rows.size(); ++i)
@@ -252,7 +274,8 @@ void Packer::evaluateRun(vtkDataArray* source, vtkDoubleArray* target, std::size
   std::size_t end, vtkIdList* ids) const
 {
   const int element = this->Rows[begin].particle->location.element;
-  const hop::NodalBasis& basis = *this->Elements.bases[element];
+  const CellBasis& cell = *this->Elements.bases[element];
+  const hop::NodalBasis& basis = cell.basis;
   const int components = source->GetNumberOfComponents();
   this->Grid->GetCells()->GetCellAtId(this->Elements.mesh.elements[element].cell, ids);
   std::vector<double> nodal(static_cast<std::size_t>(basis.nodeCount()) * components);
@@ -263,24 +286,45 @@ void Packer::evaluateRun(vtkDataArray* source, vtkDoubleArray* target, std::size
       nodal[node * components + c] = source->GetComponent(ids->GetId(node), c);
     }
   }
-  std::vector<double> coefficients(nodal.size());
+  const int count = basis.coefficientCount();
+  std::vector<double> coefficients(static_cast<std::size_t>(count) * components);
   basis.toBernstein(nodal.data(), components, coefficients.data());
 
-  std::vector<double> weights(basis.nodeCount());
+  const std::vector<double> rational = this->rationalWeights(element, ids);
+  std::vector<double> weights(count);
   for (std::size_t row = begin; row < end; ++row)
   {
     hop::evaluateBasis(
       basis.domain(), basis.degrees(), this->Rows[row].particle->location.u, weights.data());
+    applyRationalWeights(rational, weights);
     double* out = target->GetPointer(static_cast<vtkIdType>(row) * components);
     std::fill_n(out, components, 0.0);
-    for (int node = 0; node < basis.nodeCount(); ++node)
+    for (int i = 0; i < count; ++i)
     {
       for (int c = 0; c < components; ++c)
       {
-        out[c] += weights[node] * coefficients[node * components + c];
+        out[c] += weights[i] * coefficients[i * components + c];
       }
     }
   }
+}
+
+/// An element's rational weights in the order of its coefficients, or nothing.
+std::vector<double> Packer::rationalWeights(int element, vtkIdList* ids) const
+{
+  if (!this->Elements.mesh.elements[element].rational)
+  {
+    return {};
+  }
+  const hop::NodalBasis& basis = this->Elements.bases[element]->basis;
+  std::vector<double> nodal;
+  for (int node = 0; node < basis.nodeCount(); ++node)
+  {
+    nodal.push_back(this->Elements.rationalWeights->GetComponent(ids->GetId(node), 0));
+  }
+  std::vector<double> weights(nodal.size());
+  basis.toBernstein(nodal.data(), 1, weights.data());
+  return weights;
 }
 
 void Packer::addCellArrays()
@@ -288,6 +332,7 @@ void Packer::addCellArrays()
   vtkCellData* source = this->Grid->GetCellData();
   vtkCellData* target = this->Output->GetCellData();
   target->CopyGlobalIdsOff(); // several particles share a cell: its id is no id of theirs
+  target->CopyHigherOrderDegreesOff(); // particles have none
   target->CopyFieldOff(vtkDataSetAttributes::GhostArrayName());
   target->CopyAllocate(source, static_cast<vtkIdType>(this->Rows.size()));
   for (std::size_t i = 0; i < this->Rows.size(); ++i)
@@ -327,7 +372,7 @@ void Packer::addReport(const std::vector<IsovalueParticles>& isovalues)
 
 } // namespace
 
-void packParticles(vtkUnstructuredGrid* grid, vtkDataArray* scalars,
+void packParticles(vtkUnstructuredGrid* grid, const ScalarChoice& scalars,
   const GridElements& elements, const std::vector<IsovalueParticles>& isovalues,
   const hop::ParallelFor& parallelFor, vtkPolyData* output)
 {

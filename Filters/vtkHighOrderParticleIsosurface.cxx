@@ -272,13 +272,6 @@ vtkDataArray* vtkHighOrderParticleIsosurface::FindScalars(vtkUnstructuredGrid* g
       << "; choose one with ContourBy. The grid's point arrays: "
       << listOfArrays(grid->GetPointData()) << ".");
   }
-  else if (scalars->GetNumberOfComponents() != 1)
-  {
-    vtkErrorMacro("Point array '" << scalars->GetName() << "' has "
-                                  << scalars->GetNumberOfComponents()
-                                  << " components; choose a scalar array with ContourBy.");
-    scalars = nullptr;
-  }
   return scalars;
 }
 
@@ -290,17 +283,26 @@ void vtkHighOrderParticleIsosurface::Process(vtkUnstructuredGrid* grid, const Sc
   {
     return;
   }
-  vtkDataArray* scalars = this->FindScalars(grid);
-  if (!scalars)
+  ScalarChoice scalars;
+  scalars.array = this->FindScalars(grid);
+  if (!scalars.array)
   {
     return;
+  }
+  const int components = scalars.array->GetNumberOfComponents();
+  if (components > 1)
+  {
+    scalars.component =
+      this->Component < components ? this->Component : ScalarChoice::Magnitude;
   }
   const double* values = this->ContourValues->GetValues();
   const hop::ParallelFor parallelFor = smpParallelFor();
   const auto work = [&]()
   {
-    const GridElements elements =
-      buildGridElements(grid, scalars, { values, values + isovalueCount }, parallelFor);
+    const auto spacing = this->NodeSpacing == UNIFORM ? hop::NodeSpacing::Uniform
+                                                      : hop::NodeSpacing::GaussLobattoLegendre;
+    const GridElements elements = buildGridElements(
+      grid, scalars, spacing, { values, values + isovalueCount }, parallelFor);
     const std::string remarks = elements.census.describe();
     if (!remarks.empty())
     {
@@ -322,7 +324,8 @@ void vtkHighOrderParticleIsosurface::Process(vtkUnstructuredGrid* grid, const Sc
       parameters.particleCount = this->NumberOfParticles;
       particles.push_back({ values[i],
         hop::distributeClassic(
-          { &elements.mesh, values[i], scale.Tolerance }, parameters, monitor, parallelFor) });
+          { &elements.mesh, elements.fieldIsovalue(values[i]), scale.Tolerance }, parameters,
+          monitor, parallelFor) });
       this->Review(particles.back().distribution, values[i]);
     }
     packParticles(grid, scalars, elements, particles, parallelFor, output);
@@ -362,6 +365,8 @@ void vtkHighOrderParticleIsosurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Spacing: " << this->Spacing << "\n";
   os << indent << "AngularDensity: " << this->AngularDensity << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "Component: " << this->Component << "\n";
+  os << indent << "NodeSpacing: " << this->NodeSpacing << "\n";
   os << indent << "Method: " << this->Method << "\n";
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "NumberOfParticles: " << this->NumberOfParticles << "\n";

@@ -2,8 +2,8 @@
  * @class vtkHighOrderParticleIsosurface
  * @brief isosurfaces of high-order finite elements as evenly spread, oriented particles
  *
- * Input: vtkUnstructuredGrid (or a composite data set of them) with high-order cells and a scalar
- * point array F. Output: vtkPolyData (or a composite of the input's kind) with one point and one
+ * Input: vtkUnstructuredGrid (or a composite data set of them) with high-order cells and a
+ * point array F, or a component or the magnitude of one. Output: vtkPolyData (or a composite of the input's kind) with one point and one
  * vertex cell a particle. Each particle lies on the isosurface F = c of the elements' true
  * polynomials, not of linear pieces, and particles stand at an even spacing in world space, closer
  * where the surface bends if AngularDensity asks for it.
@@ -11,10 +11,11 @@
  * After M. Meyer, B. Nelson, R. M. Kirby, R. Whitaker, "Particle Systems for Efficient and Accurate
  * High-Order Finite Element Visualization", IEEE TVCG 13(5), 2007.
  *
- * Cells: linear and Lagrange hexahedra, tetrahedra and wedges of degree 1 to 10, with uniform or
- * anisotropic degrees, and the quadratic cells whose nodes fill a Lagrange lattice. Other cells,
- * and cells with values that are not finite or without volume, are skipped, counted, and named in
- * one warning. Ghost cells (vtkGhostType) carry particles over borders but own none.
+ * Cells: every 3-D cell of VTK with a fixed shape: linear, quadratic and serendipity hexahedra,
+ * tetrahedra, wedges and pyramids; Lagrange and Bezier hexahedra, tetrahedra and wedges of degree 1
+ * to 10, with uniform or anisotropic degrees, rational Bezier cells included. Other cells (polyhedra,
+ * 2-D cells), and cells with values that are not finite or without volume, are skipped, counted, and
+ * named in one warning. Ghost cells (vtkGhostType) carry particles over borders but own none.
  *
  * Point data of the output: `Normals` (unit, towards lower values, as Contour orients them),
  * `Radius` (the particle's own spacing, world units), `Mean_Curvature` (with respect to Normals;
@@ -95,6 +96,30 @@ public:
   vtkGetMacro(Tolerance, double);
   ///@}
 
+  ///@{
+  /**
+   * Which component of a vector array to contour by; its number of components or more stands for its
+   * magnitude. Scalar arrays have but one. Default 0.
+   */
+  vtkSetClampMacro(Component, int, 0, VTK_INT_MAX);
+  vtkGetMacro(Component, int);
+  ///@}
+
+  enum NodeSpacingType
+  {
+    UNIFORM = 0,
+    GAUSS_LOBATTO_LEGENDRE = 1
+  };
+
+  ///@{
+  /**
+   * Where the nodes of Lagrange hexahedra stand: UNIFORM (default), as VTK defines these cells, or at
+   * the GAUSS_LOBATTO_LEGENDRE points, as some spectral element codes write them.
+   */
+  vtkSetClampMacro(NodeSpacing, int, UNIFORM, GAUSS_LOBATTO_LEGENDRE);
+  vtkGetMacro(NodeSpacing, int);
+  ///@}
+
   enum MethodType
   {
     CLASSIC = 0
@@ -165,6 +190,8 @@ private:
   double Spacing = 0.0;
   double AngularDensity = 0.0;
   double Tolerance = 1e-8;
+  int Component = 0;
+  int NodeSpacing = UNIFORM;
   int Method = CLASSIC;
   int Seed = 1;
   vtkIdType NumberOfParticles = 0;

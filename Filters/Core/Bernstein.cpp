@@ -247,7 +247,7 @@ Jet tetrahedronJet(const BernsteinForm& form, const ReferencePoint& u)
 }
 
 template <int Order>
-Jet evaluate(const BernsteinForm& form, const ReferencePoint& u)
+Jet polynomialJet(const BernsteinForm& form, const ReferencePoint& u)
 {
   switch (form.domain)
   {
@@ -258,6 +258,58 @@ Jet evaluate(const BernsteinForm& form, const ReferencePoint& u)
     default:
       return hexahedronJet<Order>(form, u);
   }
+}
+
+/// The weights of a rational element as an element of their own; f holds the weight.
+template <int Order>
+Jet weightJet(const BernsteinForm& form, const ReferencePoint& u)
+{
+  constexpr int maximumCount = MaximumLine * MaximumLine * MaximumLine;
+  static_assert(maximumCount >= MaximumTetrahedron && maximumCount >= MaximumTriangle * MaximumLine);
+  Coefficient weights[maximumCount];
+  const int count = coefficientCount(form.domain, form.degrees);
+  for (int i = 0; i < count; ++i)
+  {
+    weights[i] = Coefficient(form.weights[i]);
+  }
+  return polynomialJet<Order>({ form.domain, form.degrees, weights, nullptr }, u);
+}
+
+/// Quotient rule: with A = w R, R_a = (A_a - w_a R) / w and
+/// R_ab = (A_ab - w_a R_b - w_b R_a - w_ab R) / w.
+Jet quotient(const Jet& a, const Jet& w)
+{
+  constexpr int row[6] = { 0, 0, 0, 1, 1, 2 };
+  constexpr int column[6] = { 0, 1, 2, 1, 2, 2 };
+  Jet jet;
+  jet.value = a.value / w.value;
+  for (int i = 0; i < 3; ++i)
+  {
+    jet.first[i] = (a.first[i] - w.first[i] * jet.value) / w.value;
+  }
+  for (int i = 0; i < 6; ++i)
+  {
+    jet.second[i] = (a.second[i] - w.first[row[i]] * jet.first[column[i]] -
+                      w.first[column[i]] * jet.first[row[i]] - w.second[i] * jet.value) /
+      w.value;
+  }
+  return jet;
+}
+
+template <int Order>
+Jet evaluate(const BernsteinForm& form, const ReferencePoint& u)
+{
+  const Jet jet = polynomialJet<Order>(form, u);
+  if (!form.weights)
+  {
+    return jet;
+  }
+  Jet rational = quotient(jet, weightJet<Order>(form, u));
+  if constexpr (Order < 2)
+  {
+    rational.second = {};
+  }
+  return rational;
 }
 
 /// p! / (i! j! ...) with the rest of p in the last place.
@@ -379,15 +431,18 @@ template void bisect(Domain, const Degrees&, const LatticePoint&, std::vector<Co
   std::vector<Coefficient>&);
 template void bisect(Domain, const Degrees&, const LatticePoint&, std::vector<glm::dvec3>&,
   std::vector<glm::dvec3>&);
+template void bisect(
+  Domain, const Degrees&, const LatticePoint&, std::vector<double>&, std::vector<double>&);
 
 Range fieldRange(const BernsteinForm& form)
 {
-  Range range{ form.coefficients[0].w, form.coefficients[0].w };
   const int count = coefficientCount(form.domain, form.degrees);
+  Range range{ controlPoint(form, 0).w, controlPoint(form, 0).w };
   for (int i = 1; i < count; ++i)
   {
-    range.lower = std::min(range.lower, form.coefficients[i].w);
-    range.upper = std::max(range.upper, form.coefficients[i].w);
+    const double f = controlPoint(form, i).w;
+    range.lower = std::min(range.lower, f);
+    range.upper = std::max(range.upper, f);
   }
   return range;
 }

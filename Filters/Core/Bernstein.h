@@ -20,14 +20,24 @@ struct Jet
   std::array<Coefficient, 6> second{};
 };
 
-/// A non-owning view of an element in Bernstein form.
+/// A non-owning view of an element in Bernstein form. Where `weights` is given the element is
+/// rational: its coefficients are homogeneous, w (x, y, z, f), and what it stands for is
+/// sum_i B_i coefficients_i / sum_i B_i w_i.
 struct BernsteinForm
 {
   Domain domain = Domain::Hexahedron;
   Degrees degrees{ 1, 1, 1 };
   /// coefficientCount(domain, degrees) of them, in the order of coefficientIndex.
   const Coefficient* coefficients = nullptr;
+  /// As many, all > 0, or nullptr.
+  const double* weights = nullptr;
 };
+
+/// Control point i: (x, y, z, f), whether the element is rational or not.
+inline Coefficient controlPoint(const BernsteinForm& form, int i)
+{
+  return form.weights ? form.coefficients[i] / form.weights[i] : form.coefficients[i];
+}
 
 /// Value and first derivatives; `second` is left zero.
 Jet evaluateGradient(const BernsteinForm& form, const ReferencePoint& u);
@@ -48,7 +58,8 @@ template <class Value>
 void bisect(Domain domain, const Degrees& degrees, const LatticePoint& direction,
   std::vector<Value>& coefficients, std::vector<Value>& second);
 
-/// Smallest and largest value that the convex hull property allows f on the element.
+/// Smallest and largest value that the convex hull property allows f on the element, rational ones
+/// included: their weights are positive.
 struct Range
 {
   double lower = 0.0;

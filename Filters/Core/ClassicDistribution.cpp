@@ -137,12 +137,17 @@ double extentOf(const std::vector<Mover>& movers)
 
 double meshExtent(const ElementMesh& mesh)
 {
-  glm::dvec3 lower(mesh.coefficients.front());
+  glm::dvec3 lower(controlPoint(mesh.form(0), 0));
   glm::dvec3 upper = lower;
-  for (const Coefficient& c : mesh.coefficients)
+  for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
   {
-    lower = glm::min(lower, glm::dvec3(c));
-    upper = glm::max(upper, glm::dvec3(c));
+    const BernsteinForm form = mesh.form(e);
+    for (int i = 0; i < coefficientCount(form.domain, form.degrees); ++i)
+    {
+      const glm::dvec3 x(controlPoint(form, i));
+      lower = glm::min(lower, x);
+      upper = glm::max(upper, x);
+    }
   }
   return glm::distance(lower, upper);
 }

@@ -22,8 +22,12 @@ enum class Domain : std::uint8_t
 /// Tetrahedron: the total degree, three times.
 using Degrees = std::array<int, 3>;
 
-/// Highest degree that the evaluators take.
-constexpr int MaximumDegree = 10;
+/// Highest degree of an element of the input. Beyond it the conversion of equispaced nodal values
+/// loses more digits than doubles can spare (condition 3e10 for a hexahedron of degree 10).
+constexpr int MaximumInputDegree = 10;
+
+/// Highest degree that the evaluators take: squares of the input's fields.
+constexpr int MaximumDegree = 2 * MaximumInputDegree;
 
 /// A point of an element's lattice of coefficients or nodes, at reference coordinates
 /// (i/p, j/q, k/r); for simplices i + j (+ k) does not exceed the degree.

@@ -13,9 +13,10 @@ struct FaceNeighbor
 {
   /// Index of the neighbour, or -1: the face is a boundary.
   int element = -1;
-  /// The neighbour's corners that coincide with this face's corners 0, 1 and last: they carry the
-  /// face's own coordinates over.
-  std::array<std::uint8_t, 3> corners{};
+  /// The neighbour's face.
+  std::uint8_t face = 0;
+  /// For each corner of this face the neighbour's corner that coincides with it.
+  std::array<std::uint8_t, 4> corners{};
 };
 
 /// An element in Bernstein form, within an ElementMesh.
@@ -24,9 +25,11 @@ struct Element
   Domain domain = Domain::Hexahedron;
   Degrees degrees{ 1, 1, 1 };
   std::size_t firstCoefficient = 0;
+  bool rational = false;
   /// Cell of the input that it came from.
   std::int64_t cell = -1;
-  /// Equal numbers name coincident corners, within the mesh.
+  /// Equal numbers name coincident corners, within the mesh and within the element: the domain of a
+  /// pyramid is a hexahedron whose upper corners coincide.
   std::array<std::int64_t, MaximumCorners> corners{};
 };
 
@@ -35,13 +38,16 @@ struct ElementMesh
 {
   std::vector<Element> elements;
   std::vector<Coefficient> coefficients;
+  /// As long as `coefficients`, or empty where no element is rational.
+  std::vector<double> weights;
   /// MaximumFaces entries an element; empty until findFaceNeighbors has run.
   std::vector<FaceNeighbor> neighbors;
 
   BernsteinForm form(int element) const
   {
     const Element& e = this->elements[element];
-    return { e.domain, e.degrees, this->coefficients.data() + e.firstCoefficient };
+    return { e.domain, e.degrees, this->coefficients.data() + e.firstCoefficient,
+      e.rational ? this->weights.data() + e.firstCoefficient : nullptr };
   }
 
   const FaceNeighbor& neighbor(int element, int face) const
@@ -59,7 +65,8 @@ struct Location
 
 /// Fills mesh.neighbors: two faces are joined when their corners carry the same numbers and their
 /// middles coincide within `tolerance` (world units; two curved faces may share all corners and
-/// still be different). Where three or more elements claim one face, none is joined.
+/// still be different). A quadrilateral of which two corners coincide joins triangles. Where three
+/// or more elements claim one face, none is joined.
 void findFaceNeighbors(ElementMesh& mesh, double tolerance);
 
 /// The same place, seen from the element behind `face`, on which `location` lies.

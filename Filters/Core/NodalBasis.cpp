@@ -32,18 +32,18 @@ std::vector<std::array<int, 4>> simplexLattice(int dimension, int degree)
   return points;
 }
 
-/// B_index at the lattice point: degree! / prod(index!) prod(barycentric^index).
-Extended bernsteinAt(
-  const std::array<int, 4>& index, const std::array<int, 4>& point, int degree)
+using Barycentric = std::array<Extended, 4>;
+
+/// B_index at a point: degree! / prod(index!) prod(barycentric^index).
+Extended bernsteinAt(const std::array<int, 4>& index, const Barycentric& point, int degree)
 {
   Extended value = 1.0L;
   int n = degree;
   for (int c = 0; c < 4; ++c)
   {
-    const Extended barycentric = static_cast<Extended>(point[c]) / degree;
     for (int power = 1; power <= index[c]; ++power, --n)
     {
-      value *= barycentric * n / power;
+      value *= point[c] * n / power;
     }
   }
   return value;
@@ -88,143 +88,274 @@ std::vector<double> invert(std::vector<Extended> a, int n)
   return { inverse.begin(), inverse.end() };
 }
 
-std::vector<double> makeConversion(int dimension, int degree)
+/// The inverse of V_ij = B_j(node i).
+std::vector<double> makeConversion(
+  int dimension, int degree, const std::vector<Barycentric>& nodes)
 {
   const auto lattice = simplexLattice(dimension, degree);
-  const int n = static_cast<int>(lattice.size());
-  std::vector<Extended> vandermonde(static_cast<std::size_t>(n) * n);
-  for (int i = 0; i < n; ++i)
+  const std::size_t n = lattice.size();
+  std::vector<Extended> vandermonde(n * n);
+  for (std::size_t i = 0; i < n; ++i)
   {
-    for (int j = 0; j < n; ++j)
+    for (std::size_t j = 0; j < n; ++j)
     {
-      vandermonde[i * n + j] = bernsteinAt(lattice[j], lattice[i], degree);
+      vandermonde[i * n + j] = bernsteinAt(lattice[j], nodes[i], degree);
     }
   }
-  return invert(std::move(vandermonde), n);
+  return invert(std::move(vandermonde), static_cast<int>(n));
 }
 
-double infinityNorm(const std::vector<double>& matrix, int n)
+std::vector<Barycentric> equispacedNodes(int dimension, int degree)
 {
-  double norm = 0.0;
-  for (int i = 0; i < n; ++i)
+  std::vector<Barycentric> nodes;
+  for (const auto& point : simplexLattice(dimension, degree))
   {
-    double row = 0.0;
-    for (int j = 0; j < n; ++j)
-    {
-      row += std::abs(matrix[i * n + j]);
-    }
-    norm = std::max(norm, row);
+    Barycentric node;
+    std::transform(point.begin(), point.end(), node.begin(),
+      [degree](int index) { return static_cast<Extended>(index) / degree; });
+    nodes.push_back(node);
   }
-  return norm;
+  return nodes;
 }
 
-} // namespace
-
-const std::vector<double>& equispacedToBernstein(int dimension, int degree)
+/// Computed at the first request, kept for the life of the program.
+template <class Make>
+const std::vector<double>& cached(const std::array<int, 3>& key, const Make& make)
 {
   static std::mutex mutex;
-  static std::map<std::pair<int, int>, std::vector<double>> known;
+  static std::map<std::array<int, 3>, std::vector<double>> known;
   const std::lock_guard<std::mutex> lock(mutex);
-  auto [entry, isNew] = known.try_emplace({ dimension, degree });
+  auto [entry, isNew] = known.try_emplace(key);
   if (isNew)
   {
-    entry->second = makeConversion(dimension, degree);
+    entry->second = make();
   }
   return entry->second;
 }
 
-NodalBasis::NodalBasis(
-  Domain domain, const Degrees& degrees, const std::vector<LatticePoint>& order)
+/// Largest sum of absolute values along a row.
+double infinityNorm(const std::vector<double>& matrix, int columns)
+{
+  double norm = 0.0;
+  for (std::size_t row = 0; row < matrix.size(); row += columns)
+  {
+    double sum = 0.0;
+    for (int j = 0; j < columns; ++j)
+    {
+      sum += std::abs(matrix[row + j]);
+    }
+    norm = std::max(norm, sum);
+  }
+  return norm;
+}
+
+/// A tensor or simplex matrix times values: `rows` results of `components` each.
+void multiply(const double* matrix, int rows, int columns, const double* values, int stride,
+  int components, double* result)
+{
+  std::fill_n(result, static_cast<std::size_t>(rows) * components, 0.0);
+  for (int row = 0; row < rows; ++row)
+  {
+    for (int column = 0; column < columns; ++column)
+    {
+      const double entry = matrix[row * columns + column];
+      const double* value = values + static_cast<std::size_t>(column) * stride * components;
+      for (int c = 0; c < components; ++c)
+      {
+        result[row * components + c] += entry * value[c];
+      }
+    }
+  }
+}
+
+} // namespace
+
+std::vector<long double> gaussLobattoPoints(int degree)
+{
+  // Newton's method on (1 - x^2) P'_n(x), by Legendre's recurrence, from the Chebyshev points.
+  std::vector<Extended> points(degree + 1);
+  for (int i = 0; i <= degree; ++i)
+  {
+    Extended x = -std::cos(3.14159265358979323846264338L * i / degree);
+    for (int step = 0; step < 60 && i > 0 && i < degree; ++step)
+    {
+      Extended previous = 1.0L;
+      Extended legendre = x;
+      for (int n = 2; n <= degree; ++n)
+      {
+        const Extended next = ((2 * n - 1) * x * legendre - (n - 1) * previous) / n;
+        previous = legendre;
+        legendre = next;
+      }
+      // (1 - x^2) P'_n = n (P_{n-1} - x P_n), and its derivative is -n (n + 1) P_n.
+      x += (previous - x * legendre) / ((degree + 1) * legendre);
+    }
+    points[i] = 0.5L * (1.0L + x);
+  }
+  points.front() = 0.0L;
+  points.back() = 1.0L;
+  return points;
+}
+
+const std::vector<double>& equispacedToBernstein(int dimension, int degree)
+{
+  return cached({ dimension, degree, 0 },
+    [&]() { return makeConversion(dimension, degree, equispacedNodes(dimension, degree)); });
+}
+
+const std::vector<double>& gaussLobattoToBernstein(int degree)
+{
+  return cached({ 1, degree, 1 },
+    [&]()
+    {
+      std::vector<Barycentric> nodes;
+      for (const Extended t : gaussLobattoPoints(degree))
+      {
+        nodes.push_back({ 1.0L - t, t, 0.0L, 0.0L });
+      }
+      return makeConversion(1, degree, nodes);
+    });
+}
+
+NodalBasis::NodalBasis(Domain domain, const Degrees& degrees)
   : ItsDomain(domain)
   , ItsDegrees(degrees)
+  , Coefficients(hop::coefficientCount(domain, degrees))
 {
   const auto [lowest, highest] = std::minmax_element(degrees.begin(), degrees.end());
-  if (*lowest < 1 || *highest > MaximumDegree)
+  if (*lowest < 1 || *highest > MaximumInputDegree)
   {
-    throw std::invalid_argument("degree outside 1 to " + std::to_string(MaximumDegree));
+    throw std::invalid_argument("degree outside 1 to " + std::to_string(MaximumInputDegree));
   }
-  const int count = coefficientCount(domain, degrees);
-  std::vector<int> nodeAt(count, -1);
+}
+
+NodalBasis NodalBasis::lagrange(Domain domain, const Degrees& degrees,
+  const std::vector<LatticePoint>& order, NodeSpacing spacing)
+{
+  NodalBasis basis(domain, degrees);
+  basis.placeNodes(order);
+  basis.addLatticeFactors(domain == Domain::Hexahedron ? spacing : NodeSpacing::Uniform);
+  return basis;
+}
+
+NodalBasis NodalBasis::bezier(
+  Domain domain, const Degrees& degrees, const std::vector<LatticePoint>& order)
+{
+  NodalBasis basis(domain, degrees);
+  basis.placeNodes(order);
+  return basis;
+}
+
+NodalBasis NodalBasis::sampled(
+  Domain domain, const Degrees& degrees, const std::vector<double>& shapeAtLattice)
+{
+  NodalBasis basis(domain, degrees);
+  if (shapeAtLattice.empty() || shapeAtLattice.size() % basis.Coefficients != 0)
+  {
+    throw std::invalid_argument("the shape functions do not fit the element");
+  }
+  basis.Nodes = static_cast<int>(shapeAtLattice.size()) / basis.Coefficients;
+  basis.Dense = shapeAtLattice;
+  basis.addLatticeFactors(NodeSpacing::Uniform);
+  for (const Factor& factor : basis.Factors)
+  {
+    basis.apply(factor, basis.Nodes, basis.Dense.data());
+  }
+  basis.Factors.clear();
+  basis.Norm = infinityNorm(basis.Dense, basis.Nodes);
+  return basis;
+}
+
+void NodalBasis::placeNodes(const std::vector<LatticePoint>& order)
+{
+  std::vector<int> nodeAt(this->Coefficients, -1);
   for (const LatticePoint& point : order)
   {
-    if (!inLattice(domain, degrees, point))
+    if (!inLattice(this->ItsDomain, this->ItsDegrees, point))
     {
       throw std::invalid_argument("a node lies outside the element's lattice");
     }
-    const int index = coefficientIndex(domain, degrees, point);
+    const int index = coefficientIndex(this->ItsDomain, this->ItsDegrees, point);
     nodeAt[index] = static_cast<int>(this->Place.size());
     this->Place.push_back(index);
   }
-  if (static_cast<int>(order.size()) != count ||
+  if (static_cast<int>(order.size()) != this->Coefficients ||
     std::count(nodeAt.begin(), nodeAt.end(), -1) > 0)
   {
     throw std::invalid_argument("the nodes do not fill the element's lattice");
   }
-  for (std::size_t corner = 0; corner < facts(domain).corners.size(); ++corner)
-  {
-    this->CornerNodes.push_back(nodeAt[coefficientIndex(
-      domain, degrees, cornerLatticePoint(domain, degrees, static_cast<int>(corner)))]);
-  }
+  this->Nodes = this->Coefficients;
+}
 
-  const auto addFactor = [&](int dimension, int degree, int stride)
+int NodalBasis::addFactor(const std::vector<double>& matrix, int stride)
+{
+  const int size = static_cast<int>(std::lround(std::sqrt(matrix.size())));
+  this->Factors.push_back({ &matrix, size, stride });
+  this->Norm *= infinityNorm(matrix, size);
+  return size;
+}
+
+void NodalBasis::addLatticeFactors(NodeSpacing spacing)
+{
+  const auto [p, q, r] = this->ItsDegrees;
+  const auto line = [spacing](int degree) -> const std::vector<double>&
   {
-    const std::vector<double>& matrix = equispacedToBernstein(dimension, degree);
-    const int size = static_cast<int>(std::lround(std::sqrt(matrix.size())));
-    this->Factors.push_back({ &matrix, size, stride });
-    this->Norm *= infinityNorm(matrix, size);
-    return size;
+    return spacing == NodeSpacing::Uniform ? equispacedToBernstein(1, degree)
+                                           : gaussLobattoToBernstein(degree);
   };
-  switch (domain)
+  switch (this->ItsDomain)
   {
     case Domain::Tetrahedron:
-      addFactor(3, degrees[0], 1);
+      this->addFactor(equispacedToBernstein(3, p), 1);
       break;
     case Domain::Wedge:
-      addFactor(1, degrees[2], addFactor(2, degrees[0], 1));
+      this->addFactor(line(r), this->addFactor(equispacedToBernstein(2, p), 1));
       break;
     default:
-      addFactor(1, degrees[2], addFactor(1, degrees[0], 1) * addFactor(1, degrees[1], degrees[0] + 1));
+      this->addFactor(line(p), 1);
+      this->addFactor(line(q), p + 1);
+      this->addFactor(line(r), (p + 1) * (q + 1));
+  }
+}
+
+/// One factor, in place, on every line, triangle or tetrahedron of values.
+void NodalBasis::apply(const Factor& factor, int components, double* values) const
+{
+  std::vector<double> result(static_cast<std::size_t>(factor.size) * components);
+  const int block = factor.size * factor.stride;
+  for (int start = 0; start < this->Coefficients; ++start)
+  {
+    if (start % block >= factor.stride)
+    {
+      continue; // not the first value of a line
+    }
+    double* first = values + static_cast<std::size_t>(start) * components;
+    multiply(factor.matrix->data(), factor.size, factor.size, first, factor.stride, components,
+      result.data());
+    for (int row = 0; row < factor.size; ++row)
+    {
+      std::copy_n(result.data() + row * components, components,
+        first + static_cast<std::size_t>(row) * factor.stride * components);
+    }
   }
 }
 
 void NodalBasis::toBernstein(const double* nodal, int components, double* coefficients) const
 {
-  const int count = this->nodeCount();
-  for (int node = 0; node < count; ++node)
+  if (!this->Dense.empty())
+  {
+    multiply(this->Dense.data(), this->Coefficients, this->Nodes, nodal, 1, components,
+      coefficients);
+    return;
+  }
+  for (int node = 0; node < this->Nodes; ++node)
   {
     std::copy_n(nodal + node * components, components,
       coefficients + this->Place[node] * components);
   }
-  std::vector<double> line;
   for (const Factor& factor : this->Factors)
   {
-    line.resize(static_cast<std::size_t>(factor.size) * components);
-    const int block = factor.size * factor.stride;
-    for (int start = 0; start < count; ++start)
-    {
-      if (start % block >= factor.stride)
-      {
-        continue; // not the first value of a line
-      }
-      std::fill(line.begin(), line.end(), 0.0);
-      for (int row = 0; row < factor.size; ++row)
-      {
-        for (int column = 0; column < factor.size; ++column)
-        {
-          const double entry = (*factor.matrix)[row * factor.size + column];
-          const double* value = coefficients + (start + column * factor.stride) * components;
-          for (int c = 0; c < components; ++c)
-          {
-            line[row * components + c] += entry * value[c];
-          }
-        }
-      }
-      for (int row = 0; row < factor.size; ++row)
-      {
-        std::copy_n(line.data() + row * components, components,
-          coefficients + (start + row * factor.stride) * components);
-      }
-    }
+    this->apply(factor, components, coefficients);
   }
 }
 

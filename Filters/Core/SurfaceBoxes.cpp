@@ -8,10 +8,11 @@ namespace hop
 namespace
 {
 
-/// A piece of an element: its coefficients, and its corners in the element's reference space.
+/// A piece of an element: its coefficients (and weights, if rational), and its corners in the element's reference space.
 struct Piece
 {
   std::vector<Coefficient> coefficients;
+  std::vector<double> weights;
   std::vector<glm::dvec3> corners;
   int bisections = 0;
 };
@@ -61,6 +62,10 @@ private:
     Piece piece;
     const int count = coefficientCount(this->Form.domain, this->Form.degrees);
     piece.coefficients.assign(this->Form.coefficients, this->Form.coefficients + count);
+    if (this->Form.weights)
+    {
+      piece.weights.assign(this->Form.weights, this->Form.weights + count);
+    }
     for (const LatticePoint& point : latticePoints(this->Form.domain, cornerDegrees))
     {
       piece.corners.push_back(latticePosition(cornerDegrees, point).xyz);
@@ -76,23 +81,30 @@ private:
       { return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z) && std::isfinite(c.w); });
   }
 
+  BernsteinForm formOf(const Piece& piece) const
+  {
+    return { this->Form.domain, this->Form.degrees, piece.coefficients.data(),
+      piece.weights.empty() ? nullptr : piece.weights.data() };
+  }
+
   bool mayHoldSurface(const Piece& piece) const
   {
-    const Range range =
-      fieldRange({ this->Form.domain, this->Form.degrees, piece.coefficients.data() });
+    const Range range = fieldRange(this->formOf(piece));
     // Halving adds rounding errors of the order of eps times the values themselves.
     const double slack = 1e-14 * std::max(std::abs(range.lower), std::abs(range.upper));
     return range.lower - slack <= this->Isovalue && this->Isovalue <= range.upper + slack;
   }
 
-  static double worldSize(const Piece& piece)
+  double worldSize(const Piece& piece) const
   {
-    glm::dvec3 lower(piece.coefficients.front());
+    const BernsteinForm form = this->formOf(piece);
+    glm::dvec3 lower(controlPoint(form, 0));
     glm::dvec3 upper = lower;
-    for (const Coefficient& c : piece.coefficients)
+    for (int i = 1; i < static_cast<int>(piece.coefficients.size()); ++i)
     {
-      lower = glm::min(lower, glm::dvec3(c));
-      upper = glm::max(upper, glm::dvec3(c));
+      const glm::dvec3 x(controlPoint(form, i));
+      lower = glm::min(lower, x);
+      upper = glm::max(upper, x);
     }
     return glm::distance(lower, upper);
   }
@@ -114,6 +126,10 @@ private:
     Piece second;
     bisect(this->Form.domain, this->Form.degrees, direction, piece.coefficients,
       second.coefficients);
+    if (!piece.weights.empty())
+    {
+      bisect(this->Form.domain, this->Form.degrees, direction, piece.weights, second.weights);
+    }
     bisect(this->Form.domain, cornerDegrees, direction, piece.corners, second.corners);
     second.bisections = ++piece.bisections;
     return second;
@@ -148,8 +164,9 @@ private:
   glm::dvec3 worldCorner(const Piece& piece, const LatticePoint& corner) const
   {
     const Degrees& d = this->Form.degrees;
-    return glm::dvec3(piece.coefficients[coefficientIndex(
-      this->Form.domain, d, { corner.i * d[0], corner.j * d[1], corner.k * d[2] })]);
+    return glm::dvec3(controlPoint(this->formOf(piece),
+      coefficientIndex(
+        this->Form.domain, d, { corner.i * d[0], corner.j * d[1], corner.k * d[2] })));
   }
 
   const ElementMesh& Mesh;

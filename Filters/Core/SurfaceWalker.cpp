@@ -104,19 +104,6 @@ Exit findExit(const ElementMesh& mesh, const Location& location, const Reference
   return exit;
 }
 
-/// The face of the neighbour through which a point arrives: the one that holds the shared corners.
-int entryFace(const ElementMesh& mesh, const FaceNeighbor& neighbor)
-{
-  const DomainFacts& there = facts(mesh.elements[neighbor.element].domain);
-  const auto holdsAll = [&](const Face& face)
-  {
-    return std::all_of(neighbor.corners.begin(), neighbor.corners.end(),
-      [&](std::uint8_t corner) { return margin(face, there.corners[corner]) < onFace; });
-  };
-  return static_cast<int>(
-    std::find_if(there.faces.begin(), there.faces.end(), holdsAll) - there.faces.begin());
-}
-
 bool onBoundary(const ElementMesh& mesh, const Location& location, int face)
 {
   return mesh.neighbor(location.element, face).element < 0 &&
@@ -180,7 +167,7 @@ Location SurfaceWalker::move(const Evaluated& start, const WorldVector& step)
     const bool comesBack = exit.face == entry && exit.fraction == 0.0 && active.count > 0;
     if (neighbor.element >= 0 && !comesBack)
     {
-      entry = entryFace(mesh, neighbor);
+      entry = neighbor.face;
       at.location = crossFace(mesh, at.location, exit.face);
       active = {};
     }

@@ -45,7 +45,7 @@ void appendElement(ElementMesh& mesh, const MeshRecipe& recipe,
   const std::vector<glm::dvec3>& corners, const std::vector<std::int64_t>& numbers)
 {
   const std::vector<LatticePoint> lattice = latticePoints(recipe.domain, recipe.degrees);
-  const NodalBasis basis(recipe.domain, recipe.degrees, lattice);
+  const NodalBasis basis = NodalBasis::lagrange(recipe.domain, recipe.degrees, lattice);
   std::vector<Coefficient> nodal;
   for (const LatticePoint& point : lattice)
   {
