@@ -618,6 +618,8 @@ Distribution ClassicSystem::run()
     }
     this->Fraction = std::pow(0.25, levels - level);
   }
+  // The biased coin may have taken the last particles of a component smaller than the spacing.
+  this->addUncovered(seeds);
   if (fixedNumber && this->proceed())
   {
     this->forceCount(static_cast<std::size_t>(this->Parameters.particleCount));
