@@ -313,7 +313,8 @@ void vtkSurfaceSplatRepresentation::SetPickable(int pickable)
 void vtkSurfaceSplatRepresentation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const auto print = [&os, indent](const char* name, const double* v, int size) {
+  const auto print = [&os, indent](const char* name, const double* v, int size)
+  {
     os << indent << name << ":";
     for (int c = 0; c < size; ++c)
     {
