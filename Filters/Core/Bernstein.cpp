@@ -132,8 +132,7 @@ void reduceTriangle(int p, const double (&b)[3], Coefficient* c)
 /// Value and derivatives on a triangle: de Casteljau's algorithm down to degree two holds them all.
 /// Order of results: value, u, v, uu, uv, vv.
 template <int Order>
-void triangleJet(
-  int p, double u, double v, const Coefficient* coefficients, Coefficient (&jet)[6])
+void triangleJet(int p, double u, double v, const Coefficient* coefficients, Coefficient (&jet)[6])
 {
   const double b[3] = { 1.0 - u - v, u, v };
   Coefficient c[MaximumTriangle];
@@ -327,8 +326,8 @@ void evaluateBasis(Domain domain, const Degrees& degrees, const ReferencePoint& 
     switch (domain)
     {
       case Domain::Tetrahedron:
-        basis[index] = multinomial(p, { i, j, k }) * power(t.x, i) * power(t.y, j) *
-          power(t.z, k) * power(1.0 - t.x - t.y - t.z, p - i - j - k);
+        basis[index] = multinomial(p, { i, j, k }) * power(t.x, i) * power(t.y, j) * power(t.z, k) *
+          power(1.0 - t.x - t.y - t.z, p - i - j - k);
         break;
       case Domain::Wedge:
         basis[index] = multinomial(p, { i, j }) * power(t.x, i) * power(t.y, j) *
@@ -377,8 +376,8 @@ void bisect(Domain domain, const Degrees& degrees, const LatticePoint& direction
 
 template void bisect(Domain, const Degrees&, const LatticePoint&, std::vector<Coefficient>&,
   std::vector<Coefficient>&);
-template void bisect(Domain, const Degrees&, const LatticePoint&, std::vector<glm::dvec3>&,
-  std::vector<glm::dvec3>&);
+template void bisect(
+  Domain, const Degrees&, const LatticePoint&, std::vector<glm::dvec3>&, std::vector<glm::dvec3>&);
 
 Range fieldRange(const BernsteinForm& form)
 {

@@ -70,8 +70,7 @@ FaceNeighbor joinTo(const ElementMesh& mesh, const FaceReference& from, const Fa
   neighbor.element = to.element;
   for (int c = 0; c < 3; ++c)
   {
-    neighbor.corners[c] =
-      cornerWithNumber(mesh.elements[to.element], element.corners[carried[c]]);
+    neighbor.corners[c] = cornerWithNumber(mesh.elements[to.element], element.corners[carried[c]]);
   }
   return neighbor;
 }

@@ -33,8 +33,7 @@ std::vector<std::array<int, 4>> simplexLattice(int dimension, int degree)
 }
 
 /// B_index at the lattice point: degree! / prod(index!) prod(barycentric^index).
-Extended bernsteinAt(
-  const std::array<int, 4>& index, const std::array<int, 4>& point, int degree)
+Extended bernsteinAt(const std::array<int, 4>& index, const std::array<int, 4>& point, int degree)
 {
   Extended value = 1.0L;
   int n = degree;
@@ -155,8 +154,7 @@ NodalBasis::NodalBasis(
     nodeAt[index] = static_cast<int>(this->Place.size());
     this->Place.push_back(index);
   }
-  if (static_cast<int>(order.size()) != count ||
-    std::count(nodeAt.begin(), nodeAt.end(), -1) > 0)
+  if (static_cast<int>(order.size()) != count || std::count(nodeAt.begin(), nodeAt.end(), -1) > 0)
   {
     throw std::invalid_argument("the nodes do not fill the element's lattice");
   }
@@ -183,7 +181,8 @@ NodalBasis::NodalBasis(
       addFactor(1, degrees[2], addFactor(2, degrees[0], 1));
       break;
     default:
-      addFactor(1, degrees[2], addFactor(1, degrees[0], 1) * addFactor(1, degrees[1], degrees[0] + 1));
+      addFactor(
+        1, degrees[2], addFactor(1, degrees[0], 1) * addFactor(1, degrees[1], degrees[0] + 1));
   }
 }
 
@@ -192,8 +191,8 @@ void NodalBasis::toBernstein(const double* nodal, int components, double* coeffi
   const int count = this->nodeCount();
   for (int node = 0; node < count; ++node)
   {
-    std::copy_n(nodal + node * components, components,
-      coefficients + this->Place[node] * components);
+    std::copy_n(
+      nodal + node * components, components, coefficients + this->Place[node] * components);
   }
   std::vector<double> line;
   for (const Factor& factor : this->Factors)

@@ -212,8 +212,7 @@ WorldVector SurfaceWalker::newtonStep(const Evaluated& at, bool& alongWall) cons
   const auto hold = [&](int face)
   {
     active.add(face);
-    const WorldVector along =
-      at.point.map.push(pullAlong(domain, active, at.point.map, gradient));
+    const WorldVector along = at.point.map.push(pullAlong(domain, active, at.point.map, gradient));
     const double rate = dot(along, gradient);
     // Where the surface all but touches the boundary there is no curve to find.
     step = rate > 1e-6 * slope2 ? (-at.point.value / rate) * along : WorldVector{};
