@@ -235,32 +235,61 @@ TEST(ClassicDistribution, NumberFollowsTheLawOfSpacing)
   EXPECT_NEAR(static_cast<double>(result.particles.size()), wanted, 0.05 * wanted);
 }
 
-TEST(ClassicDistribution, OpenSurfacesReachTheirRim)
+/// A surface that leaves the cube [-1,1]^3, with its area inside and the length of its rim.
+struct OpenCase
 {
-  for (const Domain domain : allDomains)
+  const char* name;
+  KnownSurface surface;
+  double area = 0.0;
+  double rim = 0.0;
+};
+
+std::ostream& operator<<(std::ostream& out, const OpenCase& which)
+{
+  return out << which.name;
+}
+
+class OpenCover : public ::testing::TestWithParam<std::tuple<OpenCase, Domain>>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(ClassicDistribution, OpenCover,
+  ::testing::Combine(
+    ::testing::Values(OpenCase{ "Plane", plane({ 0, 0, 1 }, 0.05), 4.0, 8.0 },
+      // Six caps of height 0.2 are cut off, in circles of radius sqrt(1.2^2 - 1).
+      OpenCase{ "Sphere", sphere({ 0, 0, 0 }, 1.2), 2.0 * Pi * 1.2 * (2.4 - 6.0 * 0.2),
+        6.0 * 2.0 * Pi* std::sqrt(0.44) },
+      OpenCase{ "Cylinder", cylinder(0.7), 2.0 * 2.0 * Pi * 0.7, 2.0 * 2.0 * Pi * 0.7 }),
+    ::testing::ValuesIn(allDomains)),
+  [](const auto& which)
   {
-    SCOPED_TRACE(::testing::PrintToString(domain));
-    MeshRecipe recipe;
-    recipe.domain = domain;
-    recipe.field = plane(glm::normalize(glm::dvec3(0.2, 0.1, 1.0)), 0.05).field;
-    const ElementMesh mesh = makeMesh(recipe);
-    const double spacing = 0.12;
-    const Distribution result = distribute(mesh, withSpacing(spacing));
-    expectHonestParticles(mesh, result, { spacing, 0.0 });
-    int onRim = 0;
-    for (const Particle& p : result.particles)
-    {
-      const glm::dvec3 x = p.position.xyz;
-      const bool atWall = std::max({ std::abs(x.x), std::abs(x.y), std::abs(x.z) }) > 1.0 - 1e-11;
-      EXPECT_EQ(boundaryFaceCount(mesh, p.location) > 0, atWall);
-      onRim += atWall;
-    }
-    // The rim is about 8 long.
-    EXPECT_GT(onRim, 0.6 * 8.0 / spacing);
-    EXPECT_GE(smallest(nearestSpacings(result.particles)), 0.5);
-    const double wanted = hexagonalCount(4.0 * std::sqrt(1.0 + 0.05), spacing);
-    EXPECT_GT(static_cast<double>(result.particles.size()), 0.95 * wanted);
+    return std::get<0>(which.param).name +
+      ("In" + ::testing::PrintToString(std::get<1>(which.param)));
+  });
+
+TEST_P(OpenCover, ReachesTheRimAndStaysEven)
+{
+  const auto& [open, domain] = this->GetParam();
+  constexpr double spacing = 0.12;
+  MeshRecipe recipe;
+  recipe.domain = domain;
+  recipe.field = open.surface.field;
+  const ElementMesh mesh = makeMesh(recipe);
+  const Distribution result = distribute(mesh, withSpacing(spacing));
+  expectHonestParticles(mesh, result, { spacing, 0.0 });
+  int onRim = 0;
+  for (const Particle& p : result.particles)
+  {
+    const glm::dvec3 x = p.position.xyz;
+    const bool atWall = std::max({ std::abs(x.x), std::abs(x.y), std::abs(x.z) }) > 1.0 - 1e-11;
+    EXPECT_EQ(boundaryFaceCount(mesh, p.location) > 0, atWall);
+    onRim += atWall;
   }
+  EXPECT_NEAR(onRim * spacing, open.rim, 0.15 * open.rim);
+  EXPECT_GE(smallest(nearestSpacings(result.particles)), 0.7);
+  // Particles on the rim stand for half as much area as those inside.
+  const double wanted = hexagonalCount(open.area, spacing) + 0.5 * open.rim / spacing;
+  EXPECT_NEAR(static_cast<double>(result.particles.size()), wanted, 0.05 * wanted);
 }
 
 TEST(ClassicDistribution, DependsOnTheSeedAndNotOnThreads)
