@@ -153,8 +153,11 @@ def test_one_side_can_be_culled(view, picture):
 
 def test_blocks_of_a_composite_are_drawn(view, picture):
     group = simple.GroupDatasets(Input=[particles((-0.5, 0, 0)), particles((0.5, 0, 0))])
-    show(group, view)
+    display = show(group, view)
     covered = drawn(picture())
+    offered = display.GetRepresentedDataInformation().GetPointDataInformation()
+    names = {offered.GetArrayInformation(i).GetName() for i in range(offered.GetNumberOfArrays())}
+    assert names == {"Normals", "Radius"}, "arrays to colour by"
     assert np.all(covered[disk_of_sphere(-0.5, 0.49) | disk_of_sphere(0.5, 0.49)])
     assert not np.any(covered[~(disk_of_sphere(-0.5, 0.52) | disk_of_sphere(0.5, 0.52))])
 
