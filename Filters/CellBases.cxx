@@ -163,8 +163,7 @@ std::shared_ptr<const CellBasis> sampleBasis(vtkCell* cell, hop::Domain domain)
     std::vector<double> samples;
     for (const hop::LatticePoint& point : hop::latticePoints(domain, degrees))
     {
-      const std::vector<double> values =
-        shapeFunctions(cell, hop::latticePosition(degrees, point));
+      const std::vector<double> values = shapeFunctions(cell, hop::latticePosition(degrees, point));
       samples.insert(samples.end(), values.begin(), values.end());
     }
     const hop::NodalBasis basis = hop::NodalBasis::sampled(domain, degrees, samples);
@@ -262,7 +261,6 @@ hop::ReferencePoint parametricCoordinates(int cellType, const hop::ReferencePoin
     return u;
   }
   // Base at height 1/2, apex above its middle at height 1.
-  const glm::dvec2 shrunk =
-    (1.0 - u.xyz.z) * glm::dvec2(u.xyz) + u.xyz.z * glm::dvec2(0.5, 0.5);
+  const glm::dvec2 shrunk = (1.0 - u.xyz.z) * glm::dvec2(u.xyz) + u.xyz.z * glm::dvec2(0.5, 0.5);
   return { { shrunk.x, shrunk.y, 0.5 + 0.5 * u.xyz.z } };
 }

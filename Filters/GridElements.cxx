@@ -214,8 +214,8 @@ bool Builder::canHoldSurface(const CellBasis& cell, const CellValues& values) co
   std::vector<double> control(
     static_cast<std::size_t>(cell.basis.coefficientCount()) * this->Components);
   cell.basis.toBernstein(values.field.data(), this->Components, control.data());
-  const double slack = 8.0 * std::numeric_limits<double>::epsilon() *
-    cell.basis.conversionNorm() * std::max(std::abs(*lowest), std::abs(*highest));
+  const double slack = 8.0 * std::numeric_limits<double>::epsilon() * cell.basis.conversionNorm() *
+    std::max(std::abs(*lowest), std::abs(*highest));
   if (!this->Result.squared)
   {
     const auto [lower, upper] = std::minmax_element(control.begin(), control.end());
@@ -224,9 +224,8 @@ bool Builder::canHoldSurface(const CellBasis& cell, const CellValues& values) co
   double longest2 = 0.0;
   for (std::size_t i = 0; i < control.size(); i += this->Components)
   {
-    longest2 = std::max(longest2,
-      std::inner_product(
-        &control[i], &control[i] + this->Components, &control[i], 0.0));
+    longest2 = std::max(
+      longest2, std::inner_product(&control[i], &control[i] + this->Components, &control[i], 0.0));
   }
   return this->straddles(0.0, std::sqrt(longest2) + this->Components * slack);
 }
@@ -292,8 +291,8 @@ void Builder::convert(int element, CellValues& values)
   {
     double* row = &nodal[static_cast<std::size_t>(node) * width];
     this->Grid->GetPoints()->GetPoint(values.ids->GetId(node), row);
-    std::copy_n(&values.field[static_cast<std::size_t>(node) * this->Components],
-      this->Components, row + 3);
+    std::copy_n(
+      &values.field[static_cast<std::size_t>(node) * this->Components], this->Components, row + 3);
     if (e.rational)
     {
       std::transform(
@@ -312,8 +311,8 @@ void Builder::convert(int element, CellValues& values)
   hop::Coefficient* coefficients = &mesh.coefficients[e.firstCoefficient];
   if (this->Result.squared)
   {
-    weights = hop::squareField(cell.basis.domain(), cell.basis.degrees(), width, control, weights,
-      coefficients);
+    weights = hop::squareField(
+      cell.basis.domain(), cell.basis.degrees(), width, control, weights, coefficients);
   }
   else
   {
@@ -375,8 +374,8 @@ void Builder::numberCorners()
     for (int c = 0; c < static_cast<int>(hop::facts(form.domain).corners.size()); ++c)
     {
       const glm::dvec3 x(hop::controlPoint(form,
-        hop::coefficientIndex(form.domain, form.degrees,
-          hop::cornerLatticePoint(form.domain, form.degrees, c))));
+        hop::coefficientIndex(
+          form.domain, form.degrees, hop::cornerLatticePoint(form.domain, form.degrees, c))));
       corners->InsertNextPoint(x.x, x.y, x.z);
       largest = std::max({ largest, std::abs(x.x), std::abs(x.y), std::abs(x.z) });
       const double edge = c > 0 ? glm::distance(x, previous) : 0.0;
@@ -423,8 +422,8 @@ void describeCells(std::ostream& text, const SkippedCells& cells, const std::str
 
 vtkIdType CellCensus::skipped() const
 {
-  vtkIdType sum = this->brokenConnectivity.count + this->notFinite.count +
-    this->badWeights.count + this->collapsed.count;
+  vtkIdType sum = this->brokenConnectivity.count + this->notFinite.count + this->badWeights.count +
+    this->collapsed.count;
   for (const auto& [type, cells] : this->unsupported)
   {
     sum += cells.count;

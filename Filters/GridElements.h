@@ -26,10 +26,7 @@ struct SkippedCells
   vtkIdType count = 0;
   vtkIdType first = -1;
 
-  void add(vtkIdType cell)
-  {
-    this->first = this->count++ == 0 ? cell : this->first;
-  }
+  void add(vtkIdType cell) { this->first = this->count++ == 0 ? cell : this->first; }
 };
 
 /// What became of a grid's cells.

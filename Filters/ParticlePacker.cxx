@@ -73,8 +73,8 @@ private:
   void addReport(const std::vector<IsovalueParticles>& isovalues);
   std::vector<double> rationalWeights(int element, vtkIdList* ids) const;
   void evaluate(vtkDataArray* source, vtkDoubleArray* target);
-  void evaluateRun(vtkDataArray* source, vtkDoubleArray* target, std::size_t begin,
-    std::size_t end, vtkIdList* ids) const;
+  void evaluateRun(vtkDataArray* source, vtkDoubleArray* target, std::size_t begin, std::size_t end,
+    vtkIdList* ids) const;
   template <class Write>
   vtkSmartPointer<vtkDoubleArray> addArray(
     const std::string& name, int components, const Write& write);
@@ -178,25 +178,22 @@ void Packer::addOwnArrays()
     out[1] = v.y;
     out[2] = v.z;
   };
-  const auto normals = this->addArray("Normals", 3,
-    [&](const Row& row, double* out) { writeVector(row.particle->normal.xyz, out); });
+  const auto normals = this->addArray(
+    "Normals", 3, [&](const Row& row, double* out) { writeVector(row.particle->normal.xyz, out); });
   this->Output->GetPointData()->SetNormals(normals);
+  this->addArray("Radius", 1, [](const Row& row, double* out) { *out = row.particle->spacing; });
   this->addArray(
-    "Radius", 1, [](const Row& row, double* out) { *out = row.particle->spacing; });
-  this->addArray("Mean_Curvature", 1,
-    [](const Row& row, double* out) { *out = row.particle->curvature.mean; });
+    "Mean_Curvature", 1, [](const Row& row, double* out) { *out = row.particle->curvature.mean; });
   this->addArray("Gauss_Curvature", 1,
     [](const Row& row, double* out) { *out = row.particle->curvature.gauss; });
-  this->addArray(
-    "Residual", 1, [](const Row& row, double* out) { *out = row.particle->residual; });
+  this->addArray("Residual", 1, [](const Row& row, double* out) { *out = row.particle->residual; });
   this->addArray("Isovalue", 1, [](const Row& row, double* out) { *out = row.isovalue; });
   // Places on a face may have left the domain by a rounding error.
   this->addArray("ParametricCoordinates", 3,
     [&](const Row& row, double* out)
     {
       const hop::ReferencePoint u{ glm::clamp(row.particle->location.u.xyz, 0.0, 1.0) };
-      writeVector(
-        parametricCoordinates(this->Grid->GetCellType(this->cellOf(row)), u).xyz, out);
+      writeVector(parametricCoordinates(this->Grid->GetCellType(this->cellOf(row)), u).xyz, out);
     });
 
   vtkNew<vtkIdTypeArray> cells;
@@ -259,7 +256,8 @@ void Packer::evaluate(vtkDataArray* source, vtkDoubleArray* target)
       {
         std::size_t end = begin;
         while (end < static_cast<std::size_t>(last) &&
-          this->Rows[end].particle->location.element == this->Rows[begin].particle->location.element)
+          this->Rows[end].particle->location.element ==
+            this->Rows[begin].particle->location.element)
         {
           ++end;
         }
@@ -331,7 +329,7 @@ void Packer::addCellArrays()
 {
   vtkCellData* source = this->Grid->GetCellData();
   vtkCellData* target = this->Output->GetCellData();
-  target->CopyGlobalIdsOff(); // several particles share a cell: its id is no id of theirs
+  target->CopyGlobalIdsOff();          // several particles share a cell: its id is no id of theirs
   target->CopyHigherOrderDegreesOff(); // particles have none
   target->CopyFieldOff(vtkDataSetAttributes::GhostArrayName());
   target->CopyAllocate(source, static_cast<vtkIdType>(this->Rows.size()));

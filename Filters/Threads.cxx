@@ -39,8 +39,5 @@ void withThreads(const std::function<void()>& work)
 hop::ParallelFor smpParallelFor()
 {
   return [](std::ptrdiff_t count, const std::function<void(std::ptrdiff_t, std::ptrdiff_t)>& body)
-  {
-    vtkSMPTools::For(
-      0, count, [&](vtkIdType begin, vtkIdType end) { body(begin, end); });
-  };
+  { vtkSMPTools::For(0, count, [&](vtkIdType begin, vtkIdType end) { body(begin, end); }); };
 }

@@ -25,6 +25,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace
 {
@@ -68,8 +69,8 @@ vtkBoundingBox overAllRanks(const vtkBoundingBox& local)
   local.GetMaxPoint(upper);
   controller->AllReduce(lower, globalLower, 3, vtkCommunicator::MIN_OP);
   controller->AllReduce(upper, globalUpper, 3, vtkCommunicator::MAX_OP);
-  return vtkBoundingBox(globalLower[0], globalUpper[0], globalLower[1], globalUpper[1],
-    globalLower[2], globalUpper[2]);
+  return vtkBoundingBox(
+    globalLower[0], globalUpper[0], globalLower[1], globalUpper[1], globalLower[2], globalUpper[2]);
 }
 
 std::string listOfArrays(vtkDataSetAttributes* attributes)
@@ -221,7 +222,15 @@ vtkHighOrderParticleIsosurface::Scale vtkHighOrderParticleIsosurface::FindScale(
   {
     scale.Spacing =
       this->Spacing > 0.0 ? this->Spacing : automaticSpacingPerSide * box.GetMaxLength();
-    scale.Tolerance = this->Tolerance * box.GetDiagonalLength();
+    // No point can be nearer to a surface than coordinates can say.
+    double lower[3], upper[3];
+    box.GetMinPoint(lower);
+    box.GetMaxPoint(upper);
+    const auto farther = [](double a, double b) { return std::max(a, std::abs(b)); };
+    const double farthest =
+      std::accumulate(upper, upper + 3, std::accumulate(lower, lower + 3, 0.0, farther), farther);
+    scale.Tolerance = std::max(this->Tolerance * box.GetDiagonalLength(),
+      4.0 * std::numeric_limits<double>::epsilon() * farthest);
   }
   return scale;
 }
@@ -242,8 +251,8 @@ bool vtkHighOrderParticleIsosurface::CheckParameters()
   }
   if (this->Spacing < 0.0)
   {
-    vtkWarningMacro("Spacing " << this->Spacing
-                               << " is negative; the automatic spacing is used instead.");
+    vtkWarningMacro(
+      "Spacing " << this->Spacing << " is negative; the automatic spacing is used instead.");
   }
   return true;
 }
@@ -261,16 +270,16 @@ vtkDataArray* vtkHighOrderParticleIsosurface::FindScalars(vtkUnstructuredGrid* g
                       << listOfArrays(grid->GetPointData()) << ".");
     return nullptr;
   }
-  vtkDataArray* scalars = name && *name ? grid->GetPointData()->GetArray(name)
-                                        : grid->GetPointData()->GetScalars();
+  vtkDataArray* scalars =
+    name && *name ? grid->GetPointData()->GetArray(name) : grid->GetPointData()->GetScalars();
   if (!scalars)
   {
     const bool isCellArray = name && grid->GetCellData()->HasArray(name);
-    vtkErrorMacro("There is no "
-      << (name && *name ? "point array '" + std::string(name) + "'" : "active point scalar")
-      << (isCellArray ? ", only a cell array of that name" : "")
-      << "; choose one with ContourBy. The grid's point arrays: "
-      << listOfArrays(grid->GetPointData()) << ".");
+    vtkErrorMacro("There is no " << (name && *name ? "point array '" + std::string(name) + "'"
+                                                   : "active point scalar")
+                                 << (isCellArray ? ", only a cell array of that name" : "")
+                                 << "; choose one with ContourBy. The grid's point arrays: "
+                                 << listOfArrays(grid->GetPointData()) << ".");
   }
   return scalars;
 }
@@ -292,8 +301,7 @@ void vtkHighOrderParticleIsosurface::Process(vtkUnstructuredGrid* grid, const Sc
   const int components = scalars.array->GetNumberOfComponents();
   if (components > 1)
   {
-    scalars.component =
-      this->Component < components ? this->Component : ScalarChoice::Magnitude;
+    scalars.component = this->Component < components ? this->Component : ScalarChoice::Magnitude;
   }
   const double* values = this->ContourValues->GetValues();
   const hop::ParallelFor parallelFor = smpParallelFor();
@@ -301,8 +309,8 @@ void vtkHighOrderParticleIsosurface::Process(vtkUnstructuredGrid* grid, const Sc
   {
     const auto spacing = this->NodeSpacing == UNIFORM ? hop::NodeSpacing::Uniform
                                                       : hop::NodeSpacing::GaussLobattoLegendre;
-    const GridElements elements = buildGridElements(
-      grid, scalars, spacing, { values, values + isovalueCount }, parallelFor);
+    const GridElements elements =
+      buildGridElements(grid, scalars, spacing, { values, values + isovalueCount }, parallelFor);
     const std::string remarks = elements.census.describe();
     if (!remarks.empty())
     {
@@ -334,15 +342,13 @@ void vtkHighOrderParticleIsosurface::Process(vtkUnstructuredGrid* grid, const Sc
 }
 
 /// Tells the user what a distribution could not do.
-void vtkHighOrderParticleIsosurface::Review(
-  const hop::Distribution& distribution, double isovalue)
+void vtkHighOrderParticleIsosurface::Review(const hop::Distribution& distribution, double isovalue)
 {
   const hop::DistributionReport& report = distribution.report;
   const double count = static_cast<double>(distribution.particles.size());
   if (!report.error.empty())
   {
-    vtkErrorMacro("Isovalue " << isovalue << ": " << report.error
-                              << ". Choose a larger Spacing.");
+    vtkErrorMacro("Isovalue " << isovalue << ": " << report.error << ". Choose a larger Spacing.");
   }
   else if (!report.converged)
   {

@@ -90,7 +90,8 @@ public:
   ///@{
   /**
    * Largest distance |F - c|/|grad F| of a particle from the isosurface, as a fraction of the
-   * diagonal of the input's bounds. Range 1e-14 to 1e-2, default 1e-8.
+   * diagonal of the input's bounds. Range 1e-14 to 1e-2, default 1e-10;
+   * rounding of coordinates and values sets a floor.
    */
   vtkSetClampMacro(Tolerance, double, 1e-14, 1e-2);
   vtkGetMacro(Tolerance, double);
@@ -160,12 +161,12 @@ protected:
   vtkHighOrderParticleIsosurface();
   ~vtkHighOrderParticleIsosurface() override;
 
-  int ProcessRequest(vtkInformation* request, vtkInformationVector** inputs,
-    vtkInformationVector* outputs) override;
-  int RequestDataObject(vtkInformation* request, vtkInformationVector** inputs,
-    vtkInformationVector* outputs);
-  int RequestData(vtkInformation* request, vtkInformationVector** inputs,
-    vtkInformationVector* outputs) override;
+  int ProcessRequest(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestDataObject(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs);
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
 
@@ -189,7 +190,7 @@ private:
   vtkNew<vtkContourValues> ContourValues;
   double Spacing = 0.0;
   double AngularDensity = 0.0;
-  double Tolerance = 1e-8;
+  double Tolerance = 1e-10;
   int Component = 0;
   int NodeSpacing = UNIFORM;
   int Method = CLASSIC;

@@ -131,3 +131,14 @@ vtkSmartPointer<vtkPolyData> vtkSurfaceSplatInput::AsParticles(vtkDataObject* da
   auto* points = vtkPointSet::SafeDownCast(data);
   return points && points->GetPoints() ? PointSetAsParticles(points) : particles;
 }
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> vtkSurfaceSplatInput::WithoutBlockIds(vtkPolyData* particles)
+{
+  auto copy = vtkSmartPointer<vtkPolyData>::New();
+  copy->ShallowCopy(particles);
+  copy->GetPointData()->RemoveArray(BlockPointIdName);
+  copy->GetCellData()->RemoveArray(BlockCellIdName);
+  copy->GetCellData()->RemoveArray(BlockIndexName);
+  return copy;
+}

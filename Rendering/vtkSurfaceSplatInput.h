@@ -28,6 +28,9 @@ constexpr const char* BlockIndexName = "SurfaceSplatBlockIndex";
  * without points.
  */
 vtkSmartPointer<vtkPolyData> AsParticles(vtkDataObject* data);
+
+/** A shallow copy without the arrays named above: what is offered to users. */
+vtkSmartPointer<vtkPolyData> WithoutBlockIds(vtkPolyData* particles);
 }
 
 #endif

@@ -22,6 +22,7 @@ vtkStandardNewMacro(vtkSurfaceSplatRepresentation);
 //------------------------------------------------------------------------------
 vtkSurfaceSplatRepresentation::vtkSurfaceSplatRepresentation()
   : Particles(vtkSmartPointer<vtkPolyData>::New())
+  , ArraysToColorBy(Particles)
 {
   this->Actor->SetMapper(this->Mapper);
   this->SetMapScalars(1);
@@ -46,6 +47,7 @@ int vtkSurfaceSplatRepresentation::RequestData(
   const bool hasInput = inputs[0]->GetNumberOfInformationObjects() == 1;
   this->Particles =
     vtkSurfaceSplatInput::AsParticles(hasInput ? vtkDataObject::GetData(inputs[0], 0) : nullptr);
+  this->ArraysToColorBy = vtkSurfaceSplatInput::WithoutBlockIds(this->Particles);
   return this->Superclass::RequestData(request, inputs, outputs);
 }
 
@@ -168,7 +170,7 @@ void vtkSurfaceSplatRepresentation::SetVisibility(bool visible)
 
 vtkDataObject* vtkSurfaceSplatRepresentation::GetRenderedDataObject(int)
 {
-  return this->Particles;
+  return this->ArraysToColorBy;
 }
 
 //------------------------------------------------------------------------------
@@ -313,7 +315,8 @@ void vtkSurfaceSplatRepresentation::SetPickable(int pickable)
 void vtkSurfaceSplatRepresentation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const auto print = [&os, indent](const char* name, const double* v, int size) {
+  const auto print = [&os, indent](const char* name, const double* v, int size)
+  {
     os << indent << name << ":";
     for (int c = 0; c < size; ++c)
     {

@@ -96,7 +96,8 @@ private:
 
   vtkNew<vtkSurfaceSplatMapper> Mapper;
   vtkNew<vtkActor> Actor;
-  vtkSmartPointer<vtkPolyData> Particles; // of this process; empty where it has no data
+  vtkSmartPointer<vtkPolyData> Particles;       // of this process; empty where it has no data
+  vtkSmartPointer<vtkPolyData> ArraysToColorBy; // the same as far as users care
 };
 
 #endif

@@ -132,8 +132,7 @@ void reduceTriangle(int p, const double (&b)[3], Coefficient* c)
 /// Value and derivatives on a triangle: de Casteljau's algorithm down to degree two holds them all.
 /// Order of results: value, u, v, uu, uv, vv.
 template <int Order>
-void triangleJet(
-  int p, double u, double v, const Coefficient* coefficients, Coefficient (&jet)[6])
+void triangleJet(int p, double u, double v, const Coefficient* coefficients, Coefficient (&jet)[6])
 {
   const double b[3] = { 1.0 - u - v, u, v };
   Coefficient c[MaximumTriangle];
@@ -265,7 +264,8 @@ template <int Order>
 Jet weightJet(const BernsteinForm& form, const ReferencePoint& u)
 {
   constexpr int maximumCount = MaximumLine * MaximumLine * MaximumLine;
-  static_assert(maximumCount >= MaximumTetrahedron && maximumCount >= MaximumTriangle * MaximumLine);
+  static_assert(
+    maximumCount >= MaximumTetrahedron && maximumCount >= MaximumTriangle * MaximumLine);
   Coefficient weights[maximumCount];
   const int count = coefficientCount(form.domain, form.degrees);
   for (int i = 0; i < count; ++i)
@@ -379,8 +379,8 @@ void evaluateBasis(Domain domain, const Degrees& degrees, const ReferencePoint& 
     switch (domain)
     {
       case Domain::Tetrahedron:
-        basis[index] = multinomial(p, { i, j, k }) * power(t.x, i) * power(t.y, j) *
-          power(t.z, k) * power(1.0 - t.x - t.y - t.z, p - i - j - k);
+        basis[index] = multinomial(p, { i, j, k }) * power(t.x, i) * power(t.y, j) * power(t.z, k) *
+          power(1.0 - t.x - t.y - t.z, p - i - j - k);
         break;
       case Domain::Wedge:
         basis[index] = multinomial(p, { i, j }) * power(t.x, i) * power(t.y, j) *
@@ -429,8 +429,8 @@ void bisect(Domain domain, const Degrees& degrees, const LatticePoint& direction
 
 template void bisect(Domain, const Degrees&, const LatticePoint&, std::vector<Coefficient>&,
   std::vector<Coefficient>&);
-template void bisect(Domain, const Degrees&, const LatticePoint&, std::vector<glm::dvec3>&,
-  std::vector<glm::dvec3>&);
+template void bisect(
+  Domain, const Degrees&, const LatticePoint&, std::vector<glm::dvec3>&, std::vector<glm::dvec3>&);
 template void bisect(
   Domain, const Degrees&, const LatticePoint&, std::vector<double>&, std::vector<double>&);
 

@@ -47,8 +47,7 @@ Jet evaluateHessian(const BernsteinForm& form, const ReferencePoint& u);
 
 /// Values of all Bernstein basis functions at u.
 /// \param basis room for coefficientCount(domain, degrees) values; they sum to one.
-void evaluateBasis(
-  Domain domain, const Degrees& degrees, const ReferencePoint& u, double* basis);
+void evaluateBasis(Domain domain, const Degrees& degrees, const ReferencePoint& u, double* basis);
 
 /// Bisects a polynomial over `domain` at the middle of the edges that run along `direction` (one of
 /// facts(domain).edgeDirections), by de Casteljau's algorithm on every lattice line.

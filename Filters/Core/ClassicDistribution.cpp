@@ -80,7 +80,8 @@ public:
 
 private:
   std::vector<Mover> makeSeeds(const std::vector<SurfaceBox>& boxes);
-  bool place(const Location& start, double maximumTravel, SurfaceWalker& walker, Mover& mover) const;
+  bool place(
+    const Location& start, double maximumTravel, SurfaceWalker& walker, Mover& mover) const;
   bool displace(const Mover& from, const WorldVector& step, Mover& to);
   void addUncovered(const std::vector<Mover>& seeds);
   void relaxLevel(int maximumRounds, bool fixedNumber);
@@ -259,8 +260,7 @@ void ClassicSystem::addUncovered(const std::vector<Mover>& seeds)
 
 double ClassicSystem::scaledDistance(const Mover& a, const Mover& b) const
 {
-  return length(a.position() - b.position()) /
-    this->Law.range(0.5 * (a.curvature + b.curvature));
+  return length(a.position() - b.position()) / this->Law.range(0.5 * (a.curvature + b.curvature));
 }
 
 void ClassicSystem::renewNeighbors()
@@ -360,8 +360,7 @@ bool ClassicSystem::addBeside(const Mover& parent, double distance, double angle
   const glm::dvec3 e1 = orthogonal(parent.normal.xyz);
   const glm::dvec3 e2 = glm::cross(parent.normal.xyz, e1);
   Mover child = parent;
-  if (!this->displace(
-        parent, { distance * (std::cos(angle) * e1 + std::sin(angle) * e2) }, child))
+  if (!this->displace(parent, { distance * (std::cos(angle) * e1 + std::sin(angle) * e2) }, child))
   {
     ++this->Report.particlesRejected;
     return false;
@@ -394,7 +393,12 @@ bool ClassicSystem::bendsTooFar(const Mover& mover)
 /// \return whether enough wanted to that the system has to settle again
 bool ClassicSystem::changePopulation()
 {
-  enum class Fate : char { Stay, Split, Delete };
+  enum class Fate : char
+  {
+    Stay,
+    Split,
+    Delete
+  };
   std::vector<Fate> fates(this->Movers.size(), Fate::Stay);
   std::size_t changes = 0;
   bool overlaps = false;
@@ -424,8 +428,8 @@ bool ClassicSystem::changePopulation()
     }
     if (fates[i] == Fate::Split)
     {
-      this->addBeside(before[i], 0.5 * this->Law.at(before[i].curvature),
-        2.0 * Pi * this->Dice.uniform());
+      this->addBeside(
+        before[i], 0.5 * this->Law.at(before[i].curvature), 2.0 * Pi * this->Dice.uniform());
     }
   }
   return true;
@@ -532,7 +536,8 @@ void ClassicSystem::forceCount(std::size_t count)
 {
   std::vector<std::size_t> byEnergy(this->Movers.size());
   std::iota(byEnergy.begin(), byEnergy.end(), 0);
-  const auto excess = [this](std::size_t i) { return this->Movers[i].energy / this->Movers[i].ideal; };
+  const auto excess = [this](std::size_t i)
+  { return this->Movers[i].energy / this->Movers[i].ideal; };
   std::stable_sort(byEnergy.begin(), byEnergy.end(),
     [&](std::size_t a, std::size_t b) { return excess(a) < excess(b); });
   if (count < byEnergy.size())
@@ -550,8 +555,7 @@ void ClassicSystem::forceCount(std::size_t count)
   for (std::size_t tries = 0; this->Movers.size() < count && tries < 10 * count; ++tries)
   {
     const Mover parent = this->Movers[byEnergy[tries % byEnergy.size()]];
-    this->addBeside(
-      parent, 0.5 * this->Law.at(parent.curvature), 2.0 * Pi * this->Dice.uniform());
+    this->addBeside(parent, 0.5 * this->Law.at(parent.curvature), 2.0 * Pi * this->Dice.uniform());
   }
 }
 
@@ -588,8 +592,8 @@ Distribution ClassicSystem::run()
   {
     return {};
   }
-  const double boxSize = std::max(boxSizePerSpacing * this->Law.spacing,
-    smallestBoxPerExtent * meshExtent(mesh));
+  const double boxSize =
+    std::max(boxSizePerSpacing * this->Law.spacing, smallestBoxPerExtent * meshExtent(mesh));
   const std::vector<Mover> seeds =
     this->makeSeeds(findSurfaceBoxes(mesh, this->Surface.isovalue, boxSize, this->Parallel));
   if (seeds.empty())
@@ -623,6 +627,8 @@ Distribution ClassicSystem::run()
     }
     this->Fraction = std::pow(0.25, levels - level);
   }
+  // The biased coin may have taken the last particles of a component smaller than the spacing.
+  this->addUncovered(seeds);
   if (fixedNumber && this->proceed())
   {
     this->forceCount(static_cast<std::size_t>(this->Parameters.particleCount));
@@ -653,8 +659,9 @@ Distribution ClassicSystem::finish()
     });
   this->Report.evaluations +=
     this->Walker.evaluations() + static_cast<std::int64_t>(result.particles.size());
-  this->Report.particlesUndersampled = std::count_if(result.particles.begin(),
-    result.particles.end(), [](const Particle& p) { return p.curvature.magnitude * p.spacing > 2.0; });
+  this->Report.particlesUndersampled =
+    std::count_if(result.particles.begin(), result.particles.end(),
+      [](const Particle& p) { return p.curvature.magnitude * p.spacing > 2.0; });
   result.report = this->Report;
   return result;
 }

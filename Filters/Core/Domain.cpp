@@ -66,8 +66,7 @@ DomainFacts tetrahedronFacts()
 
 DomainFacts wedgeFacts()
 {
-  return makeFacts(
-    { at(0, 0, 0), at(1, 0, 0), at(0, 1, 0), at(0, 0, 1), at(1, 0, 1), at(0, 1, 1) },
+  return makeFacts({ at(0, 0, 0), at(1, 0, 0), at(0, 1, 0), at(0, 0, 1), at(1, 0, 1), at(0, 1, 1) },
     { { 0, 1, 2 }, { 3, 5, 4 }, { 0, 3, 4, 1 }, { 1, 4, 5, 2 }, { 2, 5, 3, 0 } },
     { { 1, 0, 0 }, { 0, 1, 0 }, { -1, 1, 0 }, { 0, 0, 1 } });
 }

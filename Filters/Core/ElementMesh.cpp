@@ -73,7 +73,8 @@ const Face& faceOf(const ElementMesh& mesh, int element, int face)
 
 /// Weights of a face's corners at a point of the face: bilinear on quadrilaterals, barycentric on
 /// triangles. On a collapsed quadrilateral they add up to barycentric ones.
-std::array<double, 4> cornerWeights(const DomainFacts& domain, const Face& face, const ReferencePoint& u)
+std::array<double, 4> cornerWeights(
+  const DomainFacts& domain, const Face& face, const ReferencePoint& u)
 {
   const glm::dvec3 origin = domain.corners[face.corners[0]].xyz;
   const glm::dvec3 e1 = domain.corners[face.corners[1]].xyz - origin;
@@ -206,8 +207,7 @@ Location crossFace(const ElementMesh& mesh, const Location& location, int face)
     u.xyz += weights[c] * domain.corners[neighbor.corners[c]].xyz;
   }
   const int apex = collapsedCorner(there, to);
-  return { neighbor.element,
-    apex < 0 ? u : pointOnCollapsed(domain, to, apex, weightOfCorner) };
+  return { neighbor.element, apex < 0 ? u : pointOnCollapsed(domain, to, apex, weightOfCorner) };
 }
 
 } // namespace hop

@@ -89,8 +89,7 @@ std::vector<double> invert(std::vector<Extended> a, int n)
 }
 
 /// The inverse of V_ij = B_j(node i).
-std::vector<double> makeConversion(
-  int dimension, int degree, const std::vector<Barycentric>& nodes)
+std::vector<double> makeConversion(int dimension, int degree, const std::vector<Barycentric>& nodes)
 {
   const auto lattice = simplexLattice(dimension, degree);
   const std::size_t n = lattice.size();
@@ -344,14 +343,14 @@ void NodalBasis::toBernstein(const double* nodal, int components, double* coeffi
 {
   if (!this->Dense.empty())
   {
-    multiply(this->Dense.data(), this->Coefficients, this->Nodes, nodal, 1, components,
-      coefficients);
+    multiply(
+      this->Dense.data(), this->Coefficients, this->Nodes, nodal, 1, components, coefficients);
     return;
   }
   for (int node = 0; node < this->Nodes; ++node)
   {
-    std::copy_n(nodal + node * components, components,
-      coefficients + this->Place[node] * components);
+    std::copy_n(
+      nodal + node * components, components, coefficients + this->Place[node] * components);
   }
   for (const Factor& factor : this->Factors)
   {

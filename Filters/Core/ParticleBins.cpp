@@ -27,8 +27,7 @@ ParticleBins::ParticleBins(const std::vector<glm::dvec3>& points, double binSize
     upper = glm::max(upper, p);
   }
   const glm::dvec3 extent = upper - this->Origin;
-  this->BinSize =
-    std::max(binSize, std::max({ extent.x, extent.y, extent.z }) / (binsPerAxis - 2));
+  this->BinSize = std::max(binSize, std::max({ extent.x, extent.y, extent.z }) / (binsPerAxis - 2));
 
   std::vector<std::uint64_t> keys(points.size());
   std::transform(points.begin(), points.end(), keys.begin(),
@@ -62,8 +61,8 @@ std::uint64_t ParticleBins::key(const glm::i64vec3& bin)
   return (b.z << (2 * bitsPerAxis)) | (b.y << bitsPerAxis) | b.x;
 }
 
-NeighborLists findNeighbors(const std::vector<glm::dvec3>& points,
-  const std::vector<double>& radii, const ParallelFor& parallelFor)
+NeighborLists findNeighbors(const std::vector<glm::dvec3>& points, const std::vector<double>& radii,
+  const ParallelFor& parallelFor)
 {
   NeighborLists lists;
   lists.start.assign(points.size() + 1, 0);

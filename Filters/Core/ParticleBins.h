@@ -30,7 +30,7 @@ private:
 
   glm::dvec3 Origin{ 0.0 };
   double BinSize = 1.0;
-  std::vector<int> Order;                              // point indices, bin by bin
+  std::vector<int> Order;                                      // point indices, bin by bin
   std::unordered_map<std::uint64_t, std::pair<int, int>> Bins; // range in Order
 };
 
@@ -42,12 +42,11 @@ struct NeighborLists
 };
 
 /// For every point the points within radii[i] of it, itself excepted, in a fixed order.
-NeighborLists findNeighbors(const std::vector<glm::dvec3>& points,
-  const std::vector<double>& radii, const ParallelFor& parallelFor);
+NeighborLists findNeighbors(const std::vector<glm::dvec3>& points, const std::vector<double>& radii,
+  const ParallelFor& parallelFor);
 
 template <class Visit>
-void ParticleBins::visit(
-  const glm::dvec3& position, double radius, const Visit& visit) const
+void ParticleBins::visit(const glm::dvec3& position, double radius, const Visit& visit) const
 {
   const glm::i64vec3 lower = this->binOf(position - radius);
   const glm::i64vec3 upper = this->binOf(position + radius);

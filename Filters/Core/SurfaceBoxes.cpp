@@ -77,8 +77,9 @@ private:
   static bool isFinite(const Piece& piece)
   {
     return std::all_of(piece.coefficients.begin(), piece.coefficients.end(),
-      [](const Coefficient& c)
-      { return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z) && std::isfinite(c.w); });
+      [](const Coefficient& c) {
+        return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z) && std::isfinite(c.w);
+      });
   }
 
   BernsteinForm formOf(const Piece& piece) const
@@ -124,8 +125,8 @@ private:
   {
     const LatticePoint direction = this->longestDirection(piece);
     Piece second;
-    bisect(this->Form.domain, this->Form.degrees, direction, piece.coefficients,
-      second.coefficients);
+    bisect(
+      this->Form.domain, this->Form.degrees, direction, piece.coefficients, second.coefficients);
     if (!piece.weights.empty())
     {
       bisect(this->Form.domain, this->Form.degrees, direction, piece.weights, second.weights);
@@ -177,8 +178,8 @@ private:
 
 } // namespace
 
-std::vector<SurfaceBox> findSurfaceBoxes(const ElementMesh& mesh, double isovalue,
-  double wantedSize, const ParallelFor& parallelFor)
+std::vector<SurfaceBox> findSurfaceBoxes(
+  const ElementMesh& mesh, double isovalue, double wantedSize, const ParallelFor& parallelFor)
 {
   std::vector<std::vector<SurfaceBox>> ofElement(mesh.elements.size());
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(mesh.elements.size()),

@@ -21,8 +21,8 @@ struct SurfaceBox
 /// coefficient that is NaN or infinite give none.
 /// \param wantedSize world units, > 0
 /// \return boxes in the order of the elements, the same for any number of threads
-std::vector<SurfaceBox> findSurfaceBoxes(const ElementMesh& mesh, double isovalue,
-  double wantedSize, const ParallelFor& parallelFor);
+std::vector<SurfaceBox> findSurfaceBoxes(
+  const ElementMesh& mesh, double isovalue, double wantedSize, const ParallelFor& parallelFor);
 
 constexpr int MaximumBisections = 24;
 

@@ -23,8 +23,7 @@ LocalMap localMap(const Jet& jet)
     glm::length(map.jacobian[2]) };
   const auto [shortest, longest] = std::minmax_element(std::begin(lengths), std::end(lengths));
   const double determinant = glm::determinant(map.jacobian);
-  map.singular =
-    !(*shortest > roundedColumn * std::max(*longest, glm::length(map.position.xyz))) ||
+  map.singular = !(*shortest > roundedColumn * std::max(*longest, glm::length(map.position.xyz))) ||
     !(std::abs(determinant) > roundedDeterminant * lengths[0] * lengths[1] * lengths[2]);
   map.inverse = map.singular ? glm::dmat3(0.0) : glm::inverse(map.jacobian);
   return map;

@@ -199,8 +199,7 @@ WorldVector SurfaceWalker::newtonStep(const Evaluated& at, bool& alongWall) cons
   const auto hold = [&](int face)
   {
     active.add(face);
-    const WorldVector along =
-      at.point.map.push(pullAlong(domain, active, at.point.map, gradient));
+    const WorldVector along = at.point.map.push(pullAlong(domain, active, at.point.map, gradient));
     const double rate = dot(along, gradient);
     // Where the surface all but touches the boundary there is no curve to find.
     step = rate > 1e-6 * slope2 ? (-at.point.value / rate) * along : WorldVector{};
@@ -225,6 +224,9 @@ WorldVector SurfaceWalker::newtonStep(const Evaluated& at, bool& alongWall) cons
 bool SurfaceWalker::project(const Location& start, double maximumTravel, Evaluated& result)
 {
   Evaluated at = this->evaluate(start);
+  // What rounding leaves of F - c, however small the tolerance.
+  const double noise =
+    16.0 * std::numeric_limits<double>::epsilon() * std::abs(this->Surface.isovalue);
   double travel = 0.0;
   bool alongWall = false;
   for (int step = 0; step < MaximumNewtonSteps; ++step)
@@ -234,7 +236,7 @@ bool SurfaceWalker::project(const Location& start, double maximumTravel, Evaluat
     {
       return false;
     }
-    if (std::abs(at.point.value) <= this->Surface.tolerance * slope)
+    if (std::abs(at.point.value) <= std::max(this->Surface.tolerance * slope, noise))
     {
       result = at;
       return true;

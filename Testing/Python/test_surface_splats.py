@@ -102,6 +102,11 @@ def vertices(source):
     return mask
 
 
+def test_no_other_array_is_taken_for_the_radius(view):
+    display = show(simple.Elevation(Input=simple.Sphere()), view)
+    assert display.RadiusArray == "Radius"
+
+
 @pytest.mark.parametrize("association", ["POINTS", "CELLS"])
 def test_color_by_array_follows_the_lookup_table(view, picture, association):
     source = simple.Calculator(Input=vertices(particles()), Function="coordsX", ResultArrayName="x")
@@ -148,8 +153,11 @@ def test_one_side_can_be_culled(view, picture):
 
 def test_blocks_of_a_composite_are_drawn(view, picture):
     group = simple.GroupDatasets(Input=[particles((-0.5, 0, 0)), particles((0.5, 0, 0))])
-    show(group, view)
+    display = show(group, view)
     covered = drawn(picture())
+    offered = display.GetRepresentedDataInformation().GetPointDataInformation()
+    names = {offered.GetArrayInformation(i).GetName() for i in range(offered.GetNumberOfArrays())}
+    assert names == {"Normals", "Radius"}, "arrays to colour by"
     assert np.all(covered[disk_of_sphere(-0.5, 0.49) | disk_of_sphere(0.5, 0.49)])
     assert not np.any(covered[~(disk_of_sphere(-0.5, 0.52) | disk_of_sphere(0.5, 0.52))])
 
@@ -174,18 +182,32 @@ def test_input_that_lacks_something_is_no_crash(view, picture, script):
     assert np.any(drawn(picture())) == (script == "")
 
 
+def select_point(source, view, x, y):
+    """What a click at a pixel selects of a source."""
+    simple.SelectSurfacePoints(Rectangle=[x, y, x, y], View=view)
+    selected = simple.ExtractSelection(Input=source)
+    selected.Selection = source.GetSelectionInput(source.Port)
+    selected.UpdatePipeline()
+    return servermanager.Fetch(selected)
+
+
 def test_selection_finds_the_particle_under_the_cursor(view):
     source = particles()
     show(source, view)
     simple.Render(view)
-    middle = SIZE // 2
-    simple.SelectSurfacePoints(Rectangle=[middle, middle, middle, middle], View=view)
-    selected = simple.ExtractSelection(Input=source)
-    selected.Selection = source.GetSelectionInput(source.Port)
-    simple.UpdatePipeline(proxy=selected)
-    found = servermanager.Fetch(selected)
+    found = select_point(source, view, SIZE // 2, SIZE // 2)
     assert found.GetNumberOfPoints() == 1
     assert np.linalg.norm(np.array(found.GetPoint(0)) - [0, -0.5, 0]) < 0.04
+
+
+def test_selection_finds_the_block_of_a_composite(view):
+    group = simple.GroupDatasets(Input=[particles((-0.5, 0, 0)), particles((0.5, 0, 0))])
+    show(group, view)
+    simple.Render(view)
+    found = select_point(group, view, int(0.75 * SIZE), SIZE // 2)
+    points = [found.GetBlock(block).GetNumberOfPoints() for block in range(2) if found.GetBlock(block)]
+    assert sum(points) == 1 and found.GetBlock(1).GetNumberOfPoints() == 1
+    assert np.linalg.norm(np.array(found.GetBlock(1).GetPoint(0)) - [0.5, -0.5, 0]) < 0.04
 
 
 RANKS = """

@@ -10,8 +10,7 @@ namespace
 {
 
 /// Linear shape functions of the corners, by which straight elements are filled with nodes.
-glm::dvec3 linearMap(
-  Domain domain, const std::vector<glm::dvec3>& corners, const ReferencePoint& u)
+glm::dvec3 linearMap(Domain domain, const std::vector<glm::dvec3>& corners, const ReferencePoint& u)
 {
   std::vector<double> weights(corners.size());
   evaluateBasis(domain, { 1, 1, 1 }, u, weights.data());
@@ -49,8 +48,8 @@ void appendElement(ElementMesh& mesh, const MeshRecipe& recipe,
   std::vector<Coefficient> nodal;
   for (const LatticePoint& point : lattice)
   {
-    const glm::dvec3 x = recipe.map(
-      linearMap(recipe.domain, corners, latticePosition(recipe.degrees, point)));
+    const glm::dvec3 x =
+      recipe.map(linearMap(recipe.domain, corners, latticePosition(recipe.degrees, point)));
     nodal.emplace_back(x, recipe.field(x));
   }
   Element element;
@@ -81,8 +80,7 @@ ElementMesh makeMesh(const MeshRecipe& recipe)
       {
         const glm::dvec3 grid = origin + unitCorners[c].xyz;
         corners.push_back(2.0 * grid / static_cast<double>(n) - 1.0);
-        numbers.push_back(
-          std::llround(grid.x + (n + 1) * (grid.y + (n + 1) * grid.z)));
+        numbers.push_back(std::llround(grid.x + (n + 1) * (grid.y + (n + 1) * grid.z)));
       }
       appendElement(mesh, recipe, corners, numbers);
     }
@@ -95,7 +93,8 @@ Map wavyMap(double amount)
 {
   return [amount](const glm::dvec3& x)
   {
-    return x + amount *
+    return x +
+      amount *
       glm::dvec3(std::sin(1.7 * x.y + 0.4 * x.z), std::sin(1.3 * x.z - 0.6 * x.x),
         std::cos(1.5 * x.x + 0.5 * x.y));
   };

@@ -1,0 +1,186 @@
+#include "NodalBasis.h"
+
+#include "ElementCases.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace hop::testing
+{
+namespace
+{
+
+/// A polynomial as a sum of shifted monomials, one for each point of the element's lattice: all
+/// polynomials that the element can hold, and evaluated without any Bernstein basis.
+class MonomialSum
+{
+public:
+  MonomialSum(const ElementCase& which, Random& random)
+  {
+    for (const LatticePoint& powers : latticePoints(which.domain, which.degrees))
+    {
+      this->Terms.push_back({ powers, randomNumber(random) });
+    }
+  }
+
+  double operator()(const ReferencePoint& u) const
+  {
+    const glm::dvec3 t = 2.0 * u.xyz - 1.0;
+    double sum = 0.0;
+    for (const auto& [powers, factor] : this->Terms)
+    {
+      sum += factor * std::pow(t.x, powers.i) * std::pow(t.y, powers.j) * std::pow(t.z, powers.k);
+    }
+    return sum;
+  }
+
+private:
+  std::vector<std::pair<LatticePoint, double>> Terms;
+};
+
+/// The lattice in an order of the kind that a mesh format could have.
+std::vector<LatticePoint> shuffledLattice(const ElementCase& which, Random& random)
+{
+  std::vector<LatticePoint> order = latticePoints(which.domain, which.degrees);
+  for (std::size_t i = order.size(); i > 1; --i)
+  {
+    std::swap(order[i - 1], order[static_cast<std::size_t>(random.uniform() * i)]);
+  }
+  return order;
+}
+
+TEST(NodalBasis, ReproducesThePolynomialsOfTheElementExactly)
+{
+  Random random(1);
+  for (const ElementCase& which : allElementCases())
+  {
+    SCOPED_TRACE(which);
+    const NodalBasis basis(which.domain, which.degrees, latticePoints(which.domain, which.degrees));
+    const MonomialSum f(which, random), g(which, random);
+    std::vector<double> nodal;
+    double size = 0.0;
+    for (const LatticePoint& point : latticePoints(which.domain, which.degrees))
+    {
+      const ReferencePoint u = latticePosition(which.degrees, point);
+      nodal.insert(nodal.end(), { f(u), g(u), 0.0, 1.0 });
+      size = std::max({ size, std::abs(f(u)), std::abs(g(u)) });
+    }
+    std::vector<Coefficient> coefficients(basis.nodeCount());
+    basis.toBernstein(nodal.data(), 4, &coefficients[0].x);
+
+    const double tolerance =
+      4.0 * std::numeric_limits<double>::epsilon() * basis.conversionNorm() * size;
+    for (int n = 0; n < 10; ++n)
+    {
+      const ReferencePoint u = randomPoint(which.domain, random);
+      const Coefficient value = evaluateGradient(formOf(which, coefficients), u).value;
+      EXPECT_NEAR(value.x, f(u), tolerance);
+      EXPECT_NEAR(value.y, g(u), tolerance);
+      EXPECT_EQ(value.z, 0.0);
+      EXPECT_NEAR(value.w, 1.0, tolerance);
+    }
+  }
+}
+
+TEST(NodalBasis, TakesNodesInAnyOrder)
+{
+  Random random(2);
+  for (const ElementCase& which : allElementCases())
+  {
+    SCOPED_TRACE(which);
+    const auto lattice = latticePoints(which.domain, which.degrees);
+    const auto order = shuffledLattice(which, random);
+    const NodalBasis sorted(which.domain, which.degrees, lattice);
+    const NodalBasis shuffled(which.domain, which.degrees, order);
+    std::vector<double> inStorageOrder(lattice.size()), inMeshOrder(lattice.size());
+    for (std::size_t node = 0; node < order.size(); ++node)
+    {
+      inMeshOrder[node] = randomNumber(random);
+      inStorageOrder[coefficientIndex(which.domain, which.degrees, order[node])] =
+        inMeshOrder[node];
+    }
+    std::vector<double> expected(lattice.size()), actual(lattice.size());
+    sorted.toBernstein(inStorageOrder.data(), 1, expected.data());
+    shuffled.toBernstein(inMeshOrder.data(), 1, actual.data());
+    EXPECT_EQ(actual, expected);
+  }
+}
+
+TEST(NodalBasis, KnowsTheNodesAtTheCorners)
+{
+  Random random(3);
+  for (const ElementCase& which : allElementCases())
+  {
+    SCOPED_TRACE(which);
+    const auto order = shuffledLattice(which, random);
+    const NodalBasis basis(which.domain, which.degrees, order);
+    const auto& corners = facts(which.domain).corners;
+    for (int c = 0; c < static_cast<int>(corners.size()); ++c)
+    {
+      EXPECT_EQ(latticePosition(which.degrees, order[basis.cornerNode(c)]).xyz, corners[c].xyz);
+    }
+  }
+}
+
+TEST(NodalBasis, LinearElementsAreTheirOwnBernsteinForm)
+{
+  for (const Domain domain : { Domain::Hexahedron, Domain::Tetrahedron, Domain::Wedge })
+  {
+    const Degrees linear{ 1, 1, 1 };
+    EXPECT_EQ(NodalBasis(domain, linear, latticePoints(domain, linear)).conversionNorm(), 1.0);
+  }
+}
+
+TEST(NodalBasis, ConversionNormIsThatOfTheQuadraticLine)
+{
+  // The middle coefficient is 2 f(1/2) - (f(0) + f(1))/2: norm 3 for each axis.
+  const Degrees degrees{ 2, 2, 2 };
+  const NodalBasis basis(Domain::Hexahedron, degrees, latticePoints(Domain::Hexahedron, degrees));
+  EXPECT_NEAR(basis.conversionNorm(), 27.0, 1e-12);
+  EXPECT_NEAR(equispacedToBernstein(1, 2)[3], -0.5, 1e-15);
+  EXPECT_NEAR(equispacedToBernstein(1, 2)[4], 2.0, 1e-15);
+}
+
+TEST(NodalBasis, RefusesNodesThatAreNoPermutationOfTheLattice)
+{
+  for (const Domain domain : { Domain::Hexahedron, Domain::Tetrahedron, Domain::Wedge })
+  {
+    SCOPED_TRACE(::testing::PrintToString(domain));
+    const Degrees degrees{ 3, 3, 3 };
+    const auto lattice = latticePoints(domain, degrees);
+    const auto build = [&](const std::vector<LatticePoint>& order)
+    { NodalBasis(domain, degrees, order); };
+    EXPECT_NO_THROW(build(lattice));
+
+    auto tooFew = lattice;
+    tooFew.pop_back();
+    EXPECT_THROW(build(tooFew), std::invalid_argument);
+    auto twice = lattice;
+    twice.back() = twice.front();
+    EXPECT_THROW(build(twice), std::invalid_argument);
+    auto oneMore = lattice;
+    oneMore.push_back(lattice.front());
+    EXPECT_THROW(build(oneMore), std::invalid_argument);
+    auto outside = lattice;
+    outside.back() = { 4, 0, 0 };
+    EXPECT_THROW(build(outside), std::invalid_argument);
+    EXPECT_THROW(build({}), std::invalid_argument);
+  }
+}
+
+TEST(NodalBasis, RefusesDegreesThatTheEvaluatorsDoNotTake)
+{
+  const auto build = [](const Degrees& degrees)
+  { NodalBasis(Domain::Hexahedron, degrees, latticePoints(Domain::Hexahedron, degrees)); };
+  EXPECT_NO_THROW(build({ 1, MaximumDegree, 1 }));
+  EXPECT_THROW(build({ 0, 1, 1 }), std::invalid_argument);
+  EXPECT_THROW(build({ 1, 1, MaximumDegree + 1 }), std::invalid_argument);
+  EXPECT_THROW(build({ 1, -1, 1 }), std::invalid_argument);
+}
+
+} // namespace
+} // namespace hop::testing
