@@ -76,29 +76,20 @@ struct Exit
   int face = -1;
 };
 
-/// Where the step leaves the element, if it does. At an edge several faces stand in the way at once:
-/// the boundary goes first, because an inner face leads on only once the boundary holds the step.
-Exit findExit(const ElementMesh& mesh, const Location& location, const ReferenceVector& du,
-  const ActiveFaces& active)
+/// Where the step leaves the domain, if it does: at fraction zero where u lies on that face.
+Exit findExit(
+  Domain domain, const ReferencePoint& u, const ReferenceVector& du, const ActiveFaces& active)
 {
-  const auto& faces = facts(mesh.elements[location.element].domain).faces;
+  const auto& faces = facts(domain).faces;
   Exit exit;
-  bool throughBoundary = false;
   for (int f = 0; f < static_cast<int>(faces.size()); ++f)
   {
     const double rate = glm::dot(faces[f].inward.xyz, du.xyz);
-    if (!(rate < 0.0) || active.holds(f))
+    const double distance = margin(faces[f], u);
+    const double inside = distance < onFace ? 0.0 : distance;
+    if (rate < 0.0 && inside < -rate * exit.fraction && !active.holds(f))
     {
-      continue;
-    }
-    const double distance = margin(faces[f], location.u);
-    const double fraction = distance < onFace ? 0.0 : distance / -rate;
-    const bool boundary = mesh.neighbor(location.element, f).element < 0;
-    if (fraction < exit.fraction ||
-      (fraction == exit.fraction && fraction < 1.0 && boundary && !throughBoundary))
-    {
-      exit = { fraction, f };
-      throughBoundary = boundary;
+      exit = { inside / -rate, f };
     }
   }
   return exit;
@@ -155,7 +146,7 @@ Location SurfaceWalker::move(const Evaluated& start, const WorldVector& step)
     const Domain domain = mesh.elements[at.location.element].domain;
     const ReferenceVector du =
       pullAlong(domain, active, at.point.map, target - at.point.map.position);
-    const Exit exit = findExit(mesh, at.location, du, active);
+    const Exit exit = findExit(domain, at.location.u, du, active);
     at.location.u = at.location.u + exit.fraction * du;
     if (exit.face < 0)
     {
@@ -210,7 +201,7 @@ WorldVector SurfaceWalker::newtonStep(const Evaluated& at, bool& alongWall) cons
   }
   while (active.count < 2)
   {
-    const Exit exit = findExit(mesh, at.location, at.point.map.pull(step), active);
+    const Exit exit = findExit(domain, at.location.u, at.point.map.pull(step), active);
     if (exit.face < 0 || !onBoundary(mesh, at.location, exit.face))
     {
       break;
