@@ -35,6 +35,9 @@ constexpr double coarsestSpacingPerExtent = 0.1;
 constexpr double boxSizePerSpacing = 3.0;
 constexpr double smallestBoxPerExtent = 1.0 / 400.0;
 constexpr double listSlack = 1.25;
+/// While particles move they lie on the surface to this fraction of their spacing, or to the
+/// tolerance asked for if that is larger.
+constexpr double movingTolerance = 1e-4;
 /// Where curvature times spacing exceeds this, neighbours cannot pack hexagonally: particles there
 /// come and go for ever, so they do not keep the system from counting as settled.
 constexpr double bentTooFar = 1.0;
@@ -70,7 +73,8 @@ public:
     , Parameters(parameters)
     , Progress(monitor)
     , Parallel(parallelFor)
-    , Walker(surface)
+    , Moving(whileMoving(surface, parameters.law))
+    , Walker(this->Moving)
     , Dice(parameters.seed)
     , Law(parameters.law)
   {
@@ -102,6 +106,8 @@ private:
   int chooseLevels(double extent);
   bool tooMany(int levels);
   Distribution finish();
+  static Isosurface whileMoving(const Isosurface& surface, const SpacingLaw& law);
+  bool settle(const Mover& mover, SurfaceWalker& walker, Particle& particle) const;
   bool proceed() { return this->Report.aborted ? false : this->askMonitor(); }
   bool askMonitor();
 
@@ -109,6 +115,7 @@ private:
   ClassicParameters Parameters;
   const Monitor& Progress;
   const ParallelFor& Parallel;
+  Isosurface Moving;
   SurfaceWalker Walker;
   Random Dice;
   SpacingLaw Law;
@@ -205,7 +212,7 @@ std::vector<Mover> ClassicSystem::makeSeeds(const std::vector<SurfaceBox>& boxes
     {
       for (std::ptrdiff_t b = begin; b < end; ++b)
       {
-        SurfaceWalker walker(this->Surface);
+        SurfaceWalker walker(this->Moving);
         found[b] = this->place(boxes[b].middle, 2.0 * boxes[b].size, walker, seeds[b]);
         cost[b] = walker.evaluations();
       }
@@ -637,28 +644,55 @@ Distribution ClassicSystem::run()
   return this->finish();
 }
 
+Isosurface ClassicSystem::whileMoving(const Isosurface& surface, const SpacingLaw& law)
+{
+  Isosurface moving = surface;
+  moving.tolerance =
+    std::max(surface.tolerance, movingTolerance * law.spacing / (1.0 + law.angularDensity));
+  return moving;
+}
+
+/// Takes a particle at rest to the tolerance asked for, and looks at the surface there.
+bool ClassicSystem::settle(const Mover& mover, SurfaceWalker& walker, Particle& particle) const
+{
+  Evaluated at;
+  if (!walker.project(mover.at.location, this->Law.at(mover.curvature), at))
+  {
+    return false;
+  }
+  at = walker.evaluateCurved(at.location);
+  const Curvature bend = curvature(at.point.gradient, at.hessian);
+  particle = { at.location, at.point.map.position, surfaceNormal(at.point.gradient), bend,
+    std::abs(at.point.value) / length(at.point.gradient), this->Law.at(bend.magnitude) };
+  return true;
+}
+
 Distribution ClassicSystem::finish()
 {
   Distribution result;
-  if (this->Report.error.empty())
-  {
-    result.particles.resize(this->Movers.size());
-  }
-  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(result.particles.size()),
+  const std::size_t count = this->Report.error.empty() ? this->Movers.size() : 0;
+  std::vector<Particle> particles(count);
+  std::vector<char> settled(count, 0);
+  std::vector<std::int64_t> cost(count, 0);
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(count),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
-      SurfaceWalker walker(this->Surface);
       for (std::ptrdiff_t i = begin; i < end; ++i)
       {
-        const Evaluated at = walker.evaluateCurved(this->Movers[i].at.location);
-        const Curvature bend = curvature(at.point.gradient, at.hessian);
-        result.particles[i] = { at.location, at.point.map.position,
-          surfaceNormal(at.point.gradient), bend,
-          std::abs(at.point.value) / length(at.point.gradient), this->Law.at(bend.magnitude) };
+        SurfaceWalker walker(this->Surface);
+        settled[i] = this->settle(this->Movers[i], walker, particles[i]);
+        cost[i] = walker.evaluations();
       }
     });
-  this->Report.evaluations +=
-    this->Walker.evaluations() + static_cast<std::int64_t>(result.particles.size());
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (settled[i])
+    {
+      result.particles.push_back(particles[i]);
+    }
+  }
+  this->Report.particlesRejected += static_cast<std::int64_t>(count - result.particles.size());
+  this->Report.evaluations += std::accumulate(cost.begin(), cost.end(), this->Walker.evaluations());
   this->Report.particlesUndersampled =
     std::count_if(result.particles.begin(), result.particles.end(),
       [](const Particle& p) { return p.curvature.magnitude * p.spacing > 2.0; });
