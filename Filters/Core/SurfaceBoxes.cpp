@@ -1,5 +1,7 @@
 #include "SurfaceBoxes.h"
 
+#include "MonotoneTest.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,13 +10,15 @@ namespace hop
 namespace
 {
 
-/// A piece of an element: its coefficients (and weights, if rational), and its corners in the element's reference space.
+/// A piece of an element: its coefficients, of which the last is that of F - c (of w (F - c), if
+/// rational), its weights, if rational, and its corners in the element's reference space.
 struct Piece
 {
   std::vector<Coefficient> coefficients;
   std::vector<double> weights;
   std::vector<glm::dvec3> corners;
   int bisections = 0;
+  bool certified = false;
 };
 
 constexpr Degrees cornerDegrees{ 1, 1, 1 };
@@ -31,32 +35,54 @@ public:
 
   void split(int element, std::vector<SurfaceBox>& boxes)
   {
-    this->Form = this->Mesh.form(element);
-    std::vector<Piece> stack{ this->wholeElement() };
-    if (!isFinite(stack.back()))
+    this->begin(element);
+    // Level by level, so that the limit on pieces cuts all of the element at the same size.
+    std::vector<Piece> level{ this->wholeElement() };
+    while (!level.empty())
     {
-      return;
-    }
-    while (!stack.empty())
-    {
-      Piece piece = std::move(stack.back());
-      stack.pop_back();
-      if (!this->mayHoldSurface(piece))
+      std::vector<Piece> next;
+      const bool tooMany = this->undecided(level) > MaximumPieces;
+      for (Piece& piece : level)
       {
-        continue;
+        if (!this->mayHoldSurface(piece))
+        {
+          continue;
+        }
+        piece.certified = piece.certified || this->isOneSheet(piece);
+        const double size = this->worldSize(piece);
+        const bool done = piece.certified ? size <= this->WantedSize : tooMany;
+        if (done || piece.bisections == MaximumBisections)
+        {
+          boxes.push_back({ { element, middle(piece) }, size, piece.certified });
+          continue;
+        }
+        next.push_back(this->halve(piece));
+        next.push_back(std::move(piece));
       }
-      const double size = this->worldSize(piece);
-      if (size <= this->WantedSize || piece.bisections == MaximumBisections)
-      {
-        boxes.push_back({ { element, this->middle(piece) }, size });
-        continue;
-      }
-      stack.push_back(this->halve(piece));
-      stack.push_back(std::move(piece));
+      level = std::move(next);
     }
   }
 
 private:
+  void begin(int element)
+  {
+    const BernsteinForm form = this->Mesh.form(element);
+    const bool sameKind = !this->CornerPlaces.empty() && form.domain == this->Form.domain &&
+      form.degrees == this->Form.degrees;
+    this->Form = form;
+    if (sameKind)
+    {
+      return;
+    }
+    this->Monotone = MonotoneTest(form.domain, form.degrees);
+    this->CornerPlaces.clear();
+    for (int c = 0; c < static_cast<int>(facts(form.domain).corners.size()); ++c)
+    {
+      this->CornerPlaces.push_back(coefficientIndex(
+        form.domain, form.degrees, cornerLatticePoint(form.domain, form.degrees, c)));
+    }
+  }
+
   Piece wholeElement() const
   {
     Piece piece;
@@ -66,6 +92,10 @@ private:
     {
       piece.weights.assign(this->Form.weights, this->Form.weights + count);
     }
+    for (int i = 0; i < count; ++i)
+    {
+      piece.coefficients[i].w -= this->Isovalue * (this->Form.weights ? piece.weights[i] : 1.0);
+    }
     for (const LatticePoint& point : latticePoints(this->Form.domain, cornerDegrees))
     {
       piece.corners.push_back(latticePosition(cornerDegrees, point).xyz);
@@ -73,13 +103,10 @@ private:
     return piece;
   }
 
-  /// Halving would spread a NaN, and no box with one could be dropped or grow small enough.
-  static bool isFinite(const Piece& piece)
+  static std::ptrdiff_t undecided(const std::vector<Piece>& pieces)
   {
-    return std::all_of(piece.coefficients.begin(), piece.coefficients.end(),
-      [](const Coefficient& c) {
-        return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z) && std::isfinite(c.w);
-      });
+    return std::count_if(
+      pieces.begin(), pieces.end(), [](const Piece& piece) { return !piece.certified; });
   }
 
   BernsteinForm formOf(const Piece& piece) const
@@ -90,10 +117,36 @@ private:
 
   bool mayHoldSurface(const Piece& piece) const
   {
-    const Range range = fieldRange(this->formOf(piece));
+    const auto [lowest, highest] =
+      std::minmax_element(piece.coefficients.begin(), piece.coefficients.end(),
+        [](const Coefficient& a, const Coefficient& b) { return a.w < b.w; });
     // Halving adds rounding errors of the order of eps times the values themselves.
-    const double slack = 1e-14 * std::max(std::abs(range.lower), std::abs(range.upper));
-    return range.lower - slack <= this->Isovalue && this->Isovalue <= range.upper + slack;
+    const double slack =
+      1e-14 * (std::max(std::abs(lowest->w), std::abs(highest->w)) + std::abs(this->Isovalue));
+    return lowest->w <= slack && highest->w >= -slack;
+  }
+
+  /// Corners of both signs, and a direction along which the field rises everywhere.
+  bool isOneSheet(const Piece& piece) const
+  {
+    bool positive = false;
+    bool negative = false;
+    for (const int corner : this->CornerPlaces)
+    {
+      positive = positive || piece.coefficients[corner].w > 0.0;
+      negative = negative || piece.coefficients[corner].w < 0.0;
+    }
+    if (!positive || !negative)
+    {
+      return false;
+    }
+    std::vector<double> values;
+    values.reserve(piece.coefficients.size());
+    for (const Coefficient& c : piece.coefficients)
+    {
+      values.push_back(c.w);
+    }
+    return this->Monotone.rises(values);
   }
 
   double worldSize(const Piece& piece) const
@@ -133,6 +186,7 @@ private:
     }
     bisect(this->Form.domain, cornerDegrees, direction, piece.corners, second.corners);
     second.bisections = ++piece.bisections;
+    second.certified = piece.certified;
     return second;
   }
 
@@ -174,6 +228,8 @@ private:
   double Isovalue;
   double WantedSize;
   BernsteinForm Form;
+  MonotoneTest Monotone{ Domain::Hexahedron, cornerDegrees };
+  std::vector<int> CornerPlaces;
 };
 
 } // namespace

@@ -13,17 +13,28 @@ struct SurfaceBox
   Location middle;
   /// World diagonal of the bounds of its control points.
   double size = 0.0;
+  /// The surface in it is one sheet, provably: along some direction the field only rises.
+  bool certified = false;
 };
 
-/// Splits every element into boxes (de Casteljau) until a box provably holds no surface, because its
-/// coefficients of f lie on one side of the isovalue, or is no larger than `wantedSize`, or was
-/// halved MaximumBisections times. The boxes that remain hold all of the surface. Elements with a
-/// coefficient that is NaN or infinite give none.
+/// Splits every element into boxes by de Casteljau's algorithm. A box is
+///  - dropped if its coefficients of F - c have one sign: the convex hull holds no zero;
+///  - certified if F - c changes its sign between corners and its derivative along the mean gradient
+///    has coefficients of one sign: then the surface is a graph along that direction, one sheet, and
+///    has no component of its own in the box;
+///  - split otherwise, until it was halved MaximumBisections times, or its element had to be split
+///    into more than MaximumPieces undecided pieces: such boxes are returned uncertified.
+/// Certified boxes are split on until no larger than `wantedSize`, and dropped where empty.
+///
+/// All of the surface lies in the boxes returned, and every component of it that is larger than
+/// 2^-(MaximumBisections/3) of an element, or has no critical point near, in certified ones. Bounds
+/// are widened by the rounding errors of the splitting.
 /// \param wantedSize world units, > 0
 /// \return boxes in the order of the elements, the same for any number of threads
 std::vector<SurfaceBox> findSurfaceBoxes(
   const ElementMesh& mesh, double isovalue, double wantedSize, const ParallelFor& parallelFor);
 
-constexpr int MaximumBisections = 24;
+constexpr int MaximumBisections = 36;
+constexpr int MaximumPieces = 4096;
 
 } // namespace hop

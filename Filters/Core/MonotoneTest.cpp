@@ -1,0 +1,99 @@
+#include "MonotoneTest.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hop
+{
+namespace
+{
+
+/// The axes of the simplex factor to which an axis belongs.
+std::vector<int> factorAxes(Domain domain, int axis)
+{
+  switch (domain)
+  {
+    case Domain::Tetrahedron:
+      return { 0, 1, 2 };
+    case Domain::Wedge:
+      return axis == 2 ? std::vector<int>{ 2 } : std::vector<int>{ 0, 1 };
+    default:
+      return { axis };
+  }
+}
+
+LatticePoint shifted(const LatticePoint& point, int axis, int by)
+{
+  return { point.i + (axis == 0 ? by : 0), point.j + (axis == 1 ? by : 0),
+    point.k + (axis == 2 ? by : 0) };
+}
+
+int along(const LatticePoint& point, int axis)
+{
+  return axis == 0 ? point.i : axis == 1 ? point.j : point.k;
+}
+
+} // namespace
+
+MonotoneTest::MonotoneTest(Domain domain, const Degrees& degrees)
+{
+  const auto index = [&](const LatticePoint& p) { return coefficientIndex(domain, degrees, p); };
+  for (const LatticePoint& point : latticePoints(domain, degrees))
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->Begin.push_back(static_cast<int>(this->Differences.size()));
+      int rest = degrees[axis]; // alpha_0
+      for (const int m : factorAxes(domain, axis))
+      {
+        const int alpha = along(point, m);
+        rest -= alpha;
+        if (alpha > 0)
+        {
+          const LatticePoint lower = shifted(point, m, -1);
+          this->Differences.push_back(
+            { index(shifted(lower, axis, 1)), index(lower), static_cast<double>(alpha) });
+        }
+      }
+      if (rest > 0)
+      {
+        this->Differences.push_back(
+          { index(shifted(point, axis, 1)), index(point), static_cast<double>(rest) });
+      }
+    }
+  }
+  this->Begin.push_back(static_cast<int>(this->Differences.size()));
+}
+
+bool MonotoneTest::rises(const std::vector<double>& values) const
+{
+  std::vector<glm::dvec3> gradient(values.size());
+  glm::dvec3 mean(0.0);
+  double largest = 0.0;
+  for (std::size_t point = 0; point < values.size(); ++point)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      double sum = 0.0;
+      for (int d = this->Begin[3 * point + axis]; d < this->Begin[3 * point + axis + 1]; ++d)
+      {
+        const Difference& difference = this->Differences[d];
+        sum += difference.weight * (values[difference.plus] - values[difference.minus]);
+      }
+      gradient[point][axis] = sum;
+    }
+    mean += gradient[point];
+    largest = std::max(largest, std::abs(values[point]));
+  }
+  const double length = glm::length(mean);
+  if (!(length > 0.0))
+  {
+    return false;
+  }
+  // Differences of values carry the values' rounding errors, times the degree.
+  const double slack = 1e-13 * largest * MaximumDegree;
+  return std::all_of(gradient.begin(), gradient.end(),
+    [&](const glm::dvec3& g) { return glm::dot(g, mean) > slack * length; });
+}
+
+} // namespace hop

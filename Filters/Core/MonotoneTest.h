@@ -1,0 +1,39 @@
+#pragma once
+
+#include "Bernstein.h"
+
+namespace hop
+{
+
+/// Decides whether a polynomial in Bernstein form rises along some direction all over its domain.
+/// Prepared once for a domain and degrees.
+///
+/// On a simplex with barycentric indices alpha the derivative along e_a - e_0, elevated back to the
+/// degree of the polynomial, has the coefficients
+///   sum_m alpha_m (c_(alpha - e_m + e_a) - c_(alpha - e_m + e_0)),
+/// from c' = p (c_(beta + e_a) - c_(beta + e_0)) and degree elevation; on products of simplices the
+/// same holds factor by factor. All three derivatives then share one lattice, and so does any linear
+/// combination of them.
+class MonotoneTest
+{
+public:
+  MonotoneTest(Domain domain, const Degrees& degrees);
+
+  /// \param values one coefficient a lattice point
+  /// \return true only if the derivative along the mean gradient is positive everywhere
+  bool rises(const std::vector<double>& values) const;
+
+private:
+  struct Difference
+  {
+    int plus = 0;
+    int minus = 0;
+    double weight = 0.0;
+  };
+
+  /// For each lattice point and axis the differences [begin, end) of its derivative coefficient.
+  std::vector<Difference> Differences;
+  std::vector<int> Begin;
+};
+
+} // namespace hop
