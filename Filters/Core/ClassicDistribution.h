@@ -33,9 +33,11 @@ struct ClassicParameters
 ///  - with a fixed number of particles, the spacing follows the energy instead.
 ///
 /// Where the paper is silent: seeds come from boxes that hold all of the surface (SurfaceBoxes.h);
-/// those that no particle covers are added at every level, so that no component that was seeded is
-/// lost. Particles on the rim of the domain miss the neighbours beyond it; their ideal energy is
-/// that of the neighbours that can exist (4 on a face, 2 on an edge).
+/// those that no particle covers are added at every level and at the end, so that no component that
+/// was seeded is lost. The biased coin is content with up to an eighth too few particles; once it is,
+/// the population is taken to where the mean energy is ideal and settles again.
+/// Particles on the rim of the domain miss the neighbours beyond it; their ideal energy is that of the
+/// neighbours that can exist (4 on a face, 2 on an edge).
 Distribution distributeClassic(const Isosurface& surface, const ClassicParameters& parameters,
   const Monitor& monitor, const ParallelFor& parallelFor);
 
