@@ -656,7 +656,7 @@ Isosurface ClassicSystem::whileMoving(const Isosurface& surface, const SpacingLa
 bool ClassicSystem::settle(const Mover& mover, SurfaceWalker& walker, Particle& particle) const
 {
   Evaluated at;
-  if (!walker.project(mover.at.location, this->Law.at(mover.curvature), at))
+  if (!walker.project(mover.at.location, this->Law.at(mover.curvature), at, true))
   {
     return false;
   }

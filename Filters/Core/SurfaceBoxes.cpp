@@ -38,6 +38,10 @@ public:
     this->begin(element);
     // Level by level, so that the limit on pieces cuts all of the element at the same size.
     std::vector<Piece> level{ this->wholeElement() };
+    if (!isFinite(level.front()))
+    {
+      return;
+    }
     while (!level.empty())
     {
       std::vector<Piece> next;
@@ -101,6 +105,12 @@ private:
       piece.corners.push_back(latticePosition(cornerDegrees, point).xyz);
     }
     return piece;
+  }
+
+  static bool isFinite(const Piece& piece)
+  {
+    return std::all_of(piece.coefficients.begin(), piece.coefficients.end(),
+      [](const Coefficient& c) { return std::isfinite(c.x + c.y + c.z + c.w); });
   }
 
   static std::ptrdiff_t undecided(const std::vector<Piece>& pieces)

@@ -28,7 +28,8 @@ struct SurfaceBox
 ///
 /// All of the surface lies in the boxes returned, and every component of it that is larger than
 /// 2^-(MaximumBisections/3) of an element, or has no critical point near, in certified ones. Bounds
-/// are widened by the rounding errors of the splitting.
+/// are widened by the rounding errors of the splitting. Elements with a coefficient that is NaN or
+/// infinite give no boxes.
 /// \param wantedSize world units, > 0
 /// \return boxes in the order of the elements, the same for any number of threads
 std::vector<SurfaceBox> findSurfaceBoxes(

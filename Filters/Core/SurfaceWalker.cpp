@@ -212,14 +212,17 @@ WorldVector SurfaceWalker::newtonStep(const Evaluated& at, bool& alongWall) cons
   return step;
 }
 
-bool SurfaceWalker::project(const Location& start, double maximumTravel, Evaluated& result)
+bool SurfaceWalker::project(
+  const Location& start, double maximumTravel, Evaluated& result, bool keepWall)
 {
   Evaluated at = this->evaluate(start);
-  // What rounding leaves of F - c, however small the tolerance.
+  // What rounding leaves of F - c, however small the tolerance; nothing is on a surface for it where
+  // the gradient itself is rounding.
   const double noise =
     16.0 * std::numeric_limits<double>::epsilon() * std::abs(this->Surface.isovalue);
+  constexpr double farFromNoise = 1e-6;
   double travel = 0.0;
-  bool alongWall = false;
+  bool alongWall = keepWall;
   for (int step = 0; step < MaximumNewtonSteps; ++step)
   {
     const double slope = length(at.point.gradient);
@@ -227,7 +230,8 @@ bool SurfaceWalker::project(const Location& start, double maximumTravel, Evaluat
     {
       return false;
     }
-    if (std::abs(at.point.value) <= std::max(this->Surface.tolerance * slope, noise))
+    const double floor = noise < farFromNoise * maximumTravel * slope ? noise : 0.0;
+    if (std::abs(at.point.value) <= std::max(this->Surface.tolerance * slope, floor))
     {
       result = at;
       return true;

@@ -52,7 +52,9 @@ public:
   /// \param maximumTravel give up when the steps add up to more (world units)
   /// \param result the place on the surface, if the method converged
   /// \return whether |F - c|/|grad F| fell to the tolerance
-  bool project(const Location& start, double maximumTravel, Evaluated& result);
+  /// \param keepWall a start on the boundary stays on it
+  bool project(const Location& start, double maximumTravel, Evaluated& result,
+    bool keepWall = false);
 
   std::int64_t evaluations() const { return this->Evaluations; }
 

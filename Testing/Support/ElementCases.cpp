@@ -38,7 +38,7 @@ const std::vector<ElementCase>& allElementCases()
     std::vector<ElementCase> cases;
     for (const Domain domain : allDomains)
     {
-      for (int p = 1; p <= MaximumDegree; ++p)
+      for (int p = 1; p <= MaximumInputDegree; ++p)
       {
         cases.push_back({ domain, { p, p, p } });
       }
