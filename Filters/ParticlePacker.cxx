@@ -343,12 +343,15 @@ void Packer::addReport(const std::vector<IsovalueParticles>& isovalues)
 {
   this->Output->GetFieldData()->PassData(this->Grid->GetFieldData());
   hop::DistributionReport sum;
+  std::set<std::int64_t> unresolved;
   for (const IsovalueParticles& some : isovalues)
   {
     const hop::DistributionReport& report = some.distribution.report;
     sum.evaluations += report.evaluations;
     sum.iterations += report.iterations;
-    sum.boxesWithoutSeed += report.boxesWithoutSeed;
+    sum.boxesUnresolved += report.boxesUnresolved;
+    sum.singularPoints += report.singularPoints;
+    unresolved.insert(report.unresolvedCells.begin(), report.unresolvedCells.end());
     sum.particlesRejected += report.particlesRejected;
     sum.particlesUndersampled += report.particlesUndersampled;
   }
@@ -363,9 +366,18 @@ void Packer::addReport(const std::vector<IsovalueParticles>& isovalues)
   addCount("Iterations", sum.iterations);
   addCount("ElementsDropped", this->Elements.census.dropped);
   addCount("CellsSkipped", this->Elements.census.skipped());
-  addCount("BoxesUnresolved", sum.boxesWithoutSeed);
+  addCount("BoxesUnresolved", sum.boxesUnresolved);
+  addCount("SingularPoints", sum.singularPoints);
   addCount("ParticlesRejected", sum.particlesRejected);
   addCount("ParticlesUndersampled", sum.particlesUndersampled);
+
+  vtkNew<vtkIdTypeArray> cells;
+  cells->SetName("UnresolvedCellIds");
+  for (const std::int64_t cell : unresolved)
+  {
+    cells->InsertNextValue(cell);
+  }
+  this->Output->GetFieldData()->AddArray(cells);
 }
 
 } // namespace

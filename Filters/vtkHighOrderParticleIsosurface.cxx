@@ -356,6 +356,15 @@ void vtkHighOrderParticleIsosurface::Review(const hop::Distribution& distributio
                                 << ": the particles did not come to rest; they lie on the surface, "
                                    "but less evenly than they should.");
   }
+  if (report.boxesUnresolved > 0)
+  {
+    vtkWarningMacro("Isovalue "
+      << isovalue << ": in " << report.unresolvedCells.size() << " cells (first: cell "
+      << report.unresolvedCells.front() << "; all: field data 'UnresolvedCellIds') "
+      << report.boxesUnresolved << " small parts are not proven to hold at most one sheet of the "
+      << "surface; what lies between the particles there may be missing. Singular points found on "
+      << "the surface: " << report.singularPoints << ".");
+  }
   if (report.particlesUndersampled > warnUndersampledShare * count)
   {
     vtkWarningMacro("Isovalue " << isovalue << ": at " << report.particlesUndersampled << " of "

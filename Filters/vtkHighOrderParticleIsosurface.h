@@ -27,8 +27,11 @@
  *
  * Field data of the output: `Evaluations` (of element polynomials), `Iterations` (relaxation
  * sweeps), `ElementsDropped` (cells that provably hold no surface), `CellsSkipped`,
- * `BoxesUnresolved` (parts of cells that may hold surface, but from whose middle none was reached),
- * `ParticlesRejected` and `ParticlesUndersampled` (curvature times spacing above 2), one value each.
+ * `BoxesUnresolved` (parts of cells that were split to 1/4096 of the cell without proof that they hold
+ * at most one sheet of the surface), `SingularPoints` (near those, where the gradient vanishes on the
+ * surface: cones, isolated points, crossings),
+ * `ParticlesRejected` and `ParticlesUndersampled` (curvature times spacing above 2), one value each; and
+ * `UnresolvedCellIds`, the cells of those parts.
  *
  * The same input and Seed give the same output, bit for bit, for any number of threads.
  */

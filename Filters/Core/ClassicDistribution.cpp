@@ -160,6 +160,40 @@ double meshExtent(const ElementMesh& mesh)
   return glm::distance(lower, upper);
 }
 
+/// Counts the boxes that isolation could not decide, and what makes them so.
+void reportUnresolved(
+  const Isosurface& surface, const std::vector<SurfaceBox>& boxes, DistributionReport& report)
+{
+  const ElementMesh& mesh = *surface.mesh;
+  std::vector<CriticalPoint> singular;
+  report.boxes = static_cast<std::int64_t>(boxes.size());
+  for (const SurfaceBox& box : boxes)
+  {
+    if (box.certified)
+    {
+      continue;
+    }
+    ++report.boxesUnresolved;
+    const std::int64_t cell = mesh.elements[box.middle.element].cell;
+    if (report.unresolvedCells.empty() || report.unresolvedCells.back() != cell)
+    {
+      report.unresolvedCells.push_back(cell);
+    }
+    CriticalPoint point;
+    const auto same = [&](const CriticalPoint& other)
+    {
+      return other.location.element == point.location.element &&
+        glm::distance(other.location.u.xyz, point.location.u.xyz) < 1e-6;
+    };
+    if (findCriticalPoint(mesh, surface.isovalue, box, point) && point.onSurface &&
+      std::none_of(singular.begin(), singular.end(), same))
+    {
+      singular.push_back(point);
+    }
+  }
+  report.singularPoints = static_cast<std::int64_t>(singular.size());
+}
+
 /// Neighbours that hexagonal packing can have around a particle on that many boundary faces.
 double idealEnergyOnBoundary(int boundaryFaces)
 {
@@ -213,7 +247,10 @@ std::vector<Mover> ClassicSystem::makeSeeds(const std::vector<SurfaceBox>& boxes
       for (std::ptrdiff_t b = begin; b < end; ++b)
       {
         SurfaceWalker walker(this->Moving);
-        found[b] = this->place(boxes[b].middle, 2.0 * boxes[b].size, walker, seeds[b]);
+        found[b] = this->place(boxes[b].middle, 2.0 * boxes[b].size, walker, seeds[b]) ||
+          (boxes[b].straddles &&
+            this->place(findBetweenEnds(*this->Surface.mesh, this->Surface.isovalue, boxes[b]),
+              boxes[b].size, walker, seeds[b]));
         cost[b] = walker.evaluations();
       }
     });
@@ -226,8 +263,7 @@ std::vector<Mover> ClassicSystem::makeSeeds(const std::vector<SurfaceBox>& boxes
       seeds[kept++] = seeds[b];
     }
   }
-  this->Report.boxes = static_cast<std::int64_t>(boxes.size());
-  this->Report.boxesWithoutSeed = static_cast<std::int64_t>(boxes.size() - kept);
+  reportUnresolved(this->Surface, boxes, this->Report);
   seeds.resize(kept);
   return seeds;
 }

@@ -3,6 +3,7 @@
 #include "SurfaceWalker.h"
 
 #include <string>
+#include <vector>
 
 namespace hop
 {
@@ -26,9 +27,15 @@ struct DistributionReport
 {
   std::int64_t evaluations = 0;
   std::int64_t iterations = 0;
-  /// Boxes that hold the surface, and those from whose middle no point of it was reached.
+  /// Boxes in which the surface may be (SurfaceBoxes.h), and those of them that are not certified to
+  /// hold one sheet.
   std::int64_t boxes = 0;
-  std::int64_t boxesWithoutSeed = 0;
+  std::int64_t boxesUnresolved = 0;
+  /// Input cells with unresolved boxes, ascending, each once.
+  std::vector<std::int64_t> unresolvedCells;
+  /// Points near unresolved boxes where the gradient vanishes on the surface: cones, isolated points,
+  /// crossings.
+  std::int64_t singularPoints = 0;
   /// Particles given up because they could not be put on the surface again.
   std::int64_t particlesRejected = 0;
   /// Particles with D h > 2: the surface bends faster than their spacing can follow.

@@ -57,7 +57,7 @@ public:
         const bool done = piece.certified ? size <= this->WantedSize : tooMany;
         if (done || piece.bisections == MaximumBisections)
         {
-          boxes.push_back({ { element, middle(piece) }, size, piece.certified });
+          boxes.push_back(this->boxOf(piece, element, size));
           continue;
         }
         next.push_back(this->halve(piece));
@@ -134,6 +134,32 @@ private:
     const double slack =
       1e-14 * (std::max(std::abs(lowest->w), std::abs(highest->w)) + std::abs(this->Isovalue));
     return lowest->w <= slack && highest->w >= -slack;
+  }
+
+  SurfaceBox boxOf(const Piece& piece, int element, double size) const
+  {
+    SurfaceBox box{ { element, middle(piece) }, size, 0.0, piece.certified, false, {} };
+    int lowest = 0;
+    int highest = 0;
+    const auto value = [&](int c) { return piece.coefficients[this->CornerPlaces[c]].w; };
+    for (int c = 0; c < static_cast<int>(this->CornerPlaces.size()); ++c)
+    {
+      box.referenceRadius =
+        std::max(box.referenceRadius, glm::distance(this->corner(piece, c), box.middle.u.xyz));
+      lowest = value(c) < value(lowest) ? c : lowest;
+      highest = value(c) > value(highest) ? c : highest;
+    }
+    box.straddles = value(lowest) < 0.0 && value(highest) > 0.0;
+    box.ends = { { { this->corner(piece, lowest) }, { this->corner(piece, highest) } } };
+    return box;
+  }
+
+  /// A corner of the piece in the element's reference space.
+  const glm::dvec3& corner(const Piece& piece, int c) const
+  {
+    const Domain domain = this->Form.domain;
+    return piece.corners[coefficientIndex(
+      domain, cornerDegrees, cornerLatticePoint(domain, cornerDegrees, c))];
   }
 
   /// Corners of both signs, and a direction along which the field rises everywhere.
@@ -242,7 +268,64 @@ private:
   std::vector<int> CornerPlaces;
 };
 
+glm::dmat3 symmetric(const std::array<Coefficient, 6>& second)
+{
+  return { second[0].w, second[1].w, second[2].w, second[1].w, second[3].w, second[4].w,
+    second[2].w, second[4].w, second[5].w };
+}
+
 } // namespace
+
+Location findBetweenEnds(const ElementMesh& mesh, double isovalue, const SurfaceBox& box)
+{
+  constexpr int halvings = 50;
+  const BernsteinForm form = mesh.form(box.middle.element);
+  glm::dvec3 below = box.ends[0].xyz;
+  glm::dvec3 above = box.ends[1].xyz;
+  for (int n = 0; n < halvings; ++n)
+  {
+    const glm::dvec3 middle = 0.5 * (below + above);
+    (evaluateGradient(form, { middle }).value.w < isovalue ? below : above) = middle;
+  }
+  return { box.middle.element, { 0.5 * (below + above) } };
+}
+
+bool findCriticalPoint(
+  const ElementMesh& mesh, double isovalue, const SurfaceBox& box, CriticalPoint& result)
+{
+  constexpr int maximumSteps = 30;
+  constexpr double converged = 1e-12;
+  constexpr double searchRadii = 4.0;
+  const BernsteinForm form = mesh.form(box.middle.element);
+  const Range range = fieldRange(form);
+  glm::dvec3 u = box.middle.u.xyz;
+  for (int step = 0; step < maximumSteps; ++step)
+  {
+    const Jet jet = evaluateHessian(form, { u });
+    const glm::dvec3 gradient(jet.first[0].w, jet.first[1].w, jet.first[2].w);
+    const glm::dmat3 hessian = symmetric(jet.second);
+    if (glm::determinant(hessian) == 0.0)
+    {
+      return false;
+    }
+    const glm::dvec3 du = -glm::inverse(hessian) * gradient;
+    u += du;
+    if (!(glm::distance(u, box.middle.u.xyz) <= searchRadii * box.referenceRadius))
+    {
+      return false;
+    }
+    if (glm::length(du) < converged)
+    {
+      const double value = evaluateGradient(form, { u }).value.w - isovalue;
+      constexpr double rounding = 1e-12;
+      result.location = { box.middle.element, { u } };
+      result.onSurface = std::abs(value) <=
+        rounding * (std::abs(range.lower) + std::abs(range.upper) + std::abs(isovalue));
+      return true;
+    }
+  }
+  return false;
+}
 
 std::vector<SurfaceBox> findSurfaceBoxes(
   const ElementMesh& mesh, double isovalue, double wantedSize, const ParallelFor& parallelFor)

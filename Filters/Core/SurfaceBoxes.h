@@ -13,8 +13,14 @@ struct SurfaceBox
   Location middle;
   /// World diagonal of the bounds of its control points.
   double size = 0.0;
+  /// Largest distance of its corners from its middle, reference space.
+  double referenceRadius = 0.0;
   /// The surface in it is one sheet, provably: along some direction the field only rises.
   bool certified = false;
+  /// Corners at which F - c has opposite signs, if there are such: a point of the surface lies on the
+  /// straight line between them.
+  bool straddles = false;
+  std::array<ReferencePoint, 2> ends;
 };
 
 /// Splits every element into boxes by de Casteljau's algorithm. A box is
@@ -34,6 +40,23 @@ struct SurfaceBox
 /// \return boxes in the order of the elements, the same for any number of threads
 std::vector<SurfaceBox> findSurfaceBoxes(
   const ElementMesh& mesh, double isovalue, double wantedSize, const ParallelFor& parallelFor);
+
+/// A point of the surface on the line between the ends of a box that straddles it, by bisection.
+Location findBetweenEnds(const ElementMesh& mesh, double isovalue, const SurfaceBox& box);
+
+/// A point where the field's gradient vanishes.
+struct CriticalPoint
+{
+  Location location;
+  /// Whether the isosurface runs through it, to rounding: a cone, an isolated point, a crossing.
+  bool onSurface = false;
+};
+
+/// Looks for a critical point in and right around an uncertified box, by Newton's method on the
+/// gradient in reference space.
+/// \return whether there is one
+bool findCriticalPoint(
+  const ElementMesh& mesh, double isovalue, const SurfaceBox& box, CriticalPoint& result);
 
 constexpr int MaximumBisections = 36;
 constexpr int MaximumPieces = 4096;

@@ -53,8 +53,8 @@ public:
   /// \param result the place on the surface, if the method converged
   /// \return whether |F - c|/|grad F| fell to the tolerance
   /// \param keepWall a start on the boundary stays on it
-  bool project(const Location& start, double maximumTravel, Evaluated& result,
-    bool keepWall = false);
+  bool project(
+    const Location& start, double maximumTravel, Evaluated& result, bool keepWall = false);
 
   std::int64_t evaluations() const { return this->Evaluations; }
 

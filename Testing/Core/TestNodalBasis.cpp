@@ -116,7 +116,8 @@ TEST(NodalBasis, LinearElementsAreTheirOwnBernsteinForm)
   for (const Domain domain : { Domain::Hexahedron, Domain::Tetrahedron, Domain::Wedge })
   {
     const Degrees linear{ 1, 1, 1 };
-    EXPECT_EQ(NodalBasis::lagrange(domain, linear, latticePoints(domain, linear)).conversionNorm(), 1.0);
+    EXPECT_EQ(
+      NodalBasis::lagrange(domain, linear, latticePoints(domain, linear)).conversionNorm(), 1.0);
   }
 }
 
@@ -160,9 +161,9 @@ TEST(NodalBasis, RefusesNodesThatAreNoPermutationOfTheLattice)
 
 TEST(NodalBasis, RefusesDegreesThatTheEvaluatorsDoNotTake)
 {
-  const auto build = [](const Degrees& degrees)
-  { NodalBasis::lagrange(
-      Domain::Hexahedron, degrees, latticePoints(Domain::Hexahedron, degrees)); };
+  const auto build = [](const Degrees& degrees) {
+    NodalBasis::lagrange(Domain::Hexahedron, degrees, latticePoints(Domain::Hexahedron, degrees));
+  };
   EXPECT_NO_THROW(build({ 1, MaximumInputDegree, 1 }));
   EXPECT_THROW(build({ 0, 1, 1 }), std::invalid_argument);
   EXPECT_THROW(build({ 1, 1, MaximumInputDegree + 1 }), std::invalid_argument);
