@@ -337,22 +337,6 @@ double power(double base, int exponent)
   return result;
 }
 
-/// Values along one lattice line, halved: `line` keeps the first half, `rest` gets the second.
-template <class Value>
-void halve(std::vector<Value>& line, std::vector<Value>& rest)
-{
-  const std::size_t n = line.size();
-  rest.resize(n);
-  for (std::size_t step = 0; step < n; ++step)
-  {
-    rest[n - 1 - step] = line[n - 1];
-    for (std::size_t i = n - 1; i > step; --i)
-    {
-      line[i] = 0.5 * (line[i] + line[i - 1]);
-    }
-  }
-}
-
 } // namespace
 
 Jet evaluateGradient(const BernsteinForm& form, const ReferencePoint& u)
@@ -392,47 +376,6 @@ void evaluateBasis(Domain domain, const Degrees& degrees, const ReferencePoint& 
     ++index;
   }
 }
-
-template <class Value>
-void bisect(Domain domain, const Degrees& degrees, const LatticePoint& direction,
-  std::vector<Value>& coefficients, std::vector<Value>& second)
-{
-  second.resize(coefficients.size());
-  std::vector<Value> line, rest;
-  std::vector<int> where;
-  for (const LatticePoint& start : latticePoints(domain, degrees))
-  {
-    const auto along = [&](int step)
-    {
-      return LatticePoint{ start.i + step * direction.i, start.j + step * direction.j,
-        start.k + step * direction.k };
-    };
-    if (inLattice(domain, degrees, along(-1)))
-    {
-      continue; // not the first point of its line
-    }
-    line.clear();
-    where.clear();
-    for (int step = 0; inLattice(domain, degrees, along(step)); ++step)
-    {
-      where.push_back(coefficientIndex(domain, degrees, along(step)));
-      line.push_back(coefficients[where.back()]);
-    }
-    halve(line, rest);
-    for (std::size_t n = 0; n < where.size(); ++n)
-    {
-      coefficients[where[n]] = line[n];
-      second[where[n]] = rest[n];
-    }
-  }
-}
-
-template void bisect(Domain, const Degrees&, const LatticePoint&, std::vector<Coefficient>&,
-  std::vector<Coefficient>&);
-template void bisect(
-  Domain, const Degrees&, const LatticePoint&, std::vector<glm::dvec3>&, std::vector<glm::dvec3>&);
-template void bisect(
-  Domain, const Degrees&, const LatticePoint&, std::vector<double>&, std::vector<double>&);
 
 Range fieldRange(const BernsteinForm& form)
 {

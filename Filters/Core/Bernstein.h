@@ -49,14 +49,6 @@ Jet evaluateHessian(const BernsteinForm& form, const ReferencePoint& u);
 /// \param basis room for coefficientCount(domain, degrees) values; they sum to one.
 void evaluateBasis(Domain domain, const Degrees& degrees, const ReferencePoint& u, double* basis);
 
-/// Bisects a polynomial over `domain` at the middle of the edges that run along `direction` (one of
-/// facts(domain).edgeDirections), by de Casteljau's algorithm on every lattice line.
-/// \param coefficients replaced by those of the half at the start of the direction
-/// \param second receives those of the other half
-template <class Value>
-void bisect(Domain domain, const Degrees& degrees, const LatticePoint& direction,
-  std::vector<Value>& coefficients, std::vector<Value>& second);
-
 /// Smallest and largest value that the convex hull property allows f on the element, rational ones
 /// included: their weights are positive.
 struct Range

@@ -1,5 +1,6 @@
 #include "SurfaceBoxes.h"
 
+#include "Bisection.h"
 #include "MonotoneTest.h"
 
 #include <algorithm>
@@ -22,6 +23,32 @@ struct Piece
 };
 
 constexpr Degrees cornerDegrees{ 1, 1, 1 };
+
+/// A direction in which pieces can be halved: lattice lines, and the edges (pairs of corners) along it.
+struct Direction
+{
+  LatticeLines coefficients;
+  LatticeLines corners;
+  std::vector<std::pair<int, int>> edges;
+};
+
+std::vector<std::pair<int, int>> edgesAlong(Domain domain, const LatticePoint& direction)
+{
+  const auto& corners = facts(domain).corners;
+  const glm::dvec3 step(direction.i, direction.j, direction.k);
+  std::vector<std::pair<int, int>> edges;
+  for (int a = 0; a < static_cast<int>(corners.size()); ++a)
+  {
+    for (int b = 0; b < static_cast<int>(corners.size()); ++b)
+    {
+      if (corners[a].xyz + step == corners[b].xyz)
+      {
+        edges.emplace_back(a, b);
+      }
+    }
+  }
+  return edges;
+}
 
 class ElementSplitter
 {
@@ -79,6 +106,12 @@ private:
       return;
     }
     this->Monotone = MonotoneTest(form.domain, form.degrees);
+    this->Directions.clear();
+    for (const LatticePoint& direction : facts(form.domain).edgeDirections)
+    {
+      this->Directions.push_back({ { form.domain, form.degrees, direction },
+        { form.domain, cornerDegrees, direction }, edgesAlong(form.domain, direction) });
+    }
     this->CornerPlaces.clear();
     for (int c = 0; c < static_cast<int>(facts(form.domain).corners.size()); ++c)
     {
@@ -212,52 +245,43 @@ private:
   /// Halves the piece across its longest direction; it keeps the first half, the second is returned.
   Piece halve(Piece& piece) const
   {
-    const LatticePoint direction = this->longestDirection(piece);
+    const Direction& direction = this->Directions[this->longestDirection(piece)];
     Piece second;
-    bisect(
-      this->Form.domain, this->Form.degrees, direction, piece.coefficients, second.coefficients);
+    direction.coefficients.bisect(piece.coefficients, second.coefficients);
     if (!piece.weights.empty())
     {
-      bisect(this->Form.domain, this->Form.degrees, direction, piece.weights, second.weights);
+      direction.coefficients.bisect(piece.weights, second.weights);
     }
-    bisect(this->Form.domain, cornerDegrees, direction, piece.corners, second.corners);
+    direction.corners.bisect(piece.corners, second.corners);
     second.bisections = ++piece.bisections;
     second.certified = piece.certified;
     return second;
   }
 
   /// The direction whose edges are longest in world space.
-  LatticePoint longestDirection(const Piece& piece) const
+  std::size_t longestDirection(const Piece& piece) const
   {
-    LatticePoint longest;
-    double longestLength = -1.0;
-    for (const LatticePoint& d : facts(this->Form.domain).edgeDirections)
+    const BernsteinForm form = this->formOf(piece);
+    std::array<glm::dvec3, MaximumCorners> corners;
+    for (std::size_t c = 0; c < this->CornerPlaces.size(); ++c)
     {
-      double edgeLength = 0.0;
-      for (const LatticePoint& a : latticePoints(this->Form.domain, cornerDegrees))
+      corners[c] = glm::dvec3(controlPoint(form, this->CornerPlaces[c]));
+    }
+    std::size_t longest = 0;
+    double longestLength = -1.0;
+    for (std::size_t d = 0; d < this->Directions.size(); ++d)
+    {
+      for (const auto& [a, b] : this->Directions[d].edges)
       {
-        const LatticePoint b{ a.i + d.i, a.j + d.j, a.k + d.k };
-        if (inLattice(this->Form.domain, cornerDegrees, b))
+        const double edgeLength = glm::distance(corners[a], corners[b]);
+        if (edgeLength > longestLength)
         {
-          edgeLength = std::max(
-            edgeLength, glm::distance(this->worldCorner(piece, a), this->worldCorner(piece, b)));
+          longest = d;
+          longestLength = edgeLength;
         }
-      }
-      if (edgeLength > longestLength)
-      {
-        longest = d;
-        longestLength = edgeLength;
       }
     }
     return longest;
-  }
-
-  glm::dvec3 worldCorner(const Piece& piece, const LatticePoint& corner) const
-  {
-    const Degrees& d = this->Form.degrees;
-    return glm::dvec3(controlPoint(this->formOf(piece),
-      coefficientIndex(
-        this->Form.domain, d, { corner.i * d[0], corner.j * d[1], corner.k * d[2] })));
   }
 
   const ElementMesh& Mesh;
@@ -266,6 +290,7 @@ private:
   BernsteinForm Form;
   MonotoneTest Monotone{ Domain::Hexahedron, cornerDegrees };
   std::vector<int> CornerPlaces;
+  std::vector<Direction> Directions;
 };
 
 glm::dmat3 symmetric(const std::array<Coefficient, 6>& second)

@@ -1,4 +1,5 @@
 #include "Bernstein.h"
+#include "Bisection.h"
 
 #include "ElementCases.h"
 
