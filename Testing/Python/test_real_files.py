@@ -186,7 +186,7 @@ def test_zero_of_the_layer_is_nearly_a_sphere(data):
     error_of_the_solution = 0.025 / 6  # of u, which has slope 6 there
     assert np.abs(distance - 0.6).max() <= error_of_the_solution
     outward = arms / distance[:, None]
-    assert np.sum(-support.array_of(particles, "Normals") * outward, axis=1).min() > np.cos(np.radians(5))
+    assert np.sum(-support.array_of(particles, "Normals") * outward, axis=1).min() > np.cos(np.radians(8))
     assert abs(np.mean(support.array_of(particles, "Mean_Curvature")) + 1 / 0.6) <= 0.03 / 0.6
     assert abs(np.mean(support.array_of(particles, "Gauss_Curvature")) - 1 / 0.36) <= 0.05 / 0.36
 
