@@ -86,7 +86,7 @@ private:
   std::vector<Mover> makeSeeds(const std::vector<SurfaceBox>& boxes);
   bool place(
     const Location& start, double maximumTravel, SurfaceWalker& walker, Mover& mover) const;
-  bool displace(const Mover& from, const WorldVector& step, Mover& to);
+  bool displace(const Mover& from, const WorldVector& step, double farthest, Mover& to);
   void addUncovered(const std::vector<Mover>& seeds);
   void relaxLevel(int maximumRounds, bool fixedNumber);
   bool bendsTooFar(const Mover& mover);
@@ -226,14 +226,13 @@ bool ClassicSystem::place(
   return true;
 }
 
-/// The same particle after a step in world space; false if it could not be put on the surface near
-/// there, or turned over to another sheet.
-bool ClassicSystem::displace(const Mover& from, const WorldVector& step, Mover& to)
+/// The same particle after a step in world space; false if it could not be put on the surface within
+/// `farthest` of where it was, or turned over to another sheet.
+bool ClassicSystem::displace(const Mover& from, const WorldVector& step, double farthest, Mover& to)
 {
-  const double h = this->Law.at(from.curvature);
   const Location reached = this->Walker.move(from.at, step);
-  return this->place(reached, h, this->Walker, to) &&
-    length(to.position() - from.position()) <= h && dot(to.normal, from.normal) > 0.0;
+  return this->place(reached, farthest, this->Walker, to) &&
+    length(to.position() - from.position()) <= farthest && dot(to.normal, from.normal) > 0.0;
 }
 
 std::vector<Mover> ClassicSystem::makeSeeds(const std::vector<SurfaceBox>& boxes)
@@ -365,7 +364,7 @@ void ClassicSystem::relaxParticle(std::size_t i)
     WorldVector step = (lambda * h * h) * tangential;
     step = std::min(1.0, h / length(step)) * step;
     Mover trial = start;
-    if (!this->displace(start, step, trial))
+    if (!this->displace(start, step, h, trial))
     {
       continue;
     }
@@ -402,8 +401,9 @@ bool ClassicSystem::addBeside(const Mover& parent, double distance, double angle
 {
   const glm::dvec3 e1 = orthogonal(parent.normal.xyz);
   const glm::dvec3 e2 = glm::cross(parent.normal.xyz, e1);
+  const WorldVector step{ distance * (std::cos(angle) * e1 + std::sin(angle) * e2) };
   Mover child = parent;
-  if (!this->displace(parent, { distance * (std::cos(angle) * e1 + std::sin(angle) * e2) }, child))
+  if (!this->displace(parent, step, 2.0 * distance, child))
   {
     ++this->Report.particlesRejected;
     return false;
