@@ -249,11 +249,6 @@ bool vtkHighOrderParticleIsosurface::CheckParameters()
     vtkErrorMacro("Spacing is NaN or infinite; give a length, or 0 for the automatic one.");
     return false;
   }
-  if (this->Spacing < 0.0)
-  {
-    vtkWarningMacro(
-      "Spacing " << this->Spacing << " is negative; the automatic spacing is used instead.");
-  }
   return true;
 }
 

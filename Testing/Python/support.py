@@ -72,7 +72,8 @@ def run(data, array, isovalues, **properties):
 def run_quietly(data, array, isovalues, **properties):
     """Runs the filter, which must have nothing to complain about; returns its output."""
     output, messages = run(data, array, isovalues, **properties)
-    assert messages.errors == [] and messages.warnings == []
+    said = messages.errors + messages.warnings
+    assert said == [], "\n".join(said)
     return output
 
 
