@@ -1,0 +1,109 @@
+#pragma once
+
+#include "Kernels.h"
+
+namespace hop::kernel
+{
+namespace
+{
+
+constexpr int MaximumLine = MaximumDegree + 1;
+
+/// Degree n - 1 to n of the univariate Bernstein basis: B_i,n = (1 - t) B_i,n-1 + t B_i-1,n-1.
+/// basis[-1] and basis[n] are zero before.
+template <class Number>
+inline void raise(int n, Number t, Number* basis)
+{
+  const Number s = 1.0 - t;
+  for (int i = n; i >= 0; --i)
+  {
+    basis[i] = s * basis[i] + t * basis[i - 1];
+  }
+}
+
+/// Univariate Bernstein polynomials of degree p at t with derivatives up to Order:
+/// B'_i,p = p (B_i-1,p-1 - B_i,p-1), and once more for B''.
+template <class Number, int Order>
+struct LineBasis
+{
+  Number order[Order + 1][MaximumLine];
+
+  LineBasis(int p, Number t)
+  {
+    Number padded[MaximumLine + 2];
+    for (int i = 0; i < p + 3; ++i)
+    {
+      padded[i] = Number{};
+    }
+    Number* basis = padded + 2;
+    basis[0] += 1.0;
+    for (int n = 1; n < p; ++n)
+    {
+      if (Order == 2 && n == p - 1)
+      {
+        this->setSecond(p, basis);
+      }
+      raise(n, t, basis);
+    }
+    for (int i = 0; i <= p; ++i)
+    {
+      this->order[1][i] = static_cast<double>(p) * (basis[i - 1] - basis[i]);
+    }
+    raise(p, t, basis);
+    for (int i = 0; i <= p; ++i)
+    {
+      this->order[0][i] = basis[i];
+    }
+    if (Order == 2 && p == 1)
+    {
+      this->order[Order][0] = this->order[Order][1] = Number{};
+    }
+  }
+
+private:
+  void setSecond(int p, const Number* lowest)
+  {
+    const double scale = p * (p - 1);
+    for (int i = 0; i <= p; ++i)
+    {
+      this->order[Order][i] = scale * (lowest[i - 2] - 2.0 * lowest[i - 1] + lowest[i]);
+    }
+  }
+};
+
+/// sum[a] = sum over i of basis[a][i] values(i, .), for `Orders` rows of the basis at once.
+template <int Orders, class Number, class Sum, int Components, class Values>
+inline void contract(const Number (*basis)[MaximumLine], int count, const Values& values,
+  Sum (&result)[Orders][Components])
+{
+  Sum sum[Orders][Components];
+  for (int c = 0; c < Components; ++c)
+  {
+    const auto value = values(0, c);
+    for (int a = 0; a < Orders; ++a)
+    {
+      sum[a][c] = basis[a][0] * value;
+    }
+  }
+  for (int i = 1; i < count; ++i)
+  {
+    for (int c = 0; c < Components; ++c)
+    {
+      const auto value = values(i, c);
+      for (int a = 0; a < Orders; ++a)
+      {
+        sum[a][c] += basis[a][i] * value;
+      }
+    }
+  }
+  for (int a = 0; a < Orders; ++a)
+  {
+    for (int c = 0; c < Components; ++c)
+    {
+      result[a][c] = sum[a][c];
+    }
+  }
+}
+
+} // namespace
+} // namespace hop::kernel
