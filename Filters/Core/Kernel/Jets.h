@@ -57,7 +57,7 @@ struct Hexahedron
   static void jet(const int (&degrees)[3], const double* coefficients,
     const typename Layout::Basis (&u)[3], Jet<Layout, Order>& jet)
   {
-    using Line = LineBasis<typename Layout::Basis, Order>;
+    using Line = LineBasis<typename Layout::Basis, Order, Degree>;
     const int p = Degree ? Degree : degrees[0];
     const int q = Degree ? Degree : degrees[1];
     const int r = Degree ? Degree : degrees[2];
@@ -222,7 +222,7 @@ struct Wedge
       const double* layer = coefficients + triangleCount(p) * k * Layout::width;
       triangleJet<Layout, Order>(p, u, basis, layer, k, layers);
     }
-    const LineBasis<typename Layout::Basis, Order> bw(r, u[2]);
+    const LineBasis<typename Layout::Basis, Order, Degree> bw(r, u[2]);
     const auto finish = [&](auto orders, int inTriangle, int a, int b)
     {
       contractInto<decltype(orders)::value, Layout>(

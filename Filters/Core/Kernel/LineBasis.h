@@ -23,13 +23,15 @@ inline void raise(int n, Number t, Number* basis)
 
 /// Univariate Bernstein polynomials of degree p at t with derivatives up to Order:
 /// B'_i,p = p (B_i-1,p-1 - B_i,p-1), and once more for B''.
-template <class Number, int Order>
+/// \tparam Degree p where the compiler shall know it, else 0
+template <class Number, int Order, int Degree>
 struct LineBasis
 {
   Number order[Order + 1][MaximumLine];
 
-  LineBasis(int p, Number t)
+  LineBasis(int degree, Number t)
   {
+    const int p = Degree ? Degree : degree;
     Number padded[MaximumLine + 2];
     for (int i = 0; i < p + 3; ++i)
     {

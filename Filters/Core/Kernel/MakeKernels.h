@@ -93,7 +93,12 @@ void pointOfDegree(const Element& element, const double* point, double* result)
   const double u[3] = { point[0], point[1], point[2] };
   Jet<Layout<1, ComponentLanes, 4>, Order> jet;
   elementJet<Shape, 1, ComponentLanes, Order, Degree>(element, u, jet);
-  std::memcpy(result, jet, sizeof(jet));
+  using Sum = typename Layout<1, ComponentLanes, 4>::Sum;
+  const Sum* values = jet[0];
+  for (int i = 0; i < 4 / ComponentLanes * quantityCount<Order>; ++i)
+  {
+    std::memcpy(result + i * ComponentLanes, values + i, sizeof(Sum));
+  }
 }
 
 /// The degree if it is the same along all axes and one that is compiled for itself, else 0.
