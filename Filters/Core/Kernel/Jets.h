@@ -1,8 +1,7 @@
 #pragma once
 
-#include "Lanes.h"
-#include "LineBasis.h"
 #include "SimplexNet.h"
+#include "TensorBasis.h"
 
 // Jets of an element at one vector of points. `Degree` > 0: all degrees of the element are this,
 // known to the compiler; 0: they are read from the element.
@@ -35,9 +34,8 @@ constexpr int quantityOf(int a, int b, int c)
 
 /// Contracts with the basis and its first `Orders - 1` derivatives; derivative order c goes to
 /// target(c).
-template <int Orders, class Layout, class Values, class Target>
-inline void contractInto(const typename Layout::Basis (*basis)[MaximumLine], int count,
-  const Values& values, const Target& target)
+template <int Orders, class Layout, class Basis, class Values, class Target>
+inline void contractInto(const Basis& basis, int count, const Values& values, const Target& target)
 {
   typename Layout::Sum result[Orders][Layout::components];
   contract<Orders>(basis, count, values, result);
@@ -57,11 +55,13 @@ struct Hexahedron
   static void jet(const int (&degrees)[3], const double* coefficients,
     const typename Layout::Basis (&u)[3], Jet<Layout, Order>& jet)
   {
-    using Line = LineBasis<typename Layout::Basis, Order, Degree>;
     const int p = Degree ? Degree : degrees[0];
     const int q = Degree ? Degree : degrees[1];
     const int r = Degree ? Degree : degrees[2];
-    const Line bu(p, u[0]), bv(q, u[1]), bw(r, u[2]);
+    const TensorBasis<Layout, Order, Degree> basis(degrees, u);
+    const auto& bu = basis.template along<0>();
+    const auto& bv = basis.template along<1>();
+    const auto& bw = basis.template along<2>();
 
     Planes<Layout, Order> planes;
     for (int k = 0; k <= r; ++k)
@@ -71,7 +71,7 @@ struct Hexahedron
       {
         const int row = (p + 1) * (j + (q + 1) * k) * Layout::components;
         contractInto<Order + 1, Layout>(
-          bu.order, p + 1,
+          bu, p + 1,
           [&](int i, int c)
           { return Layout::load(coefficients, row + i * Layout::components + c); },
           [&](int a) { return rows[a][j]; });
@@ -91,7 +91,7 @@ private:
     const Line& bv, int count, const Rows& rows, int k, Planes<Layout, Order>& planes)
   {
     contractInto<Order + 1 - A, Layout>(
-      bv.order, count, [&](int j, int c) { return rows[A][j][c]; },
+      bv, count, [&](int j, int c) { return rows[A][j][c]; },
       [&](int b) { return planes[A][b][k]; });
     if constexpr (A < Order)
     {
@@ -104,7 +104,7 @@ private:
     const Line& bw, int count, const Planes<Layout, Order>& planes, Jet<Layout, Order>& jet)
   {
     contractInto<Order + 1 - A - B, Layout>(
-      bw.order, count, [&](int k, int c) { return planes[A][B][k][c]; },
+      bw, count, [&](int k, int c) { return planes[A][B][k][c]; },
       [&](int order) { return jet[quantityOf(A, B, order)]; });
     if constexpr (A + B < Order)
     {
@@ -226,7 +226,7 @@ struct Wedge
     const auto finish = [&](auto orders, int inTriangle, int a, int b)
     {
       contractInto<decltype(orders)::value, Layout>(
-        bw.order, r + 1, [&](int k, int c) { return layers[inTriangle][k][c]; },
+        bw, r + 1, [&](int k, int c) { return layers[inTriangle][k][c]; },
         [&](int order) { return jet[quantityOf(a, b, order)]; });
     };
     finish(Number<Order + 1>(), 0, 0, 0);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstring>
+#include <type_traits>
 
 // Everything that the kernels are made of is local to the file that includes it, so that every
 // instruction set gets its own copy.
@@ -42,6 +43,11 @@ struct Layout
   static constexpr int width = Width;
   /// Coefficients (of this layout) that make up a coefficient of the element.
   static constexpr int components = Width / ComponentLanes;
+
+  /// void where lanes hold components and the degree is known to the compiler, and high enough for
+  /// common recurrences to pay; else no type.
+  template <int Degree>
+  using IfSinglePoint = std::enable_if_t<(ComponentLanes > 1 && Degree > 2)>;
 
   static Coefficient load(const double* coefficients, int index)
   {

@@ -25,9 +25,11 @@ inline void raise(int n, Number t, Number* basis)
 /// B'_i,p = p (B_i-1,p-1 - B_i,p-1), and once more for B''.
 /// \tparam Degree p where the compiler shall know it, else 0
 template <class Number, int Order, int Degree>
-struct LineBasis
+class LineBasis
 {
-  Number order[Order + 1][MaximumLine];
+public:
+  /// Derivative `order` of basis function i.
+  const Number& operator()(int order, int i) const { return this->Orders[order][i]; }
 
   LineBasis(int degree, Number t)
   {
@@ -49,52 +51,48 @@ struct LineBasis
     }
     for (int i = 0; i <= p; ++i)
     {
-      this->order[1][i] = static_cast<double>(p) * (basis[i - 1] - basis[i]);
+      this->Orders[1][i] = static_cast<double>(p) * (basis[i - 1] - basis[i]);
     }
     raise(p, t, basis);
     for (int i = 0; i <= p; ++i)
     {
-      this->order[0][i] = basis[i];
+      this->Orders[0][i] = basis[i];
     }
     if (Order == 2 && p == 1)
     {
-      this->order[Order][0] = this->order[Order][1] = Number{};
+      this->Orders[Order][0] = this->Orders[Order][1] = Number{};
     }
   }
 
 private:
+  Number Orders[Order + 1][MaximumLine];
+
   void setSecond(int p, const Number* lowest)
   {
     const double scale = p * (p - 1);
     for (int i = 0; i <= p; ++i)
     {
-      this->order[Order][i] = scale * (lowest[i - 2] - 2.0 * lowest[i - 1] + lowest[i]);
+      this->Orders[Order][i] = scale * (lowest[i - 2] - 2.0 * lowest[i - 1] + lowest[i]);
     }
   }
 };
 
-/// sum[a] = sum over i of basis[a][i] values(i, .), for `Orders` rows of the basis at once.
-template <int Orders, class Number, class Sum, int Components, class Values>
-inline void contract(const Number (*basis)[MaximumLine], int count, const Values& values,
-  Sum (&result)[Orders][Components])
+/// result[a][c] = sum over i of basis(a, i) values(i, c), for `Orders` rows of the basis at once.
+template <int Orders, class Basis, class Sum, int Components, class Values>
+inline void contract(
+  const Basis& basis, int count, const Values& values, Sum (&result)[Orders][Components])
 {
-  Sum sum[Orders][Components];
-  for (int c = 0; c < Components; ++c)
-  {
-    const auto value = values(0, c);
-    for (int a = 0; a < Orders; ++a)
-    {
-      sum[a][c] = basis[a][0] * value;
-    }
-  }
-  for (int i = 1; i < count; ++i)
+  // From zero rather than from the first term: terms of i = 0 would be kept in registers, which the
+  // sums need.
+  Sum sum[Orders][Components] = {};
+  for (int i = 0; i < count; ++i)
   {
     for (int c = 0; c < Components; ++c)
     {
       const auto value = values(i, c);
       for (int a = 0; a < Orders; ++a)
       {
-        sum[a][c] += basis[a][i] * value;
+        sum[a][c] += basis(a, i) * value;
       }
     }
   }
