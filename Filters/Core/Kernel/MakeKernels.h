@@ -2,6 +2,8 @@
 
 #include "Jets.h"
 
+#include <utility>
+
 namespace hop::kernel
 {
 namespace
@@ -101,31 +103,48 @@ void pointOfDegree(const Element& element, const double* point, double* result)
   }
 }
 
-/// The degree if it is the same along all axes and one that is compiled for itself, else 0.
-inline int specialDegree(const Element& element)
+/// Up to these, an element's degree is known to the compiler if it is the same along all axes. At
+/// single points that pays for long: it breaks up chains of sums. The sums of batches fill the
+/// registers anyhow.
+constexpr int HighestBatchDegree = 4;
+constexpr int HighestPointDegree = 8;
+
+/// The degree to call the kernel of; 0: the one for all.
+inline int compiledDegree(const Element& element, int highest)
 {
   const auto [p, q, r] = element.degrees;
-  return p == q && q == r && p <= 4 ? p : 0;
+  return p == q && q == r && p <= highest ? p : 0;
+}
+
+template <class Shape, int PointLanes, int Order, int... Degrees>
+inline void callBatch(std::integer_sequence<int, Degrees...>, const Element& element,
+  const double* points, int count, double* jets, std::ptrdiff_t stride)
+{
+  constexpr BatchFunction functions[] = { batchOfDegree<Shape, PointLanes, Order, Degrees>... };
+  functions[compiledDegree(element, HighestBatchDegree)](element, points, count, jets, stride);
+}
+
+template <class Shape, int ComponentLanes, int Order, int... Degrees>
+inline void callPoint(
+  std::integer_sequence<int, Degrees...>, const Element& element, const double* where, double* jet)
+{
+  constexpr PointFunction functions[] = { pointOfDegree<Shape, ComponentLanes, Order, Degrees>... };
+  functions[compiledDegree(element, HighestPointDegree)](element, where, jet);
 }
 
 template <class Shape, int PointLanes, int Order>
 void batch(
   const Element& element, const double* points, int count, double* jets, std::ptrdiff_t stride)
 {
-  constexpr BatchFunction functions[] = { batchOfDegree<Shape, PointLanes, Order, 0>,
-    batchOfDegree<Shape, PointLanes, Order, 1>, batchOfDegree<Shape, PointLanes, Order, 2>,
-    batchOfDegree<Shape, PointLanes, Order, 3>, batchOfDegree<Shape, PointLanes, Order, 4> };
-  functions[specialDegree(element)](element, points, count, jets, stride);
+  callBatch<Shape, PointLanes, Order>(std::make_integer_sequence<int, HighestBatchDegree + 1>(),
+    element, points, count, jets, stride);
 }
 
 template <class Shape, int ComponentLanes, int Order>
 void point(const Element& element, const double* where, double* jet)
 {
-  constexpr PointFunction functions[] = { pointOfDegree<Shape, ComponentLanes, Order, 0>,
-    pointOfDegree<Shape, ComponentLanes, Order, 1>, pointOfDegree<Shape, ComponentLanes, Order, 2>,
-    pointOfDegree<Shape, ComponentLanes, Order, 3>,
-    pointOfDegree<Shape, ComponentLanes, Order, 4> };
-  functions[specialDegree(element)](element, where, jet);
+  callPoint<Shape, ComponentLanes, Order>(
+    std::make_integer_sequence<int, HighestPointDegree + 1>(), element, where, jet);
 }
 
 template <class Shape, int PointLanes, int ComponentLanes>
