@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstring>
 
 namespace hop::testing
@@ -53,7 +56,7 @@ std::vector<ReferencePoint> randomPoints(Domain domain, int count, Random& rando
   return points;
 }
 
-/// Second differences of a polynomial of degree p amplify rounding by p^2 each.
+/// Each derivative of a polynomial of degree p amplifies rounding by about p^2.
 double toleranceOf(const ElementCase& which, int order)
 {
   const double p = std::max({ which.degrees[0], which.degrees[1], which.degrees[2] });
@@ -83,9 +86,8 @@ bool sameBits(const Jet& a, const Jet& b)
   return std::memcmp(&a, &b, sizeof(Jet)) == 0;
 }
 
-/// Value and derivatives from sums over the basis alone: the basis is a product of polynomials of
-/// degree at most p, which differences in complex steps would not survive, so derivatives come from
-/// control nets: d/du of a Bernstein polynomial has the coefficients p (c_(i+1) - c_i).
+/// A polynomial by its control net, evaluated as a sum over the basis. Its derivative along a
+/// coordinate is one too, with the coefficients p (c_(next) - c) on the lattice one degree lower.
 struct Differentiated
 {
   Domain domain;
@@ -118,7 +120,7 @@ struct Differentiated
     for (const LatticePoint& at : latticePoints(this->domain, lower))
     {
       const LatticePoint next{ at.i + (axis == 0), at.j + (axis == 1), at.k + (axis == 2) };
-      result.coefficients.push_back(this->degrees[axis] * 1.0 *
+      result.coefficients.push_back(static_cast<double>(this->degrees[axis]) *
         (this->coefficients[coefficientIndex(this->domain, this->degrees, next)] -
           this->coefficients[coefficientIndex(this->domain, this->degrees, at)]));
     }
