@@ -11,7 +11,7 @@ packages=(
   g++ cmake ninja-build
   paraview paraview-dev python3-paraview python3-dev libglm-dev
   xvfb                                  # pictures where there is no display
-  python3-pytest libgtest-dev           # tests
+  python3-pytest libgtest-dev libbenchmark-dev # tests, benchmarks
   # paraview-dev's CMake files look these up, but its package does not depend on them.
   libglew-dev liblz4-dev liblzma-dev libdouble-conversion-dev libutfcpp-dev libopenmpi-dev
   libboost-dev libpugixml-dev libjpeg-dev libpng-dev libtiff-dev libfreetype-dev libgl2ps-dev

@@ -18,6 +18,7 @@ endif ()
 
 option(BUILD_SHARED_LIBS "Build the VTK modules as shared libraries" ON)
 option(BUILD_TESTING "Build the tests" ON)
+option(BUILD_BENCHMARKS "Build the benchmarks of the numerics (needs Google Benchmark and BUILD_TESTING)" OFF)
 option(WARNINGS_AS_ERRORS "Stop at the first compiler warning, as CI does" OFF)
 
 if (BUILD_TESTING)

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "Lanes.h"
+#include "LineBasis.h"
+
+namespace hop::kernel
+{
+namespace
+{
+
+/// The bases along the three coordinates of a point (or vector of points).
+template <class Layout, int Order, int Degree, class = void>
+class TensorBasis
+{
+public:
+  using Number = typename Layout::Basis;
+
+  TensorBasis(const int (&degrees)[3], const Number (&u)[3])
+    : Lines{ { degrees[0], u[0] }, { degrees[1], u[1] }, { degrees[2], u[2] } }
+  {
+  }
+
+  template <int Axis>
+  const auto& along() const
+  {
+    return this->Lines[Axis];
+  }
+
+private:
+  LineBasis<Number, Order, Degree> Lines[3];
+};
+
+/// One point with the same degree along all coordinates: these go through the recurrences together,
+/// as lanes of one vector.
+template <class Layout, int Order, int Degree>
+class TensorBasis<Layout, Order, Degree, typename Layout::template IfSinglePoint<Degree>>
+{
+public:
+  TensorBasis(const int (&degrees)[3], const double (&u)[3])
+    : Lines(degrees[0], Together{ u[0], u[1], u[2], 0.0 })
+  {
+  }
+
+  template <int Axis>
+  auto along() const
+  {
+    return [this](int order, int i) { return this->Lines(order, i)[Axis]; };
+  }
+
+private:
+  using Together = Lanes<4>::Type;
+  LineBasis<Together, Order, Degree> Lines;
+};
+
+} // namespace
+} // namespace hop::kernel
