@@ -1,0 +1,292 @@
+"""Shared by the tests of the filter: run it on a file or on a grid, look at what it wrote and said,
+and ask VTK's own cells, contour and locator for a second opinion."""
+
+import numpy as np
+from paraview import simple
+from paraview.vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.misc import calldata_type
+from vtkmodules.vtkCommonCore import VTK_STRING, reference, vtkIdList, vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkStaticPointLocator, vtkUnstructuredGrid
+from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkContourFilter, vtkFeatureEdges, vtkMassProperties, vtkTriangleFilter
+
+
+# Running the filter
+
+
+class Messages:
+    """Collects what an algorithm says, so that a test can hold it against what it should say."""
+
+    def __init__(self, algorithm):
+        self.errors = []
+        self.warnings = []
+
+        @calldata_type(VTK_STRING)
+        def listen(caller, event, text):
+            (self.errors if event == "ErrorEvent" else self.warnings).append(text)
+
+        for speaker in (algorithm, algorithm.GetExecutive()):
+            speaker.AddObserver("ErrorEvent", listen)
+            speaker.AddObserver("WarningEvent", listen)
+
+
+def read(path):
+    """A reader, updated, for a .vtu or .pvtu file."""
+    kind = "XMLPartitionedUnstructuredGridReader" if path.endswith(".pvtu") else "XMLUnstructuredGridReader"
+    reader = getattr(simple, kind)(FileName=[path])
+    reader.UpdatePipeline()
+    return reader
+
+
+def source_of(data):
+    """A data object that exists only here, as a source for filters."""
+    source = simple.TrivialProducer()
+    source.GetClientSideObject().SetOutput(data)
+    source.UpdatePipeline()
+    return source
+
+
+def output_of(proxy):
+    proxy.UpdatePipeline()
+    return proxy.GetClientSideObject().GetOutputDataObject(0)
+
+
+def make_filter(data, array, isovalues, **properties):
+    """The filter, not yet run, on a source or a data object; array: name of a point array or
+    [association, name]; isovalues: one or several. Returns proxy and Messages."""
+    source = data if hasattr(data, "SMProxy") else source_of(data)
+    proxy = simple.HighOrderParticleIsosurface(Input=source)
+    proxy.ContourBy = ["POINTS", array] if isinstance(array, str) else array
+    proxy.Isosurfaces = isovalues if isinstance(isovalues, (list, tuple)) else [isovalues]
+    for name, value in properties.items():
+        setattr(proxy, name, value)
+    proxy.SMProxy.UpdateVTKObjects()
+    return proxy, Messages(proxy.GetClientSideObject())
+
+
+def run(data, array, isovalues, **properties):
+    """Runs the filter; returns its output and Messages."""
+    proxy, messages = make_filter(data, array, isovalues, **properties)
+    return output_of(proxy), messages
+
+
+def run_quietly(data, array, isovalues, **properties):
+    """Runs the filter, which must have nothing to complain about; returns its output."""
+    output, messages = run(data, array, isovalues, **properties)
+    assert messages.errors == [] and messages.warnings == []
+    return output
+
+
+# Looking at data
+
+
+def points_of(data):
+    if data.GetNumberOfPoints() == 0:
+        return np.zeros((0, 3))
+    return vtk_to_numpy(data.GetPoints().GetData()).astype(float)
+
+
+def array_of(data, name, association="point"):
+    attributes = data.GetPointData() if association == "point" else data.GetCellData()
+    array = attributes.GetArray(name)
+    assert array is not None, f"no {association} array '{name}'"
+    return vtk_to_numpy(array)
+
+
+def array_names(attributes):
+    return {attributes.GetArrayName(i) for i in range(attributes.GetNumberOfArrays())}
+
+
+def reported(particles, name):
+    """A number of the report in the field data."""
+    array = particles.GetFieldData().GetArray(name)
+    assert array is not None, f"no '{name}' in the report"
+    return array.GetValue(0)
+
+
+def contents(particles):
+    """Everything that a particle has, as bytes, for comparisons bit for bit."""
+    data = particles.GetPointData()
+    arrays = {name: array_of(particles, name).tobytes() for name in array_names(data)}
+    return {"points": points_of(particles).tobytes(), **arrays}
+
+
+def bounds_of(data):
+    """Lower and upper corner."""
+    return np.reshape(data.GetBounds(), (3, 2)).T
+
+
+def longest_side(data):
+    lower, upper = bounds_of(data)
+    return (upper - lower).max()
+
+
+def diagonal(data):
+    lower, upper = bounds_of(data)
+    return np.linalg.norm(upper - lower)
+
+
+# Second opinions
+
+
+def evaluate_by_vtk(grid, particles, names):
+    """What VTK's own cells say at every particle's vtkOriginalCellIds and ParametricCoordinates:
+    positions, {name: values} of the point arrays, and the gradient of the first of them."""
+    cells = array_of(particles, "vtkOriginalCellIds")
+    parametric = array_of(particles, "ParametricCoordinates")
+    fields = [array_of(grid, name).astype(float).reshape(grid.GetNumberOfPoints(), -1) for name in names]
+    positions = np.zeros((len(cells), 3))
+    gradients = np.zeros((len(cells), 3))
+    values = [np.zeros((len(cells), field.shape[1])) for field in fields]
+    # One cell after the other: making a cell costs more than evaluating it.
+    for id in np.unique(cells):
+        cell = grid.GetCell(id)
+        nodes = [cell.GetPointId(n) for n in range(cell.GetNumberOfPoints())]
+        nodal = [field[nodes] for field in fields]
+        contoured = np.ascontiguousarray(nodal[0][:, 0])
+        weights = np.zeros(len(nodes))
+        for i in np.flatnonzero(cells == id):
+            cell.EvaluateLocation(reference(0), parametric[i], positions[i], weights)
+            cell.Derivatives(0, parametric[i], contoured, 1, gradients[i])
+            for value, field in zip(values, nodal):
+                value[i] = weights @ field
+    return positions, {n: np.squeeze(v, axis=1) if v.shape[1] == 1 else v for n, v in zip(names, values)}, gradients
+
+
+def nearest_neighbors(particles, candidates=10):
+    """Distance of every particle to the nearest one of its own sheet (normals less than 90 degrees
+    apart), in units of the spacing that it wants; infinite where there is none."""
+    points, normals, wanted = points_of(particles), array_of(particles, "Normals"), array_of(particles, "Radius")
+    locator = vtkStaticPointLocator()
+    locator.SetDataSet(particles)
+    locator.BuildLocator()
+    found = vtkIdList()
+    nearest = np.full(len(points), np.inf)
+    for i, point in enumerate(points):
+        locator.FindClosestNPoints(candidates, point, found)
+        others = [j for j in map(found.GetId, range(found.GetNumberOfIds())) if j != i]
+        same_sheet = [j for j in others if normals[i] @ normals[j] > 0]
+        if same_sheet:
+            nearest[i] = np.linalg.norm(points[same_sheet] - point, axis=1).min() / wanted[i]
+    return nearest
+
+
+def distances_to(particles, points):
+    """Distance of each point to the particle nearest to it."""
+    locator = vtkStaticPointLocator()
+    locator.SetDataSet(particles)
+    locator.BuildLocator()
+    nearest = [locator.FindClosestPoint(point) for point in points]
+    return np.linalg.norm(points_of(particles)[nearest] - points, axis=1)
+
+
+def sample_surface(grid, name, isovalue, count, seed=1):
+    """Points of the true surface, found by VTK's own cells: by bisection between two random places of
+    a random cell that lie on different sides of it."""
+    dice = np.random.default_rng(seed)
+    field = array_of(grid, name).astype(float) - isovalue
+    samples = []
+    ids = vtkIdList()
+    for id in dice.permutation(np.repeat(np.arange(grid.GetNumberOfCells()), count)):
+        grid.GetCellPoints(id, ids)
+        nodal = field[[ids.GetId(n) for n in range(ids.GetNumberOfIds())]]
+        if nodal.min() < 0 < nodal.max():
+            samples += bisect_in_cell(grid.GetCell(id), nodal, dice)
+        if len(samples) == count:
+            break
+    return np.array(samples)
+
+
+def bisect_in_cell(cell, nodal, dice):
+    """One point at which the polynomial of these nodal values is 0, or none."""
+    weights, position = np.zeros(len(nodal)), np.zeros(3)
+
+    def value(u):
+        cell.EvaluateLocation(reference(0), u, position, weights)
+        return weights @ nodal
+
+    low, high = random_place(cell, dice), random_place(cell, dice)
+    if value(low) > value(high):
+        low, high = high, low
+    if not value(low) < 0 < value(high):
+        return []
+    for _ in range(40):
+        middle = (low + high) / 2
+        low, high = (middle, high) if value(middle) < 0 else (low, middle)
+    return [position]
+
+
+def random_place(cell, dice):
+    """Parametric coordinates, evenly distributed over a hexahedron, tetrahedron or wedge."""
+    if cell.GetNumberOfFaces() == 4:
+        return dice.dirichlet([1, 1, 1, 1])[:3]
+    if cell.GetNumberOfFaces() == 5:
+        return np.append(dice.dirichlet([1, 1, 1])[:2], dice.random())
+    return dice.random(3)
+
+
+def stock_contour(grid, name, isovalue):
+    """VTK's contour on straight sub-cells, as triangles: roughly the surface."""
+    contour = vtkContourFilter()
+    contour.SetInputData(grid)
+    contour.SetInputArrayToProcess(0, 0, 0, 0, name)
+    contour.SetValue(0, isovalue)
+    welded = vtkCleanPolyData()  # cells that bring their own nodes leave seams
+    welded.SetInputConnection(contour.GetOutputPort())
+    welded.SetTolerance(1e-6)
+    triangles = vtkTriangleFilter()
+    triangles.SetInputConnection(welded.GetOutputPort())
+    triangles.Update()
+    return triangles.GetOutput()
+
+
+def rim_of(triangles):
+    """Length of the edges that have a triangle on one side only."""
+    rim = vtkFeatureEdges()
+    rim.SetInputData(triangles)
+    rim.FeatureEdgesOff()
+    rim.NonManifoldEdgesOff()
+    rim.Update()
+    edges = rim.GetOutput()
+    ends = vtk_to_numpy(edges.GetLines().GetConnectivityArray()).reshape(-1, 2)
+    points = points_of(edges)
+    return np.linalg.norm(points[ends[:, 0]] - points[ends[:, 1]], axis=1).sum()
+
+
+def area_of(triangles):
+    mass = vtkMassProperties()
+    mass.SetInputData(triangles)
+    mass.Update()
+    return mass.GetSurfaceArea()
+
+
+def hexagonal_count(area, spacing, rim=0.0):
+    """How many particles at that spacing an even, hexagonal packing puts on an area; those on its
+    rim have half of their own area outside."""
+    return area / (np.sqrt(3) / 2 * spacing**2) + rim / (2 * spacing)
+
+
+# Grids made here
+
+
+def add_point_array(grid, name, values):
+    array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
+    array.SetName(name)
+    grid.GetPointData().AddArray(array)
+
+
+def add_cell_array(grid, name, values):
+    array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
+    array.SetName(name)
+    grid.GetCellData().AddArray(array)
+    return array
+
+
+def grid_of_cells(points, cells):
+    """points: (n, 3) numbers; cells: [(cell type, point ids), ...]. Points are kept in double."""
+    grid = vtkUnstructuredGrid()
+    coordinates = vtkPoints()
+    coordinates.SetData(numpy_to_vtk(np.ascontiguousarray(points, dtype=float), deep=True))
+    grid.SetPoints(coordinates)
+    for cell_type, ids in cells:
+        grid.InsertNextCell(cell_type, len(ids), [int(i) for i in ids])
+    return grid

@@ -1,0 +1,210 @@
+"""Files of real solvers, with the isovalues that make sense for them: are the particles where VTK's
+own cells say the surface is, do they carry what the file says there, and do they cover it evenly?"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+import support
+from paraview import simple
+
+TOLERANCE = 1e-8  # the filter's default; no particle may be farther from the surface, in diagonals
+
+
+@dataclass(frozen=True)
+class Case:
+    """A file, an isosurface of it, and how well particles can stand on it (measured, with a margin)."""
+
+    file: str
+    array: str
+    isovalue: float
+    # Spacing: the longest side of the file divided by this.
+    per_side: int = 60
+    # Values differ between neighbouring cells: the surface has seams, where sheets overlap or gape.
+    jumps: bool = False
+    # The surface bends faster than the spacing somewhere, and the filter says so.
+    undersampled: bool = False
+    # In units of the spacing. Hexagonal packing: nearest neighbour 1, farthest point of the surface
+    # from its particle 0.577.
+    nearest: float = 0.7
+    nearest_of_most: float = 0.77  # 99 of 100
+    coverage: float = 0.72
+    # Share of the surface that may lie farther off: slivers between jumps, smaller than the spacing.
+    slivers: float = 0.0
+    # Too large for the repository.
+    shared: bool = False
+
+    def __str__(self):
+        return f"{self.file.split('.')[0]}-{self.array}"
+
+
+CASES = [
+    Case("mfem_cylinder_hex_prism_p3.vtu", "pressure", -0.5, jumps=True),
+    Case("mfem_cylinder_hex_prism_p3.vtu", "phi", 2.0),
+    Case("mfem_hex1_p8.vtu", "u", 0.2),
+    Case("mfem_torus_wedge_p4.vtu", "f", 0.3),
+    Case("mfem_torus_wedge_p4.vtu", "radius", 1.0),
+    Case("mfem_amr_hanging_hex_p3.vtu", "u", 0.0),
+    Case("mfem_dg_advection_0.vtu", "rho", 0.3, jumps=True),
+    Case("dolfinx_tet_p3.vtu", "u", 0.5, per_side=100, nearest=0.55),
+    Case("dealii_shell_p3_00.pvtu", "u", 0.4),
+    Case("ngsolve_cylinder_ns_tet_p3.vtu", "pressure", 0.6, per_side=100),
+    Case("trixi_adv_sphere_hex_p3.vtu", "scalar", 1.28, jumps=True, nearest=0.55),
+    Case(
+        "pyfr_cylinder_5040hex_696prism_p3.vtu", "Pressure", 17.6,
+        jumps=True, undersampled=True, nearest=0.4, nearest_of_most=0.55, coverage=0.85, shared=True,
+    ),
+    Case(
+        "pyfr_cylinder_3360hex_7656prism_p3.vtu", "Pressure", 17.8,
+        jumps=True, undersampled=True, nearest=0.4, nearest_of_most=0.55, coverage=0.9, slivers=0.005, shared=True,
+    ),
+]  # fmt: skip
+
+
+class Run:
+    """A case's grid, the particles on it, and what VTK's cells say where they stand."""
+
+    def __init__(self, case, path):
+        reader = support.read(path)
+        self.case = case
+        self.grid = support.output_of(reader)
+        self.diagonal = support.diagonal(self.grid)
+        self.spacing = support.longest_side(self.grid) / case.per_side
+        self.particles, self.messages = support.run(reader, case.array, case.isovalue, Spacing=self.spacing)
+        carried = support.array_names(self.particles.GetPointData())
+        others = support.array_names(self.grid.GetPointData()) & carried - {case.array}
+        self.positions, self.values, self.gradients = support.evaluate_by_vtk(
+            self.grid, self.particles, [case.array, *sorted(others)]
+        )
+        self.slopes = np.linalg.norm(self.gradients, axis=1)
+        self.count = self.particles.GetNumberOfPoints()
+
+    def array(self, name):
+        return support.array_of(self.particles, name)
+
+
+@pytest.fixture(scope="module", params=CASES, ids=str)
+def run(request, data, shared_data):
+    """Each case is computed once, for all tests below."""
+    case = request.param
+    yield Run(case, (shared_data if case.shared else data)(case.file))
+    simple.ResetSession()
+
+
+@pytest.fixture(autouse=True)
+def fresh_session():
+    """Not after every test: a case lives as long as its particles are looked at."""
+
+
+def test_it_settles_and_leaves_nothing_out(run):
+    assert run.messages.errors == []
+    assert len(run.messages.warnings) == (1 if run.case.undersampled else 0)
+    assert all("bends faster than their spacing" in text for text in run.messages.warnings)
+    assert support.reported(run.particles, "CellsSkipped") == 0
+
+
+def test_particles_are_where_their_cell_and_parametric_coordinates_say(run):
+    np.testing.assert_allclose(support.points_of(run.particles), run.positions, atol=1e-12 * run.diagonal, rtol=0)
+
+
+def test_particles_lie_on_the_isosurface_of_the_cells(run):
+    residual = np.abs(run.values[run.case.array] - run.case.isovalue) / run.slopes
+    assert residual.max() <= 1.001 * TOLERANCE * run.diagonal
+    np.testing.assert_allclose(run.array("Residual"), residual, atol=1e-11 * run.diagonal, rtol=0)
+
+
+def test_normals_point_down_the_gradient(run):
+    np.testing.assert_allclose(run.array("Normals"), -run.gradients / run.slopes[:, None], atol=1e-7)
+
+
+def test_point_arrays_are_evaluated_by_the_elements_polynomials(run):
+    for name, expected in run.values.items():
+        scale = np.abs(support.array_of(run.grid, name)).max()
+        if name == run.case.array:
+            assert np.all(run.array(name) == run.case.isovalue)
+        else:
+            np.testing.assert_allclose(run.array(name), expected, atol=1e-12 * scale, rtol=0, err_msg=name)
+
+
+def test_cell_arrays_are_those_of_the_particles_cell(run):
+    cells = run.array("vtkOriginalCellIds")
+    for name in support.array_names(run.grid.GetCellData()) - {"vtkGhostType"}:
+        expected = support.array_of(run.grid, name, "cell")[cells]
+        assert np.array_equal(support.array_of(run.particles, name, "cell"), expected), name
+
+
+def test_neighbours_keep_their_distance(run):
+    nearest = support.nearest_neighbors(run.particles)
+    assert nearest.min() >= run.case.nearest
+    assert np.quantile(nearest, 0.01) >= run.case.nearest_of_most
+    assert 0.85 <= np.median(nearest) <= 1.05
+
+
+def test_no_place_of_the_surface_is_left_bare(run):
+    samples = support.sample_surface(run.grid, run.case.array, run.case.isovalue, 300)
+    assert len(samples) > 100
+    bare = support.distances_to(run.particles, samples) > run.case.coverage * run.spacing
+    assert np.mean(bare) <= run.case.slivers
+
+
+def test_there_are_as_many_particles_as_the_area_asks_for(run):
+    surface = support.stock_contour(run.grid, run.case.array, run.case.isovalue)
+    area, rim = support.area_of(surface), support.rim_of(surface)
+    without_rim = support.hexagonal_count(area, run.spacing)
+    with_rim = support.hexagonal_count(area, run.spacing, rim)
+    # At jumps the contour's own seams count as rim, which they are only where the surface gapes.
+    fewest = without_rim if run.case.jumps else with_rim
+    assert 0.95 * fewest <= run.count <= 1.05 * with_rim
+
+
+# Isosurfaces with a closed form
+
+
+def run_known(data, file, array, isovalue, per_side=60):
+    reader = support.read(data(file))
+    spacing = support.longest_side(support.output_of(reader)) / per_side
+    return support.run_quietly(reader, array, isovalue, Spacing=spacing)
+
+
+def test_radius_one_in_the_torus_is_a_cylinder_of_revolution(data):
+    particles = run_known(data, "mfem_torus_wedge_p4.vtu", "radius", 1.0)
+    points = support.points_of(particles)
+    distance = np.linalg.norm(points[:, :2], axis=1)
+    interpolation_error = 1.5e-5  # of the file
+    assert np.abs(distance - 1).max() <= interpolation_error
+    outward = np.c_[points[:, :2] / distance[:, None], np.zeros(len(points))]
+    np.testing.assert_allclose(support.array_of(particles, "Normals"), -outward, atol=2e-3)
+    # The values grow outward: seen from the lower side the cylinder is hollow.
+    np.testing.assert_allclose(support.array_of(particles, "Mean_Curvature"), -0.5, atol=0.02)
+    np.testing.assert_allclose(support.array_of(particles, "Gauss_Curvature"), 0.0, atol=0.02)
+
+
+def test_zero_of_the_layer_is_nearly_a_sphere(data):
+    particles = run_known(data, "mfem_amr_hanging_hex_p3.vtu", "u", 0.0)
+    arms = support.points_of(particles) - 0.1
+    distance = np.linalg.norm(arms, axis=1)
+    error_of_the_solution = 0.025 / 6  # of u, which has slope 6 there
+    assert np.abs(distance - 0.6).max() <= error_of_the_solution
+    outward = arms / distance[:, None]
+    assert np.sum(-support.array_of(particles, "Normals") * outward, axis=1).min() > np.cos(np.radians(8))
+    assert abs(np.mean(support.array_of(particles, "Mean_Curvature")) + 1 / 0.6) <= 0.03 / 0.6
+    assert abs(np.mean(support.array_of(particles, "Gauss_Curvature")) - 1 / 0.36) <= 0.05 / 0.36
+
+
+@pytest.mark.parametrize(
+    "file, array, isovalue, field, error",
+    [
+        ("mfem_hex1_p8.vtu", "u", 0.2, lambda x, y, z: np.sin(4 * x) * np.cos(3 * y) + 0.5 * np.cos(5 * z), 2.5e-4),
+        ("mfem_torus_wedge_p4.vtu", "f", 0.3, lambda x, y, z: np.sin(2 * x) * np.cos(3 * y) + z * z, 1.1e-3),
+        ("dealii_shell_p3_00.pvtu", "u", 0.4, lambda x, y, z: np.cos(5 * x) * np.exp(-y) + np.sin(6 * z) * x, 0.025),
+        (
+            "mfem_dg_advection_0.vtu", "rho", 0.3,
+            lambda x, y, z: np.exp(-8 * ((x - 0.5) ** 2 + (y - 0.2) ** 2 + (z - 0.3) ** 2)), 3.3e-3,
+        ),
+    ],
+)  # fmt: skip
+def test_the_function_behind_the_file_has_the_isovalue_there(data, file, array, isovalue, field, error):
+    """error: largest difference between the file's polynomials and the function."""
+    particles = run_known(data, file, array, isovalue, per_side=30)
+    assert particles.GetNumberOfPoints() > 200
+    np.testing.assert_allclose(field(*support.points_of(particles).T), isovalue, atol=error, rtol=0)
