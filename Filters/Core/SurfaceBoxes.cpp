@@ -1,5 +1,6 @@
 #include "SurfaceBoxes.h"
 
+#include "BoundaryTest.h"
 #include "MonotoneTest.h"
 
 #include <algorithm>
@@ -22,6 +23,9 @@ struct Piece
 };
 
 constexpr Degrees cornerDegrees{ 1, 1, 1 };
+
+/// Halving adds rounding errors of the order of eps times the values themselves.
+constexpr double roundingShare = 1e-14;
 
 class ElementSplitter
 {
@@ -79,6 +83,7 @@ private:
       return;
     }
     this->Monotone = MonotoneTest(form.domain, form.degrees);
+    this->Boundary = BoundaryTest(form.domain, form.degrees);
     this->CornerPlaces.clear();
     for (int c = 0; c < static_cast<int>(facts(form.domain).corners.size()); ++c)
     {
@@ -130,9 +135,7 @@ private:
     const auto [lowest, highest] =
       std::minmax_element(piece.coefficients.begin(), piece.coefficients.end(),
         [](const Coefficient& a, const Coefficient& b) { return a.w < b.w; });
-    // Halving adds rounding errors of the order of eps times the values themselves.
-    const double slack =
-      1e-14 * (std::max(std::abs(lowest->w), std::abs(highest->w)) + std::abs(this->Isovalue));
+    const double slack = roundingShare * (std::max(std::abs(lowest->w), std::abs(highest->w)) + std::abs(this->Isovalue));
     return lowest->w <= slack && highest->w >= -slack;
   }
 
@@ -162,27 +165,42 @@ private:
       domain, cornerDegrees, cornerLatticePoint(domain, cornerDegrees, c))];
   }
 
-  /// Corners of both signs, and a direction along which the field rises everywhere.
+  /// Corners of both signs, or at zero, and a direction along which the field rises everywhere. On the
+  /// rim of the element also one piece only: another one could be all there is of a component.
   bool isOneSheet(const Piece& piece) const
   {
-    bool positive = false;
-    bool negative = false;
-    for (const int corner : this->CornerPlaces)
-    {
-      positive = positive || piece.coefficients[corner].w > 0.0;
-      negative = negative || piece.coefficients[corner].w < 0.0;
-    }
-    if (!positive || !negative)
-    {
-      return false;
-    }
     std::vector<double> values;
     values.reserve(piece.coefficients.size());
+    double largest = std::abs(this->Isovalue);
     for (const Coefficient& c : piece.coefficients)
     {
       values.push_back(c.w);
+      largest = std::max(largest, std::abs(c.w));
     }
-    return this->Monotone.rises(values);
+    const double slack = roundingShare * largest;
+    const auto atCorner = [&](const auto& holds)
+    {
+      return std::any_of(this->CornerPlaces.begin(), this->CornerPlaces.end(),
+        [&](int corner) { return holds(values[corner]); });
+    };
+    return atCorner([slack](double value) { return value >= -slack; }) &&
+      atCorner([slack](double value) { return value <= slack; }) && this->Monotone.rises(values) &&
+      (piece.bisections >= MaximumRimBisections || !this->onRim(piece) ||
+        this->Boundary.crossedOnce(values, slack));
+  }
+
+  /// Whether the piece has a face on one of the element's.
+  bool onRim(const Piece& piece) const
+  {
+    constexpr double rounding = 1e-12;
+    const auto& faces = facts(this->Form.domain).faces;
+    return std::any_of(faces.begin(), faces.end(),
+      [&](const Face& face)
+      {
+        return std::count_if(piece.corners.begin(), piece.corners.end(),
+                 [&](const glm::dvec3& u)
+                 { return glm::dot(face.inward.xyz, u) + face.offset < rounding; }) >= 3;
+      });
   }
 
   double worldSize(const Piece& piece) const
@@ -265,6 +283,7 @@ private:
   double WantedSize;
   BernsteinForm Form;
   MonotoneTest Monotone{ Domain::Hexahedron, cornerDegrees };
+  BoundaryTest Boundary{ Domain::Hexahedron, cornerDegrees };
   std::vector<int> CornerPlaces;
 };
 
