@@ -1,6 +1,7 @@
 #include "SurfaceBoxes.h"
 
 #include "Bisection.h"
+#include "BoundaryTest.h"
 #include "MonotoneTest.h"
 
 #include <algorithm>
@@ -49,6 +50,8 @@ std::vector<std::pair<int, int>> edgesAlong(Domain domain, const LatticePoint& d
   }
   return edges;
 }
+/// Halving adds rounding errors of the order of eps times the values themselves.
+constexpr double roundingShare = 1e-14;
 
 class ElementSplitter
 {
@@ -112,6 +115,7 @@ private:
       this->Directions.push_back({ { form.domain, form.degrees, direction },
         { form.domain, cornerDegrees, direction }, edgesAlong(form.domain, direction) });
     }
+    this->Boundary = BoundaryTest(form.domain, form.degrees);
     this->CornerPlaces.clear();
     for (int c = 0; c < static_cast<int>(facts(form.domain).corners.size()); ++c)
     {
@@ -163,9 +167,8 @@ private:
     const auto [lowest, highest] =
       std::minmax_element(piece.coefficients.begin(), piece.coefficients.end(),
         [](const Coefficient& a, const Coefficient& b) { return a.w < b.w; });
-    // Halving adds rounding errors of the order of eps times the values themselves.
-    const double slack =
-      1e-14 * (std::max(std::abs(lowest->w), std::abs(highest->w)) + std::abs(this->Isovalue));
+    const double slack = roundingShare *
+      (std::max(std::abs(lowest->w), std::abs(highest->w)) + std::abs(this->Isovalue));
     return lowest->w <= slack && highest->w >= -slack;
   }
 
@@ -195,27 +198,42 @@ private:
       domain, cornerDegrees, cornerLatticePoint(domain, cornerDegrees, c))];
   }
 
-  /// Corners of both signs, and a direction along which the field rises everywhere.
+  /// Corners of both signs, or at zero, and a direction along which the field rises everywhere. On the
+  /// rim of the element also one piece only: another one could be all there is of a component.
   bool isOneSheet(const Piece& piece) const
   {
-    bool positive = false;
-    bool negative = false;
-    for (const int corner : this->CornerPlaces)
-    {
-      positive = positive || piece.coefficients[corner].w > 0.0;
-      negative = negative || piece.coefficients[corner].w < 0.0;
-    }
-    if (!positive || !negative)
-    {
-      return false;
-    }
     std::vector<double> values;
     values.reserve(piece.coefficients.size());
+    double largest = std::abs(this->Isovalue);
     for (const Coefficient& c : piece.coefficients)
     {
       values.push_back(c.w);
+      largest = std::max(largest, std::abs(c.w));
     }
-    return this->Monotone.rises(values);
+    const double slack = roundingShare * largest;
+    const auto atCorner = [&](const auto& holds)
+    {
+      return std::any_of(this->CornerPlaces.begin(), this->CornerPlaces.end(),
+        [&](int corner) { return holds(values[corner]); });
+    };
+    return atCorner([slack](double value) { return value >= -slack; }) &&
+      atCorner([slack](double value) { return value <= slack; }) && this->Monotone.rises(values) &&
+      (piece.bisections >= MaximumRimBisections || !this->onRim(piece) ||
+        this->Boundary.crossedOnce(values, slack));
+  }
+
+  /// Whether the piece has a face on one of the element's.
+  bool onRim(const Piece& piece) const
+  {
+    constexpr double rounding = 1e-12;
+    const auto& faces = facts(this->Form.domain).faces;
+    return std::any_of(faces.begin(), faces.end(),
+      [&](const Face& face)
+      {
+        return std::count_if(piece.corners.begin(), piece.corners.end(),
+                 [&](const glm::dvec3& u)
+                 { return glm::dot(face.inward.xyz, u) + face.offset < rounding; }) >= 3;
+      });
   }
 
   double worldSize(const Piece& piece) const
@@ -289,6 +307,7 @@ private:
   double WantedSize;
   BernsteinForm Form;
   MonotoneTest Monotone{ Domain::Hexahedron, cornerDegrees };
+  BoundaryTest Boundary{ Domain::Hexahedron, cornerDegrees };
   std::vector<int> CornerPlaces;
   std::vector<Direction> Directions;
 };

@@ -27,7 +27,9 @@ struct SurfaceBox
 ///  - dropped if its coefficients of F - c have one sign: the convex hull holds no zero;
 ///  - certified if F - c changes its sign between corners and its derivative along the mean gradient
 ///    has coefficients of one sign: then the surface is a graph along that direction, one sheet, and
-///    has no component of its own in the box;
+///    has no component of its own inside the box. A box with a face on its element's must also hold
+///    one piece of the sheet only (BoundaryTest.h), as a corner that it cuts off there may be all that
+///    the mesh has of a component;
 ///  - split otherwise, until it was halved MaximumBisections times, or its element had to be split
 ///    into more than MaximumPieces undecided pieces: such boxes are returned uncertified.
 /// Certified boxes are split on until no larger than `wantedSize`, and dropped where empty.
@@ -59,6 +61,8 @@ bool findCriticalPoint(
   const ElementMesh& mesh, double isovalue, const SurfaceBox& box, CriticalPoint& result);
 
 constexpr int MaximumBisections = 36;
+/// Boxes on the rim of their element, halved that often, need not hold one piece of their sheet only.
+constexpr int MaximumRimBisections = 30;
 constexpr int MaximumPieces = 4096;
 
 } // namespace hop

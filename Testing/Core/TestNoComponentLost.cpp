@@ -1,0 +1,291 @@
+#include "SurfaceBoxes.h"
+
+#include "ElementCases.h"
+#include "NodalBasis.h"
+#include "SurfaceSeeds.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <numeric>
+
+namespace hop::testing
+{
+namespace
+{
+
+/// A random polynomial in Chebyshev form: sum c_ijk T_i(x) T_j(y) T_k(z), x = 2u - 1 and so on, over
+/// the lattice of the element. As wavy as its degree allows, and easily evaluated on a grid.
+class ChebyshevSum
+{
+public:
+  ChebyshevSum(const ElementCase& which, Random& random)
+    : Which(which)
+    , Size(*std::max_element(which.degrees.begin(), which.degrees.end()) + 1)
+    , Factors(static_cast<std::size_t>(Size) * Size * Size, 0.0)
+  {
+    for (const auto& [i, j, k] : latticePoints(which.domain, which.degrees))
+    {
+      this->Factors[i + Size * (j + Size * k)] = randomNumber(random);
+    }
+  }
+
+  /// Values at the (n + 1)^3 points of a lattice of the unit cube, the first coordinate fastest, by
+  /// one axis after the other.
+  std::vector<double> onLattice(int n) const
+  {
+    std::vector<double> chebyshev;
+    for (int a = 0; a <= n; ++a)
+    {
+      const double x = 2.0 * a / n - 1.0;
+      for (int i = 0; i < Size; ++i)
+      {
+        chebyshev.push_back(std::cos(i * std::acos(x)));
+      }
+    }
+    std::vector<double> values = this->Factors;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      values = this->expandFirstAxis(values, chebyshev, n + 1);
+    }
+    return values;
+  }
+
+  /// One straight element that holds the polynomial over the reference domain.
+  ElementMesh element() const
+  {
+    const auto lattice = latticePoints(this->Which.domain, this->Which.degrees);
+    std::vector<Coefficient> nodal;
+    for (const LatticePoint& point : lattice)
+    {
+      const ReferencePoint u = latticePosition(this->Which.degrees, point);
+      nodal.emplace_back(u.xyz, this->at(u));
+    }
+    ElementMesh mesh;
+    Element element;
+    element.domain = this->Which.domain;
+    element.degrees = this->Which.degrees;
+    mesh.elements.push_back(element);
+    mesh.coefficients.resize(lattice.size());
+    NodalBasis::lagrange(this->Which.domain, this->Which.degrees, lattice)
+      .toBernstein(&nodal[0].x, 4, &mesh.coefficients[0].x);
+    findFaceNeighbors(mesh, 1e-9);
+    return mesh;
+  }
+
+private:
+  double at(const ReferencePoint& u) const
+  {
+    const glm::dvec3 angle = glm::acos(2.0 * u.xyz - 1.0);
+    double sum = 0.0;
+    for (const auto& [i, j, k] : latticePoints(this->Which.domain, this->Which.degrees))
+    {
+      sum += this->Factors[i + Size * (j + Size * k)] * std::cos(i * angle.x) *
+        std::cos(j * angle.y) * std::cos(k * angle.z);
+    }
+    return sum;
+  }
+
+  /// Replaces the first axis by values at `points` places and makes it the last one.
+  std::vector<double> expandFirstAxis(
+    const std::vector<double>& values, const std::vector<double>& chebyshev, int points) const
+  {
+    const std::size_t lines = values.size() / Size;
+    std::vector<double> result(lines * points, 0.0);
+    for (int a = 0; a < points; ++a)
+    {
+      double* out = &result[a * lines];
+      const double* basis = &chebyshev[static_cast<std::size_t>(a) * Size];
+      for (std::size_t line = 0; line < lines; ++line)
+      {
+        double sum = 0.0;
+        for (int i = 0; i < Size; ++i)
+        {
+          sum += basis[i] * values[line * Size + i];
+        }
+        out[line] = sum;
+      }
+    }
+    return result;
+  }
+
+  ElementCase Which;
+  int Size;
+  std::vector<double> Factors;
+};
+
+/// The cells of a lattice of n^3 cubes over a reference domain in which values change their sign, in
+/// groups that touch. Of cubes that leave the domain only the corners inside count.
+class LatticeComponents
+{
+public:
+  LatticeComponents(Domain domain, int n, const std::vector<double>& values, double isovalue)
+    : N(n)
+    , CellNumber(static_cast<std::size_t>(n) * n * n, -1)
+  {
+    this->findCells(domain, values, isovalue);
+    this->joinTouchingCells();
+  }
+
+  int count() const
+  {
+    int roots = 0;
+    for (int c = 0; c < static_cast<int>(this->Parent.size()); ++c)
+    {
+      roots += this->Parent[c] == c;
+    }
+    return roots;
+  }
+
+  /// Marks the components within one cell of a point.
+  void visit(const ReferencePoint& u, std::vector<char>& seen)
+  {
+    seen.resize(this->Parent.size(), 0);
+    const glm::ivec3 cell(glm::floor(u.xyz * static_cast<double>(this->N)));
+    this->forEachAround(cell, [&](int other) { seen[this->root(other)] = 1; });
+  }
+
+  int countUnseen(const std::vector<char>& seen) const
+  {
+    int unseen = 0;
+    for (int c = 0; c < static_cast<int>(this->Parent.size()); ++c)
+    {
+      unseen += this->Parent[c] == c && (seen.empty() || !seen[c]);
+    }
+    return unseen;
+  }
+
+private:
+  void findCells(Domain domain, const std::vector<double>& values, double isovalue)
+  {
+    const int n = this->N;
+    const auto inside = [&](int i, int j, int k) {
+      return inLattice(domain, { n, n, n }, { i, j, k });
+    };
+    for (int k = 0; k < n; ++k)
+    {
+      for (int j = 0; j < n; ++j)
+      {
+        for (int i = 0; i < n && inside(i, j, k); ++i)
+        {
+          double lowest = values[this->pointIndex(i, j, k)];
+          double highest = lowest;
+          for (int corner = 1; corner < 8; ++corner)
+          {
+            const int a = i + (corner & 1), b = j + (corner >> 1 & 1), c = k + (corner >> 2);
+            if (inside(a, b, c))
+            {
+              const double value = values[this->pointIndex(a, b, c)];
+              lowest = std::min(lowest, value);
+              highest = std::max(highest, value);
+            }
+          }
+          if (lowest < isovalue && highest > isovalue)
+          {
+            this->CellNumber[this->cellIndex({ i, j, k })] = static_cast<int>(this->Cells.size());
+            this->Cells.emplace_back(i, j, k);
+          }
+        }
+      }
+    }
+  }
+
+  void joinTouchingCells()
+  {
+    this->Parent.resize(this->Cells.size());
+    std::iota(this->Parent.begin(), this->Parent.end(), 0);
+    for (int c = 0; c < static_cast<int>(this->Cells.size()); ++c)
+    {
+      this->forEachAround(
+        this->Cells[c], [&](int other) { this->Parent[this->root(other)] = this->root(c); });
+    }
+  }
+
+  template <class Visit>
+  void forEachAround(const glm::ivec3& cell, const Visit& visit) const
+  {
+    for (int around = 0; around < 27; ++around)
+    {
+      const glm::ivec3 other =
+        cell + glm::ivec3(around % 3 - 1, around / 3 % 3 - 1, around / 9 - 1);
+      if (glm::all(glm::greaterThanEqual(other, glm::ivec3(0))) &&
+        glm::all(glm::lessThan(other, glm::ivec3(this->N))) &&
+        this->CellNumber[this->cellIndex(other)] >= 0)
+      {
+        visit(this->CellNumber[this->cellIndex(other)]);
+      }
+    }
+  }
+
+  int root(int c)
+  {
+    while (this->Parent[c] != c)
+    {
+      c = this->Parent[c] = this->Parent[this->Parent[c]];
+    }
+    return c;
+  }
+
+  std::size_t pointIndex(int i, int j, int k) const
+  {
+    const std::size_t row = static_cast<std::size_t>(this->N) + 1;
+    return i + row * (j + row * k);
+  }
+
+  std::size_t cellIndex(const glm::ivec3& cell) const
+  {
+    const std::size_t row = static_cast<std::size_t>(this->N);
+    return cell.x + row * (cell.y + row * cell.z);
+  }
+
+  int N;
+  std::vector<int> CellNumber;
+  std::vector<glm::ivec3> Cells;
+  std::vector<int> Parent;
+};
+
+class RandomPolynomials : public ::testing::TestWithParam<Domain>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(SurfaceBoxes, RandomPolynomials,
+  ::testing::Values(Domain::Hexahedron, Domain::Tetrahedron, Domain::Wedge),
+  [](const auto& which) { return ::testing::PrintToString(which.param); });
+
+TEST_P(RandomPolynomials, LoseNoComponentThatALatticeTwentyTimesFinerSees)
+{
+  const Domain domain = this->GetParam();
+  Random random(100 + static_cast<int>(domain));
+  int components = 0, lost = 0;
+  std::size_t boxCount = 0;
+  std::ptrdiff_t uncertified = 0;
+  const double wanted = std::getenv("WANTED") ? std::atof(std::getenv("WANTED")) : 0.2;
+  for (int trial = 0; trial < 500; ++trial)
+  {
+    const int degree = 2 + trial % 7;
+    const ChebyshevSum polynomial({ domain, { degree, degree, degree } }, random);
+    const ElementMesh mesh = polynomial.element();
+    const int n = 20 * degree;
+    const std::vector<double> values = polynomial.onLattice(n);
+    const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
+    const double isovalue = *lowest + random.uniform() * (*highest - *lowest);
+    LatticeComponents lattice(domain, n, values, isovalue);
+    const std::vector<SurfaceBox> boxes = findSurfaceBoxes(mesh, isovalue, wanted, {});
+    std::vector<char> seen;
+    for (const Location& seed : surfaceSeeds(mesh, isovalue, boxes))
+    {
+      lattice.visit(seed.u, seen);
+    }
+    components += lattice.count();
+    boxCount += boxes.size();
+    uncertified += uncertifiedCount(boxes);
+    lost += lattice.countUnseen(seen);
+  }
+  std::cout << domain << " components " << components << " lost " << lost << " boxes " << boxCount
+            << " uncertified " << uncertified << '\n';
+  EXPECT_EQ(lost, 0);
+}
+
+} // namespace
+} // namespace hop::testing
