@@ -3,11 +3,16 @@
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
 #include "vtkGenericCell.h"
 #include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkSmartPointer.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 
@@ -67,6 +72,29 @@ std::optional<hop::Degrees> fittingDegrees(
   return {};
 }
 
+/// A cell of that kind, alone and with all points at the origin. The order of its nodes can be asked
+/// from it whatever is wrong with the cells of the input.
+vtkSmartPointer<vtkUnstructuredGrid> gridOfOneCell(
+  int cellType, vtkIdType nodes, const hop::Degrees& degrees)
+{
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  vtkNew<vtkPoints> points;
+  points->SetNumberOfPoints(nodes);
+  points->GetData()->Fill(0.0);
+  grid->SetPoints(points);
+  std::vector<vtkIdType> ids(nodes);
+  std::iota(ids.begin(), ids.end(), 0);
+  grid->InsertNextCell(cellType, nodes, ids.data());
+  if (isLagrange(cellType))
+  {
+    vtkNew<vtkDoubleArray> array;
+    array->SetNumberOfComponents(3);
+    array->InsertNextTuple3(degrees[0], degrees[1], degrees[2]);
+    grid->GetCellData()->SetHigherOrderDegrees(array);
+  }
+  return grid;
+}
+
 } // namespace
 
 CellBases::CellBases(vtkUnstructuredGrid* grid)
@@ -95,12 +123,12 @@ std::shared_ptr<const hop::NodalBasis> CellBases::basisOf(vtkIdType cell)
   auto [entry, isNew] = this->Known.try_emplace(key);
   if (isNew)
   {
-    entry->second = this->makeBasis(cell, key);
+    entry->second = makeBasis(key);
   }
   return entry->second;
 }
 
-std::shared_ptr<const hop::NodalBasis> CellBases::makeBasis(vtkIdType cell, const Key& key) const
+std::shared_ptr<const hop::NodalBasis> CellBases::makeBasis(const Key& key)
 {
   const auto& [type, nodes, given] = key;
   const std::optional<hop::Domain> domain = domainOf(type);
@@ -114,7 +142,7 @@ std::shared_ptr<const hop::NodalBasis> CellBases::makeBasis(vtkIdType cell, cons
     return nullptr;
   }
   vtkNew<vtkGenericCell> vtk;
-  this->Grid->GetCell(cell, vtk);
+  gridOfOneCell(type, nodes, *degrees)->GetCell(0, vtk);
   const double* parametric = vtk->GetParametricCoords();
   std::vector<hop::LatticePoint> order;
   for (vtkIdType node = 0; parametric && node < nodes; ++node)

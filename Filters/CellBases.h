@@ -27,7 +27,7 @@ private:
   using Key = std::tuple<int, vtkIdType, hop::Degrees>;
 
   hop::Degrees explicitDegrees(vtkIdType cell) const;
-  std::shared_ptr<const hop::NodalBasis> makeBasis(vtkIdType cell, const Key& key) const;
+  static std::shared_ptr<const hop::NodalBasis> makeBasis(const Key& key);
 
   vtkUnstructuredGrid* Grid;
   vtkDataArray* HigherOrderDegrees;
