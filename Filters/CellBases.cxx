@@ -6,13 +6,16 @@
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
 #include "vtkGenericCell.h"
 #include "vtkNew.h"
+#include "vtkPoints.h"
 #include "vtkSmartPointer.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 
@@ -99,6 +102,30 @@ std::optional<hop::Degrees> fittingDegrees(
 vtkIdType usualPointCount(int cellType)
 {
   return vtk::TakeSmartPointer(vtkGenericCell::InstantiateCell(cellType))->GetNumberOfPoints();
+}
+
+/// A cell of that kind, alone and with all points at the origin. VTK can be asked about its nodes
+/// whatever is wrong with the cells of the input.
+/// \param degrees of a cell that fills its lattice
+vtkSmartPointer<vtkUnstructuredGrid> gridOfOneCell(
+  int cellType, vtkIdType nodes, const std::optional<hop::Degrees>& degrees)
+{
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  vtkNew<vtkPoints> points;
+  points->SetNumberOfPoints(nodes);
+  points->GetData()->Fill(0.0);
+  grid->SetPoints(points);
+  std::vector<vtkIdType> ids(nodes);
+  std::iota(ids.begin(), ids.end(), 0);
+  grid->InsertNextCell(cellType, nodes, ids.data());
+  if (degrees)
+  {
+    vtkNew<vtkDoubleArray> array;
+    array->SetNumberOfComponents(3);
+    array->InsertNextTuple3((*degrees)[0], (*degrees)[1], (*degrees)[2]);
+    grid->GetCellData()->SetHigherOrderDegrees(array);
+  }
+  return grid;
 }
 
 std::vector<double> shapeFunctions(vtkCell* cell, const hop::ReferencePoint& u)
@@ -205,30 +232,33 @@ std::shared_ptr<const CellBasis> CellBases::basisOf(vtkIdType cell)
   auto [entry, isNew] = this->Known.try_emplace(key);
   if (isNew)
   {
-    entry->second = this->makeBasis(cell, key);
+    entry->second = this->makeBasis(key);
   }
   return entry->second;
 }
 
-std::shared_ptr<const CellBasis> CellBases::makeBasis(vtkIdType cell, const Key& key) const
+std::shared_ptr<const CellBasis> CellBases::makeBasis(const Key& key) const
 {
   const auto& [type, points, given] = key;
   const std::optional<hop::Domain> domain = domainOf(type);
   const bool onLattice = (isLagrange(type) || isBezier(type)) && !isEnriched(type, points);
-  // VTK's cells do not survive a wrong number of points: they are asked for after the check only.
-  if (!domain || (onLattice && !fittingDegrees(*domain, given, points)))
+  std::optional<hop::Degrees> degrees;
+  if (domain && onLattice)
   {
-    return nullptr;
+    degrees = fittingDegrees(*domain, given, points);
   }
-  if (!onLattice && !isEnriched(type, points) && points != usualPointCount(type))
+  // VTK's cells do not survive a wrong number of points.
+  const bool fits =
+    onLattice ? degrees.has_value() : isEnriched(type, points) || points == usualPointCount(type);
+  if (!domain || !fits)
   {
     return nullptr;
   }
   vtkNew<vtkGenericCell> vtk;
-  this->Grid->GetCell(cell, vtk);
+  gridOfOneCell(type, points, degrees)->GetCell(0, vtk);
   try
   {
-    return onLattice ? this->makeLatticeBasis(vtk, key) : sampleBasis(vtk, *domain);
+    return onLattice ? this->makeLatticeBasis(vtk, *domain, *degrees) : sampleBasis(vtk, *domain);
   }
   catch (const std::invalid_argument&)
   {
@@ -236,20 +266,18 @@ std::shared_ptr<const CellBasis> CellBases::makeBasis(vtkIdType cell, const Key&
   }
 }
 
-std::shared_ptr<const CellBasis> CellBases::makeLatticeBasis(vtkCell* vtk, const Key& key) const
+std::shared_ptr<const CellBasis> CellBases::makeLatticeBasis(
+  vtkCell* vtk, hop::Domain domain, const hop::Degrees& degrees) const
 {
-  const auto& [type, points, given] = key;
-  const hop::Domain domain = *domainOf(type);
-  const hop::Degrees degrees = *fittingDegrees(domain, given, points);
   const double* parametric = vtk->GetParametricCoords();
   std::vector<hop::LatticePoint> order;
-  for (vtkIdType node = 0; parametric && node < points; ++node)
+  for (vtkIdType node = 0; parametric && node < vtk->GetNumberOfPoints(); ++node)
   {
     const auto onLattice = [&](int axis)
     { return static_cast<int>(std::lround(parametric[3 * node + axis] * degrees[axis])); };
     order.push_back({ onLattice(0), onLattice(1), onLattice(2) });
   }
-  return std::make_shared<const CellBasis>(isBezier(type)
+  return std::make_shared<const CellBasis>(isBezier(vtk->GetCellType())
       ? CellBasis{ hop::NodalBasis::bezier(domain, degrees, order), true }
       : CellBasis{ hop::NodalBasis::lagrange(domain, degrees, order, this->Spacing), false });
 }

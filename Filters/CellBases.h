@@ -41,8 +41,9 @@ private:
   using Key = std::tuple<int, vtkIdType, hop::Degrees>;
 
   hop::Degrees explicitDegrees(vtkIdType cell) const;
-  std::shared_ptr<const CellBasis> makeBasis(vtkIdType cell, const Key& key) const;
-  std::shared_ptr<const CellBasis> makeLatticeBasis(vtkCell* vtk, const Key& key) const;
+  std::shared_ptr<const CellBasis> makeBasis(const Key& key) const;
+  std::shared_ptr<const CellBasis> makeLatticeBasis(
+    vtkCell* vtk, hop::Domain domain, const hop::Degrees& degrees) const;
 
   vtkUnstructuredGrid* Grid;
   hop::NodeSpacing Spacing;
