@@ -135,7 +135,8 @@ private:
     const auto [lowest, highest] =
       std::minmax_element(piece.coefficients.begin(), piece.coefficients.end(),
         [](const Coefficient& a, const Coefficient& b) { return a.w < b.w; });
-    const double slack = roundingShare * (std::max(std::abs(lowest->w), std::abs(highest->w)) + std::abs(this->Isovalue));
+    const double slack = roundingShare *
+      (std::max(std::abs(lowest->w), std::abs(highest->w)) + std::abs(this->Isovalue));
     return lowest->w <= slack && highest->w >= -slack;
   }
 
@@ -294,6 +295,12 @@ glm::dmat3 symmetric(const std::array<Coefficient, 6>& second)
 }
 
 } // namespace
+
+bool isAtBox(const SurfaceBox& box, const Location& location)
+{
+  return location.element == box.middle.element &&
+    glm::distance(location.u.xyz, box.middle.u.xyz) <= box.referenceRadius;
+}
 
 Location findBetweenEnds(const ElementMesh& mesh, double isovalue, const SurfaceBox& box)
 {

@@ -59,8 +59,7 @@ struct Squared
 {
   explicit Squared(const VectorElement& element)
     : which{ element.which.domain,
-      { 2 * element.which.degrees[0], 2 * element.which.degrees[1],
-        2 * element.which.degrees[2] } }
+      { 2 * element.which.degrees[0], 2 * element.which.degrees[1], 2 * element.which.degrees[2] } }
     , coefficients(coefficientCount(which.domain, which.degrees))
     , weights(squareField(element.which.domain, element.which.degrees, element.width,
         element.control, element.weights, coefficients.data()))

@@ -66,7 +66,8 @@ TEST(BoundaryTest, NothingCrossesWhereThereIsNoZero)
   {
     for (const double sign : { 1.0, -1.0 })
     {
-      EXPECT_TRUE(crossedOnce(domain, { 3, 3, 3 }, [sign](const glm::dvec3& u) { return sign * (1.0 + u.x); }));
+      EXPECT_TRUE(crossedOnce(
+        domain, { 3, 3, 3 }, [sign](const glm::dvec3& u) { return sign * (1.0 + u.x); }));
     }
   }
 }
@@ -75,7 +76,8 @@ TEST(BoundaryTest, TwoClippedCornersAreTwoPieces)
 {
   // f = z + const - (height of a saddle in x and y): it rises along z all over the cube, and cuts off
   // two opposite corners of its floor.
-  const Field saddle = [](const glm::dvec3& u) { return u.z + 0.9 * (u.x + u.y - 2.0 * u.x * u.y) - 0.3; };
+  const Field saddle = [](const glm::dvec3& u)
+  { return u.z + 0.9 * (u.x + u.y - 2.0 * u.x * u.y) - 0.3; };
   EXPECT_TRUE(MonotoneTest(Domain::Hexahedron, { 2, 2, 2 })
                 .rises(coefficientsOf(Domain::Hexahedron, { 2, 2, 2 }, saddle)));
   EXPECT_FALSE(crossedOnce(Domain::Hexahedron, { 2, 2, 2 }, saddle));
@@ -108,8 +110,10 @@ TEST(BoundaryTest, AFieldThatIsZeroOnAFaceIsCrossedOnceAtMost)
 {
   for (const Domain domain : allDomains)
   {
-    EXPECT_TRUE(crossedOnce(domain, { 2, 2, 2 }, [](const glm::dvec3& u) { return u.z; })) << domain;
-    EXPECT_TRUE(crossedOnce(domain, { 2, 2, 2 }, [](const glm::dvec3& u) { return -u.z; })) << domain;
+    EXPECT_TRUE(crossedOnce(domain, { 2, 2, 2 }, [](const glm::dvec3& u) { return u.z; }))
+      << domain;
+    EXPECT_TRUE(crossedOnce(domain, { 2, 2, 2 }, [](const glm::dvec3& u) { return -u.z; }))
+      << domain;
   }
 }
 

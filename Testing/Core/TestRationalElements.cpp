@@ -45,7 +45,8 @@ RationalElement randomRational(const ElementCase& which, Random& random)
 
 std::vector<ElementCase> lowAndHighCases()
 {
-  std::vector<ElementCase> cases{ { Domain::Hexahedron, { 4, 2, 3 } }, { Domain::Wedge, { 4, 4, 1 } } };
+  std::vector<ElementCase> cases{ { Domain::Hexahedron, { 4, 2, 3 } },
+    { Domain::Wedge, { 4, 4, 1 } } };
   for (const Domain domain : allDomains)
   {
     for (const int p : { 1, 2, 3, 6, 10 })
@@ -132,8 +133,8 @@ TEST(RationalElements, AWedgeRevolvesItsTriangleExactly)
   for (int n = 0; n < 50; ++n)
   {
     const ReferencePoint u = randomPoint(Domain::Wedge, random);
-    const glm::dvec2 expected = triangle[0] + u.xyz.x * (triangle[1] - triangle[0]) +
-      u.xyz.y * (triangle[2] - triangle[0]);
+    const glm::dvec2 expected =
+      triangle[0] + u.xyz.x * (triangle[1] - triangle[0]) + u.xyz.y * (triangle[2] - triangle[0]);
     const Coefficient value = evaluateGradient(ring.form(), u).value;
     EXPECT_NEAR(std::hypot(value.x, value.y), expected.x, 1e-14);
     EXPECT_NEAR(value.z, expected.y, 1e-14);
@@ -205,7 +206,8 @@ TEST(RationalElements, DerivativesAgreeWithFiniteDifferences)
     const auto value = [&](const ReferencePoint& at) { return evaluateGradient(form, at).value; };
     for (int a = 0; a < 3; ++a)
     {
-      const auto slope = [&](const ReferencePoint& at) { return evaluateGradient(form, at).first[a]; };
+      const auto slope = [&](const ReferencePoint& at)
+      { return evaluateGradient(form, at).first[a]; };
       EXPECT_LE(largest(jet.first[a] - difference(value, u, a)), 1e-7);
       EXPECT_LE(largest(slope(u) - jet.first[a]), 1e-12);
       for (int b = 0; b < 3; ++b)
