@@ -87,6 +87,7 @@ private:
   bool place(
     const Location& start, double maximumTravel, SurfaceWalker& walker, Mover& mover) const;
   bool displace(const Mover& from, const WorldVector& step, double farthest, Mover& to);
+  bool seed(const SurfaceBox& box, SurfaceWalker& walker, Mover& mover) const;
   void addUncovered(const std::vector<Mover>& seeds);
   void relaxLevel(int maximumRounds, bool fixedNumber);
   bool bendsTooFar(const Mover& mover);
@@ -235,6 +236,19 @@ bool ClassicSystem::displace(const Mover& from, const WorldVector& step, double 
     length(to.position() - from.position()) <= farthest && dot(to.normal, from.normal) > 0.0;
 }
 
+/// By Newton's method from the middle of the box, or, should that lead away from it, on the line
+/// between two of its corners.
+bool ClassicSystem::seed(const SurfaceBox& box, SurfaceWalker& walker, Mover& mover) const
+{
+  const bool found = this->place(box.middle, 2.0 * box.size, walker, mover);
+  if ((found && isAtBox(box, mover.at.location)) || !box.straddles)
+  {
+    return found;
+  }
+  return this->place(
+    findBetweenEnds(*this->Surface.mesh, this->Surface.isovalue, box), box.size, walker, mover);
+}
+
 std::vector<Mover> ClassicSystem::makeSeeds(const std::vector<SurfaceBox>& boxes)
 {
   std::vector<Mover> seeds(boxes.size());
@@ -246,10 +260,7 @@ std::vector<Mover> ClassicSystem::makeSeeds(const std::vector<SurfaceBox>& boxes
       for (std::ptrdiff_t b = begin; b < end; ++b)
       {
         SurfaceWalker walker(this->Moving);
-        found[b] = this->place(boxes[b].middle, 2.0 * boxes[b].size, walker, seeds[b]) ||
-          (boxes[b].straddles &&
-            this->place(findBetweenEnds(*this->Surface.mesh, this->Surface.isovalue, boxes[b]),
-              boxes[b].size, walker, seeds[b]));
+        found[b] = this->seed(boxes[b], walker, seeds[b]);
         cost[b] = walker.evaluations();
       }
     });

@@ -320,6 +320,12 @@ glm::dmat3 symmetric(const std::array<Coefficient, 6>& second)
 
 } // namespace
 
+bool isAtBox(const SurfaceBox& box, const Location& location)
+{
+  return location.element == box.middle.element &&
+    glm::distance(location.u.xyz, box.middle.u.xyz) <= box.referenceRadius;
+}
+
 Location findBetweenEnds(const ElementMesh& mesh, double isovalue, const SurfaceBox& box)
 {
   constexpr int halvings = 50;

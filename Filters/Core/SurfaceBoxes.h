@@ -43,6 +43,10 @@ struct SurfaceBox
 std::vector<SurfaceBox> findSurfaceBoxes(
   const ElementMesh& mesh, double isovalue, double wantedSize, const ParallelFor& parallelFor);
 
+/// Whether a place lies in the ball around a box: a seed that Newton's method took farther may be on
+/// another component than the box's own.
+bool isAtBox(const SurfaceBox& box, const Location& location);
+
 /// A point of the surface on the line between the ends of a box that straddles it, by bisection.
 Location findBetweenEnds(const ElementMesh& mesh, double isovalue, const SurfaceBox& box);
 
@@ -63,6 +67,6 @@ bool findCriticalPoint(
 constexpr int MaximumBisections = 36;
 /// Boxes on the rim of their element, halved that often, need not hold one piece of their sheet only.
 constexpr int MaximumRimBisections = 30;
-constexpr int MaximumPieces = 4096;
+constexpr int MaximumPieces = 16384;
 
 } // namespace hop

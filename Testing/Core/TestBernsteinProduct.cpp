@@ -12,11 +12,11 @@ namespace
 /// Control values of (x, y, z, v...) and weights, drawn at random.
 struct VectorElement
 {
-  VectorElement(const ElementCase& which, int components, bool rational, Random& random)
-    : which(which)
+  VectorElement(const ElementCase& element, int components, bool rational, Random& random)
+    : which(element)
     , width(3 + components)
   {
-    for (int i = 0; i < coefficientCount(which.domain, which.degrees); ++i)
+    for (int i = 0; i < coefficientCount(element.domain, element.degrees); ++i)
     {
       this->weights.push_back(rational ? 0.5 + 1.5 * random.uniform() : 1.0);
       for (int c = 0; c < this->width; ++c)

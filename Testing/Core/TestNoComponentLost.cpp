@@ -253,38 +253,44 @@ INSTANTIATE_TEST_SUITE_P(SurfaceBoxes, RandomPolynomials,
   ::testing::Values(Domain::Hexahedron, Domain::Tetrahedron, Domain::Wedge),
   [](const auto& which) { return ::testing::PrintToString(which.param); });
 
+/// 500 polynomials of orders 2 to 8. The lattice is 20 times finer than the element's, to 100 cells an
+/// axis: 20 an order up to order 5, 12.5 at order 8.
 TEST_P(RandomPolynomials, LoseNoComponentThatALatticeTwentyTimesFinerSees)
 {
+  constexpr int trials = 500;
+  constexpr double anySize = 10.0;
   const Domain domain = this->GetParam();
   Random random(100 + static_cast<int>(domain));
-  int components = 0, lost = 0;
+  int components = 0;
   std::size_t boxCount = 0;
   std::ptrdiff_t uncertified = 0;
-  const double wanted = std::getenv("WANTED") ? std::atof(std::getenv("WANTED")) : 0.2;
-  for (int trial = 0; trial < 500; ++trial)
+  for (int trial = 0; trial < trials; ++trial)
   {
     const int degree = 2 + trial % 7;
+    SCOPED_TRACE(::testing::Message() << "trial " << trial << ", degree " << degree);
     const ChebyshevSum polynomial({ domain, { degree, degree, degree } }, random);
     const ElementMesh mesh = polynomial.element();
-    const int n = 20 * degree;
+    const int n = std::min(20 * degree, 100);
     const std::vector<double> values = polynomial.onLattice(n);
     const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
     const double isovalue = *lowest + random.uniform() * (*highest - *lowest);
     LatticeComponents lattice(domain, n, values, isovalue);
-    const std::vector<SurfaceBox> boxes = findSurfaceBoxes(mesh, isovalue, wanted, {});
+    const std::vector<SurfaceBox> boxes = findSurfaceBoxes(mesh, isovalue, anySize, {});
     std::vector<char> seen;
     for (const Location& seed : surfaceSeeds(mesh, isovalue, boxes))
     {
       lattice.visit(seed.u, seen);
     }
+    EXPECT_EQ(lattice.countUnseen(seen), 0);
     components += lattice.count();
     boxCount += boxes.size();
     uncertified += uncertifiedCount(boxes);
-    lost += lattice.countUnseen(seen);
   }
-  std::cout << domain << " components " << components << " lost " << lost << " boxes " << boxCount
-            << " uncertified " << uncertified << '\n';
-  EXPECT_EQ(lost, 0);
+  RecordProperty("components", components);
+  std::cout << domain << ": " << components << " components of " << trials << " polynomials, "
+            << boxCount << " boxes, " << uncertified << " of them uncertified\n";
+  EXPECT_GT(components, trials);
+  EXPECT_LT(static_cast<double>(uncertified), 1e-3 * static_cast<double>(boxCount));
 }
 
 } // namespace

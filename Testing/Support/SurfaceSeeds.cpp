@@ -16,8 +16,12 @@ std::vector<Location> surfaceSeeds(
   for (const SurfaceBox& box : boxes)
   {
     Evaluated on;
-    if (walker.project(box.middle, 2.0 * box.size, on) ||
-      (box.straddles && walker.project(findBetweenEnds(mesh, isovalue, box), box.size, on)))
+    bool found = walker.project(box.middle, 2.0 * box.size, on);
+    if (box.straddles && !(found && isAtBox(box, on.location)))
+    {
+      found = walker.project(findBetweenEnds(mesh, isovalue, box), box.size, on);
+    }
+    if (found)
     {
       seeds.push_back(on.location);
     }
