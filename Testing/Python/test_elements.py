@@ -358,16 +358,16 @@ def test_the_same_polynomial_as_lagrange_and_as_bezier(shape, order):
 def shape_functions(grid, cell, places):
     """Values of a straight cell's shape functions at places of the world, one row a place."""
     made = grid.GetCell(cell)
-    rows, closest = [], np.zeros(3)
+    rows = []
     corners = support.points_of(grid)[cells.ids_of(grid, cell)]
     count = {4: 4, 5: 6, 6: 8}[made.GetNumberOfFaces()]
     origin = corners[0]
     axes = corners[[1, 2, 3]] if count == 4 else corners[[1, 2, 3]] if count == 6 else corners[[1, 3, 4]]
     inverse = np.linalg.inv((axes - origin).T)
     for place in places:
-        weights = np.zeros(made.GetNumberOfPoints())
+        weights = np.zeros(made.GetNumberOfPoints() + 64)
         made.InterpolateFunctions(inverse @ (place - origin), weights)
-        rows.append(weights)
+        rows.append(weights[: made.GetNumberOfPoints()])
     return np.array(rows)
 
 
