@@ -75,8 +75,11 @@ def test_cells_of_a_fixed_order(name, blocks):
     check(with_wave(grid), f"{name} ({grid.GetCell(0).GetNumberOfPoints()} points)", "mesh" if blocks > 1 else "cube")
 
 
-@pytest.mark.parametrize("order", range(1, 11))
-@pytest.mark.parametrize("name", cells.ARBITRARY_ORDER)
+# VTK's own Bezier tetrahedra take time exponential in their order: too slow to ask beyond 7.
+@pytest.mark.parametrize(
+    "name, order",
+    [(n, p) for n in cells.ARBITRARY_ORDER for p in range(1, 8 if n == "BEZIER_TETRAHEDRON" else 11)],
+)
 def test_cells_of_every_order(name, order):
     check(with_wave(cells.bend(cells.straight_grid(name, order))), name, order)
 
