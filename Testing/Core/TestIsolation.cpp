@@ -321,7 +321,7 @@ TEST_P(IsolationIn, SingularSurfacesAreReportedInTimeAndGiveNoNaN)
       parameters.law.spacing = 0.2;
       const Distribution result = distributeClassic({ &mesh, 0.0, 1e-9 }, parameters, {}, {});
       const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-      EXPECT_LT(seconds.count(), 20.0);
+      EXPECT_LT(seconds.count(), 60.0);
       EXPECT_GT(result.report.boxesUnresolved, 0);
       EXPECT_FALSE(result.report.unresolvedCells.empty());
       if (which.points > 0)

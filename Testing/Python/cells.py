@@ -49,8 +49,11 @@ def straight_grid(name, order=None, blocks=1, enriched=False):
 
 
 def ids_of(grid, cell):
-    ids = grid.GetCell(cell).GetPointIds()
-    return [ids.GetId(n) for n in range(ids.GetNumberOfIds())]
+    return point_ids(grid.GetCell(cell))
+
+
+def point_ids(cell):
+    return [cell.GetPointId(n) for n in range(cell.GetNumberOfPoints())]
 
 
 def fill_in_nodes(linear, cell_type, kind):
@@ -74,10 +77,9 @@ def nodes_between(corners, cell):
     # Whatever is neither on an edge nor on a face stands in the middle.
     nodes = np.tile(corners.mean(axis=0), (count, 1))
     nodes[: len(corners)] = corners
-    parts = [cell.GetFace(f) for f in range(cell.GetNumberOfFaces())]
-    parts += [cell.GetEdge(e) for e in range(cell.GetNumberOfEdges())]
-    for part in parts:  # edges last: nodes of faces that stand on edges are put right
-        ids = [part.GetPointId(n) for n in range(part.GetNumberOfPoints())]
+    faces = [point_ids(cell.GetFace(f)) for f in range(cell.GetNumberOfFaces())]
+    edges = [point_ids(cell.GetEdge(e)) for e in range(cell.GetNumberOfEdges())]
+    for ids in faces + edges:  # edges last: nodes of faces that stand on edges are put right
         middle = corners[[i for i in ids if i < len(corners)]].mean(axis=0)
         for i in ids:
             if i >= len(corners):

@@ -131,7 +131,7 @@ def diagonal(data):
 
 def evaluate_by_vtk(grid, particles, names):
     """What VTK's own cells say at every particle's vtkOriginalCellIds and ParametricCoordinates:
-    positions, {name: values} of the point arrays, and the gradient of the first of them."""
+    positions, {name: values} of the point arrays, and the gradient of the first of them (0 on Bezier cells)."""
     cells = array_of(particles, "vtkOriginalCellIds")
     parametric = array_of(particles, "ParametricCoordinates")
     fields = [array_of(grid, name).astype(float).reshape(grid.GetNumberOfPoints(), -1) for name in names]
@@ -142,12 +142,16 @@ def evaluate_by_vtk(grid, particles, names):
     for id in np.unique(cells):
         cell = grid.GetCell(id)
         nodes = [cell.GetPointId(n) for n in range(cell.GetNumberOfPoints())]
+        bezier = "Bezier" in cell.GetClassName()
         nodal = [field[nodes] for field in fields]
         contoured = np.ascontiguousarray(nodal[0][:, 0])
-        weights = np.zeros(len(nodes))
+        # Some of VTK's cells write a few more weights than they have points.
+        room = np.zeros(2 * len(nodes) + 64)
+        weights = room[: len(nodes)]
         for i in np.flatnonzero(cells == id):
-            cell.EvaluateLocation(reference(0), parametric[i], positions[i], weights)
-            cell.Derivatives(0, parametric[i], contoured, 1, gradients[i])
+            cell.EvaluateLocation(reference(0), parametric[i], positions[i], room)
+            if not bezier:  # derivatives of VTK's Bezier cells are wrong, and some overrun their memory
+                cell.Derivatives(0, parametric[i], contoured, 1, gradients[i])
             for value, field in zip(values, nodal):
                 value[i] = weights @ field
     return positions, {n: np.squeeze(v, axis=1) if v.shape[1] == 1 else v for n, v in zip(names, values)}, gradients
