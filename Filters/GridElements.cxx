@@ -8,6 +8,7 @@
 #include "vtkCellTypes.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkGenericCell.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -409,6 +410,14 @@ void Builder::numberCorners()
   }
 }
 
+/// VTK's table of names has Lagrange and Bezier triangles and quadrilaterals the wrong way round, but
+/// it also knows the types of which no cell can be made.
+std::string nameOfCellType(int type)
+{
+  const auto cell = vtk::TakeSmartPointer(vtkGenericCell::InstantiateCell(type));
+  return cell ? cell->GetClassName() : vtkCellTypes::GetClassNameFromTypeId(type);
+}
+
 void describeCells(std::ostream& text, const SkippedCells& cells, const std::string& reason)
 {
   if (cells.count > 0)
@@ -437,7 +446,7 @@ std::string CellCensus::describe() const
   for (const auto& [type, cells] : this->unsupported)
   {
     describeCells(text, cells,
-      std::string("of type ") + vtkCellTypes::GetClassNameFromTypeId(type) +
+      "of type " + nameOfCellType(type) +
         " skipped: not a supported 3-D cell, or its number of points fits no degree up to " +
         std::to_string(hop::MaximumInputDegree));
   }

@@ -281,32 +281,26 @@ std::vector<Mover> ClassicSystem::makeSeeds(const std::vector<SurfaceBox>& boxes
 /// Adds the seeds around which, within their own spacing, no particle lies on the same sheet.
 void ClassicSystem::addUncovered(const std::vector<Mover>& seeds)
 {
-  const std::size_t existing = this->Movers.size();
-  std::vector<Mover> all = this->Movers;
-  all.insert(all.end(), seeds.begin(), seeds.end());
-  std::vector<glm::dvec3> points;
-  for (const Mover& m : all)
+  GrowingBins bins(this->Law.spacing);
+  for (std::size_t i = 0; i < this->Movers.size(); ++i)
   {
-    points.push_back(m.position().xyz);
+    bins.insert(static_cast<int>(i), this->Movers[i].position().xyz);
   }
-  const ParticleBins bins(points, this->Law.spacing);
-  std::vector<char> kept(all.size(), 0);
-  std::fill_n(kept.begin(), existing, 1);
-  for (std::size_t i = existing; i < all.size(); ++i)
+  for (const Mover& seed : seeds)
   {
-    const double h = this->Law.at(all[i].curvature);
+    const double h = this->Law.at(seed.curvature);
     bool covered = false;
-    bins.visit(points[i], h,
+    bins.visit(seed.position().xyz,
       [&](int j)
       {
+        const Mover& other = this->Movers[j];
         covered = covered ||
-          (kept[j] && glm::distance(points[i], points[j]) < h &&
-            dot(all[i].normal, all[j].normal) > 0.0);
+          (length(seed.position() - other.position()) < h && dot(seed.normal, other.normal) > 0.0);
       });
     if (!covered)
     {
-      kept[i] = 1;
-      this->Movers.push_back(all[i]);
+      bins.insert(static_cast<int>(this->Movers.size()), seed.position().xyz);
+      this->Movers.push_back(seed);
     }
   }
 }

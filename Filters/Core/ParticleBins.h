@@ -34,6 +34,37 @@ private:
   std::unordered_map<std::uint64_t, std::pair<int, int>> Bins; // range in Order
 };
 
+/// Bins that take points one by one.
+class GrowingBins
+{
+public:
+  /// \param binSize edge of a bin, > 0
+  explicit GrowingBins(double binSize)
+    : BinSize(binSize)
+  {
+  }
+
+  void insert(int index, const glm::dvec3& position)
+  {
+    this->Bins[key(this->binOf(position))].push_back(index);
+  }
+
+  /// Calls visit(index) for the points in the bins around a position: all within binSize of it and
+  /// some farther off. Points far apart may share a bin.
+  template <class Visit>
+  void visit(const glm::dvec3& position, const Visit& visit) const;
+
+private:
+  glm::dvec3 binOf(const glm::dvec3& position) const
+  {
+    return glm::floor(position / this->BinSize);
+  }
+  static std::uint64_t key(const glm::dvec3& bin);
+
+  double BinSize;
+  std::unordered_map<std::uint64_t, std::vector<int>> Bins;
+};
+
 /// Lists of neighbours, one after the other: those of i are at [start[i], start[i + 1]).
 struct NeighborLists
 {
@@ -63,6 +94,20 @@ void ParticleBins::visit(const glm::dvec3& position, double radius, const Visit&
           visit(this->Order[i]);
         }
       }
+    }
+  }
+}
+
+template <class Visit>
+void GrowingBins::visit(const glm::dvec3& position, const Visit& visit) const
+{
+  const glm::dvec3 middle = this->binOf(position);
+  for (int n = 0; n < 27; ++n)
+  {
+    const auto bin = this->Bins.find(key(middle + glm::dvec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1)));
+    for (std::size_t i = 0; bin != this->Bins.end() && i < bin->second.size(); ++i)
+    {
+      visit(bin->second[i]);
     }
   }
 }

@@ -84,9 +84,10 @@ public:
         }
         piece.certified = piece.certified || this->isOneSheet(piece);
         const double size = this->worldSize(piece);
-        const bool done = piece.certified ? size <= this->WantedSize : tooMany;
-        if (done || piece.bisections == MaximumBisections)
+        const bool last = piece.bisections == MaximumBisections;
+        if (piece.certified ? last || size <= this->WantedSize : last || tooMany)
         {
+          piece.certified = piece.certified || this->Monotone.rises(valuesOf(piece));
           boxes.push_back(this->boxOf(piece, element, size));
           continue;
         }
@@ -198,17 +199,26 @@ private:
       domain, cornerDegrees, cornerLatticePoint(domain, cornerDegrees, c))];
   }
 
+  static std::vector<double> valuesOf(const Piece& piece)
+  {
+    std::vector<double> values;
+    values.reserve(piece.coefficients.size());
+    for (const Coefficient& c : piece.coefficients)
+    {
+      values.push_back(c.w);
+    }
+    return values;
+  }
+
   /// Corners of both signs, or at zero, and a direction along which the field rises everywhere. On the
   /// rim of the element also one piece only: another one could be all there is of a component.
   bool isOneSheet(const Piece& piece) const
   {
-    std::vector<double> values;
-    values.reserve(piece.coefficients.size());
+    const std::vector<double> values = valuesOf(piece);
     double largest = std::abs(this->Isovalue);
-    for (const Coefficient& c : piece.coefficients)
+    for (const double value : values)
     {
-      values.push_back(c.w);
-      largest = std::max(largest, std::abs(c.w));
+      largest = std::max(largest, std::abs(value));
     }
     const double slack = roundingShare * largest;
     const auto atCorner = [&](const auto& holds)

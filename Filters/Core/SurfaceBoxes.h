@@ -31,7 +31,9 @@ struct SurfaceBox
 ///    one piece of the sheet only (BoundaryTest.h), as a corner that it cuts off there may be all that
 ///    the mesh has of a component;
 ///  - split otherwise, until it was halved MaximumBisections times, or its element had to be split
-///    into more than MaximumPieces undecided pieces: such boxes are returned uncertified.
+///    into more than MaximumPieces undecided pieces. What is left then is certified if its field rises
+///    along some direction all the same: the surface touches such a box, or cuts off less of it than
+///    counts. Otherwise it is returned uncertified.
 /// Certified boxes are split on until no larger than `wantedSize`, and dropped where empty.
 ///
 /// All of the surface lies in the boxes returned, and every component of it that is larger than

@@ -1,0 +1,536 @@
+"""Input that is wrong, odd or empty: the filter says what is wrong and what to do, keeps what is right,
+and never writes a NaN."""
+
+import time
+
+import numpy as np
+import pytest
+import support
+from vtkmodules.vtkCommonDataModel import (
+    VTK_LAGRANGE_HEXAHEDRON,
+    VTK_LAGRANGE_PYRAMID,
+    VTK_LAGRANGE_QUADRILATERAL,
+    VTK_LAGRANGE_TRIANGLE,
+    VTK_POLY_LINE,
+    VTK_PYRAMID,
+    VTK_QUAD,
+    VTK_TRIANGLE,
+    vtkLagrangeHexahedron,
+    vtkMultiBlockDataSet,
+    vtkUnstructuredGrid,
+)
+
+CELLS = 3  # of the block below, along each side
+DEGREE = 2
+
+
+def place(x):
+    """Where the block below has the point that would be x if it were straight: a gentle bend."""
+    return x + 0.08 * np.sin(np.roll(x, 1, axis=1))
+
+
+def block(nodes_to_world=place, cells=CELLS, field=lambda x: np.linalg.norm(x - CELLS / 2, axis=1)):
+    """cells³ Lagrange hexahedra of order 2, each with nodes of its own; F: distance from the middle.
+    nodes_to_world gets the nodes of the straight block."""
+    nodes = np.zeros(((DEGREE + 1) ** 3, 3))
+    for i, j, k in np.ndindex(*[DEGREE + 1] * 3):
+        nodes[vtkLagrangeHexahedron.PointIndexFromIJK(i, j, k, [DEGREE] * 3)] = np.array([i, j, k]) / DEGREE
+    corners = np.array(list(np.ndindex(*[cells] * 3)), dtype=float)
+    points = (corners[:, None] + nodes[None]).reshape(-1, 3)
+    ids = np.arange(len(points)).reshape(len(corners), -1)
+    grid = support.grid_of_cells(nodes_to_world(points), [(VTK_LAGRANGE_HEXAHEDRON, row) for row in ids])
+    support.add_point_array(grid, "F", field(points))
+    return grid
+
+
+@pytest.fixture
+def good():
+    """F = 1 is nearly a sphere of radius 1 across all cells but none of the corners."""
+    return block()
+
+
+SPHERE = {"array": "F", "isovalues": 1.0, "Spacing": 0.15}
+CENTER_CELL = 13
+CORNER_CELL = 0
+
+
+def values_of(grid, cell, name="F"):
+    """The values of a cell's nodes; writes to it change the grid."""
+    size = (DEGREE + 1) ** 3
+    return support.array_of(grid, name)[cell * size : (cell + 1) * size]
+
+
+def move_points(grid, cell, points):
+    size = (DEGREE + 1) ** 3
+    for n, point in enumerate(points):
+        grid.GetPoints().SetPoint(cell * size + n, point)
+
+
+def cell_points(grid, cell):
+    size = (DEGREE + 1) ** 3
+    return support.points_of(grid)[cell * size : (cell + 1) * size]
+
+
+def assert_clean(particles):
+    """All numbers are finite."""
+    assert np.all(np.isfinite(support.points_of(particles)))
+    for name in support.array_names(particles.GetPointData()):
+        assert np.all(np.isfinite(support.array_of(particles, name))), name
+
+
+def assert_empty(particles):
+    assert particles.IsA("vtkPolyData")
+    assert particles.GetNumberOfPoints() == particles.GetNumberOfCells() == 0
+
+
+def assert_one_error(messages, *words):
+    assert len(messages.errors) == 1 and messages.warnings == []
+    for word in words:
+        assert word in messages.errors[0]
+
+
+def assert_one_warning(messages, *words):
+    assert messages.errors == [] and len(messages.warnings) == 1
+    for word in words:
+        assert word in messages.warnings[0]
+
+
+def test_the_block_itself_is_fine(good):
+    particles = support.run_quietly(good, **SPHERE)
+    assert particles.GetNumberOfPoints() > 400
+    assert CENTER_CELL not in support.array_of(particles, "vtkOriginalCellIds")
+    assert support.reported(particles, "CellsSkipped") == 0
+    assert_clean(particles)
+
+
+# Arrays
+
+
+def test_no_such_array(good):
+    particles, messages = support.run(good, "Temperature", 1.0)
+    assert_empty(particles)
+    assert_one_error(messages, "no point array 'Temperature'", "ContourBy", "arrays: F")
+
+
+def test_no_array_at_all():
+    grid = block()
+    grid.GetPointData().RemoveArray("F")
+    particles, messages = support.run(grid, "", 1.0)
+    assert_empty(particles)
+    assert_one_error(messages, "no active point scalar", "ContourBy")
+
+
+def test_a_cell_array_instead_of_a_point_array(good):
+    support.add_cell_array(good, "attribute", np.arange(float(good.GetNumberOfCells())))
+    particles, messages = support.run(good, ["CELLS", "attribute"], 1.5)
+    assert_empty(particles)
+    assert_one_error(messages, "'attribute'", "cell array", "point array", "F")
+
+
+def test_a_cell_array_asked_for_as_a_point_array(good):
+    """ParaView itself averages it to the points before any filter sees it. Here every cell has points of
+    its own, so that it is constant in each and has no isosurface."""
+    support.add_cell_array(good, "attribute", np.arange(float(good.GetNumberOfCells())))
+    assert_empty(support.run_quietly(good, "attribute", 1.5))
+
+
+def test_a_vector_array(good):
+    support.add_point_array(good, "velocity", support.points_of(good))
+    particles, messages = support.run(good, "velocity", 1.0)
+    assert_empty(particles)
+    assert_one_error(messages, "'velocity'", "3 components", "choose a scalar")
+
+
+def test_a_block_without_the_array_leaves_the_others_right(good):
+    bare = block()
+    bare.GetPointData().RemoveArray("F")
+    composite = vtkMultiBlockDataSet()
+    composite.SetBlock(0, bare)
+    composite.SetBlock(1, good)
+    output, messages = support.run(composite, **SPHERE)
+    assert_one_error(messages, "no point array 'F'")
+    assert output.GetBlock(0).GetNumberOfPoints() == 0
+    assert output.GetBlock(1).GetNumberOfPoints() > 400
+
+
+# Isovalues and settings
+
+
+@pytest.mark.parametrize("isovalue", [-9.0, 99.0, 1e300])
+def test_an_isovalue_outside_the_range_is_no_error(good, isovalue):
+    particles = support.run_quietly(good, "F", isovalue)
+    assert_empty(particles)
+    assert support.reported(particles, "ElementsDropped") == CELLS**3
+
+
+def test_an_isovalue_outside_the_range_beside_one_inside(good):
+    alone = support.run_quietly(good, **SPHERE)
+    both = support.run_quietly(good, "F", [99.0, 1.0], Spacing=SPHERE["Spacing"])
+    assert np.array_equal(support.points_of(both), support.points_of(alone))
+
+
+def test_an_isovalue_at_the_end_of_the_range(good):
+    """The smallest nodal value: a surface no larger than a point, if any."""
+    particles, messages = support.run(good, "F", 0.0, Spacing=0.15)
+    assert messages.errors == []
+    assert_clean(particles)
+
+
+@pytest.mark.parametrize("isovalue", [np.nan, np.inf, -np.inf])
+def test_an_isovalue_that_is_no_number(good, isovalue):
+    proxy, messages = support.make_filter(good, "F", 1.0, Spacing=0.15)
+    proxy.Isosurfaces = [1.0, float(isovalue)]
+    assert_empty(support.output_of(proxy))
+    assert_one_error(messages, "isovalue is NaN or infinite")
+
+
+def test_no_isovalue(good):
+    proxy, messages = support.make_filter(good, "F", 1.0)
+    proxy.Isosurfaces = []
+    assert_empty(support.output_of(proxy))
+    assert messages.errors == []
+
+
+@pytest.mark.parametrize("spacing", [0.0, -1.0])
+def test_a_spacing_that_is_not_positive_is_the_automatic_one(good, spacing):
+    particles = support.run_quietly(good, "F", 0.3, Spacing=spacing)
+    expected = support.longest_side(good) / 100
+    np.testing.assert_allclose(support.array_of(particles, "Radius"), expected)
+
+
+@pytest.mark.parametrize("spacing", [np.nan, np.inf])
+def test_a_spacing_that_is_no_number(good, spacing):
+    particles, messages = support.run(good, "F", 1.0, Spacing=float(spacing))
+    assert_empty(particles)
+    assert_one_error(messages, "Spacing is NaN or infinite", "0 for the automatic")
+
+
+@pytest.mark.parametrize("spacing", [1e-6, 1e-300])
+def test_an_absurdly_small_spacing_is_refused_at_once(good, spacing):
+    begin = time.monotonic()
+    particles, messages = support.run(good, "F", 1.0, Spacing=spacing)
+    assert time.monotonic() - begin < 60
+    assert_empty(particles)
+    assert_one_error(messages, "particles", "limit", "larger Spacing")
+
+
+@pytest.mark.parametrize("spacing", [50.0, 1e30])
+def test_a_spacing_larger_than_the_surface_leaves_a_few_particles(good, spacing):
+    particles, messages = support.run(good, "F", 1.0, Spacing=spacing)
+    assert messages.errors == []
+    assert 1 <= particles.GetNumberOfPoints() <= 12
+    assert_clean(particles)
+
+
+def test_too_many_particles_are_refused(good):
+    particles, messages = support.run(good, "F", 1.0, Spacing=0.3, NumberOfParticles=10**12)
+    assert_empty(particles)
+    assert_one_error(messages, "1000000000000", "limit")
+
+
+@pytest.mark.parametrize("number", [1, 2, 3])
+def test_very_few_particles(good, number):
+    particles, messages = support.run(good, "F", 1.0, NumberOfParticles=number)
+    assert messages.errors == []
+    assert particles.GetNumberOfPoints() == number
+    assert_clean(particles)
+
+
+# Numbers that are none
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+def test_elements_with_values_that_are_not_finite_are_left_out(good, bad):
+    whole = support.run_quietly(good, **SPHERE)
+    for cell in (4, 22):
+        values_of(good, cell)[10] = bad
+    particles, messages = support.run(good, **SPHERE)
+    assert_one_warning(messages, "2 cells skipped", "NaN or infinite", "first: cell 4")
+    assert support.reported(particles, "CellsSkipped") == 2
+    assert_rest_is_right(particles, whole, {4, 22})
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf])
+def test_elements_with_coordinates_that_are_not_finite_are_left_out(good, bad):
+    whole = support.run_quietly(good, **SPHERE)
+    points = cell_points(good, 4)
+    points[7, 1] = bad
+    move_points(good, 4, points)
+    # The bounds of the grid are no help now.
+    particles, messages = support.run(good, **SPHERE)
+    assert_one_warning(messages, "1 cell skipped", "NaN or infinite", "first: cell 4")
+    assert_rest_is_right(particles, whole, {4})
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf])
+def test_automatic_spacing_in_spite_of_coordinates_that_are_not_finite(bad):
+    grid = block()
+    longest = support.longest_side(grid)
+    points = cell_points(grid, 4)
+    points[7, 1] = bad
+    move_points(grid, 4, points)
+    particles, messages = support.run(grid, "F", 0.3)
+    assert messages.errors == []
+    assert particles.GetNumberOfPoints() > 100
+    np.testing.assert_allclose(support.array_of(particles, "Radius"), longest / 100, rtol=0.1)
+    assert support.array_of(particles, "Residual").max() <= 1.1e-8 * support.diagonal(block())
+
+
+def assert_rest_is_right(particles, whole, left_out):
+    """All of the surface but that in the cells left out."""
+    assert_clean(particles)
+    owners, before = (support.array_of(p, "vtkOriginalCellIds") for p in (particles, whole))
+    assert not left_out & set(owners)
+    assert set(owners) >= set(before) - left_out - {CENTER_CELL}
+    expected = np.sum(~np.isin(before, list(left_out)))
+    # The rims of the holes are covered from one side: a few more.
+    assert 0.97 * expected <= len(owners) <= 1.15 * expected
+    assert support.array_of(particles, "Residual").max() <= 1.1e-8 * 6
+
+
+def test_another_array_with_nan_does_not_matter(good):
+    support.add_point_array(good, "other", np.full(good.GetNumberOfPoints(), np.nan))
+    particles = support.run_quietly(good, **SPHERE)
+    assert particles.GetNumberOfPoints() > 400
+    assert np.all(np.isfinite(support.points_of(particles)))
+
+
+def test_a_constant_field_equal_to_the_isovalue():
+    """The surface is the whole volume: no particle can stand on it, and nothing hangs."""
+    grid = block(field=lambda x: np.ones(len(x)))
+    begin = time.monotonic()
+    particles, messages = support.run(grid, **SPHERE)
+    assert time.monotonic() - begin < 20
+    assert messages.errors == []
+    assert_empty(particles)
+
+
+def test_a_field_that_is_the_isovalue_on_one_side():
+    """max(x - 1.5, 0), node by node: flat and equal to the isovalue over half of the block."""
+    grid = block(field=lambda x: np.maximum(x[:, 0] - 1.5, 0.0))
+    particles, messages = support.run(grid, "F", 0.0, Spacing=0.15)
+    assert messages.errors == []
+    assert_clean(particles)
+
+
+# Cells
+
+
+def test_an_empty_grid():
+    assert_empty(support.run_quietly(vtkUnstructuredGrid(), "F", 1.0))
+
+
+def test_points_without_cells():
+    grid = support.grid_of_cells(np.eye(3), [])
+    support.add_point_array(grid, "F", np.arange(3.0))
+    assert_empty(support.run_quietly(grid, "F", 1.0))
+
+
+def test_an_empty_composite():
+    composite = vtkMultiBlockDataSet()
+    composite.SetNumberOfBlocks(2)
+    output = support.run_quietly(composite, "F", 1.0)
+    assert output.IsA("vtkMultiBlockDataSet") and output.GetNumberOfBlocks() == 2
+
+
+def test_one_element_only():
+    particles = support.run_quietly(block(cells=1), "F", 2.0, Spacing=0.1)
+    assert particles.GetNumberOfPoints() > 50
+    assert_clean(particles)
+
+
+def flat_cells():
+    points = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+    grid = support.grid_of_cells(points, [(VTK_TRIANGLE, [0, 1, 2]), (VTK_QUAD, range(4)), (VTK_QUAD, range(4))])
+    support.add_point_array(grid, "F", np.arange(4.0))
+    return grid
+
+
+def test_flat_cells_are_counted_in_one_warning():
+    particles, messages = support.run(flat_cells(), "F", 1.5)
+    assert_empty(particles)
+    assert_one_warning(messages, "1 cell of type vtkTriangle skipped", "2 cells of type vtkQuad", "3-D")
+    assert support.reported(particles, "CellsSkipped") == 3
+
+
+@pytest.mark.parametrize(
+    "cell_type, points, name",
+    [
+        (VTK_LAGRANGE_TRIANGLE, 3, "vtkLagrangeTriangle"),
+        (VTK_LAGRANGE_QUADRILATERAL, 4, "vtkLagrangeQuadrilateral"),
+        (VTK_POLY_LINE, 4, "vtkPolyLine"),
+        (VTK_LAGRANGE_PYRAMID, 14, "vtkLagrangePyramid"),  # VTK has no such class
+        (VTK_PYRAMID, 5, "vtkPyramid"),
+    ],
+)
+def test_other_cells_beside_good_ones(good, cell_type, points, name):
+    whole = support.run_quietly(good, **SPHERE)
+    for cell in range(5):
+        good.InsertNextCell(cell_type, points, [27 * cell + n for n in range(points)])
+    particles, messages = support.run(good, **SPHERE)
+    assert_one_warning(messages, f"5 cells of type {name} skipped", "not a supported 3-D cell", "first: cell 27")
+    assert np.array_equal(support.points_of(particles), support.points_of(whole))
+
+
+@pytest.mark.parametrize(
+    "file, array, isovalue, words",
+    [
+        ("vtkdata_pyramid_quadratic.vtu", "Polynomial", 4.0, ["48 cells of type vtkQuadraticPyramid"]),
+        ("yeti_pipe_bezier_rational_p333.vtu", "disp_X", -1e-4, ["128 cells of type vtkBezierHexahedron"]),
+        ("yeti_pipe_bezier_rational_p423.vtu", "disp_X", -1e-4, ["64 cells of type vtkBezierHexahedron"]),
+        (
+            "vtkdata_notch_quadratic_hex20_wedge15.vtu", "Nodal Displacement_X", 1.68e-6,
+            ["2188 cells of type vtkQuadraticHexahedron", "4 cells of type vtkQuadraticWedge"],
+        ),
+    ],
+)  # fmt: skip
+def test_cells_of_kinds_yet_to_come_are_counted_in_one_warning(data, file, array, isovalue, words):
+    grid = support.output_of(support.read(data(file)))
+    if array.endswith("_X"):
+        support.add_point_array(grid, array, support.array_of(grid, array[:-2])[:, 0])
+    particles, messages = support.run(grid, array, isovalue)
+    assert_empty(particles)
+    assert_one_warning(messages, *words, "skipped", "not a supported 3-D cell")
+    assert support.reported(particles, "CellsSkipped") == grid.GetNumberOfCells()
+
+
+def test_point_counts_that_fit_no_degree(good):
+    whole = support.run_quietly(good, **SPHERE)
+    good.InsertNextCell(VTK_LAGRANGE_HEXAHEDRON, 26, list(range(26)))
+    particles, messages = support.run(good, **SPHERE)
+    assert_one_warning(messages, "1 cell of type vtkLagrangeHexahedron skipped", "fits no degree")
+    assert np.array_equal(support.points_of(particles), support.points_of(whole))
+
+
+@pytest.mark.parametrize("degrees", [(3, 2, 2), (0, 0, 0), (26, 0, 0), (-2, -2, 2), (np.nan, 2, 2), (1e30, 2, 2)])
+def test_degrees_that_contradict_the_point_count(good, degrees):
+    """(0, 0, 0): the file leaves the degrees to the point count, which is right."""
+    table = np.full((CELLS**3, 3), 2.0)
+    table[4] = degrees
+    good.GetCellData().SetHigherOrderDegrees(support.add_cell_array(good, "HigherOrderDegrees", table))
+    particles, messages = support.run(good, **SPHERE)
+    if not any(degrees):
+        assert messages.warnings == []
+    else:
+        assert_one_warning(messages, "1 cell of type vtkLagrangeHexahedron skipped", "fits no degree", "first: cell 4")
+        assert 4 not in support.array_of(particles, "vtkOriginalCellIds")
+    assert particles.GetNumberOfPoints() > 300
+    assert_clean(particles)
+
+
+@pytest.mark.parametrize("id", [-1, 10**6])
+def test_point_ids_outside_the_grid(good, id):
+    whole = support.run_quietly(good, **SPHERE)
+    connectivity = good.GetCells().GetConnectivityArray()
+    connectivity.SetValue(4 * 27 + 5, id)
+    particles, messages = support.run(good, **SPHERE)
+    assert_one_warning(messages, "1 cell skipped", "point ids outside the grid", "first: cell 4")
+    assert_rest_is_right(particles, whole, {4})
+
+
+@pytest.mark.parametrize("id", [-1, 10**6])
+def test_point_ids_outside_the_grid_in_the_first_cell(good, id):
+    """By which the order of the nodes of this kind of cell is found out."""
+    good.GetCells().GetConnectivityArray().SetValue(5, id)
+    particles, messages = support.run(good, **SPHERE)
+    assert_one_warning(messages, "1 cell skipped", "point ids outside the grid", "first: cell 0")
+    assert particles.GetNumberOfPoints() > 400
+
+
+# Shapes
+
+
+def flat(points):
+    return points * [1, 1, 0] + [0, 0, points[:, 2].mean()]
+
+
+def point(points):
+    return np.tile(points.mean(axis=0), (len(points), 1))
+
+
+@pytest.mark.parametrize("collapse", [flat, point])
+def test_elements_without_volume_are_left_out(good, collapse):
+    whole = support.run_quietly(good, **SPHERE)
+    move_points(good, 4, collapse(cell_points(good, 4)))
+    particles, messages = support.run(good, **SPHERE)
+    assert_one_warning(messages, "1 cell skipped: without volume", "first: cell 4")
+    assert_rest_is_right(particles, whole, {4})
+
+
+def test_a_grid_without_any_volume():
+    particles, messages = support.run(block(flat), **SPHERE)
+    assert_empty(particles)
+    assert_one_warning(messages, "cells skipped: without volume")
+
+
+def test_a_collapsed_edge_is_no_obstacle():
+    """Hexahedra around an axis have an edge of length zero there."""
+
+    def wrap(x):
+        angle = x[:, 1] / CELLS * np.pi / 2
+        return np.c_[x[:, 0] * np.cos(angle), x[:, 0] * np.sin(angle), x[:, 2]]
+
+    particles, messages = support.run(block(wrap, field=lambda x: x[:, 2]), "F", 1.5, Spacing=0.15)
+    assert messages.errors == []
+    assert_clean(particles)
+    area = np.pi / 4 * CELLS**2
+    expected = support.hexagonal_count(area, 0.15, rim=CELLS * (2 + np.pi / 2))
+    assert particles.GetNumberOfPoints() == pytest.approx(expected, rel=0.06)
+
+
+def test_left_handed_everywhere_is_a_mirror_image(good):
+    whole = support.run_quietly(good, **SPHERE)
+    mirrored = block(lambda x: place(x) * [-1, 1, 1])
+    particles = support.run_quietly(mirrored, **SPHERE)
+    assert particles.GetNumberOfPoints() == pytest.approx(whole.GetNumberOfPoints(), rel=0.02)
+    inward = (np.array([-1, 1, 1]) * 1.5 - support.points_of(particles)) / 1.0
+    assert np.all(np.sum(inward * support.array_of(particles, "Normals"), axis=1) > 0)
+    assert support.array_of(particles, "Mean_Curvature").mean() == pytest.approx(
+        support.array_of(whole, "Mean_Curvature").mean(), rel=0.01
+    )
+
+
+def test_partly_inverted_elements_are_kept_and_counted(good):
+    points = cell_points(good, 4)
+    middle = points.mean(axis=0)
+    points[0] = middle + 0.8 * (middle - points[0])  # a corner pulled through the cell
+    move_points(good, 4, points)
+    particles, messages = support.run(good, **SPHERE)
+    assert_one_warning(messages, "1 cell kept, but partly inverted", "first: cell 4")
+    assert support.reported(particles, "CellsSkipped") == 0
+    assert particles.GetNumberOfPoints() > 400
+    assert_clean(particles)
+
+
+@pytest.mark.parametrize("scale", [1e-12, 1e-3, 1e6, 1e12])
+def test_the_size_of_the_data_does_not_matter(good, scale):
+    """No constant may depend on it: the same particles, scaled."""
+    whole = support.run_quietly(good, **SPHERE)
+    scaled = block(lambda x: place(x) * scale)
+    particles = support.run_quietly(scaled, "F", 1.0, Spacing=0.15 * scale)
+    assert particles.GetNumberOfPoints() == pytest.approx(whole.GetNumberOfPoints(), rel=0.03)
+    assert support.nearest_neighbors(particles).min() > 0.7
+
+
+@pytest.mark.parametrize("scale", [1e-30, 1e-9, 1e9, 1e30])
+def test_the_size_of_the_values_does_not_matter(good, scale):
+    whole = support.run_quietly(good, **SPHERE)
+    scaled = block(field=lambda x: scale * np.linalg.norm(x - CELLS / 2, axis=1))
+    particles = support.run_quietly(scaled, "F", scale, Spacing=0.15)
+    assert particles.GetNumberOfPoints() == pytest.approx(whole.GetNumberOfPoints(), rel=0.03)
+
+
+def test_data_far_from_the_origin(good):
+    whole = support.run_quietly(good, **SPHERE)
+    far = block(lambda x: place(x) + 1e4)
+    particles = support.run_quietly(far, **SPHERE)
+    assert particles.GetNumberOfPoints() == pytest.approx(whole.GetNumberOfPoints(), rel=0.05)
+
+
+def test_an_input_that_is_put_right_is_computed_anew(good):
+    proxy, messages = support.make_filter(good, "nothing", 1.0, Spacing=0.15)
+    assert_empty(support.output_of(proxy))
+    assert len(messages.errors) == 1
+    proxy.ContourBy = ["POINTS", "F"]
+    assert support.output_of(proxy).GetNumberOfPoints() > 400
+    assert len(messages.errors) == 1
