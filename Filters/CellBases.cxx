@@ -222,7 +222,9 @@ hop::Degrees CellBases::explicitDegrees(vtkIdType cell) const
   }
   double tuple[3];
   this->HigherOrderDegrees->GetTuple(cell, tuple);
-  return { static_cast<int>(tuple[0]), static_cast<int>(tuple[1]), static_cast<int>(tuple[2]) };
+  const auto degree = [](double value)
+  { return value >= 0.0 && value <= hop::MaximumInputDegree ? static_cast<int>(value) : -1; };
+  return { degree(tuple[0]), degree(tuple[1]), degree(tuple[2]) };
 }
 
 std::shared_ptr<const CellBasis> CellBases::basisOf(vtkIdType cell)

@@ -287,7 +287,8 @@ TEST_P(OpenCover, ReachesTheRimAndStaysEven)
     onRim += atWall;
   }
   EXPECT_NEAR(onRim * spacing, open.rim, 0.15 * open.rim);
-  EXPECT_GE(smallest(nearestSpacings(result.particles)), 0.7);
+  // Two particles on the rim may face each other across a corner of the domain.
+  EXPECT_GE(smallest(nearestSpacings(result.particles)), 0.6);
   // Particles on the rim stand for half as much area as those inside.
   const double wanted = hexagonalCount(open.area, spacing) + 0.5 * open.rim / spacing;
   EXPECT_NEAR(static_cast<double>(result.particles.size()), wanted, 0.05 * wanted);

@@ -12,7 +12,6 @@ from vtkmodules.vtkCommonDataModel import (
     VTK_LAGRANGE_QUADRILATERAL,
     VTK_LAGRANGE_TRIANGLE,
     VTK_POLY_LINE,
-    VTK_PYRAMID,
     VTK_QUAD,
     VTK_TRIANGLE,
     vtkLagrangeHexahedron,
@@ -132,13 +131,6 @@ def test_a_cell_array_asked_for_as_a_point_array(good):
     its own, so that it is constant in each and has no isosurface."""
     support.add_cell_array(good, "attribute", np.arange(float(good.GetNumberOfCells())))
     assert_empty(support.run_quietly(good, "attribute", 1.5))
-
-
-def test_a_vector_array(good):
-    support.add_point_array(good, "velocity", support.points_of(good))
-    particles, messages = support.run(good, "velocity", 1.0)
-    assert_empty(particles)
-    assert_one_error(messages, "'velocity'", "3 components", "choose a scalar")
 
 
 def test_a_block_without_the_array_leaves_the_others_right(good):
@@ -360,7 +352,6 @@ def test_flat_cells_are_counted_in_one_warning():
         (VTK_LAGRANGE_QUADRILATERAL, 4, "vtkLagrangeQuadrilateral"),
         (VTK_POLY_LINE, 4, "vtkPolyLine"),
         (VTK_LAGRANGE_PYRAMID, 14, "vtkLagrangePyramid"),  # VTK has no such class
-        (VTK_PYRAMID, 5, "vtkPyramid"),
     ],
 )
 def test_other_cells_beside_good_ones(good, cell_type, points, name):
@@ -370,28 +361,6 @@ def test_other_cells_beside_good_ones(good, cell_type, points, name):
     particles, messages = support.run(good, **SPHERE)
     assert_one_warning(messages, f"5 cells of type {name} skipped", "not a supported 3-D cell", "first: cell 27")
     assert np.array_equal(support.points_of(particles), support.points_of(whole))
-
-
-@pytest.mark.parametrize(
-    "file, array, isovalue, words",
-    [
-        ("vtkdata_pyramid_quadratic.vtu", "Polynomial", 4.0, ["48 cells of type vtkQuadraticPyramid"]),
-        ("yeti_pipe_bezier_rational_p333.vtu", "disp_X", -1e-4, ["128 cells of type vtkBezierHexahedron"]),
-        ("yeti_pipe_bezier_rational_p423.vtu", "disp_X", -1e-4, ["64 cells of type vtkBezierHexahedron"]),
-        (
-            "vtkdata_notch_quadratic_hex20_wedge15.vtu", "Nodal Displacement_X", 1.68e-6,
-            ["2188 cells of type vtkQuadraticHexahedron", "4 cells of type vtkQuadraticWedge"],
-        ),
-    ],
-)  # fmt: skip
-def test_cells_of_kinds_yet_to_come_are_counted_in_one_warning(data, file, array, isovalue, words):
-    grid = support.output_of(support.read(data(file)))
-    if array.endswith("_X"):
-        support.add_point_array(grid, array, support.array_of(grid, array[:-2])[:, 0])
-    particles, messages = support.run(grid, array, isovalue)
-    assert_empty(particles)
-    assert_one_warning(messages, *words, "skipped", "not a supported 3-D cell")
-    assert support.reported(particles, "CellsSkipped") == grid.GetNumberOfCells()
 
 
 def test_point_counts_that_fit_no_degree(good):
