@@ -57,6 +57,9 @@ def read(path):
         raise SystemExit(f"error: {path}: expected a .vtu or .pvtu file")
     reader = readers[Path(path).suffix](FileName=[str(path)])
     reader.UpdatePipeline()
+    if reader.GetDataInformation().GetNumberOfPoints() == 0:
+        raise SystemExit(f"error: ParaView read no points from {path} (its message, if any, stands above; "
+                         "see 'What it does not do' in README.md about raw appended data)")
     return reader
 
 
