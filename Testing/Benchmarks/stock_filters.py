@@ -71,7 +71,7 @@ def gyroid_grid(n, order=3):
 
 
 def island_grid():
-    """One order-4 hexahedron whose nodal values stay below 0.74 though the polynomial reaches 1.7."""
+    """One order-4 hexahedron whose nodal values stay below 0.73 though the polynomial reaches 1.17."""
     nodes = lattice(4)
     peak = np.exp(-60 * ((nodes - 0.375) ** 2).sum(axis=1))
     bump = 1.73 * peak / peak.max() * 0.42

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 namespace hop::testing
@@ -85,6 +86,120 @@ TEST(NodalBasis, ReproducesThePolynomialsOfTheElementExactly)
       EXPECT_NEAR(value.w, 1.0, tolerance);
     }
   }
+}
+
+TEST(NodalBasis, KnowsTheGaussLobattoPoints)
+{
+  const std::vector<std::vector<double>> known{ { 0.0, 1.0 }, { 0.0, 0.5, 1.0 },
+    { 0.0, 0.5 - 0.5 / std::sqrt(5.0), 0.5 + 0.5 / std::sqrt(5.0), 1.0 },
+    { 0.0, 0.5 - 0.5 * std::sqrt(3.0 / 7.0), 0.5, 0.5 + 0.5 * std::sqrt(3.0 / 7.0), 1.0 } };
+  for (const auto& points : known)
+  {
+    const auto found = gaussLobattoPoints(static_cast<int>(points.size()) - 1);
+    ASSERT_EQ(found.size(), points.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      EXPECT_NEAR(static_cast<double>(found[i]), points[i], 1e-15);
+    }
+  }
+}
+
+TEST(NodalBasis, ReproducesPolynomialsFromGaussLobattoNodes)
+{
+  Random random(2);
+  for (int p = 1; p <= MaximumInputDegree; ++p)
+  {
+    const ElementCase which{ Domain::Hexahedron, { p, p, p } };
+    SCOPED_TRACE(which);
+    const auto lattice = latticePoints(which.domain, which.degrees);
+    const NodalBasis basis =
+      NodalBasis::lagrange(which.domain, which.degrees, lattice, NodeSpacing::GaussLobattoLegendre);
+    const auto line = gaussLobattoPoints(p);
+    const auto at = [&line](int i) { return static_cast<double>(line[i]); };
+    const MonomialSum f(which, random);
+    std::vector<double> nodal;
+    double size = 0.0;
+    for (const LatticePoint& point : lattice)
+    {
+      const double value = f({ { at(point.i), at(point.j), at(point.k) } });
+      nodal.insert(nodal.end(), { value, 0.0, 0.0, 1.0 });
+      size = std::max(size, std::abs(value));
+    }
+    std::vector<Coefficient> coefficients(basis.coefficientCount());
+    basis.toBernstein(nodal.data(), 4, &coefficients[0].x);
+    const double tolerance =
+      8.0 * std::numeric_limits<double>::epsilon() * basis.conversionNorm() * size;
+    for (int n = 0; n < 10; ++n)
+    {
+      const ReferencePoint u = randomPoint(which.domain, random);
+      EXPECT_NEAR(evaluateGradient(formOf(which, coefficients), u).value.x, f(u), tolerance);
+    }
+    // These nodes are why spectral codes go to high degrees.
+    const NodalBasis uniform = NodalBasis::lagrange(which.domain, which.degrees, lattice);
+    EXPECT_LE(basis.conversionNorm(), 1.0000001 * uniform.conversionNorm());
+  }
+}
+
+TEST(NodalBasis, BezierValuesAreCoefficientsInTheirPlaces)
+{
+  Random random(3);
+  for (const ElementCase& which : allElementCases())
+  {
+    SCOPED_TRACE(which);
+    const auto order = shuffledLattice(which, random);
+    const NodalBasis basis = NodalBasis::bezier(which.domain, which.degrees, order);
+    EXPECT_EQ(basis.conversionNorm(), 1.0);
+    std::vector<double> nodal(order.size());
+    std::iota(nodal.begin(), nodal.end(), 0.0);
+    std::vector<double> coefficients(order.size());
+    basis.toBernstein(nodal.data(), 1, coefficients.data());
+    for (std::size_t node = 0; node < order.size(); ++node)
+    {
+      EXPECT_EQ(
+        coefficients[coefficientIndex(which.domain, which.degrees, order[node])], nodal[node]);
+    }
+  }
+}
+
+TEST(NodalBasis, SamplesShapeFunctionsOfFewerNodes)
+{
+  // Linear shape functions seen through the quadratic basis: 8 nodes, 27 coefficients.
+  const ElementCase quadratic{ Domain::Hexahedron, { 2, 2, 2 } };
+  const Degrees linear{ 1, 1, 1 };
+  std::vector<double> samples;
+  for (const LatticePoint& point : latticePoints(quadratic.domain, quadratic.degrees))
+  {
+    std::vector<double> shape(8);
+    evaluateBasis(
+      quadratic.domain, linear, latticePosition(quadratic.degrees, point), shape.data());
+    samples.insert(samples.end(), shape.begin(), shape.end());
+  }
+  const NodalBasis basis = NodalBasis::sampled(quadratic.domain, quadratic.degrees, samples);
+  ASSERT_EQ(basis.nodeCount(), 8);
+  ASSERT_EQ(basis.coefficientCount(), 27);
+  Random random(4);
+  std::vector<double> nodal;
+  for (int node = 0; node < 8; ++node)
+  {
+    nodal.insert(nodal.end(), { randomNumber(random), 0.0, 0.0, 0.0 });
+  }
+  std::vector<Coefficient> coefficients(27);
+  basis.toBernstein(nodal.data(), 4, &coefficients[0].x);
+  for (int n = 0; n < 20; ++n)
+  {
+    const ReferencePoint u = randomPoint(quadratic.domain, random);
+    std::vector<double> shape(8);
+    evaluateBasis(quadratic.domain, linear, u, shape.data());
+    double expected = 0.0;
+    for (int node = 0; node < 8; ++node)
+    {
+      expected += shape[node] * nodal[4 * node];
+    }
+    EXPECT_NEAR(evaluateGradient(formOf(quadratic, coefficients), u).value.x, expected, 1e-13);
+  }
+  samples.pop_back();
+  EXPECT_THROW(
+    NodalBasis::sampled(quadratic.domain, quadratic.degrees, samples), std::invalid_argument);
 }
 
 TEST(NodalBasis, TakesNodesInAnyOrder)
