@@ -41,7 +41,7 @@ std::vector<int> sweepsOfRounds(Quality quality)
 class FastSystem
 {
 public:
-  FastSystem(const Isosurface& surface, const FastParameters& parameters, const Monitor& monitor,
+  FastSystem(const Isosurface& surface, const DistributionParameters& parameters, const Monitor& monitor,
     const ParallelFor& parallelFor)
     : Surface(surface)
     , Mesh(*surface.mesh)
@@ -71,7 +71,7 @@ private:
 
   Isosurface Surface;
   const ElementMesh& Mesh;
-  FastParameters Parameters;
+  DistributionParameters Parameters;
   SpacingLaw Law;
   Interruptible Work;
   ParallelFor Parallel;
@@ -442,7 +442,7 @@ Distribution FastSystem::run()
 
 } // namespace
 
-Distribution distributeFast(const Isosurface& surface, const FastParameters& parameters,
+Distribution distributeFast(const Isosurface& surface, const DistributionParameters& parameters,
   const Monitor& monitor, const ParallelFor& parallelFor)
 {
   return FastSystem(surface, parameters, monitor, parallelFor).run();

@@ -1,34 +1,11 @@
 #pragma once
 
-#include "Energy.h"
+#include "DistributionParameters.h"
 #include "Monitor.h"
 #include "Particles.h"
 
 namespace hop
 {
-
-/// How much work goes into an even spread.
-enum class Quality
-{
-  /// One round of relaxation.
-  Draft,
-  /// Two rounds.
-  Standard,
-  /// Four rounds.
-  High
-};
-
-struct FastParameters
-{
-  SpacingLaw law;
-  Quality quality = Quality::Standard;
-  /// Where systematic sampling starts; the same seed, the same particles.
-  std::uint64_t seed = 1;
-  /// 0: as many particles as the spacing asks for. Otherwise this many, and the spacing follows.
-  std::int64_t particleCount = 0;
-  /// A request that would need more particles than this is refused before it is begun.
-  std::int64_t particleLimit = 100'000'000;
-};
 
 /// Spreads particles as evenly as the paper's scheme at a hundredth of its evaluations:
 ///  - boxes that hold all of the surface (SurfaceBoxes.h) give a rough picture of it, from which the
@@ -41,7 +18,7 @@ struct FastParameters
 /// Boxes whose piece of surface no particle stands on get one of their own, so that no component is
 /// lost, however small: a particle stands on it if it is within its spacing, not turned away, and its
 /// patch runs through it.
-Distribution distributeFast(const Isosurface& surface, const FastParameters& parameters,
+Distribution distributeFast(const Isosurface& surface, const DistributionParameters& parameters,
   const Monitor& monitor, const ParallelFor& parallelFor);
 
 } // namespace hop
