@@ -2,6 +2,7 @@
 
 #include "Interruptible.h"
 #include "Random.h"
+#include "RimCurves.h"
 #include "SpacingGrid.h"
 #include "SurfaceProxy.h"
 
@@ -22,6 +23,11 @@ constexpr double boxSizePerRadius = 1.0;
 constexpr float largestOffset = 0.3f;
 constexpr float smallestTurn = 0.3f;
 constexpr int maximumHalvings = 3;
+/// Seeds nearer to a rim's particle than this, in units of their spacing, are dropped: half the
+/// distance of two rows of hexagonal packing. Those that a round of relaxation squeezed against the rim
+/// are dropped after it.
+constexpr double seedToRim = 0.433;
+constexpr double squeezedToRim = 0.6;
 /// A patch runs through a box if it passes its sample nearer than this, in units of its spacing.
 constexpr float coverOffset = 0.1f;
 
@@ -56,6 +62,8 @@ public:
 
 private:
   void makeProxy();
+  void makeRims();
+  void dropNearRims(double nearest);
   bool makeSeeds();
   void putNearSurface();
   void coverBoxes();
@@ -77,7 +85,9 @@ private:
   ParallelFor Parallel;
   std::unique_ptr<SurfaceProxy> Proxy;
   std::vector<Anchor> Anchors;
+  /// Those of the particles that move, then those on rims.
   std::vector<Patch> Patches;
+  RimCurves Rims;
   std::atomic<std::int64_t> Evaluations{ 0 };
   Distribution Result;
 };
@@ -176,6 +186,54 @@ void FastSystem::putNearSurface()
   this->commit(std::vector<glm::vec2>(this->Anchors.size(), glm::vec2(0.0f)));
 }
 
+void FastSystem::makeRims()
+{
+  this->Rims = findRimCurves(this->Surface, *this->Proxy, this->Law);
+  this->Evaluations += this->Rims.evaluations;
+}
+
+/// Particles on rims are there first: others too near to one are dropped.
+void FastSystem::dropNearRims(double nearest)
+{
+  if (this->Rims.particles.empty())
+  {
+    return;
+  }
+  std::vector<glm::dvec3> positions;
+  std::vector<float> spacings;
+  for (const RimParticle& rim : this->Rims.particles)
+  {
+    positions.push_back(rim.patch.position);
+    spacings.push_back(rim.patch.spacing);
+  }
+  const SpacingGrid grid(positions, spacings, 1.0);
+  this->Patches.resize(this->Anchors.size());
+  std::vector<char> kept(this->Patches.size(), 1);
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(this->Patches.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      for (std::ptrdiff_t i = begin; i < end; ++i)
+      {
+        const Patch& patch = this->Patches[i];
+        grid.visit(patch.position, patch.spacing,
+          [&](int j)
+          {
+            const Patch& rim = this->Rims.particles[j].patch;
+            const bool near = glm::distance(patch.position, rim.position) <
+                nearest * patch.spacing &&
+              glm::dot(patch.normal, rim.normal) > 0.0f;
+            kept[i] = kept[i] && !near;
+          });
+      }
+    });
+  keep(this->Anchors, kept);
+  keep(this->Patches, kept);
+  for (const RimParticle& rim : this->Rims.particles)
+  {
+    this->Patches.push_back(rim.patch);
+  }
+}
+
 /// Where a step in world space takes particle i: in its own element by its own map, else by walking.
 Location FastSystem::target(std::size_t i, const glm::dvec3& step, std::int64_t& cost) const
 {
@@ -209,7 +267,7 @@ glm::dvec3 FastSystem::stepTo(std::size_t i, const glm::vec2& displacement) cons
 
 std::vector<Location> FastSystem::targets(const std::vector<glm::vec2>& displacements)
 {
-  std::vector<Location> places(displacements.size());
+  std::vector<Location> places(this->Anchors.size());
   runParallel(this->Parallel, static_cast<std::ptrdiff_t>(places.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
@@ -276,12 +334,11 @@ void FastSystem::commit(const std::vector<glm::vec2>& displacements)
           }
           patch.spacing =
             this->Proxy->spacingAt(patch.position, patch.curvatureMagnitude(), before.spacing);
-          patch.fixed = before.fixed;
         });
       this->Evaluations += cost;
     });
   this->Anchors = std::move(anchors);
-  this->Patches = std::move(patches);
+  std::copy(patches.begin(), patches.end(), this->Patches.begin());
 }
 
 /// Whether a particle stands on the piece of surface around a sample.
@@ -333,7 +390,7 @@ void FastSystem::coverBoxes()
       });
   }
   // Those added cover others in turn.
-  const std::size_t before = this->Patches.size();
+  std::vector<Patch> added;
   for (std::size_t b = 0; b < samples.size(); ++b)
   {
     if (!lonely[b])
@@ -345,12 +402,14 @@ void FastSystem::coverBoxes()
       return glm::distance(patch.position, samples[b].patch.position) <= 0.7 * patch.spacing &&
         glm::dot(patch.normal, samples[b].patch.normal) > 0.0f;
     };
-    if (std::none_of(this->Patches.begin() + before, this->Patches.end(), covers))
+    if (std::none_of(added.begin(), added.end(), covers))
     {
+      added.push_back(samples[b].patch);
       this->Anchors.push_back(samples[b].anchor);
-      this->Patches.push_back(samples[b].patch);
     }
   }
+  const auto rims = static_cast<std::ptrdiff_t>(this->Rims.particles.size());
+  this->Patches.insert(this->Patches.end() - rims, added.begin(), added.end());
 }
 
 /// What there is to say about a particle, if it lies on the surface to the tolerance.
@@ -391,7 +450,7 @@ void FastSystem::finish()
           settled[n] = this->settle(places[i], jet, patch.spacing, particle);
           Evaluated at;
           if (!settled[n] &&
-            walker.project(this->Anchors[i].place, patch.spacing, at, patch.fixed))
+            walker.project(this->Anchors[i].place, patch.spacing, at))
           {
             const Jet there =
               evaluateHessian(this->Mesh.form(at.location.element), at.location.u);
@@ -408,6 +467,10 @@ void FastSystem::finish()
   report.particlesUndersampled = std::count_if(particles.begin(), particles.end(),
     [](const Particle& p) { return p.curvature.magnitude * p.spacing > 2.0; });
   this->Result.particles = std::move(particles);
+  for (const RimParticle& rim : this->Rims.particles)
+  {
+    this->Result.particles.push_back(rim.particle);
+  }
 }
 
 Distribution FastSystem::run()
@@ -422,10 +485,13 @@ Distribution FastSystem::run()
     if (this->Proxy->particleCount() > 0.0 && this->makeSeeds())
     {
       this->putNearSurface();
+      this->makeRims();
+      this->dropNearRims(seedToRim);
       this->coverBoxes();
       for (const int sweeps : sweepsOfRounds(this->Parameters.quality))
       {
         this->commit(relaxOnPatches(this->Patches, sweeps, this->Parallel));
+        this->dropNearRims(squeezedToRim);
         this->Result.report.iterations += sweeps;
       }
       this->finish();

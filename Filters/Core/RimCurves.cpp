@@ -1,0 +1,293 @@
+#include "RimCurves.h"
+
+#include "ActiveFaces.h"
+#include "RimTracer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace hop
+{
+namespace
+{
+
+/// Chords of traced rims, in units of the spacing.
+constexpr double chordPerSpacing = 0.5;
+/// Corners of boxes are kept in single precision.
+constexpr double boxOnFace = 1e-6;
+
+/// Where a box shows a rim.
+struct RimHint
+{
+  Location location;
+  int face = -1;
+};
+
+/// Places on boundary faces between corners of a box's face with values of opposite sign.
+void appendHints(
+  const Isosurface& surface, const SurfaceBox& box, std::vector<RimHint>& hints)
+{
+  const int element = box.middle.element;
+  const auto& faces = facts(surface.mesh->elements[element].domain).faces;
+  for (int wall = 0; wall < static_cast<int>(faces.size()); ++wall)
+  {
+    if (surface.neighbor(element, wall).element >= 0)
+    {
+      continue;
+    }
+    const auto onWall = [&](int corner)
+    { return faceMargin(faces[wall], { glm::dvec3(box.corners[corner]) }) < boxOnFace; };
+    for (const Face& face : faces)
+    {
+      if (!std::all_of(face.corners.begin(), face.corners.begin() + face.cornerCount, onWall))
+      {
+        continue;
+      }
+      for (int c = 0; c < face.cornerCount; ++c)
+      {
+        const int a = face.corners[c];
+        const int b = face.corners[(c + 1) % face.cornerCount];
+        if ((box.values[a] > 0.0f) == (box.values[b] > 0.0f))
+        {
+          continue;
+        }
+        const double t = box.values[a] / (box.values[a] - box.values[b]);
+        glm::dvec3 u = (1.0 - t) * glm::dvec3(box.corners[a]) + t * glm::dvec3(box.corners[b]);
+        const glm::dvec3& inward = faces[wall].inward.xyz;
+        u -= (faceMargin(faces[wall], { u }) / glm::dot(inward, inward)) * inward;
+        hints.push_back({ { element, { u } }, wall });
+      }
+    }
+  }
+}
+
+/// Chords of rims traced so far, by the face they run on.
+class TracedChords
+{
+public:
+  void add(const RimPoint& from, const RimPoint& to)
+  {
+    this->Chords[keyOf(from)].emplace_back(
+      from.at.point.map.position.xyz, to.at.point.map.position.xyz);
+  }
+
+  /// Whether a chord on the same face passes a point.
+  bool contain(const RimPoint& point) const
+  {
+    const auto found = this->Chords.find(keyOf(point));
+    const glm::dvec3& x = point.at.point.map.position.xyz;
+    return found != this->Chords.end() &&
+      std::any_of(found->second.begin(), found->second.end(),
+        [&x](const auto& chord)
+        {
+          const glm::dvec3 d = chord.second - chord.first;
+          const double length2 = glm::dot(d, d);
+          const double t =
+            length2 > 0.0 ? std::clamp(glm::dot(x - chord.first, d) / length2, 0.0, 1.0) : 0.0;
+          const glm::dvec3 off = x - chord.first - t * d;
+          return glm::dot(off, off) <= 0.04 * length2;
+        });
+  }
+
+private:
+  static std::int64_t keyOf(const RimPoint& point)
+  {
+    return std::int64_t{ MaximumFaces } * point.at.location.element + point.face;
+  }
+  std::unordered_map<std::int64_t, std::vector<std::pair<glm::dvec3, glm::dvec3>>> Chords;
+};
+
+class RimSampler
+{
+public:
+  RimSampler(const Isosurface& surface, const SurfaceProxy& proxy, const SpacingLaw& law)
+    : Surface(surface)
+    , Proxy(proxy)
+    , Law(law)
+    , Tracer(surface)
+    , Walker(surface)
+  {
+  }
+
+  RimCurves run();
+
+private:
+  void follow(const RimHint& hint, double nearby);
+  void sample(const RimTrace& trace, double nearby);
+  void sampleStretch(const std::vector<RimVertex>& vertices, bool withEnd, double nearby);
+  double spacingAt(const RimPoint& point, double nearby);
+  void addParticle(const Location& place, int face, double nearby);
+
+  Isosurface Surface;
+  const SurfaceProxy& Proxy;
+  SpacingLaw Law;
+  RimTracer Tracer;
+  SurfaceWalker Walker;
+  TracedChords Chords;
+  int MaximumVertices = 0;
+  RimCurves Result;
+};
+
+double RimSampler::spacingAt(const RimPoint& point, double nearby)
+{
+  if (this->Law.angularDensity == 0.0)
+  {
+    return this->Law.spacing;
+  }
+  const Evaluated at = this->Walker.evaluateCurved(point.at.location);
+  return this->Proxy.spacingAt(at.point.map.position.xyz,
+    static_cast<float>(curvature(at.point.gradient, at.hessian).magnitude),
+    static_cast<float>(nearby));
+}
+
+void RimSampler::follow(const RimHint& hint, double nearby)
+{
+  const auto start = this->Tracer.project(hint.location, hint.face, 4.0 * nearby);
+  if (!start || this->Chords.contain(*start))
+  {
+    return;
+  }
+  const RimTrace trace =
+    this->Tracer.trace(*start, chordPerSpacing * nearby, this->MaximumVertices);
+  for (std::size_t v = 1; v < trace.vertices.size(); ++v)
+  {
+    this->Chords.add(trace.vertices[v - 1].leaving, trace.vertices[v].arriving);
+  }
+  if (trace.closed)
+  {
+    this->Chords.add(trace.vertices.back().leaving, trace.vertices.front().arriving);
+  }
+  this->Result.open += !trace.closed;
+  this->sample(trace, nearby);
+}
+
+/// Cuts a rim at its corners, and samples stretch by stretch.
+void RimSampler::sample(const RimTrace& trace, double nearby)
+{
+  std::vector<RimVertex> vertices = trace.vertices;
+  if (trace.closed)
+  {
+    const auto corner = std::find_if(
+      vertices.begin(), vertices.end(), [](const RimVertex& vertex) { return vertex.corner; });
+    std::rotate(
+      vertices.begin(), corner == vertices.end() ? vertices.begin() : corner, vertices.end());
+    vertices.push_back(vertices.front());
+  }
+  for (std::size_t first = 0; first + 1 < vertices.size();)
+  {
+    std::size_t last = first + 1;
+    while (last + 1 < vertices.size() && !vertices[last].corner)
+    {
+      ++last;
+    }
+    const bool end = last + 1 == vertices.size();
+    this->sampleStretch(
+      { vertices.begin() + first, vertices.begin() + last + 1 }, end && !trace.closed, nearby);
+    first = last;
+  }
+}
+
+/// Particles at equal distances, in units of the spacing wanted, from the first vertex on.
+void RimSampler::sampleStretch(
+  const std::vector<RimVertex>& vertices, bool withEnd, double nearby)
+{
+  std::vector<double> sums{ 0.0 };
+  for (std::size_t v = 1; v < vertices.size(); ++v)
+  {
+    nearby = this->spacingAt(vertices[v].arriving, nearby);
+    sums.push_back(sums.back() +
+      glm::distance(vertices[v - 1].position(), vertices[v].position()) / nearby);
+  }
+  const auto count = std::max<std::int64_t>(1, std::llround(sums.back()));
+  std::size_t v = 1;
+  for (std::int64_t n = 0; n < count + withEnd; ++n)
+  {
+    const double wanted = sums.back() * static_cast<double>(n) / static_cast<double>(count);
+    while (v + 1 < vertices.size() && sums[v] < wanted)
+    {
+      ++v;
+    }
+    const RimPoint& from = vertices[v - 1].leaving;
+    const RimPoint& to = vertices[v].arriving;
+    const double t = std::clamp((wanted - sums[v - 1]) / (sums[v] - sums[v - 1]), 0.0, 1.0);
+    if (from.at.location.element == to.at.location.element)
+    {
+      const glm::dvec3 u = (1.0 - t) * from.at.location.u.xyz + t * to.at.location.u.xyz;
+      this->addParticle({ from.at.location.element, { u } }, from.face, nearby);
+    }
+    else
+    {
+      const WorldVector step =
+        t * (to.at.point.map.position - from.at.point.map.position);
+      this->addParticle(this->Walker.move(from.at, step), from.face, nearby);
+    }
+  }
+}
+
+void RimSampler::addParticle(const Location& place, int face, double nearby)
+{
+  const auto point = this->Tracer.project(place, face, nearby);
+  if (!point)
+  {
+    return;
+  }
+  const ElementMesh& mesh = *this->Surface.mesh;
+  const Location& location = point->at.location;
+  const Jet jet = evaluateHessian(mesh.form(location.element), location.u);
+  ++this->Result.evaluations;
+  const FieldPoint field = fieldPoint(jet, this->Surface.isovalue);
+  Anchor anchor;
+  RimParticle rim;
+  if (!anchorPatch(location, jet, this->Surface.isovalue, anchor, rim.patch))
+  {
+    return;
+  }
+  rim.patch.spacing = this->Proxy.spacingAt(
+    rim.patch.position, rim.patch.curvatureMagnitude(), static_cast<float>(nearby));
+  rim.patch.fixed = true;
+  const WorldVector normal = surfaceNormal(field.gradient);
+  rim.particle = { location, field.map.position, normal,
+    curvature(field.gradient, worldHessian(jet, field)),
+    std::abs(field.value) / length(field.gradient), rim.patch.spacing };
+  const glm::dvec3 inward = glm::transpose(field.map.inverse) *
+    facts(mesh.elements[location.element].domain).faces[point->face].inward.xyz;
+  const glm::dvec3 along = inward - glm::dot(inward, normal.xyz) * normal.xyz;
+  rim.outward = { glm::length(along) > 0.0 ? -glm::normalize(along) : glm::dvec3(0.0) };
+  this->Result.particles.push_back(rim);
+}
+
+RimCurves RimSampler::run()
+{
+  std::vector<std::pair<RimHint, double>> hints;
+  std::vector<RimHint> ofBox;
+  for (std::size_t b = 0; b < this->Proxy.boxes().size(); ++b)
+  {
+    ofBox.clear();
+    appendHints(this->Surface, this->Proxy.boxes()[b], ofBox);
+    const SurfaceProxy::Sample& sample = this->Proxy.samples()[b];
+    for (const RimHint& hint : ofBox)
+    {
+      hints.emplace_back(hint, sample.found ? sample.patch.spacing : this->Law.spacing);
+    }
+  }
+  constexpr int verticesPerHint = 64;
+  constexpr int fewestVertices = 10000;
+  this->MaximumVertices = std::max<int>(fewestVertices, verticesPerHint * static_cast<int>(hints.size()));
+  for (const auto& [hint, nearby] : hints)
+  {
+    this->follow(hint, nearby);
+  }
+  this->Result.evaluations += this->Tracer.evaluations() + this->Walker.evaluations();
+  return std::move(this->Result);
+}
+
+} // namespace
+
+RimCurves findRimCurves(
+  const Isosurface& surface, const SurfaceProxy& proxy, const SpacingLaw& law)
+{
+  return RimSampler(surface, proxy, law).run();
+}
+
+} // namespace hop
