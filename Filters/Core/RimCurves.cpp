@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 namespace hop
 {
@@ -62,42 +61,6 @@ void appendHints(
   }
 }
 
-/// Chords of rims traced so far, by the face they run on.
-class TracedChords
-{
-public:
-  void add(const RimPoint& from, const RimPoint& to)
-  {
-    this->Chords[keyOf(from)].emplace_back(
-      from.at.point.map.position.xyz, to.at.point.map.position.xyz);
-  }
-
-  /// Whether a chord on the same face passes a point.
-  bool contain(const RimPoint& point) const
-  {
-    const auto found = this->Chords.find(keyOf(point));
-    const glm::dvec3& x = point.at.point.map.position.xyz;
-    return found != this->Chords.end() &&
-      std::any_of(found->second.begin(), found->second.end(),
-        [&x](const auto& chord)
-        {
-          const glm::dvec3 d = chord.second - chord.first;
-          const double length2 = glm::dot(d, d);
-          const double t =
-            length2 > 0.0 ? std::clamp(glm::dot(x - chord.first, d) / length2, 0.0, 1.0) : 0.0;
-          const glm::dvec3 off = x - chord.first - t * d;
-          return glm::dot(off, off) <= 0.04 * length2;
-        });
-  }
-
-private:
-  static std::int64_t keyOf(const RimPoint& point)
-  {
-    return std::int64_t{ MaximumFaces } * point.at.location.element + point.face;
-  }
-  std::unordered_map<std::int64_t, std::vector<std::pair<glm::dvec3, glm::dvec3>>> Chords;
-};
-
 class RimSampler
 {
 public:
@@ -124,8 +87,6 @@ private:
   SpacingLaw Law;
   RimTracer Tracer;
   SurfaceWalker Walker;
-  TracedChords Chords;
-  int MaximumVertices = 0;
   RimCurves Result;
 };
 
@@ -144,20 +105,11 @@ double RimSampler::spacingAt(const RimPoint& point, double nearby)
 void RimSampler::follow(const RimHint& hint, double nearby)
 {
   const auto start = this->Tracer.project(hint.location, hint.face, 4.0 * nearby);
-  if (!start || this->Chords.contain(*start))
+  if (!start || this->Tracer.hasPassed(*start))
   {
     return;
   }
-  const RimTrace trace =
-    this->Tracer.trace(*start, chordPerSpacing * nearby, this->MaximumVertices);
-  for (std::size_t v = 1; v < trace.vertices.size(); ++v)
-  {
-    this->Chords.add(trace.vertices[v - 1].leaving, trace.vertices[v].arriving);
-  }
-  if (trace.closed)
-  {
-    this->Chords.add(trace.vertices.back().leaving, trace.vertices.front().arriving);
-  }
+  const RimTrace trace = this->Tracer.trace(*start, chordPerSpacing * nearby);
   this->Result.open += !trace.closed;
   this->sample(trace, nearby);
 }
@@ -271,9 +223,6 @@ RimCurves RimSampler::run()
       hints.emplace_back(hint, sample.found ? sample.patch.spacing : this->Law.spacing);
     }
   }
-  constexpr int verticesPerHint = 64;
-  constexpr int fewestVertices = 10000;
-  this->MaximumVertices = std::max<int>(fewestVertices, verticesPerHint * static_cast<int>(hints.size()));
   for (const auto& [hint, nearby] : hints)
   {
     this->follow(hint, nearby);

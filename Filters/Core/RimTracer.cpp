@@ -14,6 +14,8 @@ namespace
 constexpr double smallestTurn = 0.9;
 constexpr double cornerTurn = 0.94;
 constexpr int maximumHalvings = 8;
+/// A chord passes a point that is nearer to it than this, in units of its length.
+constexpr double nearness = 0.2;
 
 const Face& faceOf(const ElementMesh& mesh, const Location& location, int face)
 {
@@ -29,6 +31,30 @@ double distanceToSegment(const glm::dvec3& x, const glm::dvec3& a, const glm::dv
 }
 
 } // namespace
+
+void RimChords::add(const RimPoint& from, const RimPoint& to)
+{
+  this->Chords[keyOf(from)].emplace_back(
+    from.at.point.map.position.xyz, to.at.point.map.position.xyz);
+}
+
+bool RimChords::pass(const RimPoint& point) const
+{
+  const auto found = this->Chords.find(keyOf(point));
+  const glm::dvec3& x = point.at.point.map.position.xyz;
+  return found != this->Chords.end() &&
+    std::any_of(found->second.begin(), found->second.end(),
+      [&x](const std::pair<glm::dvec3, glm::dvec3>& chord)
+      {
+        return distanceToSegment(x, chord.first, chord.second) <=
+          nearness * glm::distance(chord.first, chord.second);
+      });
+}
+
+std::int64_t RimChords::keyOf(const RimPoint& point)
+{
+  return std::int64_t{ MaximumFaces } * point.at.location.element + point.face;
+}
 
 /// The boundary face on which a place lies, the preferred one if it is among them; -1 if none.
 int RimTracer::wallOf(const Location& location, int preferred) const
@@ -202,14 +228,14 @@ std::optional<RimVertex> RimTracer::advance(const RimPoint& from, double step, d
 }
 
 /// \return whether the rim came back to its start
-bool RimTracer::follow(const RimPoint& start, double step, double direction, int maximumVertices,
-  std::vector<RimVertex>& vertices)
+bool RimTracer::follow(
+  const RimPoint& start, double step, double direction, std::vector<RimVertex>& vertices)
 {
   RimPoint here = start;
-  double length = 0.0;
+  std::optional<std::pair<RimPoint, RimPoint>> lastChord;
   double chord = step;
   int stuck = 0;
-  while (static_cast<int>(vertices.size()) < maximumVertices)
+  while (stuck <= maximumHalvings)
   {
     std::optional<RimVertex> next;
     for (int n = 0; n < maximumHalvings && !next; ++n)
@@ -219,40 +245,43 @@ bool RimTracer::follow(const RimPoint& start, double step, double direction, int
     }
     if (!next)
     {
-      return false;
+      break;
     }
-    const glm::dvec3& from = here.at.point.map.position.xyz;
-    const double moved = glm::distance(from, next->position());
-    const bool sameWall =
-      here.at.location.element == start.at.location.element && here.face == start.face;
-    const double passed =
-      distanceToSegment(start.at.point.map.position.xyz, from, next->position());
-    if (sameWall && length > 0.0 && passed < 0.1 * moved && length + moved > 2.0 * passed)
-    {
-      return true;
-    }
+    const double moved = glm::distance(here.at.point.map.position.xyz, next->position());
     stuck = moved < 1e-9 * step ? stuck + 1 : 0;
-    if (stuck > maximumHalvings)
+    // The last chord ends where this one begins: it does not count.
+    const bool again = this->Chords.pass(next->leaving);
+    if (lastChord)
     {
-      return false;
+      this->Chords.add(lastChord->first, lastChord->second);
     }
-    length += moved;
+    lastChord = { here, next->arriving };
+    if (again)
+    {
+      this->Chords.add(lastChord->first, lastChord->second);
+      return distanceToSegment(start.at.point.map.position.xyz, here.at.point.map.position.xyz,
+               next->position()) < 0.5 * moved;
+    }
     vertices.push_back(*next);
     here = next->leaving;
     chord = std::min(step, 1.5 * chord);
   }
+  if (lastChord)
+  {
+    this->Chords.add(lastChord->first, lastChord->second);
+  }
   return false;
 }
 
-RimTrace RimTracer::trace(const RimPoint& start, double step, int maximumVertices)
+RimTrace RimTracer::trace(const RimPoint& start, double step)
 {
   RimTrace result;
   result.vertices.push_back({ start, start, false });
-  result.closed = this->follow(start, step, 1.0, maximumVertices, result.vertices);
+  result.closed = this->follow(start, step, 1.0, result.vertices);
   if (!result.closed)
   {
     std::vector<RimVertex> back;
-    this->follow(start, step, -1.0, maximumVertices, back);
+    this->follow(start, step, -1.0, back);
     for (RimVertex& vertex : back)
     {
       std::swap(vertex.arriving, vertex.leaving);

@@ -3,6 +3,7 @@
 #include "SurfaceWalker.h"
 
 #include <optional>
+#include <unordered_map>
 
 namespace hop
 {
@@ -32,6 +33,21 @@ struct RimTrace
   bool closed = false;
 };
 
+/// Chords of rims traced so far, by the face they run on.
+class RimChords
+{
+public:
+  void add(const RimPoint& from, const RimPoint& to);
+
+  /// Whether a chord on the same face passes a point, to a fifth of its length.
+  bool pass(const RimPoint& point) const;
+
+private:
+  static std::int64_t keyOf(const RimPoint& point);
+
+  std::unordered_map<std::int64_t, std::vector<std::pair<glm::dvec3, glm::dvec3>>> Chords;
+};
+
 /// Follows rims of the isosurface: curves {F = c} on boundary faces.
 class RimTracer
 {
@@ -47,14 +63,19 @@ public:
 
   /// Follows the rim in direction n x w, n the surface's normal and w the inward normal of the
   /// boundary, and from a dead end also the other way.
+  /// Ends where it meets a rim that was traced before: its own start, as a rule. (Where the field jumps
+  /// between elements, two rims can run into one.)
   /// \param step world length of the chords, at most; less where the rim turns
-  RimTrace trace(const RimPoint& start, double step, int maximumVertices);
+  RimTrace trace(const RimPoint& start, double step);
+
+  /// Whether a rim was traced through a point.
+  bool hasPassed(const RimPoint& point) const { return this->Chords.pass(point); }
 
   std::int64_t evaluations() const { return this->Walker.evaluations(); }
 
 private:
-  bool follow(const RimPoint& start, double step, double direction, int maximumVertices,
-    std::vector<RimVertex>& vertices);
+  bool follow(
+    const RimPoint& start, double step, double direction, std::vector<RimVertex>& vertices);
   std::optional<RimVertex> advance(const RimPoint& from, double step, double direction);
   std::optional<RimVertex> passEdge(
     const RimPoint& from, const ReferencePoint& u, int otherFace, double step);
@@ -66,6 +87,7 @@ private:
 
   Isosurface Surface;
   SurfaceWalker Walker;
+  RimChords Chords;
 };
 
 } // namespace hop
