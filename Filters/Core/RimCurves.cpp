@@ -14,6 +14,13 @@ namespace
 /// Chords of traced rims, in units of the spacing.
 constexpr double chordPerSpacing = 0.5;
 
+/// Chords need not lie on the surface as exactly as particles.
+Isosurface roughly(Isosurface surface, double spacing)
+{
+  surface.tolerance = std::max(surface.tolerance, 1e-3 * spacing);
+  return surface;
+}
+
 class RimSampler
 {
 public:
@@ -21,7 +28,8 @@ public:
     : Surface(surface)
     , Proxy(proxy)
     , Law(law)
-    , Tracer(surface)
+    , Tracer(roughly(surface, proxy.smallestSpacing()))
+    , Exact(surface)
     , Walker(surface)
   {
   }
@@ -39,6 +47,8 @@ private:
   const SurfaceProxy& Proxy;
   SpacingLaw Law;
   RimTracer Tracer;
+  /// For the particles, when the way is known.
+  RimTracer Exact;
   SurfaceWalker Walker;
   RimCurves Result;
 };
@@ -132,7 +142,7 @@ void RimSampler::sampleStretch(
 
 void RimSampler::addParticle(const Location& place, int face, double nearby)
 {
-  const auto point = this->Tracer.project(place, face, nearby);
+  const auto point = this->Exact.project(place, face, nearby);
   if (!point)
   {
     return;
@@ -174,7 +184,7 @@ RimCurves RimSampler::run()
       [&](int face) { return this->Surface.neighbor(box.middle.element, face).element < 0; },
       [&](const FaceCrossing& crossing) { this->follow(crossing, nearby); });
   }
-  this->Result.evaluations += this->Tracer.evaluations() + this->Walker.evaluations();
+  this->Result.evaluations += this->Tracer.evaluations() + this->Exact.evaluations() + this->Walker.evaluations();
   return std::move(this->Result);
 }
 
