@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 namespace hop
@@ -21,6 +22,8 @@ namespace
 constexpr double hexahedronPerSpacing = 6.0;
 constexpr double wedgePerSpacing = 7.0;
 constexpr double tetrahedronPerSpacing = 9.0;
+/// Where the spacing follows the curvature, boxes are smaller by this factor, to see it change.
+constexpr double adaptiveShare = 0.67;
 /// A step of relaxation is taken back by half while it ends farther from the surface than this, in
 /// units of the spacing, or on a sheet that is turned away.
 constexpr float largestOffset = 0.5f;
@@ -67,6 +70,7 @@ private:
   void makeProxy();
   void findJumps();
   void makeRims();
+  std::vector<char> farFromRims(double nearest);
   void dropNearRims(double nearest);
   bool makeSeeds();
   void putNearSurface();
@@ -79,7 +83,7 @@ private:
   std::vector<Location> targets(const std::vector<glm::vec2>& displacements);
   bool retry(std::size_t i, glm::dvec3 step, Anchor& anchor, Patch& patch, std::int64_t& cost) const;
   bool accepts(const Patch& before, const Anchor& anchor, const Patch& after) const;
-  bool settle(const Location& place, const Jet& jet, float spacing, Particle& particle) const;
+  bool settle(const Location& place, const Jet& jet, Patch& patch, Particle& particle) const;
   void finishPass(
     std::vector<int>& pending, std::vector<Particle>& particles, std::vector<char>& settled);
   void finish();
@@ -140,7 +144,7 @@ void FastSystem::makeProxy()
     Patch patch;
     const Jet jet = evaluateHessian(this->Mesh.form(middle.element), middle.u);
     const bool regular = anchorPatch(middle, jet, this->Surface.isovalue, anchor, patch);
-    return perSpacing * this->Law.at(regular ? patch.curvatureMagnitude() : 0.0);
+    return adaptiveShare * perSpacing * this->Law.at(regular ? patch.curvatureMagnitude() : 0.0);
   };
   this->Proxy = std::make_unique<SurfaceProxy>(this->Surface, this->Law,
     findSurfaceBoxes(this->Mesh, this->Surface.isovalue, wantedSize, this->Parallel),
@@ -212,13 +216,11 @@ void FastSystem::makeRims()
   this->Evaluations += this->Rims.evaluations;
 }
 
-/// Particles on rims are there first: others too near to one are dropped.
-void FastSystem::dropNearRims(double nearest)
+/// For each particle that moves, whether it keeps that distance, in units of its spacing, from all
+/// particles on rims.
+std::vector<char> FastSystem::farFromRims(double nearest)
 {
-  if (this->Rims.particles.empty())
-  {
-    return;
-  }
+  std::vector<char> far(this->Anchors.size(), 1);
   std::vector<glm::dvec3> positions;
   std::vector<float> spacings;
   for (const RimParticle& rim : this->Rims.particles)
@@ -226,10 +228,8 @@ void FastSystem::dropNearRims(double nearest)
     positions.push_back(rim.patch.position);
     spacings.push_back(rim.patch.spacing);
   }
-  const SpacingGrid grid(positions, spacings, 1.0);
-  this->Patches.resize(this->Anchors.size());
-  std::vector<char> kept(this->Patches.size(), 1);
-  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(this->Patches.size()),
+  const SpacingGrid grid(positions, spacings, nearest, 0.5);
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(far.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       for (std::ptrdiff_t i = begin; i < end; ++i)
@@ -239,15 +239,23 @@ void FastSystem::dropNearRims(double nearest)
           [&](int j)
           {
             const Patch& rim = this->Rims.particles[j].patch;
-            const bool near = glm::distance(patch.position, rim.position) <
-                nearest * patch.spacing &&
+            const bool near =
+              glm::distance(patch.position, rim.position) < nearest * patch.spacing &&
               glm::dot(patch.normal, rim.normal) > 0.0f;
-            kept[i] = kept[i] && !near;
+            far[i] = far[i] && !near;
           });
       }
     });
-  keep(this->Anchors, kept);
-  keep(this->Patches, kept);
+  return far;
+}
+
+/// Particles on rims are there first: others too near to one are dropped.
+void FastSystem::dropNearRims(double nearest)
+{
+  this->Patches.resize(this->Anchors.size());
+  const std::vector<char> far = this->farFromRims(nearest);
+  keep(this->Anchors, far);
+  keep(this->Patches, far);
   for (const RimParticle& rim : this->Rims.particles)
   {
     this->Patches.push_back(rim.patch);
@@ -449,7 +457,8 @@ void FastSystem::coverBoxes()
 }
 
 /// What there is to say about a particle, if it lies on the surface to the tolerance.
-bool FastSystem::settle(const Location& place, const Jet& jet, float spacing, Particle& particle) const
+bool FastSystem::settle(
+  const Location& place, const Jet& jet, Patch& patch, Particle& particle) const
 {
   const FieldPoint point = fieldPoint(jet, this->Surface.isovalue);
   const double slope = length(point.gradient);
@@ -459,7 +468,8 @@ bool FastSystem::settle(const Location& place, const Jet& jet, float spacing, Pa
     return false;
   }
   particle = { place, point.map.position, surfaceNormal(point.gradient),
-    curvature(point.gradient, worldHessian(jet, point)), residual, spacing };
+    curvature(point.gradient, worldHessian(jet, point)), residual, patch.spacing };
+  patch.position = particle.position.xyz;
   return true;
 }
 
@@ -488,7 +498,7 @@ void FastSystem::finishPass(
         {
           const int i = pending[n];
           Patch& patch = this->Patches[i];
-          settled[i] = this->settle(places[n], jet, patch.spacing, particles[i]);
+          settled[i] = this->settle(places[n], jet, patch, particles[i]);
           Anchor anchor;
           Patch there = patch;
           if (!settled[i] &&
@@ -527,13 +537,16 @@ void FastSystem::finish()
     {
       const Jet jet = evaluateHessian(this->Mesh.form(at.location.element), at.location.u);
       ++this->Evaluations;
-      settled[i] = this->settle(at.location, jet, spacing, particles[i]);
+      settled[i] = this->settle(at.location, jet, this->Patches[i], particles[i]);
     }
   }
   this->Evaluations += walker.evaluations();
+  const std::ptrdiff_t lost = std::count(settled.begin(), settled.end(), 0);
+  const std::vector<char> far = this->farFromRims(squeezedToRim);
+  std::transform(settled.begin(), settled.end(), far.begin(), settled.begin(), std::logical_and<>());
   keep(particles, settled);
   DistributionReport& report = this->Result.report;
-  report.particlesRejected += static_cast<std::int64_t>(count - particles.size());
+  report.particlesRejected += lost;
   for (const RimParticle& rim : this->Rims.particles)
   {
     particles.push_back(rim.particle);

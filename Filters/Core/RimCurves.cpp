@@ -125,7 +125,8 @@ void RimSampler::sampleStretch(
     }
     const RimPoint& from = vertices[v - 1].leaving;
     const RimPoint& to = vertices[v].arriving;
-    const double t = std::clamp((wanted - sums[v - 1]) / (sums[v] - sums[v - 1]), 0.0, 1.0);
+    const double chord = sums[v] - sums[v - 1];
+    const double t = chord > 0.0 ? std::clamp((wanted - sums[v - 1]) / chord, 0.0, 1.0) : 0.0;
     if (from.at.location.element == to.at.location.element)
     {
       const glm::dvec3 u = (1.0 - t) * from.at.location.u.xyz + t * to.at.location.u.xyz;
