@@ -1,9 +1,11 @@
 #include "FastDistribution.h"
 
+#include "ClipPlanes.h"
 #include "FaceJumps.h"
 #include "Interruptible.h"
 #include "Random.h"
 #include "RimCurves.h"
+#include "UnresolvedBoxes.h"
 #include "SpacingGrid.h"
 #include "SurfaceProxy.h"
 
@@ -150,6 +152,7 @@ void FastSystem::makeProxy()
     findSurfaceBoxes(this->Mesh, this->Surface.isovalue, wantedSize, this->Parallel),
     this->Parallel);
   this->Evaluations += this->Proxy->evaluations();
+  reportUnresolved(this->Surface, this->Proxy->boxes(), this->Result.report);
 }
 
 /// Draws first places.
@@ -468,7 +471,8 @@ bool FastSystem::settle(
     return false;
   }
   particle = { place, point.map.position, surfaceNormal(point.gradient),
-    curvature(point.gradient, worldHessian(jet, point)), residual, patch.spacing };
+    curvature(point.gradient, worldHessian(jet, point)), residual, patch.spacing, {}, 0.0,
+    0.0 };
   patch.position = particle.position.xyz;
   return true;
 }
@@ -547,6 +551,8 @@ void FastSystem::finish()
   keep(particles, settled);
   DistributionReport& report = this->Result.report;
   report.particlesRejected += lost;
+  this->Evaluations += markClipPlanes(
+    this->Mesh, this->Jumps, this->Rims.particles, particles, this->Parallel);
   for (const RimParticle& rim : this->Rims.particles)
   {
     particles.push_back(rim.particle);

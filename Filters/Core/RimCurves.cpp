@@ -1,6 +1,7 @@
 #include "RimCurves.h"
 
 #include "FaceCrossings.h"
+#include "FaceJumps.h"
 #include "RimTracer.h"
 
 #include <algorithm>
@@ -165,11 +166,17 @@ void RimSampler::addParticle(const Location& place, int face, double nearby)
   const WorldVector normal = surfaceNormal(field.gradient);
   rim.particle = { location, field.map.position, normal,
     curvature(field.gradient, worldHessian(jet, field)),
-    std::abs(field.value) / length(field.gradient), rim.patch.spacing };
+    std::abs(field.value) / length(field.gradient), rim.patch.spacing, {}, 0.0, 0.0 };
   const glm::dvec3 inward = glm::transpose(field.map.inverse) *
     facts(mesh.elements[location.element].domain).faces[point->face].inward.xyz;
   const glm::dvec3 along = inward - glm::dot(inward, normal.xyz) * normal.xyz;
   rim.outward = { glm::length(along) > 0.0 ? -glm::normalize(along) : glm::dvec3(0.0) };
+  rim.particle.clipNormal = rim.outward;
+  if (mesh.neighbor(location.element, point->face).element >= 0)
+  {
+    rim.particle.jump = valueBehind(this->Surface, location, point->face);
+    ++this->Result.evaluations;
+  }
   this->Result.particles.push_back(rim);
 }
 
