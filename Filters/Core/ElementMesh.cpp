@@ -189,6 +189,23 @@ void findFaceNeighbors(ElementMesh& mesh, double tolerance)
   }
 }
 
+double meshExtent(const ElementMesh& mesh)
+{
+  glm::dvec3 lower(controlPoint(mesh.form(0), 0));
+  glm::dvec3 upper = lower;
+  for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
+  {
+    const BernsteinForm form = mesh.form(e);
+    for (int i = 0; i < coefficientCount(form.domain, form.degrees); ++i)
+    {
+      const glm::dvec3 x(controlPoint(form, i));
+      lower = glm::min(lower, x);
+      upper = glm::max(upper, x);
+    }
+  }
+  return glm::distance(lower, upper);
+}
+
 Location crossFace(const ElementMesh& mesh, const Location& location, int face)
 {
   const Element& here = mesh.elements[location.element];

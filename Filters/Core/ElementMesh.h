@@ -63,6 +63,10 @@ struct Location
   ReferencePoint u;
 };
 
+/// Diagonal of the bounds of all control points, world units.
+/// \pre there are elements
+double meshExtent(const ElementMesh& mesh);
+
 /// Fills mesh.neighbors: two faces are joined when their corners carry the same numbers and their
 /// middles coincide within `tolerance` (world units; two curved faces may share all corners and
 /// still be different). A quadrilateral of which two corners coincide joins triangles. Where three
