@@ -196,7 +196,7 @@ std::shared_ptr<const CellBasis> sampleBasis(vtkCell* cell, hop::Domain domain)
     const hop::NodalBasis basis = hop::NodalBasis::sampled(domain, degrees, samples);
     if (reproduces(cell, basis))
     {
-      return std::make_shared<const CellBasis>(CellBasis{ basis, false });
+      return std::make_shared<const CellBasis>(CellBasis(basis, false));
     }
   }
   return nullptr;
@@ -280,8 +280,8 @@ std::shared_ptr<const CellBasis> CellBases::makeLatticeBasis(
     order.push_back({ onLattice(0), onLattice(1), onLattice(2) });
   }
   return std::make_shared<const CellBasis>(isBezier(vtk->GetCellType())
-      ? CellBasis{ hop::NodalBasis::bezier(domain, degrees, order), true }
-      : CellBasis{ hop::NodalBasis::lagrange(domain, degrees, order, this->Spacing), false });
+      ? CellBasis(hop::NodalBasis::bezier(domain, degrees, order), true)
+      : CellBasis(hop::NodalBasis::lagrange(domain, degrees, order, this->Spacing), false));
 }
 
 hop::ReferencePoint parametricCoordinates(int cellType, const hop::ReferencePoint& u)

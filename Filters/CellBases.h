@@ -1,5 +1,6 @@
 #pragma once
 
+#include "JacobianTest.h"
 #include "NodalBasis.h"
 #include "Space.h"
 
@@ -8,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <tuple>
+#include <utility>
 
 class vtkCell;
 class vtkDataArray;
@@ -16,7 +18,15 @@ class vtkUnstructuredGrid;
 /// How the cells of one kind are rewritten as elements.
 struct CellBasis
 {
+  CellBasis(hop::NodalBasis nodal, bool isBezier)
+    : basis(std::move(nodal))
+    , jacobian(basis.domain(), basis.degrees())
+    , bezier(isBezier)
+  {
+  }
+
   hop::NodalBasis basis;
+  hop::JacobianTest jacobian;
   /// Bezier: nodal values are Bernstein coefficients, and the grid's RationalWeights apply.
   bool bezier = false;
 };

@@ -1,7 +1,6 @@
 #include "GridElements.h"
 
 #include "BernsteinProduct.h"
-#include "SurfaceGeometry.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -49,6 +48,13 @@ struct CellValues
   std::vector<double> weights;
 };
 
+/// Rounding errors of control points relative to the size of their cell.
+double conversionRounding(const CellBasis& cell)
+{
+  return cell.bezier ? 0.0
+                     : 4.0 * std::numeric_limits<double>::epsilon() * cell.basis.conversionNorm();
+}
+
 class Builder
 {
 public:
@@ -72,7 +78,8 @@ private:
   Verdict read(vtkIdType cell, const CellBasis& basis, CellValues& values) const;
   void count(const std::vector<Verdict>& verdicts);
   void convertElements();
-  void convert(int element, CellValues& values);
+  hop::JacobianSign convert(int element, CellValues& values);
+  std::vector<double> controlValues(const CellBasis& cell, const CellValues& values) const;
   void numberCorners();
   void dropCollapsed();
   bool canHoldSurface(const CellBasis& basis, const CellValues& values) const;
@@ -261,30 +268,63 @@ void Builder::count(const std::vector<Verdict>& verdicts)
 
 void Builder::convertElements()
 {
-  const hop::ElementMesh& mesh = this->Result.mesh;
-  this->Signs.resize(mesh.elements.size());
-  hop::runParallel(this->Parallel, static_cast<std::ptrdiff_t>(mesh.elements.size()),
+  this->Signs.resize(this->Result.mesh.elements.size());
+  hop::runParallel(this->Parallel, static_cast<std::ptrdiff_t>(this->Signs.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       CellValues values;
       for (std::ptrdiff_t e = begin; e < end; ++e)
       {
-        this->convert(static_cast<int>(e), values);
-        this->Signs[e] = hop::jacobianSign(mesh.form(static_cast<int>(e)));
+        this->Signs[e] = this->convert(static_cast<int>(e), values);
       }
     });
 }
 
 /// Writes an element's coefficients: homogeneous ones and their weights for a rational cell, those of
 /// the squared magnitude where that is the field.
-void Builder::convert(int element, CellValues& values)
+hop::JacobianSign Builder::convert(int element, CellValues& values)
 {
   hop::ElementMesh& mesh = this->Result.mesh;
   const hop::Element& e = mesh.elements[element];
   const CellBasis& cell = *this->Result.bases[element];
   this->read(e.cell, cell, values);
+  const std::vector<double> control = this->controlValues(cell, values);
+  const int width = 3 + this->Components;
+  const int count = cell.basis.coefficientCount();
+  std::vector<double> weights(count, 1.0);
+  if (e.rational)
+  {
+    cell.basis.toBernstein(values.weights.data(), 1, weights.data());
+  }
+  std::vector<hop::Coefficient> plain(count);
+  for (int i = 0; i < count; ++i)
+  {
+    const double* row = &control[static_cast<std::size_t>(i) * width];
+    plain[i] = { row[0], row[1], row[2], std::accumulate(row + 3, row + width, 0.0) };
+  }
+  const hop::BernsteinForm form{ cell.basis.domain(), cell.basis.degrees(), plain.data(),
+    e.rational ? weights.data() : nullptr };
+  const hop::JacobianSign sign = cell.jacobian.sign(form, conversionRounding(cell));
 
-  // x, y, z, then the field; all times the weight.
+  hop::Coefficient* coefficients = &mesh.coefficients[e.firstCoefficient];
+  if (this->Result.squared)
+  {
+    weights = hop::squareField(form.domain, form.degrees, width, control, weights, coefficients);
+  }
+  else
+  {
+    std::copy(plain.begin(), plain.end(), coefficients);
+  }
+  if (e.rational)
+  {
+    std::copy(weights.begin(), weights.end(), &mesh.weights[e.firstCoefficient]);
+  }
+  return sign;
+}
+
+/// Bernstein coefficients of x, y, z and the field's components, times the weight if there is one.
+std::vector<double> Builder::controlValues(const CellBasis& cell, const CellValues& values) const
+{
   const int width = 3 + this->Components;
   const int nodes = cell.basis.nodeCount();
   std::vector<double> nodal(static_cast<std::size_t>(nodes) * width);
@@ -294,39 +334,24 @@ void Builder::convert(int element, CellValues& values)
     this->Grid->GetPoints()->GetPoint(values.ids->GetId(node), row);
     std::copy_n(
       &values.field[static_cast<std::size_t>(node) * this->Components], this->Components, row + 3);
-    if (e.rational)
+    for (int c = 0; c < width && !values.weights.empty(); ++c)
     {
-      std::transform(
-        row, row + width, row, [w = values.weights[node]](double value) { return w * value; });
+      row[c] *= values.weights[node];
     }
   }
-  const int count = cell.basis.coefficientCount();
-  std::vector<double> control(static_cast<std::size_t>(count) * width);
+  // The conversion enlarges rounding errors, so it is given differences from the first node.
+  const std::vector<double> origin(nodal.begin(), nodal.begin() + (cell.bezier ? 0 : width));
+  for (std::size_t i = 0; i < nodal.size() && !origin.empty(); ++i)
+  {
+    nodal[i] -= origin[i % width];
+  }
+  std::vector<double> control(static_cast<std::size_t>(cell.basis.coefficientCount()) * width);
   cell.basis.toBernstein(nodal.data(), width, control.data());
-  std::vector<double> weights(count, 1.0);
-  if (e.rational)
+  for (std::size_t i = 0; i < control.size() && !origin.empty(); ++i)
   {
-    cell.basis.toBernstein(values.weights.data(), 1, weights.data());
+    control[i] += origin[i % width];
   }
-
-  hop::Coefficient* coefficients = &mesh.coefficients[e.firstCoefficient];
-  if (this->Result.squared)
-  {
-    weights = hop::squareField(
-      cell.basis.domain(), cell.basis.degrees(), width, control, weights, coefficients);
-  }
-  else
-  {
-    for (int i = 0; i < count; ++i)
-    {
-      coefficients[i] = { control[4 * i], control[4 * i + 1], control[4 * i + 2],
-        control[4 * i + 3] };
-    }
-  }
-  if (e.rational)
-  {
-    std::copy(weights.begin(), weights.end(), &mesh.weights[e.firstCoefficient]);
-  }
+  return control;
 }
 
 /// Takes out elements without volume and those whose coordinates are not finite.

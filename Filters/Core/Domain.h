@@ -29,6 +29,9 @@ constexpr int MaximumInputDegree = 10;
 /// Highest degree that the evaluators take: squares of the input's fields.
 constexpr int MaximumDegree = 2 * MaximumInputDegree;
 
+/// Highest degree of any polynomial: the Jacobian determinants of rational elements.
+constexpr int MaximumPolynomialDegree = 4 * MaximumInputDegree;
+
 /// A point of an element's lattice of coefficients or nodes, at reference coordinates
 /// (i/p, j/q, k/r); for simplices i + j (+ k) does not exceed the degree.
 struct LatticePoint

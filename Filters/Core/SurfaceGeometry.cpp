@@ -38,33 +38,6 @@ glm::dmat3 symmetric(const std::array<Coefficient, 6>& second, int component)
 
 } // namespace
 
-JacobianSign jacobianSign(const BernsteinForm& form)
-{
-  const int count = coefficientCount(form.domain, form.degrees);
-  for (int i = 0; i < count; ++i)
-  {
-    const Coefficient& c = form.coefficients[i];
-    if (!std::isfinite(c.x + c.y + c.z + c.w))
-    {
-      return JacobianSign::NotFinite;
-    }
-  }
-  constexpr Degrees places{ 2, 2, 2 };
-  bool positive = false;
-  bool negative = false;
-  for (const LatticePoint& place : latticePoints(form.domain, places))
-  {
-    const LocalMap map = localMap(evaluateGradient(form, latticePosition(places, place)));
-    const double determinant = map.singular ? 0.0 : glm::determinant(map.jacobian);
-    positive = positive || determinant > 0.0;
-    negative = negative || determinant < 0.0;
-  }
-  return positive && negative ? JacobianSign::Mixed
-    : positive                ? JacobianSign::Positive
-    : negative                ? JacobianSign::Negative
-                              : JacobianSign::Zero;
-}
-
 FieldPoint fieldPoint(const Jet& jet, double isovalue)
 {
   FieldPoint point;

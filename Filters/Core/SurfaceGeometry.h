@@ -40,23 +40,6 @@ struct Curvature
   double magnitude = 0.0;
 };
 
-/// What the Jacobian determinant of an element does, where it was looked at.
-enum class JacobianSign
-{
-  Positive,
-  /// Left-handed everywhere: harmless, and common.
-  Negative,
-  /// Partly inverted; a zero beside values of one sign counts as that sign.
-  Mixed,
-  /// No volume anywhere.
-  Zero,
-  /// A coefficient is NaN or infinite.
-  NotFinite
-};
-
-/// Looks at the corners, edge middles, face middles and the middle of the element.
-JacobianSign jacobianSign(const BernsteinForm& form);
-
 FieldPoint fieldPoint(const Jet& jet, double isovalue);
 
 /// F_xx = K^T (F*_uu - sum_i (F_x)_i d2x_i/du2) K. The paper's eqs. (17), (18) are misprinted; this
