@@ -208,6 +208,7 @@ CellBases::CellBases(vtkUnstructuredGrid* grid, hop::NodeSpacing spacing)
   : Grid(grid)
   , Spacing(spacing)
   , HigherOrderDegrees(grid->GetCellData()->GetHigherOrderDegrees())
+  , Latest(Known.end())
 {
 }
 
@@ -231,12 +232,17 @@ std::shared_ptr<const CellBasis> CellBases::basisOf(vtkIdType cell)
 {
   const Key key{ this->Grid->GetCellType(cell), this->Grid->GetCellSize(cell),
     this->explicitDegrees(cell) };
-  auto [entry, isNew] = this->Known.try_emplace(key);
-  if (isNew)
+  // Cells of a kind mostly follow one another.
+  if (this->Latest == this->Known.end() || this->Latest->first != key)
   {
-    entry->second = this->makeBasis(key);
+    bool isNew = false;
+    std::tie(this->Latest, isNew) = this->Known.try_emplace(key);
+    if (isNew)
+    {
+      this->Latest->second = this->makeBasis(key);
+    }
   }
-  return entry->second;
+  return this->Latest->second;
 }
 
 std::shared_ptr<const CellBasis> CellBases::makeBasis(const Key& key) const

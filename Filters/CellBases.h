@@ -42,6 +42,8 @@ class CellBases
 {
 public:
   CellBases(vtkUnstructuredGrid* grid, hop::NodeSpacing spacing);
+  CellBases(const CellBases&) = delete;
+  CellBases& operator=(const CellBases&) = delete;
 
   /// The basis of a cell, or nullptr: its type is not supported, or its number of points does not
   /// fit its degrees. Not for several threads at once.
@@ -59,6 +61,7 @@ private:
   hop::NodeSpacing Spacing;
   vtkDataArray* HigherOrderDegrees;
   std::map<Key, std::shared_ptr<const CellBasis>> Known;
+  std::map<Key, std::shared_ptr<const CellBasis>>::iterator Latest;
 };
 
 /// VTK's parametric coordinates of a cell of that type at a reference point. They are the reference

@@ -1,6 +1,7 @@
 #include "GridElements.h"
 
 #include "BernsteinProduct.h"
+#include "GatherValues.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -41,12 +42,32 @@ enum class Verdict : char
 /// What is read of one cell.
 struct CellValues
 {
-  vtkNew<vtkIdList> ids;
+  vtkIdType count = 0;
+  const vtkIdType* ids = nullptr;
+  /// Where the ids are if the grid stores them otherwise.
+  vtkNew<vtkIdList> copiedIds;
   /// Nodal values of the field, `components` a node: one, or all of a vector's for its magnitude.
   std::vector<double> field;
   /// Empty unless the cell is rational.
   std::vector<double> weights;
 };
+
+bool isFinite(double value)
+{
+  return std::isfinite(value);
+}
+
+/// Adds a row, times a factor, to all rows of values.
+void addToRows(std::vector<double>& values, double factor, const std::vector<double>& row)
+{
+  for (std::size_t start = 0; start < values.size(); start += row.size())
+  {
+    for (std::size_t c = 0; c < row.size(); ++c)
+    {
+      values[start + c] += factor * row[c];
+    }
+  }
+}
 
 /// Rounding errors of control points relative to the size of their cell.
 double conversionRounding(const CellBasis& cell)
@@ -170,37 +191,34 @@ void Builder::judgeCells()
 
 Verdict Builder::read(vtkIdType cell, const CellBasis& basis, CellValues& values) const
 {
-  this->Grid->GetCells()->GetCellAtId(cell, values.ids);
-  const vtkIdType nodes = values.ids->GetNumberOfIds();
+  this->Grid->GetCells()->GetCellAtId(cell, values.count, values.ids, values.copiedIds);
   const vtkIdType points = this->Grid->GetNumberOfPoints();
-  values.field.clear();
-  values.weights.clear();
-  for (vtkIdType node = 0; node < nodes; ++node)
+  const auto isOutside = [points](vtkIdType id) { return id < 0 || id >= points; };
+  if (std::any_of(values.ids, values.ids + values.count, isOutside))
   {
-    const vtkIdType id = values.ids->GetId(node);
-    if (id < 0 || id >= points)
-    {
-      return Verdict::BrokenConnectivity;
-    }
-    for (int c = 0; c < this->Components; ++c)
-    {
-      const int component = this->Result.squared ? c : this->Scalars.component;
-      values.field.push_back(this->Scalars.array->GetComponent(id, component));
-      if (!std::isfinite(values.field.back()))
-      {
-        return Verdict::NotFinite;
-      }
-    }
-    if (basis.bezier && this->Result.rationalWeights)
-    {
-      values.weights.push_back(this->Result.rationalWeights->GetComponent(id, 0));
-      if (!(values.weights.back() > 0.0) || !std::isfinite(values.weights.back()))
-      {
-        return Verdict::BadWeights;
-      }
-    }
+    return Verdict::BrokenConnectivity;
   }
-  return Verdict::Keep;
+  values.field.resize(values.count * this->Components);
+  for (int c = 0; c < this->Components; ++c)
+  {
+    gatherComponent(this->Scalars.array, values.ids, values.count,
+      this->Result.squared ? c : this->Scalars.component, values.field.data() + c,
+      this->Components);
+  }
+  if (!std::all_of(values.field.begin(), values.field.end(), isFinite))
+  {
+    return Verdict::NotFinite;
+  }
+  values.weights.clear();
+  if (basis.bezier && this->Result.rationalWeights)
+  {
+    values.weights.resize(values.count);
+    gatherComponent(
+      this->Result.rationalWeights, values.ids, values.count, 0, values.weights.data());
+  }
+  const auto isGood = [](double weight) { return weight > 0.0 && isFinite(weight); };
+  return std::all_of(values.weights.begin(), values.weights.end(), isGood) ? Verdict::Keep
+                                                                           : Verdict::BadWeights;
 }
 
 bool Builder::straddles(double lower, double upper) const
@@ -328,10 +346,14 @@ std::vector<double> Builder::controlValues(const CellBasis& cell, const CellValu
   const int width = 3 + this->Components;
   const int nodes = cell.basis.nodeCount();
   std::vector<double> nodal(static_cast<std::size_t>(nodes) * width);
+  for (int c = 0; c < 3; ++c)
+  {
+    gatherComponent(
+      this->Grid->GetPoints()->GetData(), values.ids, nodes, c, nodal.data() + c, width);
+  }
   for (int node = 0; node < nodes; ++node)
   {
     double* row = &nodal[static_cast<std::size_t>(node) * width];
-    this->Grid->GetPoints()->GetPoint(values.ids->GetId(node), row);
     std::copy_n(
       &values.field[static_cast<std::size_t>(node) * this->Components], this->Components, row + 3);
     for (int c = 0; c < width && !values.weights.empty(); ++c)
@@ -340,17 +362,15 @@ std::vector<double> Builder::controlValues(const CellBasis& cell, const CellValu
     }
   }
   // The conversion enlarges rounding errors, so it is given differences from the first node.
-  const std::vector<double> origin(nodal.begin(), nodal.begin() + (cell.bezier ? 0 : width));
-  for (std::size_t i = 0; i < nodal.size() && !origin.empty(); ++i)
+  std::vector<double> origin(width, 0.0);
+  if (!cell.bezier)
   {
-    nodal[i] -= origin[i % width];
+    std::copy_n(nodal.begin(), width, origin.begin());
   }
+  addToRows(nodal, -1.0, origin);
   std::vector<double> control(static_cast<std::size_t>(cell.basis.coefficientCount()) * width);
   cell.basis.toBernstein(nodal.data(), width, control.data());
-  for (std::size_t i = 0; i < control.size() && !origin.empty(); ++i)
-  {
-    control[i] += origin[i % width];
-  }
+  addToRows(control, 1.0, origin);
   return control;
 }
 

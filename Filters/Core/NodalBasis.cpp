@@ -3,6 +3,7 @@
 #include "Bernstein.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -148,21 +149,36 @@ double infinityNorm(const std::vector<double>& matrix, int columns)
   return norm;
 }
 
-/// A tensor or simplex matrix times values: `rows` results of `components` each.
-void multiply(const double* matrix, int rows, int columns, const double* values, int stride,
-  int components, double* result)
+/// `Width` neighbouring results of one row of a matrix times rows of values that are `stride` long.
+template <int Width>
+void multiplyRow(const double* row, int columns, const double* values, int stride, double* result)
 {
-  std::fill_n(result, static_cast<std::size_t>(rows) * components, 0.0);
-  for (int row = 0; row < rows; ++row)
+  std::array<double, Width> sum{};
+  for (int column = 0; column < columns; ++column, values += stride)
   {
-    for (int column = 0; column < columns; ++column)
+    for (int c = 0; c < Width; ++c)
     {
-      const double entry = matrix[row * columns + column];
-      const double* value = values + static_cast<std::size_t>(column) * stride * components;
-      for (int c = 0; c < components; ++c)
-      {
-        result[row * components + c] += entry * value[c];
-      }
+      sum[c] += row[column] * values[c];
+    }
+  }
+  std::copy(sum.begin(), sum.end(), result);
+}
+
+/// A matrix times rows of values: `rows` results from `columns` rows, each `width` values long.
+void multiply(
+  const double* matrix, int rows, int columns, const double* values, int width, double* result)
+{
+  constexpr int together = 4; // stays in registers
+  for (int row = 0; row < rows; ++row, matrix += columns, result += width)
+  {
+    int c = 0;
+    for (; c + together <= width; c += together)
+    {
+      multiplyRow<together>(matrix, columns, values + c, width, result + c);
+    }
+    for (; c < width; ++c)
+    {
+      multiplyRow<1>(matrix, columns, values + c, width, result + c);
     }
   }
 }
@@ -256,9 +272,11 @@ NodalBasis NodalBasis::sampled(
   basis.Nodes = static_cast<int>(shapeAtLattice.size()) / basis.Coefficients;
   basis.Dense = shapeAtLattice;
   basis.addLatticeFactors(NodeSpacing::Uniform);
+  std::vector<double> converted(basis.Dense.size());
   for (const Factor& factor : basis.Factors)
   {
-    basis.apply(factor, basis.Nodes, basis.Dense.data());
+    basis.apply(factor, basis.Nodes, basis.Dense.data(), converted.data());
+    basis.Dense.swap(converted);
   }
   basis.Factors.clear();
   basis.Norm = infinityNorm(basis.Dense, basis.Nodes);
@@ -317,25 +335,17 @@ void NodalBasis::addLatticeFactors(NodeSpacing spacing)
   }
 }
 
-/// One factor, in place, on every line, triangle or tetrahedron of values.
-void NodalBasis::apply(const Factor& factor, int components, double* values) const
+/// One factor on every line, triangle or tetrahedron of values.
+void NodalBasis::apply(
+  const Factor& factor, int components, const double* values, double* result) const
 {
-  std::vector<double> result(static_cast<std::size_t>(factor.size) * components);
-  const int block = factor.size * factor.stride;
-  for (int start = 0; start < this->Coefficients; ++start)
+  // Values that stand side by side are converted side by side.
+  const int width = factor.stride * components;
+  const int block = factor.size * width;
+  for (int start = 0; start < this->Coefficients * components; start += block)
   {
-    if (start % block >= factor.stride)
-    {
-      continue; // not the first value of a line
-    }
-    double* first = values + static_cast<std::size_t>(start) * components;
-    multiply(factor.matrix->data(), factor.size, factor.size, first, factor.stride, components,
-      result.data());
-    for (int row = 0; row < factor.size; ++row)
-    {
-      std::copy_n(result.data() + row * components, components,
-        first + static_cast<std::size_t>(row) * factor.stride * components);
-    }
+    multiply(
+      factor.matrix->data(), factor.size, factor.size, values + start, width, result + start);
   }
 }
 
@@ -343,18 +353,21 @@ void NodalBasis::toBernstein(const double* nodal, int components, double* coeffi
 {
   if (!this->Dense.empty())
   {
-    multiply(
-      this->Dense.data(), this->Coefficients, this->Nodes, nodal, 1, components, coefficients);
+    multiply(this->Dense.data(), this->Coefficients, this->Nodes, nodal, components, coefficients);
     return;
   }
+  // To and fro between two buffers, so that the last result is in the caller's.
+  std::vector<double> buffer(static_cast<std::size_t>(this->Coefficients) * components);
+  double* from = this->Factors.size() % 2 == 0 ? coefficients : buffer.data();
+  double* to = this->Factors.size() % 2 == 0 ? buffer.data() : coefficients;
   for (int node = 0; node < this->Nodes; ++node)
   {
-    std::copy_n(
-      nodal + node * components, components, coefficients + this->Place[node] * components);
+    std::copy_n(nodal + node * components, components, from + this->Place[node] * components);
   }
   for (const Factor& factor : this->Factors)
   {
-    this->apply(factor, components, coefficients);
+    this->apply(factor, components, from, to);
+    std::swap(from, to);
   }
 }
 

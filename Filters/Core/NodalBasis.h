@@ -73,7 +73,7 @@ private:
   void placeNodes(const std::vector<LatticePoint>& order);
   void addLatticeFactors(NodeSpacing spacing);
   int addFactor(const std::vector<double>& matrix, int stride);
-  void apply(const Factor& factor, int components, double* values) const;
+  void apply(const Factor& factor, int components, const double* values, double* result) const;
 
   Domain ItsDomain;
   Degrees ItsDegrees;
