@@ -72,8 +72,7 @@ void addToRows(std::vector<double>& values, double factor, const std::vector<dou
 /// Rounding errors of control points relative to the size of their cell.
 double conversionRounding(const CellBasis& cell)
 {
-  return cell.bezier ? 0.0
-                     : 4.0 * std::numeric_limits<double>::epsilon() * cell.basis.conversionNorm();
+  return 4.0 * std::numeric_limits<double>::epsilon() * cell.basis.conversionNorm();
 }
 
 class Builder
@@ -363,7 +362,7 @@ std::vector<double> Builder::controlValues(const CellBasis& cell, const CellValu
   }
   // The conversion enlarges rounding errors, so it is given differences from the first node.
   std::vector<double> origin(width, 0.0);
-  if (!cell.bezier)
+  if (cell.basis.conversionNorm() > 1.0)
   {
     std::copy_n(nodal.begin(), width, origin.begin());
   }
