@@ -95,6 +95,15 @@ Exit findExit(
   return exit;
 }
 
+/// Whether the field is near the isovalue in reference space too. Where an element folds over (det J = 0)
+/// the world gradient is infinite, and any residual over it small.
+bool isNearInReference(const FieldPoint& point)
+{
+  constexpr double near = 1e-3; // of the element
+  const glm::dvec3 slope = glm::transpose(point.map.jacobian) * point.gradient.xyz;
+  return std::abs(point.value) <= near * glm::length(slope);
+}
+
 bool onBoundary(const ElementMesh& mesh, const Location& location, int face)
 {
   return mesh.neighbor(location.element, face).element < 0 &&
@@ -231,7 +240,8 @@ bool SurfaceWalker::project(
       return false;
     }
     const double floor = noise < farFromNoise * maximumTravel * slope ? noise : 0.0;
-    if (std::abs(at.point.value) <= std::max(this->Surface.tolerance * slope, floor))
+    if (std::abs(at.point.value) <= std::max(this->Surface.tolerance * slope, floor) &&
+      isNearInReference(at.point))
     {
       result = at;
       return true;
