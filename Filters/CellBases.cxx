@@ -83,12 +83,12 @@ std::optional<hop::Degrees> fittingDegrees(
   if (given != degreesFromCount)
   {
     const auto [lowest, highest] = std::minmax_element(given.begin(), given.end());
-    return *lowest >= 1 && *highest <= hop::MaximumInputDegree &&
+    return *lowest >= 1 && *highest <= hop::maximumInputDegree(domain) &&
         hop::coefficientCount(domain, given) == nodes
       ? std::optional<hop::Degrees>(given)
       : std::nullopt;
   }
-  for (int p = 1; p <= hop::MaximumInputDegree; ++p)
+  for (int p = 1; p <= hop::maximumInputDegree(domain); ++p)
   {
     if (hop::coefficientCount(domain, { p, p, p }) == nodes)
     {

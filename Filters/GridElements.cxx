@@ -69,12 +69,6 @@ void addToRows(std::vector<double>& values, double factor, const std::vector<dou
   }
 }
 
-/// Rounding errors of control points relative to the size of their cell.
-double conversionRounding(const CellBasis& cell)
-{
-  return 4.0 * std::numeric_limits<double>::epsilon() * cell.basis.conversionNorm();
-}
-
 class Builder
 {
 public:
@@ -239,11 +233,12 @@ bool Builder::canHoldSurface(const CellBasis& cell, const CellValues& values) co
   std::vector<double> control(
     static_cast<std::size_t>(cell.basis.coefficientCount()) * this->Components);
   cell.basis.toBernstein(values.field.data(), this->Components, control.data());
-  const double slack = 8.0 * std::numeric_limits<double>::epsilon() * cell.basis.conversionNorm() *
-    std::max(std::abs(*lowest), std::abs(*highest));
+  const auto [lower, upper] = std::minmax_element(control.begin(), control.end());
+  const double slack =
+    2.0 * cell.basis.conversionError() * std::max(std::abs(*lowest), std::abs(*highest)) +
+    4.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(*lower), std::abs(*upper));
   if (!this->Result.squared)
   {
-    const auto [lower, upper] = std::minmax_element(control.begin(), control.end());
     return this->straddles(*lower - slack, *upper + slack);
   }
   double longest2 = 0.0;
@@ -321,7 +316,7 @@ hop::JacobianSign Builder::convert(int element, CellValues& values)
   }
   const hop::BernsteinForm form{ cell.basis.domain(), cell.basis.degrees(), plain.data(),
     e.rational ? weights.data() : nullptr };
-  const hop::JacobianSign sign = cell.jacobian.sign(form, conversionRounding(cell));
+  const hop::JacobianSign sign = cell.jacobian.sign(form, cell.basis.conversionError());
 
   hop::Coefficient* coefficients = &mesh.coefficients[e.firstCoefficient];
   if (this->Result.squared)
@@ -492,7 +487,8 @@ std::string CellCensus::describe() const
     describeCells(text, cells,
       "of type " + nameOfCellType(type) +
         " skipped: not a supported 3-D cell, or its number of points fits no degree up to " +
-        std::to_string(hop::MaximumInputDegree));
+        std::to_string(hop::maximumInputDegree(hop::Domain::Tetrahedron)) +
+        " (hexahedra: " + std::to_string(hop::maximumInputDegree(hop::Domain::Hexahedron)) + ")");
   }
   describeCells(text, this->brokenConnectivity, "skipped: point ids outside the grid");
   describeCells(text, this->notFinite, "skipped: coordinates or values that are NaN or infinite");

@@ -77,12 +77,17 @@ def test_weights_that_are_not_positive(weight):
     expect_skipped(grid, [2], "not positive", isovalue=0.5)
 
 
-def test_orders_above_the_limit():
+@pytest.mark.parametrize("name, degrees", [("LAGRANGE_HEXAHEDRON", (16, 16, 16)), ("LAGRANGE_HEXAHEDRON", (1, 16, 2)),
+                                           ("BEZIER_HEXAHEDRON", (16, 2, 1)), ("LAGRANGE_WEDGE", (11, 11, 2)),
+                                           ("BEZIER_WEDGE", (2, 2, 11))])  # fmt: skip
+def test_orders_above_the_limit(name, degrees):
     good = row_of_cells(count=1)
-    high = cells.anisotropic_grid("LAGRANGE_HEXAHEDRON", (11, 11, 11))
+    high = cells.anisotropic_grid(name, degrees)
     support.add_point_array(high, "f", ball(support.points_of(high)))
     cells.set_points(high, support.points_of(high) + [1.5, 0, 0])
-    on_their_balls(expect_skipped(cells.append([good, high]), [1], "up to 10"))
+    grid = cells.append([good, high])
+    cells.set_degrees(grid, [(2, 2, 2), degrees])
+    on_their_balls(expect_skipped(grid, [1], "up to 10 (hexahedra: 15)"))
 
 
 @pytest.mark.parametrize("missing", [1, 20])

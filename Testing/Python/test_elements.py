@@ -84,6 +84,36 @@ def test_cells_of_every_order(name, order):
     check(with_wave(cells.bend(cells.straight_grid(name, order))), name, order)
 
 
+@pytest.mark.parametrize("order", range(11, 16))
+@pytest.mark.parametrize("name", ["LAGRANGE_HEXAHEDRON", "BEZIER_HEXAHEDRON"])
+def test_hexahedra_of_high_order(name, order):
+    check(with_wave(cells.bend(cells.anisotropic_grid(name, (order,) * 3))), name, order)
+
+
+@pytest.mark.parametrize("order", [2, 7, 8, 9, 10])
+def test_bezier_tetrahedra_of_every_order(order):
+    """|x - c|^2 in Bezier form, by its polar form: with p the order, P a control point's place and a_i its
+    barycentric indices, the coefficient is (p^2 |P - c|^2 - sum a_i |corner_i - c|^2) / (p (p - 1))."""
+    grid = cells.straight_grid("BEZIER_TETRAHEDRON", order)
+    center, radius = np.array([0.45, 0.4, 0.55]), 0.3
+    points = support.points_of(grid) - center
+    control = np.zeros(len(points))
+    for cell in range(grid.GetNumberOfCells()):
+        ids = cells.ids_of(grid, cell)
+        corners = points[ids[:4]]
+        indices = np.rint(order * np.linalg.solve(np.c_[corners, np.ones(4)].T, np.c_[points[ids], np.ones(len(ids))].T))
+        places = indices.T @ corners / order
+        control[ids] = order * (places**2).sum(axis=1) - (indices.T @ (corners**2).sum(axis=1)) / order
+        points[ids] = places  # VTK's source rounds to single precision
+    cells.set_points(grid, points + center)
+    support.add_point_array(grid, "f", control / (order - 1))
+    particles = support.run_quietly(grid, "f", radius**2, Spacing=0.07)
+    distances = np.linalg.norm(support.points_of(particles) - center, axis=1)
+    assert len(distances) > 200
+    np.testing.assert_allclose(distances, radius, atol=1e-9, rtol=0)
+    TESTED.setdefault("BEZIER_TETRAHEDRON, a sphere", []).append((order, len(distances)))
+
+
 @pytest.mark.parametrize("name", ["LAGRANGE_TETRAHEDRON", "LAGRANGE_WEDGE"])
 def test_enriched_quadratic_cells(name):
     grid = with_wave(cells.bend(cells.straight_grid(name, 2, enriched=True)))
