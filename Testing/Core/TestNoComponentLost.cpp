@@ -160,11 +160,17 @@ private:
     Domain domain, const std::vector<double>& values, double isovalue) const
   {
     std::vector<unsigned char> sides(values.size(), 0);
-    const Degrees lattice{ this->N, this->N, this->N };
-    for (const auto& [i, j, k] : latticePoints(domain, lattice))
+    const int n = this->N;
+    for (int k = 0; k <= n; ++k)
     {
-      const double value = values[this->pointIndex(i, j, k)];
-      sides[this->pointIndex(i, j, k)] = value < isovalue ? 1 : value > isovalue ? 2 : 0;
+      for (int j = 0; j <= n; ++j)
+      {
+        const std::size_t row = this->pointIndex(0, j, k);
+        for (int i = 0; i <= n && inLattice(domain, { n, n, n }, { i, j, k }); ++i)
+        {
+          sides[row + i] = values[row + i] < isovalue ? 1 : values[row + i] > isovalue ? 2 : 0;
+        }
+      }
     }
     return sides;
   }
