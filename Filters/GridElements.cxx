@@ -117,7 +117,7 @@ GridElements Builder::build()
   this->convertElements();
   this->dropCollapsed();
   this->numberCorners();
-  hop::findFaceNeighbors(this->Result.mesh, this->Tolerance);
+  hop::findFaceNeighbors(this->Result.mesh, this->Tolerance, this->Parallel);
   return std::move(this->Result);
 }
 
