@@ -316,7 +316,10 @@ hop::JacobianSign Builder::convert(int element, CellValues& values)
   }
   const hop::BernsteinForm form{ cell.basis.domain(), cell.basis.degrees(), plain.data(),
     e.rational ? weights.data() : nullptr };
-  const hop::JacobianSign sign = cell.jacobian.sign(form, cell.basis.conversionError());
+  // At the highest degrees the bound is far above what coordinates suffer that vary smoothly.
+  constexpr double largestRounding = 1e-6;
+  const hop::JacobianSign sign =
+    cell.jacobian.sign(form, std::min(cell.basis.conversionError(), largestRounding));
 
   hop::Coefficient* coefficients = &mesh.coefficients[e.firstCoefficient];
   if (this->Result.squared)
