@@ -551,7 +551,7 @@ bool FastSystem::settle(
   const FieldPoint point = fieldPoint(jet, this->Surface.isovalue);
   const double slope = length(point.gradient);
   const double residual = std::abs(point.value) / slope;
-  if (point.map.singular || !(residual <= this->Surface.tolerance))
+  if (point.map.singular || !(residual <= this->Surface.tolerance) || !isNearInReference(point))
   {
     return false;
   }
