@@ -1,13 +1,14 @@
 #include "FastDistribution.h"
 
+#include "ActiveFaces.h"
 #include "ClipPlanes.h"
 #include "FaceJumps.h"
 #include "Interruptible.h"
 #include "Random.h"
 #include "RimCurves.h"
-#include "UnresolvedBoxes.h"
 #include "SpacingGrid.h"
 #include "SurfaceProxy.h"
+#include "UnresolvedBoxes.h"
 
 #include <atomic>
 #include <cmath>
@@ -57,8 +58,8 @@ std::vector<int> sweepsOfRounds(Quality quality)
 class FastSystem
 {
 public:
-  FastSystem(const Isosurface& surface, const DistributionParameters& parameters, const Monitor& monitor,
-    const ParallelFor& parallelFor)
+  FastSystem(const Isosurface& surface, const DistributionParameters& parameters,
+    const Monitor& monitor, const ParallelFor& parallelFor)
     : Surface(surface)
     , Mesh(*surface.mesh)
     , Parameters(parameters)
@@ -71,6 +72,12 @@ public:
   Distribution run();
 
 private:
+  /// Reports how far the work is; may throw Interrupted.
+  void reach(double fraction)
+  {
+    this->Work.setFraction(fraction);
+    this->Work.ask();
+  }
   SurfaceProxy proxyAt(double spacing);
   bool tooMany(double count);
   bool estimateCount();
@@ -88,10 +95,12 @@ private:
   bool isCovered(const SurfaceProxy::Sample& sample, const SpacingGrid& grid) const;
   void relax(int sweeps);
   void commit(const std::vector<glm::vec2>& displacements);
+  bool isOnWall(const Location& location) const;
   Location target(std::size_t i, const glm::dvec3& step, std::int64_t& cost) const;
   glm::dvec3 stepTo(std::size_t i, const glm::vec2& displacement) const;
   std::vector<Location> targets(const std::vector<glm::vec2>& displacements);
-  bool retry(std::size_t i, glm::dvec3 step, Anchor& anchor, Patch& patch, std::int64_t& cost) const;
+  bool retry(
+    std::size_t i, glm::dvec3 step, Anchor& anchor, Patch& patch, std::int64_t& cost) const;
   bool accepts(const Patch& before, const Anchor& anchor, const Patch& after) const;
   bool settle(const Location& place, const Jet& jet, Patch& patch, Particle& particle) const;
   void finishPass(
@@ -357,10 +366,35 @@ Location FastSystem::target(std::size_t i, const glm::dvec3& step, std::int64_t&
     return { anchor.place.element, { u } };
   }
   SurfaceWalker walker(this->Surface);
-  const Evaluated start = walker.evaluate(anchor.place);
-  const Location reached = walker.move(start, { step });
+  Evaluated start{ anchor.place, {} };
+  LocalMap& map = start.point.map;
+  map.position = { this->Patches[i].position -
+    static_cast<double>(anchor.offset) * glm::dvec3(this->Patches[i].normal) };
+  map.inverse = glm::dmat3(anchor.pull);
+  map.jacobian = glm::inverse(map.inverse);
+  // Onto a wall only particles on rims may go.
+  Location reached = walker.move(start, { step });
+  const auto onWall = [&]() { return this->isOnWall(reached); };
+  if (onWall())
+  {
+    reached = walker.move(start, { 0.5 * step });
+  }
   cost += walker.evaluations();
-  return reached;
+  return onWall() ? anchor.place : reached;
+}
+
+bool FastSystem::isOnWall(const Location& location) const
+{
+  const auto& faces = facts(this->Mesh.elements[location.element].domain).faces;
+  for (int f = 0; f < static_cast<int>(faces.size()); ++f)
+  {
+    if (faceMargin(faces[f], location.u) < OnFace &&
+      this->Surface.neighbor(location.element, f).element < 0)
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 bool FastSystem::accepts(const Patch& before, const Anchor& anchor, const Patch& after) const
@@ -493,8 +527,8 @@ bool FastSystem::isCovered(const SurfaceProxy::Sample& sample, const SpacingGrid
       const auto& s = patch.shape;
       const float sink = 0.5f * (s[0] * t.x * t.x + 2.0f * s[1] * t.x * t.y + s[2] * t.y * t.y);
       const float bend = patch.curvatureMagnitude() * distance;
-      covered = std::abs(glm::dot(d, patch.normal) + sink) <=
-        (coverOffset + bend * bend) * patch.spacing;
+      covered =
+        std::abs(glm::dot(d, patch.normal) + sink) <= (coverOffset + bend * bend) * patch.spacing;
     });
   return covered;
 }
@@ -556,8 +590,7 @@ bool FastSystem::settle(
     return false;
   }
   particle = { place, point.map.position, surfaceNormal(point.gradient),
-    curvature(point.gradient, worldHessian(jet, point)), residual, patch.spacing, {}, 0.0,
-    0.0 };
+    curvature(point.gradient, worldHessian(jet, point)), residual, patch.spacing, {}, 0.0, 0.0 };
   patch.position = particle.position.xyz;
   return true;
 }
@@ -590,8 +623,7 @@ void FastSystem::finishPass(
           settled[i] = this->settle(places[n], jet, patch, particles[i]);
           Anchor anchor;
           Patch there = patch;
-          if (!settled[i] &&
-            anchorPatch(places[n], jet, this->Surface.isovalue, anchor, there) &&
+          if (!settled[i] && anchorPatch(places[n], jet, this->Surface.isovalue, anchor, there) &&
             this->accepts(patch, anchor, there))
           {
             this->Anchors[i] = anchor;
@@ -632,12 +664,13 @@ void FastSystem::finish()
   this->Evaluations += walker.evaluations();
   const std::ptrdiff_t lost = std::count(settled.begin(), settled.end(), 0);
   const std::vector<char> far = this->farFromRims(this->countIsGiven() ? 0.0 : squeezedToRim);
-  std::transform(settled.begin(), settled.end(), far.begin(), settled.begin(), std::logical_and<>());
+  std::transform(
+    settled.begin(), settled.end(), far.begin(), settled.begin(), std::logical_and<>());
   keep(particles, settled);
   DistributionReport& report = this->Result.report;
   report.particlesRejected += lost;
-  this->Evaluations += markClipPlanes(
-    this->Mesh, this->Jumps, this->Rims.particles, particles, this->Parallel);
+  this->Evaluations +=
+    markClipPlanes(this->Mesh, this->Jumps, this->Rims.particles, particles, this->Parallel);
   for (const RimParticle& rim : this->Rims.particles)
   {
     particles.push_back(rim.particle);
@@ -662,11 +695,13 @@ Distribution FastSystem::run()
       return this->Result;
     }
     this->makeProxy();
+    this->reach(0.25);
     const double wanted = this->Proxy->particleCount();
     if (wanted > 0.0 && !this->tooMany(wanted))
     {
       this->findJumps();
       this->makeRims();
+      this->reach(0.35);
       if (this->countIsGiven())
       {
         this->makeExactly(this->Parameters.particleCount);
@@ -675,9 +710,12 @@ Distribution FastSystem::run()
       {
         this->makeSeeds(std::llround(wanted));
       }
-      for (const int sweeps : sweepsOfRounds(this->Parameters.quality))
+      this->reach(0.45);
+      const std::vector<int> rounds = sweepsOfRounds(this->Parameters.quality);
+      for (std::size_t n = 0; n < rounds.size(); ++n)
       {
-        this->relax(sweeps);
+        this->relax(rounds[n]);
+        this->reach(0.45 + 0.45 * static_cast<double>(n + 1) / static_cast<double>(rounds.size()));
       }
       this->finish();
     }
