@@ -12,7 +12,7 @@
 #define vtkSurfaceSplatRepresentation_h
 
 #include "vtkHighOrderParticleRepresentationModule.h" // for export macro
-#include "vtkNew.h"                              // for vtkNew
+#include "vtkNew.h"                                   // for vtkNew
 #include "vtkPVDataRepresentation.h"
 #include "vtkSmartPointer.h" // for vtkSmartPointer
 
