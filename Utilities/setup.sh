@@ -16,12 +16,12 @@ packages=(
   libglew-dev liblz4-dev liblzma-dev libdouble-conversion-dev libutfcpp-dev libopenmpi-dev
   libboost-dev libpugixml-dev libjpeg-dev libpng-dev libtiff-dev libfreetype-dev libgl2ps-dev
 )
-# The last of each: without it the GUI's buttons are blank.
-qt5=(qtbase5-dev qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools libqt5svg5)
+qt5=(qtbase5-dev qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools)
+# The GUI's buttons are blank without Qt's plugin for SVG.
 case "$(. /etc/os-release 2>/dev/null && echo "${VERSION_CODENAME:-}")" in
-  bookworm) packages+=("${qt5[@]}" clang-format-14) ;;
+  bookworm) packages+=("${qt5[@]}" libqt5svg5 clang-format-14) ;;
   forky | sid) packages+=(libvtk9-dev qt6-base-dev qt6-tools-dev qt6-tools-dev-tools xsltproc qt6-svg-plugins) ;;
-  *) packages+=("${qt5[@]}") ;;
+  *) packages+=("${qt5[@]}" qt6-svg-plugins) ;;
 esac
 
 say() { printf '== %s\n' "$*"; }
