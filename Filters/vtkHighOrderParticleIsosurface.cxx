@@ -1,6 +1,7 @@
 #include "vtkHighOrderParticleIsosurface.h"
 
 #include "ClassicDistribution.h"
+#include "FastDistribution.h"
 #include "GridElements.h"
 #include "ParticlePacker.h"
 #include "Threads.h"
@@ -321,14 +322,15 @@ void vtkHighOrderParticleIsosurface::Process(vtkUnstructuredGrid* grid, const Sc
           progressBegin + progressShare * (static_cast<double>(i) + fraction) / isovalueCount);
         return !this->CheckAbort();
       };
-      hop::ClassicParameters parameters;
+      hop::DistributionParameters parameters;
       parameters.law = { scale.Spacing, this->AngularDensity };
+      parameters.quality = static_cast<hop::Quality>(this->Quality);
       parameters.seed = static_cast<std::uint64_t>(this->Seed);
       parameters.particleCount = this->NumberOfParticles;
+      const auto distribute = this->Method == CLASSIC ? hop::distributeClassic : hop::distributeFast;
       particles.push_back({ values[i],
-        hop::distributeClassic(
-          { &elements.mesh, elements.fieldIsovalue(values[i]), scale.Tolerance }, parameters,
-          monitor, parallelFor) });
+        distribute({ &elements.mesh, elements.fieldIsovalue(values[i]), scale.Tolerance },
+          parameters, monitor, parallelFor) });
       this->Review(particles.back().distribution, values[i]);
     }
     packParticles(grid, scalars, elements, particles, parallelFor, output);
@@ -378,6 +380,7 @@ void vtkHighOrderParticleIsosurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Component: " << this->Component << "\n";
   os << indent << "NodeSpacing: " << this->NodeSpacing << "\n";
   os << indent << "Method: " << this->Method << "\n";
+  os << indent << "Quality: " << this->Quality << "\n";
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "NumberOfParticles: " << this->NumberOfParticles << "\n";
   os << indent << "ContourValues:\n";

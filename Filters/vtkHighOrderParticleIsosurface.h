@@ -127,16 +127,34 @@ public:
 
   enum MethodType
   {
-    CLASSIC = 0
+    CLASSIC = 0,
+    FAST = 1
   };
 
   ///@{
   /**
-   * How particles are distributed. CLASSIC, the only one so far and the default, is the paper's
-   * Gauss-Seidel relaxation with split and delete.
+   * How particles are distributed. FAST (default) seeds them everywhere as dense as wanted and relaxes
+   * them on local quadratic approximations of the surface. CLASSIC is the paper's Gauss-Seidel
+   * relaxation with split and delete, which needs some twenty times as many evaluations.
    */
-  vtkSetClampMacro(Method, int, CLASSIC, CLASSIC);
+  vtkSetClampMacro(Method, int, CLASSIC, FAST);
   vtkGetMacro(Method, int);
+  ///@}
+
+  enum QualityType
+  {
+    DRAFT = 0,
+    STANDARD = 1,
+    HIGH = 2
+  };
+
+  ///@{
+  /**
+   * How evenly FAST spreads the particles: DRAFT relaxes them in one round, STANDARD (default) in two,
+   * HIGH in four. All of them lie on the surface to the Tolerance. CLASSIC relaxes until it is done.
+   */
+  vtkSetClampMacro(Quality, int, DRAFT, HIGH);
+  vtkGetMacro(Quality, int);
   ///@}
 
   ///@{
@@ -197,7 +215,8 @@ private:
   double Tolerance = 1e-10;
   int Component = 0;
   int NodeSpacing = UNIFORM;
-  int Method = CLASSIC;
+  int Method = FAST;
+  int Quality = STANDARD;
   int Seed = 1;
   vtkIdType NumberOfParticles = 0;
 };

@@ -67,7 +67,7 @@ struct EnergyAndForce
 class ClassicSystem
 {
 public:
-  ClassicSystem(const Isosurface& surface, const ClassicParameters& parameters,
+  ClassicSystem(const Isosurface& surface, const DistributionParameters& parameters,
     const Monitor& monitor, const ParallelFor& parallelFor)
     : Surface(surface)
     , Parameters(parameters)
@@ -113,7 +113,7 @@ private:
   bool askMonitor();
 
   Isosurface Surface;
-  ClassicParameters Parameters;
+  DistributionParameters Parameters;
   const Monitor& Progress;
   const ParallelFor& Parallel;
   Isosurface Moving;
@@ -743,7 +743,7 @@ Distribution ClassicSystem::finish()
 
 } // namespace
 
-Distribution distributeClassic(const Isosurface& surface, const ClassicParameters& parameters,
+Distribution distributeClassic(const Isosurface& surface, const DistributionParameters& parameters,
   const Monitor& monitor, const ParallelFor& parallelFor)
 {
   return ClassicSystem(surface, parameters, monitor, parallelFor).run();

@@ -1,23 +1,11 @@
 #pragma once
 
-#include "Energy.h"
+#include "DistributionParameters.h"
 #include "Monitor.h"
 #include "Particles.h"
 
 namespace hop
 {
-
-/// What the paper's distribution may be told.
-struct ClassicParameters
-{
-  SpacingLaw law;
-  /// Seed of the random numbers that bias split and delete; the same seed, the same particles.
-  std::uint64_t seed = 1;
-  /// 0: as many particles as the spacing asks for. Otherwise this many, and the spacing follows.
-  std::int64_t particleCount = 0;
-  /// A request that would need more particles than this is refused before it is begun.
-  std::int64_t particleLimit = 100'000'000;
-};
 
 /// The distribution of Meyer, Nelson, Kirby and Whitaker (IEEE TVCG 13(5), 2007), sections 3 and 4,
 /// with its misprints corrected (see Energy.h):
@@ -40,7 +28,7 @@ struct ClassicParameters
 /// the population is taken to where the mean energy is ideal and settles again.
 /// Particles on the rim of the domain miss the neighbours beyond it; their ideal energy is that of the
 /// neighbours that can exist (4 on a face, 2 on an edge).
-Distribution distributeClassic(const Isosurface& surface, const ClassicParameters& parameters,
+Distribution distributeClassic(const Isosurface& surface, const DistributionParameters& parameters,
   const Monitor& monitor, const ParallelFor& parallelFor);
 
 } // namespace hop

@@ -56,7 +56,8 @@ constexpr double roundingShare = 1e-14;
 class ElementSplitter
 {
 public:
-  ElementSplitter(const ElementMesh& mesh, double isovalue, double wantedSize)
+  ElementSplitter(const ElementMesh& mesh, double isovalue,
+    const std::function<double(const Location&)>& wantedSize)
     : Mesh(mesh)
     , Isovalue(isovalue)
     , WantedSize(wantedSize)
@@ -85,7 +86,7 @@ public:
         piece.certified = piece.certified || this->isOneSheet(piece);
         const double size = this->worldSize(piece);
         const bool last = piece.bisections == MaximumBisections;
-        if (piece.certified ? last || size <= this->WantedSize : last || tooMany)
+        if (piece.certified ? last || size <= this->WantedSize({ element, middle(piece) }) : last || tooMany)
         {
           piece.certified = piece.certified || this->Monotone.rises(valuesOf(piece));
           boxes.push_back(this->boxOf(piece, element, size));
@@ -175,7 +176,10 @@ private:
 
   SurfaceBox boxOf(const Piece& piece, int element, double size) const
   {
-    SurfaceBox box{ { element, middle(piece) }, size, 0.0, piece.certified, false, {} };
+    SurfaceBox box;
+    box.middle = { element, middle(piece) };
+    box.size = size;
+    box.certified = piece.certified;
     int lowest = 0;
     int highest = 0;
     const auto value = [&](int c) { return piece.coefficients[this->CornerPlaces[c]].w; };
@@ -183,6 +187,9 @@ private:
     {
       box.referenceRadius =
         std::max(box.referenceRadius, glm::distance(this->corner(piece, c), box.middle.u.xyz));
+      box.corners[c] = glm::vec3(this->corner(piece, c));
+      box.values[c] =
+        static_cast<float>(piece.weights.empty() ? value(c) : value(c) / piece.weights[this->CornerPlaces[c]]);
       lowest = value(c) < value(lowest) ? c : lowest;
       highest = value(c) > value(highest) ? c : highest;
     }
@@ -314,7 +321,7 @@ private:
 
   const ElementMesh& Mesh;
   double Isovalue;
-  double WantedSize;
+  const std::function<double(const Location&)>& WantedSize;
   BernsteinForm Form;
   MonotoneTest Monotone{ Domain::Hexahedron, cornerDegrees };
   BoundaryTest Boundary{ Domain::Hexahedron, cornerDegrees };
@@ -389,6 +396,13 @@ bool findCriticalPoint(
 
 std::vector<SurfaceBox> findSurfaceBoxes(
   const ElementMesh& mesh, double isovalue, double wantedSize, const ParallelFor& parallelFor)
+{
+  return findSurfaceBoxes(
+    mesh, isovalue, [wantedSize](const Location&) { return wantedSize; }, parallelFor);
+}
+
+std::vector<SurfaceBox> findSurfaceBoxes(const ElementMesh& mesh, double isovalue,
+  const std::function<double(const Location&)>& wantedSize, const ParallelFor& parallelFor)
 {
   std::vector<std::vector<SurfaceBox>> ofElement(mesh.elements.size());
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(mesh.elements.size()),

@@ -18,15 +18,15 @@ namespace
 
 constexpr double tolerance = 1e-9;
 
-Distribution distribute(const ElementMesh& mesh, const ClassicParameters& parameters,
+Distribution distribute(const ElementMesh& mesh, const DistributionParameters& parameters,
   const Monitor& monitor = {}, const ParallelFor& parallelFor = {})
 {
   return distributeClassic({ &mesh, 0.0, tolerance }, parameters, monitor, parallelFor);
 }
 
-ClassicParameters withSpacing(double spacing, double angularDensity = 0.0)
+DistributionParameters withSpacing(double spacing, double angularDensity = 0.0)
 {
-  ClassicParameters parameters;
+  DistributionParameters parameters;
   parameters.law = { spacing, angularDensity };
   return parameters;
 }
@@ -124,7 +124,7 @@ TEST_P(EvenCover, IsAsDenseAndAsEvenAsHexagonalPacking)
   recipe.map = wavyMap(0.1);
   recipe.field = which.surface.field;
   const ElementMesh mesh = makeMesh(recipe);
-  const ClassicParameters parameters = withSpacing(which.spacing);
+  const DistributionParameters parameters = withSpacing(which.spacing);
   const Distribution result = distribute(mesh, parameters);
 
   EXPECT_TRUE(result.report.error.empty());
@@ -172,7 +172,7 @@ TEST(ClassicDistribution, GivesExactlyTheNumberOfParticlesAskedFor)
     for (const std::int64_t count : { 60, 500, 1300 })
     {
       SCOPED_TRACE(::testing::Message() << count << " from spacing " << spacing);
-      ClassicParameters parameters = withSpacing(spacing);
+      DistributionParameters parameters = withSpacing(spacing);
       parameters.particleCount = count;
       const Distribution result = distribute(mesh, parameters);
       ASSERT_EQ(static_cast<std::int64_t>(result.particles.size()), count);
@@ -191,7 +191,7 @@ TEST(ClassicDistribution, IsDenserWhereTheSurfaceBends)
 {
   const KnownSurface surface = prolateEllipsoid(0.8, 0.35);
   const ElementMesh mesh = straightMesh(surface);
-  const ClassicParameters parameters = withSpacing(0.12, 8.0);
+  const DistributionParameters parameters = withSpacing(0.12, 8.0);
   const Distribution result = distribute(mesh, parameters);
   expectHonestParticles(mesh, result, parameters.law);
 
@@ -228,7 +228,7 @@ TEST(ClassicDistribution, NumberFollowsTheLawOfSpacing)
   // On a sphere curvature is the same everywhere: sqrt(2)/r.
   const KnownSurface surface = sphere({ 0, 0, 0 }, 0.6);
   const ElementMesh mesh = straightMesh(surface);
-  const ClassicParameters parameters = withSpacing(0.15, 7.0);
+  const DistributionParameters parameters = withSpacing(0.15, 7.0);
   const double h = parameters.law.at(std::sqrt(2.0) / 0.6);
   ASSERT_LT(h, 0.12);
   const Distribution result = distribute(mesh, parameters);
@@ -302,7 +302,7 @@ TEST(ClassicDistribution, DependsOnTheSeedAndNotOnThreads)
   recipe.map = wavyMap(0.1);
   recipe.field = torus(0.5, 0.22).field;
   const ElementMesh mesh = makeMesh(recipe);
-  ClassicParameters parameters = withSpacing(0.1, 4.0);
+  DistributionParameters parameters = withSpacing(0.1, 4.0);
   const Distribution first = distribute(mesh, parameters);
   expectSame(distribute(mesh, parameters), first);
   expectSame(distribute(mesh, parameters, {}, threadedFor(2)), first);
@@ -332,7 +332,7 @@ TEST(ClassicDistribution, FindsAllComponents)
     for (std::uint64_t seed = 1; seed <= 5; ++seed)
     {
       SCOPED_TRACE(::testing::Message() << domain << ", seed " << seed);
-      ClassicParameters parameters = withSpacing(0.2);
+      DistributionParameters parameters = withSpacing(0.2);
       parameters.seed = seed;
       const Distribution result = distribute(mesh, parameters);
       int found[2] = {};
@@ -368,7 +368,7 @@ TEST(ClassicDistribution, TwoSheetsCloseToEachOtherDoNotMix)
 TEST(ClassicDistribution, RefusesMoreParticlesThanTheLimit)
 {
   const ElementMesh mesh = straightMesh(sphere({ 0, 0, 0 }, 0.6));
-  ClassicParameters parameters = withSpacing(0.01);
+  DistributionParameters parameters = withSpacing(0.01);
   parameters.particleLimit = 1000;
   const Distribution result = distribute(mesh, parameters);
   EXPECT_TRUE(result.particles.empty());
@@ -391,7 +391,7 @@ TEST(ClassicDistribution, ReportsUndersampledParticles)
 TEST(ClassicDistribution, StopsWhenTheMonitorAsksForIt)
 {
   const ElementMesh mesh = straightMesh(torus(0.5, 0.22));
-  const ClassicParameters parameters = withSpacing(0.06);
+  const DistributionParameters parameters = withSpacing(0.06);
   int all = 0;
   double last = 0.0;
   distribute(mesh, parameters,
@@ -429,7 +429,7 @@ TEST(ClassicDistribution, NothingComesOfNothing)
   EXPECT_TRUE(offRange.particles.empty());
   EXPECT_TRUE(offRange.report.error.empty());
 
-  ClassicParameters fixedNumber = withSpacing(0.1);
+  DistributionParameters fixedNumber = withSpacing(0.1);
   fixedNumber.particleCount = 100;
   EXPECT_TRUE(distribute(makeMesh(recipe), fixedNumber).particles.empty());
 }

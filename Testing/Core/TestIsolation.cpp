@@ -314,7 +314,7 @@ TEST_P(IsolationIn, SingularSurfacesAreReportedInTimeAndGiveNoNaN)
       const ElementMesh mesh =
         meshOf(this->GetParam(), 2, 1, offGrid ? shifted(which.field) : which.field);
       const auto start = std::chrono::steady_clock::now();
-      ClassicParameters parameters;
+      DistributionParameters parameters;
       parameters.law.spacing = 0.2;
       const Distribution result = distributeClassic({ &mesh, 0.0, 1e-9 }, parameters, {}, {});
       const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace hop::kernel
 {
@@ -40,11 +41,58 @@ struct DomainKernels
   PointFunction hessian;
 };
 
+/// Particles that are moved together.
+constexpr int SweepLanes = 8;
+
+/// What particles see of one another.
+struct Seen
+{
+  float position[3];
+  /// 1/h.
+  float inverseSpacing;
+  /// Unit length.
+  float normal[3];
+  float unused;
+};
+
+/// Eight particles, none of which sees another, on quadratic patches of the surface: a particle
+/// displaced by (x, y) is at base + x tangents[0] + y tangents[1] - (shape(x, y)/2) normal. Rows hold
+/// one number a particle.
+struct SweepBlock
+{
+  float base[3][SweepLanes];
+  float tangents[2][3][SweepLanes];
+  float normal[3][SweepLanes];
+  /// xx, xy, yy of the second fundamental form.
+  float shape[3][SweepLanes];
+  float inverseSpacing[SweepLanes];
+  /// Factor of Newton's steps.
+  float relaxation[SweepLanes];
+  /// Largest displacement from the base.
+  float farthest[SweepLanes];
+  /// (x, y): where the particles are.
+  float moved[2][SweepLanes];
+  std::int32_t particle[SweepLanes];
+  /// Lanes in use; the others hold copies.
+  std::int32_t count;
+  /// Neighbours of each particle, from neighbors[firstNeighbor] on: the first of every lane, then the
+  /// second of every lane, ...
+  std::int32_t neighborCount;
+  std::ptrdiff_t firstNeighbor;
+};
+
+/// Moves the particles of `count` blocks once, one block after the other: by Newton's step on their
+/// energies, in their tangent planes. Reads what they see of their neighbours and writes what is seen
+/// of them.
+using SweepFunction = void (*)(
+  SweepBlock* blocks, std::ptrdiff_t count, const std::int32_t* neighbors, Seen* seen);
+
 struct Kernels
 {
   DomainKernels hexahedron;
   DomainKernels tetrahedron;
   DomainKernels wedge;
+  SweepFunction sweep;
 };
 
 Kernels baselineKernels();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Jets.h"
+#include "Sweep.h"
 
 #include <utility>
 
@@ -162,7 +163,7 @@ constexpr Kernels makeKernels()
   static_assert(PointLanes <= MaximumLanes);
   return { makeDomainKernels<Hexahedron, PointLanes, ComponentLanes>(),
     makeDomainKernels<Tetrahedron, PointLanes, ComponentLanes>(),
-    makeDomainKernels<Wedge, PointLanes, ComponentLanes>() };
+    makeDomainKernels<Wedge, PointLanes, ComponentLanes>(), sweepBlocks };
 }
 
 } // namespace

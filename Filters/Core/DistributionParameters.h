@@ -1,0 +1,35 @@
+#pragma once
+
+#include "Energy.h"
+
+#include <cstdint>
+
+namespace hop
+{
+
+/// How much work the Fast distribution puts into an even spread.
+enum class Quality
+{
+  /// One round of relaxation.
+  Draft,
+  /// Two rounds.
+  Standard,
+  /// Four rounds.
+  High
+};
+
+/// What a distribution may be told.
+struct DistributionParameters
+{
+  SpacingLaw law;
+  /// Of the Fast distribution.
+  Quality quality = Quality::Standard;
+  /// Seed of random choices; the same seed, the same particles.
+  std::uint64_t seed = 1;
+  /// 0: as many particles as the spacing asks for. Otherwise this many, and the spacing follows.
+  std::int64_t particleCount = 0;
+  /// A request that would need more particles than this is refused before it is begun.
+  std::int64_t particleLimit = 100'000'000;
+};
+
+} // namespace hop

@@ -1,0 +1,451 @@
+#include "FastDistribution.h"
+
+#include "Interruptible.h"
+#include "Random.h"
+#include "SpacingGrid.h"
+#include "SurfaceProxy.h"
+
+#include <atomic>
+#include <cmath>
+
+namespace hop
+{
+namespace
+{
+
+/// Boxes of the proxy, in units of the spacing wanted.
+constexpr double boxSizePerSpacing = 4.0;
+/// Where the surface bends, boxes are small enough that they see it as nearly flat.
+constexpr double boxSizePerRadius = 1.0;
+/// A step of relaxation is taken back by half while it ends farther from the surface than this, in
+/// units of the spacing, or on a sheet that is turned away.
+constexpr float largestOffset = 0.3f;
+constexpr float smallestTurn = 0.3f;
+constexpr int maximumHalvings = 3;
+/// A patch runs through a box if it passes its sample nearer than this, in units of its spacing.
+constexpr float coverOffset = 0.1f;
+
+std::vector<int> sweepsOfRounds(Quality quality)
+{
+  switch (quality)
+  {
+    case Quality::Draft:
+      return { 8 };
+    case Quality::High:
+      return { 5, 8, 8, 10 };
+    default:
+      return { 5, 9 };
+  }
+}
+
+class FastSystem
+{
+public:
+  FastSystem(const Isosurface& surface, const DistributionParameters& parameters, const Monitor& monitor,
+    const ParallelFor& parallelFor)
+    : Surface(surface)
+    , Mesh(*surface.mesh)
+    , Parameters(parameters)
+    , Law(parameters.law)
+    , Work(monitor, parallelFor)
+    , Parallel([this](std::ptrdiff_t count, const auto& body) { this->Work(count, body); })
+  {
+  }
+
+  Distribution run();
+
+private:
+  void makeProxy();
+  bool makeSeeds();
+  void putNearSurface();
+  void coverBoxes();
+  bool isCovered(const SurfaceProxy::Sample& sample, const SpacingGrid& grid) const;
+  void commit(const std::vector<glm::vec2>& displacements);
+  Location target(std::size_t i, const glm::dvec3& step, std::int64_t& cost) const;
+  glm::dvec3 stepTo(std::size_t i, const glm::vec2& displacement) const;
+  std::vector<Location> targets(const std::vector<glm::vec2>& displacements);
+  bool retry(std::size_t i, glm::dvec3 step, Anchor& anchor, Patch& patch, std::int64_t& cost) const;
+  bool accepts(const Patch& before, const Anchor& anchor, const Patch& after) const;
+  bool settle(const Location& place, const Jet& jet, float spacing, Particle& particle) const;
+  void finish();
+
+  Isosurface Surface;
+  const ElementMesh& Mesh;
+  DistributionParameters Parameters;
+  SpacingLaw Law;
+  Interruptible Work;
+  ParallelFor Parallel;
+  std::unique_ptr<SurfaceProxy> Proxy;
+  std::vector<Anchor> Anchors;
+  std::vector<Patch> Patches;
+  std::atomic<std::int64_t> Evaluations{ 0 };
+  Distribution Result;
+};
+
+/// World vector of a displacement on a patch.
+glm::dvec3 worldStep(const Patch& patch, const glm::vec2& t)
+{
+  const auto tangents = tangentsOf(patch.normal);
+  const auto& s = patch.shape;
+  const float sink = 0.5f * (s[0] * t.x * t.x + 2.0f * s[1] * t.x * t.y + s[2] * t.y * t.y);
+  return glm::dvec3(t.x * tangents[0] + t.y * tangents[1] - sink * patch.normal);
+}
+
+template <class T>
+void keep(std::vector<T>& items, const std::vector<char>& kept)
+{
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < items.size(); ++i)
+  {
+    if (kept[i])
+    {
+      items[next++] = items[i];
+    }
+  }
+  items.resize(next);
+}
+
+void FastSystem::makeProxy()
+{
+  const auto wantedSize = [this](const Location& middle)
+  {
+    if (this->Law.angularDensity == 0.0)
+    {
+      return boxSizePerSpacing * this->Law.spacing;
+    }
+    ++this->Evaluations;
+    Anchor anchor;
+    Patch patch;
+    const Jet jet = evaluateHessian(this->Mesh.form(middle.element), middle.u);
+    const bool regular = anchorPatch(middle, jet, this->Surface.isovalue, anchor, patch);
+    return boxSizePerSpacing * this->Law.at(regular ? patch.curvatureMagnitude() : 0.0);
+  };
+  this->Proxy = std::make_unique<SurfaceProxy>(this->Surface, this->Law,
+    findSurfaceBoxes(this->Mesh, this->Surface.isovalue, wantedSize, this->Parallel),
+    this->Parallel);
+  this->Evaluations += this->Proxy->evaluations();
+}
+
+/// Draws first places.
+/// \return false if there would be too many
+bool FastSystem::makeSeeds()
+{
+  const double wanted = this->Proxy->particleCount();
+  if (wanted > static_cast<double>(this->Parameters.particleLimit))
+  {
+    this->Result.report.error = "the spacing asks for about " +
+      std::to_string(std::llround(wanted)) + " particles, more than the limit of " +
+      std::to_string(this->Parameters.particleLimit);
+    return false;
+  }
+  const std::vector<Location> seeds =
+    this->Proxy->seeds(std::llround(wanted), Random(this->Parameters.seed).uniform());
+  this->Anchors.resize(seeds.size());
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+  {
+    this->Anchors[i].place = seeds[i];
+  }
+  return true;
+}
+
+/// One Newton step for each seed, then its first patch.
+void FastSystem::putNearSurface()
+{
+  this->Patches.assign(this->Anchors.size(), Patch());
+  std::vector<Location> places;
+  for (const Anchor& anchor : this->Anchors)
+  {
+    places.push_back(anchor.place);
+  }
+  const std::vector<int> order = orderByElement(places, this->Mesh.elements.size());
+  std::vector<char> found(places.size(), 0);
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(places.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      evaluateInOrder(this->Mesh, places, order, begin, end,
+        [&](int i, const Jet& jet)
+        {
+          Patch& patch = this->Patches[i];
+          found[i] = anchorPatch(places[i], jet, this->Surface.isovalue, this->Anchors[i], patch);
+          patch.spacing = static_cast<float>(this->Law.spacing);
+        });
+      this->Evaluations += end - begin;
+    });
+  keep(this->Anchors, found);
+  keep(this->Patches, found);
+  this->commit(std::vector<glm::vec2>(this->Anchors.size(), glm::vec2(0.0f)));
+}
+
+/// Where a step in world space takes particle i: in its own element by its own map, else by walking.
+Location FastSystem::target(std::size_t i, const glm::dvec3& step, std::int64_t& cost) const
+{
+  const Anchor& anchor = this->Anchors[i];
+  const glm::dvec3 u = anchor.place.u.xyz + glm::dmat3(anchor.pull) * step;
+  if (insideMargin(this->Mesh.elements[anchor.place.element].domain, { u }) >= 0.0)
+  {
+    return { anchor.place.element, { u } };
+  }
+  SurfaceWalker walker(this->Surface);
+  const Evaluated start = walker.evaluate(anchor.place);
+  const Location reached = walker.move(start, { step });
+  cost += walker.evaluations();
+  return reached;
+}
+
+bool FastSystem::accepts(const Patch& before, const Anchor& anchor, const Patch& after) const
+{
+  return std::abs(anchor.offset) <= largestOffset * before.spacing &&
+    glm::dot(before.normal, after.normal) > smallestTurn &&
+    glm::distance(before.position, after.position) <= 2.0 * before.spacing;
+}
+
+/// World vector from where particle i was evaluated to a displacement on its patch.
+glm::dvec3 FastSystem::stepTo(std::size_t i, const glm::vec2& displacement) const
+{
+  const Patch& patch = this->Patches[i];
+  return worldStep(patch, displacement) +
+    static_cast<double>(this->Anchors[i].offset) * glm::dvec3(patch.normal);
+}
+
+std::vector<Location> FastSystem::targets(const std::vector<glm::vec2>& displacements)
+{
+  std::vector<Location> places(displacements.size());
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(places.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      std::int64_t cost = 0;
+      for (std::ptrdiff_t i = begin; i < end; ++i)
+      {
+        places[i] = this->target(i, this->stepTo(i, displacements[i]), cost);
+      }
+      this->Evaluations += cost;
+    });
+  return places;
+}
+
+/// Half the step, a quarter of it, ...
+bool FastSystem::retry(
+  std::size_t i, glm::dvec3 step, Anchor& anchor, Patch& patch, std::int64_t& cost) const
+{
+  for (int n = 0; n < maximumHalvings; ++n)
+  {
+    step *= 0.5;
+    const Location place = this->target(i, step, cost);
+    const Jet jet = evaluateHessian(this->Mesh.form(place.element), place.u);
+    ++cost;
+    if (anchorPatch(place, jet, this->Surface.isovalue, anchor, patch) &&
+      this->accepts(this->Patches[i], anchor, patch))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Takes particles to where relaxation wants them, and to the surface; one evaluation each gives them
+/// new patches there. Afterwards they are sorted by element.
+void FastSystem::commit(const std::vector<glm::vec2>& displacements)
+{
+  const std::size_t count = this->Anchors.size();
+  const std::vector<Location> places = this->targets(displacements);
+  const std::vector<int> order = orderByElement(places, this->Mesh.elements.size());
+  std::vector<int> rank(count);
+  for (std::size_t n = 0; n < count; ++n)
+  {
+    rank[order[n]] = static_cast<int>(n);
+  }
+  std::vector<Anchor> anchors(count);
+  std::vector<Patch> patches(count);
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(count),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      std::int64_t cost = end - begin;
+      evaluateInOrder(this->Mesh, places, order, begin, end,
+        [&](int i, const Jet& jet)
+        {
+          Anchor& anchor = anchors[rank[i]];
+          Patch& patch = patches[rank[i]];
+          const Patch& before = this->Patches[i];
+          const bool moved = (anchorPatch(places[i], jet, this->Surface.isovalue, anchor, patch) &&
+                               this->accepts(before, anchor, patch)) ||
+            this->retry(i, this->stepTo(i, displacements[i]), anchor, patch, cost);
+          if (!moved)
+          {
+            anchor = this->Anchors[i];
+            patch = before;
+          }
+          patch.spacing =
+            this->Proxy->spacingAt(patch.position, patch.curvatureMagnitude(), before.spacing);
+          patch.fixed = before.fixed;
+        });
+      this->Evaluations += cost;
+    });
+  this->Anchors = std::move(anchors);
+  this->Patches = std::move(patches);
+}
+
+/// Whether a particle stands on the piece of surface around a sample.
+bool FastSystem::isCovered(const SurfaceProxy::Sample& sample, const SpacingGrid& grid) const
+{
+  bool covered = false;
+  grid.visit(sample.patch.position, sample.patch.spacing,
+    [&](int j)
+    {
+      const Patch& patch = this->Patches[j];
+      const glm::vec3 d(sample.patch.position - patch.position);
+      const float distance = glm::length(d);
+      if (covered || distance > patch.spacing ||
+        glm::dot(patch.normal, sample.patch.normal) <= 0.0f)
+      {
+        return;
+      }
+      const auto tangents = tangentsOf(patch.normal);
+      const glm::vec2 t(glm::dot(d, tangents[0]), glm::dot(d, tangents[1]));
+      const auto& s = patch.shape;
+      const float sink = 0.5f * (s[0] * t.x * t.x + 2.0f * s[1] * t.x * t.y + s[2] * t.y * t.y);
+      const float bend = patch.curvatureMagnitude() * distance;
+      covered = std::abs(glm::dot(d, patch.normal) + sink) <=
+        (coverOffset + bend * bend) * patch.spacing;
+    });
+  return covered;
+}
+
+void FastSystem::coverBoxes()
+{
+  std::vector<glm::dvec3> positions;
+  std::vector<float> spacings;
+  for (const Patch& patch : this->Patches)
+  {
+    positions.push_back(patch.position);
+    spacings.push_back(patch.spacing);
+  }
+  const auto& samples = this->Proxy->samples();
+  std::vector<char> lonely(samples.size(), 0);
+  {
+    const SpacingGrid grid(positions, spacings, 1.0);
+    runParallel(this->Parallel, static_cast<std::ptrdiff_t>(samples.size()),
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+      {
+        for (std::ptrdiff_t b = begin; b < end; ++b)
+        {
+          lonely[b] = samples[b].found && !this->isCovered(samples[b], grid);
+        }
+      });
+  }
+  // Those added cover others in turn.
+  const std::size_t before = this->Patches.size();
+  for (std::size_t b = 0; b < samples.size(); ++b)
+  {
+    if (!lonely[b])
+    {
+      continue;
+    }
+    const auto covers = [&](const Patch& patch)
+    {
+      return glm::distance(patch.position, samples[b].patch.position) <= 0.7 * patch.spacing &&
+        glm::dot(patch.normal, samples[b].patch.normal) > 0.0f;
+    };
+    if (std::none_of(this->Patches.begin() + before, this->Patches.end(), covers))
+    {
+      this->Anchors.push_back(samples[b].anchor);
+      this->Patches.push_back(samples[b].patch);
+    }
+  }
+}
+
+/// What there is to say about a particle, if it lies on the surface to the tolerance.
+bool FastSystem::settle(const Location& place, const Jet& jet, float spacing, Particle& particle) const
+{
+  const FieldPoint point = fieldPoint(jet, this->Surface.isovalue);
+  const double slope = length(point.gradient);
+  const double residual = std::abs(point.value) / slope;
+  if (point.map.singular || !(residual <= this->Surface.tolerance))
+  {
+    return false;
+  }
+  particle = { place, point.map.position, surfaceNormal(point.gradient),
+    curvature(point.gradient, worldHessian(jet, point)), residual, spacing };
+  return true;
+}
+
+/// Newton's method to the tolerance: one step for all, more for those that need them.
+void FastSystem::finish()
+{
+  const std::size_t count = this->Anchors.size();
+  const std::vector<glm::vec2> still(count, glm::vec2(0.0f));
+  const std::vector<Location> places = this->targets(still);
+  const std::vector<int> order = orderByElement(places, this->Mesh.elements.size());
+  std::vector<Particle> particles(count);
+  std::vector<char> settled(count, 0);
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(count),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      SurfaceWalker walker(this->Surface);
+      std::int64_t cost = end - begin;
+      std::ptrdiff_t n = begin;
+      evaluateInOrder(this->Mesh, places, order, begin, end,
+        [&](int i, const Jet& jet)
+        {
+          const Patch& patch = this->Patches[i];
+          Particle& particle = particles[n];
+          settled[n] = this->settle(places[i], jet, patch.spacing, particle);
+          Evaluated at;
+          if (!settled[n] &&
+            walker.project(this->Anchors[i].place, patch.spacing, at, patch.fixed))
+          {
+            const Jet there =
+              evaluateHessian(this->Mesh.form(at.location.element), at.location.u);
+            ++cost;
+            settled[n] = this->settle(at.location, there, patch.spacing, particle);
+          }
+          ++n;
+        });
+      this->Evaluations += cost + walker.evaluations();
+    });
+  keep(particles, settled);
+  DistributionReport& report = this->Result.report;
+  report.particlesRejected += static_cast<std::int64_t>(count - particles.size());
+  report.particlesUndersampled = std::count_if(particles.begin(), particles.end(),
+    [](const Particle& p) { return p.curvature.magnitude * p.spacing > 2.0; });
+  this->Result.particles = std::move(particles);
+}
+
+Distribution FastSystem::run()
+{
+  if (this->Mesh.elements.empty())
+  {
+    return {};
+  }
+  try
+  {
+    this->makeProxy();
+    if (this->Proxy->particleCount() > 0.0 && this->makeSeeds())
+    {
+      this->putNearSurface();
+      this->coverBoxes();
+      for (const int sweeps : sweepsOfRounds(this->Parameters.quality))
+      {
+        this->commit(relaxOnPatches(this->Patches, sweeps, this->Parallel));
+        this->Result.report.iterations += sweeps;
+      }
+      this->finish();
+    }
+  }
+  catch (const Interrupted&)
+  {
+    this->Result.particles.clear();
+    this->Result.report.aborted = true;
+  }
+  this->Result.report.evaluations = this->Evaluations;
+  return this->Result;
+}
+
+} // namespace
+
+Distribution distributeFast(const Isosurface& surface, const DistributionParameters& parameters,
+  const Monitor& monitor, const ParallelFor& parallelFor)
+{
+  return FastSystem(surface, parameters, monitor, parallelFor).run();
+}
+
+} // namespace hop

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "DistributionParameters.h"
+#include "Monitor.h"
+#include "Particles.h"
+
+namespace hop
+{
+
+/// Spreads particles as evenly as the paper's scheme at a hundredth of its evaluations:
+///  - boxes that hold all of the surface (SurfaceBoxes.h) give a rough picture of it, from which the
+///    number of particles follows and first places are drawn, everywhere as dense as wanted
+///    (SurfaceProxy.h);
+///  - one Newton step takes these near the surface, one more evaluation gives each a quadratic patch;
+///  - in each round particles are relaxed on their patches without any evaluation
+///    (PatchRelaxation.h), and then taken there by one;
+///  - Newton's method takes them to the tolerance.
+/// Boxes whose piece of surface no particle stands on get one of their own, so that no component is
+/// lost, however small: a particle stands on it if it is within its spacing, not turned away, and its
+/// patch runs through it.
+Distribution distributeFast(const Isosurface& surface, const DistributionParameters& parameters,
+  const Monitor& monitor, const ParallelFor& parallelFor);
+
+} // namespace hop

@@ -1,0 +1,249 @@
+#pragma once
+
+#include "Kernels.h"
+
+#include <cstring>
+
+// Local to the file that includes it, like Lanes.h.
+namespace hop::kernel
+{
+namespace
+{
+
+#if defined(__GNUC__)
+typedef float Floats __attribute__((vector_size(SweepLanes * sizeof(float))));
+typedef std::int32_t Integers __attribute__((vector_size(SweepLanes * sizeof(std::int32_t))));
+#else
+#error "this compiler has no vector types known here"
+#endif
+
+inline Floats load(const float* from)
+{
+  Floats result;
+  std::memcpy(&result, from, sizeof(result));
+  return result;
+}
+
+inline void store(Floats value, float* to)
+{
+  std::memcpy(to, &value, sizeof(value));
+}
+
+inline Floats least(Floats a, Floats b)
+{
+  return a < b ? a : b;
+}
+
+inline Floats greatest(Floats a, Floats b)
+{
+  return a > b ? a : b;
+}
+
+inline Floats all(float value)
+{
+  return value - Floats{};
+}
+
+/// 1/sqrt(x) to single precision for positive normal x: a first guess from the exponent, three steps
+/// of Newton's method. The processors' own estimates differ from maker to maker.
+inline Floats inverseSquareRoot(Floats x)
+{
+  Integers bits;
+  std::memcpy(&bits, &x, sizeof(bits));
+  bits = 0x5f3759df - (bits >> 1);
+  Floats y;
+  std::memcpy(&y, &bits, sizeof(y));
+  for (int step = 0; step < 3; ++step)
+  {
+    y = y * (1.5f - 0.5f * x * y * y);
+  }
+  return y;
+}
+
+/// A tangent vector, or the gradient of the energy.
+struct Tangential
+{
+  Floats x{};
+  Floats y{};
+};
+
+/// Second derivatives of the energy along the surface.
+struct TangentialHessian
+{
+  Floats xx{};
+  Floats xy{};
+  Floats yy{};
+};
+
+/// With q = cot(pi r / 2): E' = -(pi/2) q^2 and E'' = (pi^2/2) q (1 + q^2). Returns E'/r and
+/// (E'' - E'/r)/r^2 for t = r^2 in (0, 1]; both are exactly zero at t = 1.
+inline void pairDerivatives(Floats t, Floats& first, Floats& second)
+{
+  constexpr float halfPi = 1.57079632679f;
+  const Floats inverse = inverseSquareRoot(t);
+  // r cot(pi r / 2) / (1 - r^2) is smooth in r^2: its Chebyshev interpolant of degree 5, error 2e-7.
+  const Floats smooth = 0.636619647f +
+    t *
+      (0.1130298f +
+        t *
+          (0.0267931238f +
+            t * (0.00705648267f + t * (0.000941490328f + t * 0.000957475183f))));
+  const Floats q = smooth * (1.0f - t) * inverse;
+  first = -halfPi * q * q * inverse;
+  second = (2.0f * halfPi * halfPi * q * (1.0f + q * q) - first) * inverse * inverse;
+}
+
+/// H^-1 g for a symmetric H whose eigenvalues are raised to `floor` at least.
+inline Tangential newtonStep(const TangentialHessian& h, const Tangential& g, float floor)
+{
+  const Floats mean = 0.5f * (h.xx + h.yy);
+  const Floats difference = 0.5f * (h.xx - h.yy);
+  const Floats square = difference * difference + h.xy * h.xy + 1e-12f;
+  const Floats inverseRadius = inverseSquareRoot(square);
+  const Floats radius = square * inverseRadius;
+  const Floats high = 1.0f / greatest(mean + radius, all(floor));
+  const Floats low = 1.0f / greatest(mean - radius, all(floor));
+  const Floats isotropic = 0.5f * (high + low);
+  const Floats directed = 0.5f * (high - low) * inverseRadius;
+  return { isotropic * g.x + directed * (difference * g.x + h.xy * g.y),
+    isotropic * g.y + directed * (h.xy * g.x - difference * g.y) };
+}
+
+/// What eight neighbours, one a lane, let be seen of them.
+struct SeenLanes
+{
+  Floats position[3];
+  Floats inverseSpacing;
+  Floats normal[3];
+
+  SeenLanes(const Seen* seen, const std::int32_t* index)
+  {
+    float rows[7][SweepLanes];
+    for (int lane = 0; lane < SweepLanes; ++lane)
+    {
+      const Seen& s = seen[index[lane]];
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        rows[axis][lane] = s.position[axis];
+        rows[4 + axis][lane] = s.normal[axis];
+      }
+      rows[3][lane] = s.inverseSpacing;
+    }
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->position[axis] = load(rows[axis]);
+      this->normal[axis] = load(rows[4 + axis]);
+    }
+    this->inverseSpacing = load(rows[3]);
+  }
+};
+
+/// The eight particles of a block where they are now: on their patches, displaced by (x, y).
+struct Displaced
+{
+  Floats position[3];
+  /// Directions in which x and y take them from there.
+  Floats tangents[2][3];
+
+  Displaced(const SweepBlock& block, const Tangential& moved)
+  {
+    const Floats bendX = load(block.shape[0]) * moved.x + load(block.shape[1]) * moved.y;
+    const Floats bendY = load(block.shape[1]) * moved.x + load(block.shape[2]) * moved.y;
+    const Floats sink = 0.5f * (bendX * moved.x + bendY * moved.y);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const Floats normal = load(block.normal[axis]);
+      const Floats e1 = load(block.tangents[0][axis]);
+      const Floats e2 = load(block.tangents[1][axis]);
+      this->position[axis] = load(block.base[axis]) + moved.x * e1 + moved.y * e2 - sink * normal;
+      this->tangents[0][axis] = e1 - bendX * normal;
+      this->tangents[1][axis] = e2 - bendY * normal;
+    }
+  }
+};
+
+inline Floats dot(const Floats (&a)[3], const Floats (&b)[3])
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// Gradient and Hessian of a particle's energy, both over (beta/h_i)^2: with the weight
+/// (h_ij/h_i)^2 of a pair and alpha = beta/h_ij, its gradient w alpha E' d/|d| and its Hessian
+/// w alpha^2 (...) have that factor in common, and it cancels in Newton's step.
+inline void sumPairs(const SweepBlock& block, const std::int32_t* neighbors, const Seen* seen,
+  const Displaced& here, Tangential& gradient, TangentialHessian& hessian)
+{
+  constexpr float halfBeta = 0.288675135f;
+  constexpr float closest = 1e-4f;
+  const Floats inverseSpacing = load(block.inverseSpacing);
+  const Floats normal[3] = { load(block.normal[0]), load(block.normal[1]), load(block.normal[2]) };
+  for (int n = 0; n < block.neighborCount; ++n)
+  {
+    const SeenLanes other(seen, neighbors + n * SweepLanes);
+    const Floats d[3] = { here.position[0] - other.position[0],
+      here.position[1] - other.position[1], here.position[2] - other.position[2] };
+    const Floats alpha = halfBeta * (inverseSpacing + other.inverseSpacing);
+    const Floats alpha2 = alpha * alpha;
+    const Floats t = least(greatest(alpha2 * dot(d, d), all(closest)), all(1.0f));
+    Floats first;
+    Floats second;
+    pairDerivatives(t, first, second);
+    // Neighbours on a sheet that is turned away fade out, from 60 to 90 degrees.
+    const Floats facing = least(greatest(2.0f * dot(normal, other.normal), all(0.0f)), all(1.0f));
+    const Floats fade = facing * facing * (3.0f - 2.0f * facing);
+    first *= fade;
+    second *= fade * alpha2;
+    const Floats dx = dot(d, here.tangents[0]);
+    const Floats dy = dot(d, here.tangents[1]);
+    gradient.x += first * dx;
+    gradient.y += first * dy;
+    hessian.xx += second * dx * dx + first;
+    hessian.xy += second * dx * dy;
+    hessian.yy += second * dy * dy + first;
+  }
+}
+
+inline void publish(const SweepBlock& block, const Displaced& there, Seen* seen)
+{
+  float rows[3][SweepLanes];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    store(there.position[axis], rows[axis]);
+  }
+  for (int lane = 0; lane < block.count; ++lane)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      seen[block.particle[lane]].position[axis] = rows[axis][lane];
+    }
+  }
+}
+
+void sweepBlocks(SweepBlock* blocks, std::ptrdiff_t count, const std::int32_t* neighbors, Seen* seen)
+{
+  // In hexagonal packing both eigenvalues are 3 (E''(beta) + E'(beta)/beta) = 13.7.
+  constexpr float softest = 0.35f * 13.7f;
+  for (SweepBlock* block = blocks; block != blocks + count; ++block)
+  {
+    Tangential moved{ load(block->moved[0]), load(block->moved[1]) };
+    const Displaced here(*block, moved);
+    Tangential gradient;
+    TangentialHessian hessian;
+    sumPairs(*block, neighbors + block->firstNeighbor, seen, here, gradient, hessian);
+    const Tangential step = newtonStep(hessian, gradient, softest);
+    const Floats relaxation = load(block->relaxation);
+    moved.x -= relaxation * step.x;
+    moved.y -= relaxation * step.y;
+    const Floats farthest = load(block->farthest);
+    const Floats length2 = moved.x * moved.x + moved.y * moved.y + 1e-30f;
+    const Floats shrink = least(farthest * inverseSquareRoot(length2), all(1.0f));
+    moved.x *= shrink;
+    moved.y *= shrink;
+    store(moved.x, block->moved[0]);
+    store(moved.y, block->moved[1]);
+    publish(*block, Displaced(*block, moved), seen);
+  }
+}
+
+} // namespace
+} // namespace hop::kernel

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "Monitor.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <vector>
+
+namespace hop
+{
+
+/// The surface around a particle, to second order: x(t) = position + t - (t.S t / 2) normal for t in
+/// the tangent plane.
+struct Patch
+{
+  glm::dvec3 position{ 0.0 };
+  /// Unit length.
+  glm::vec3 normal{ 0.0f };
+  /// xx, xy, yy of S = -P F_xx P / |F_x| in the basis of tangentsOf(normal): positive where the
+  /// surface bends away from the normal -grad F.
+  std::array<float, 3> shape{};
+  /// h, > 0.
+  float spacing = 1.0f;
+  /// Stays where it is, but is seen by others.
+  bool fixed = false;
+
+  /// The paper's D = sqrt(k1^2 + k2^2).
+  float curvatureMagnitude() const;
+};
+
+/// Two unit vectors that span the plane normal to a unit vector, right-handed with it.
+std::array<glm::vec3, 2> tangentsOf(const glm::vec3& normal);
+
+/// Spreads particles evenly over their patches: Gauss-Seidel sweeps over the energy of
+/// Energy.h with the weight (h_ij/h_i)^2 of a pair, h_ij the harmonic mean of the two spacings (it
+/// makes the pressure, and with it the area around a particle, even where spacings differ). Pairs
+/// whose normals are more than 60 degrees apart fade out. Each particle takes over-relaxed Newton
+/// steps in its tangent plane and goes no farther than half its spacing, or half the radius to which
+/// the surface bends, from where it started. No function of the mesh is evaluated.
+///
+/// Particles that see each other never move at the same time: a greedy colouring in the order of the
+/// particles decides who moves together. So the result does not depend on threads.
+/// \return displacement of each particle in the basis of its tangents; zero for fixed ones
+std::vector<glm::vec2> relaxOnPatches(
+  const std::vector<Patch>& patches, int sweeps, const ParallelFor& parallelFor);
+
+/// Energy of each particle over that of its hexagonal packing, six neighbours at distance h: less
+/// than one where it is lonely (or on a rim), more where it is crowded.
+std::vector<float> relativeEnergies(
+  const std::vector<Patch>& patches, const ParallelFor& parallelFor);
+
+} // namespace hop

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "SurfaceBoxes.h"
+
+namespace hop
+{
+
+/// A triangle in an element's reference space.
+using ReferenceTriangle = std::array<glm::vec3, 3>;
+
+/// Appends triangles that stand for the surface inside a box: those of marching tetrahedra on the
+/// values at its corners, between which the field is taken to be linear.
+void appendProxyTriangles(
+  Domain domain, const SurfaceBox& box, std::vector<ReferenceTriangle>& triangles);
+
+} // namespace hop

@@ -1,0 +1,258 @@
+#include "SurfaceProxy.h"
+
+#include "ProxyPolygons.h"
+#include "SpacingGrid.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+#include <queue>
+
+namespace hop
+{
+namespace
+{
+
+/// A sample may be this far from the surface, by one Newton step, in units of its box.
+constexpr double sampleOffset = 0.02;
+/// How far a sample's spacing is felt, in units of its own, where spacings are looked up.
+constexpr double lookUpReach = 4.0;
+
+} // namespace
+
+SurfaceProxy::SurfaceProxy(const Isosurface& surface, const SpacingLaw& law,
+  std::vector<SurfaceBox> boxes, const ParallelFor& parallelFor)
+  : Surface(surface)
+  , Law(law)
+  , Boxes(std::move(boxes))
+  , Samples(this->Boxes.size())
+{
+  this->putOnSurface(parallelFor);
+  for (Sample& sample : this->Samples)
+  {
+    sample.patch.spacing = static_cast<float>(law.at(sample.patch.curvatureMagnitude()));
+  }
+  if (law.angularDensity > 0.0)
+  {
+    this->gradeSpacings();
+  }
+  this->sumWeights(parallelFor);
+}
+
+SurfaceProxy::~SurfaceProxy() = default;
+
+bool SurfaceProxy::sampleAt(std::size_t box, const Location& place, const Jet& jet)
+{
+  Sample& sample = this->Samples[box];
+  sample.found = anchorPatch(place, jet, this->Surface.isovalue, sample.anchor, sample.patch) &&
+    std::abs(sample.anchor.offset) <= sampleOffset * this->Boxes[box].size;
+  return sample.found;
+}
+
+/// One Newton step from the middle of each box, along the gradient; all boxes of an element at once.
+void SurfaceProxy::putOnSurface(const ParallelFor& parallelFor)
+{
+  const ElementMesh& mesh = *this->Surface.mesh;
+  std::atomic<std::int64_t> evaluations{ 0 };
+  std::vector<Location> places(this->Boxes.size());
+  std::transform(this->Boxes.begin(), this->Boxes.end(), places.begin(),
+    [](const SurfaceBox& box) { return box.middle; });
+  std::vector<int> order(this->Boxes.size());
+  std::iota(order.begin(), order.end(), 0);
+  runParallel(parallelFor, static_cast<std::ptrdiff_t>(this->Boxes.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      evaluateInOrder(mesh, places, order, begin, end,
+        [&](int b, const Jet& jet)
+        {
+          Sample& sample = this->Samples[b];
+          if (anchorPatch(places[b], jet, this->Surface.isovalue, sample.anchor, sample.patch))
+          {
+            const Location there{ places[b].element,
+              { places[b].u.xyz +
+                glm::dvec3(sample.anchor.pull * (sample.anchor.offset * sample.patch.normal)) } };
+            places[b] = isAtBox(this->Boxes[b], there) ? there : places[b];
+          }
+        });
+      std::int64_t count = 2 * (end - begin);
+      std::vector<int> missed;
+      evaluateInOrder(mesh, places, order, begin, end,
+        [&](int b, const Jet& jet)
+        {
+          if (!this->sampleAt(b, places[b], jet))
+          {
+            missed.push_back(b);
+          }
+        });
+      for (const int b : missed)
+      {
+        this->samplePatiently(b, count);
+      }
+      evaluations += count;
+    });
+  this->Evaluations = evaluations;
+}
+
+/// Newton's method to the end from the middle of the box or, should that lead away from it, from a
+/// point between two of its corners.
+bool SurfaceProxy::samplePatiently(std::size_t b, std::int64_t& evaluations)
+{
+  const SurfaceBox& box = this->Boxes[b];
+  const ElementMesh& mesh = *this->Surface.mesh;
+  Isosurface roughly = this->Surface;
+  roughly.tolerance = std::max(this->Surface.tolerance, 0.5 * sampleOffset * box.size);
+  SurfaceWalker walker(roughly);
+  Evaluated at;
+  bool found = walker.project(box.middle, 2.0 * box.size, at);
+  if ((!found || !isAtBox(box, at.location)) && box.straddles)
+  {
+    found = walker.project(findBetweenEnds(mesh, this->Surface.isovalue, box), box.size, at);
+  }
+  evaluations += walker.evaluations() + 1;
+  return found &&
+    this->sampleAt(
+      b, at.location, evaluateHessian(mesh.form(at.location.element), at.location.u));
+}
+
+/// Dijkstra's method: from the smallest spacing on, each sample limits those around it.
+void SurfaceProxy::gradeSpacings()
+{
+  std::vector<int> sampleOf;
+  for (std::size_t b = 0; b < this->Samples.size(); ++b)
+  {
+    if (this->Samples[b].found)
+    {
+      sampleOf.push_back(static_cast<int>(b));
+      this->Positions.push_back(this->Samples[b].patch.position);
+      this->Spacings.push_back(this->Samples[b].patch.spacing);
+    }
+  }
+  using Entry = std::pair<float, int>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  for (std::size_t i = 0; i < this->Spacings.size(); ++i)
+  {
+    queue.emplace(this->Spacings[i], static_cast<int>(i));
+  }
+  const std::vector<float> before = this->Spacings;
+  const SpacingGrid grid(this->Positions, before, lookUpReach);
+  while (!queue.empty())
+  {
+    const auto [spacing, i] = queue.top();
+    queue.pop();
+    if (spacing > this->Spacings[i])
+    {
+      continue;
+    }
+    grid.visitCoarser(this->Positions[i], spacing,
+      [&, h = spacing, from = i](int j)
+      {
+        const auto limit = static_cast<float>(
+          h + GradationSlope * glm::distance(this->Positions[from], this->Positions[j]));
+        if (limit < this->Spacings[j])
+        {
+          this->Spacings[j] = limit;
+          queue.emplace(limit, j);
+        }
+      });
+  }
+  for (std::size_t i = 0; i < sampleOf.size(); ++i)
+  {
+    this->Samples[sampleOf[i]].patch.spacing = this->Spacings[i];
+  }
+  this->Grid = std::make_unique<SpacingGrid>(this->Positions, this->Spacings, lookUpReach);
+}
+
+float SurfaceProxy::spacingAt(
+  const glm::dvec3& position, float curvatureMagnitude, float nearby) const
+{
+  auto spacing = static_cast<float>(this->Law.at(curvatureMagnitude));
+  if (this->Grid)
+  {
+    this->Grid->visit(position, nearby,
+      [&](int j)
+      {
+        spacing = std::min(spacing,
+          static_cast<float>(this->Spacings[j] +
+            GradationSlope * glm::distance(position, this->Positions[j])));
+      });
+  }
+  return spacing;
+}
+
+void SurfaceProxy::sumWeights(const ParallelFor& parallelFor)
+{
+  this->Sums.resize(this->Boxes.size());
+  runParallel(parallelFor, static_cast<std::ptrdiff_t>(this->Boxes.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      std::vector<WeighedTriangle> triangles;
+      for (std::ptrdiff_t b = begin; b < end; ++b)
+      {
+        this->Sums[b] = this->weigh(b, triangles);
+      }
+    });
+  std::partial_sum(this->Sums.begin(), this->Sums.end(), this->Sums.begin());
+}
+
+/// The triangles of a box with the numbers of particles that they want; areas by the map at the
+/// sample, taken for the whole box.
+/// \return the sum of the numbers
+double SurfaceProxy::weigh(std::size_t b, std::vector<WeighedTriangle>& weighed) const
+{
+  weighed.clear();
+  const Sample& sample = this->Samples[b];
+  if (!sample.found)
+  {
+    return 0.0;
+  }
+  const SurfaceBox& box = this->Boxes[b];
+  std::vector<ReferenceTriangle> triangles;
+  appendProxyTriangles(this->Surface.mesh->elements[box.middle.element].domain, box, triangles);
+  const glm::dmat3 push = glm::inverse(glm::dmat3(sample.anchor.pull));
+  const double h = sample.patch.spacing;
+  double sum = 0.0;
+  for (const ReferenceTriangle& t : triangles)
+  {
+    const double area = 0.5 *
+      glm::length(glm::cross(push * glm::dvec3(t[1] - t[0]), push * glm::dvec3(t[2] - t[0])));
+    weighed.push_back({ t, area * 2.0 / (std::sqrt(3.0) * h * h) });
+    sum += weighed.back().weight;
+  }
+  return sum;
+}
+
+std::vector<Location> SurfaceProxy::seeds(std::int64_t count, double phase) const
+{
+  constexpr double goldenRatio = 0.61803398874989485;
+  std::vector<Location> result;
+  result.reserve(count);
+  std::vector<WeighedTriangle> triangles;
+  const double stride = this->particleCount() / static_cast<double>(count);
+  const auto wanted = [&]() { return (static_cast<double>(result.size()) + phase) * stride; };
+  for (std::size_t b = 0; b < this->Boxes.size(); ++b)
+  {
+    if (this->Sums[b] <= wanted())
+    {
+      continue;
+    }
+    double sum = this->Sums[b] - this->weigh(b, triangles);
+    for (const WeighedTriangle& t : triangles)
+    {
+      while (wanted() < sum + t.weight && static_cast<std::int64_t>(result.size()) < count)
+      {
+        // (root, across) to barycentric coordinates keeps equal areas equal.
+        const double root = std::sqrt(std::clamp((wanted() - sum) / t.weight, 0.0, 1.0));
+        const double across = std::fmod(goldenRatio * static_cast<double>(result.size()), 1.0);
+        const glm::dvec3 u = (1.0 - root) * glm::dvec3(t.corners[0]) +
+          root * (1.0 - across) * glm::dvec3(t.corners[1]) +
+          root * across * glm::dvec3(t.corners[2]);
+        result.push_back({ this->Boxes[b].middle.element, { u } });
+      }
+      sum += t.weight;
+    }
+  }
+  return result;
+}
+
+} // namespace hop

@@ -1,0 +1,83 @@
+#pragma once
+
+#include "Anchor.h"
+#include "Energy.h"
+#include "ProxyPolygons.h"
+#include "SurfaceBoxes.h"
+
+#include <memory>
+
+namespace hop
+{
+
+class SpacingGrid;
+
+/// A rough picture of the surface: one point of it in each surface box, and triangles between the
+/// box's corners that stand for the piece of surface in it. It says how many particles the surface
+/// wants and where to put the first ones.
+class SurfaceProxy
+{
+public:
+  struct Sample
+  {
+    Anchor anchor;
+    /// With the spacing that particles want here.
+    Patch patch;
+    bool found = false;
+  };
+
+  /// Puts a point on the surface in each box; costs two evaluations a box, more where Newton's method
+  /// has to be helped. Then no spacing exceeds another by more than GradationSlope times their
+  /// distance: neighbours can only pack evenly if their spacings differ little.
+  SurfaceProxy(const Isosurface& surface, const SpacingLaw& law, std::vector<SurfaceBox> boxes,
+    const ParallelFor& parallelFor);
+  ~SurfaceProxy();
+
+  /// Number of particles in hexagonal packing at the spacings wanted: the sum of 2 area/(sqrt(3) h^2).
+  double particleCount() const { return this->Sums.empty() ? 0.0 : this->Sums.back(); }
+
+  /// `count` places on the triangles, by systematic sampling of the density of particles: the k-th
+  /// stands where the sum of the weights reaches (k + phase) particleCount()/count.
+  /// \param phase in [0, 1)
+  std::vector<Location> seeds(std::int64_t count, double phase) const;
+
+  /// The spacing that a particle wants: that of the law at its own curvature, or less near places
+  /// that want less. Graded like the samples.
+  /// \param nearby a spacing found near the position before
+  float spacingAt(const glm::dvec3& position, float curvatureMagnitude, float nearby) const;
+
+  const std::vector<Sample>& samples() const { return this->Samples; }
+  const std::vector<SurfaceBox>& boxes() const { return this->Boxes; }
+  std::int64_t evaluations() const { return this->Evaluations; }
+
+  static constexpr double GradationSlope = 0.3;
+
+private:
+  struct WeighedTriangle
+  {
+    ReferenceTriangle corners;
+    /// Number of particles.
+    double weight = 0.0;
+  };
+
+  void putOnSurface(const ParallelFor& parallelFor);
+  bool samplePatiently(std::size_t box, std::int64_t& evaluations);
+  bool sampleAt(std::size_t box, const Location& place, const Jet& jet);
+  void gradeSpacings();
+  void sumWeights(const ParallelFor& parallelFor);
+  double weigh(std::size_t box, std::vector<WeighedTriangle>& triangles) const;
+
+  Isosurface Surface;
+  SpacingLaw Law;
+  std::vector<SurfaceBox> Boxes;
+  std::vector<Sample> Samples;
+  /// Weights of the boxes, summed up.
+  std::vector<double> Sums;
+  std::int64_t Evaluations = 0;
+  // For looking up spacings, where they vary.
+  std::vector<glm::dvec3> Positions;
+  std::vector<float> Spacings;
+  std::unique_ptr<SpacingGrid> Grid;
+};
+
+} // namespace hop
