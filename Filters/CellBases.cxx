@@ -3,6 +3,7 @@
 #include "Bernstein.h"
 #include "Random.h"
 
+#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDataArray.h"
@@ -229,7 +230,7 @@ hop::Degrees CellBases::explicitDegrees(vtkIdType cell) const
 
 std::shared_ptr<const CellBasis> CellBases::basisOf(vtkIdType cell)
 {
-  const Key key{ this->Grid->GetCellType(cell), this->Grid->GetCellSize(cell),
+  const Key key{ this->Grid->GetCellType(cell), this->Grid->GetCells()->GetCellSize(cell),
     this->explicitDegrees(cell) };
   auto [entry, isNew] = this->Known.try_emplace(key);
   if (isNew)

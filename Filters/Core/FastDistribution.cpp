@@ -41,8 +41,8 @@ std::vector<int> sweepsOfRounds(Quality quality)
 class FastSystem
 {
 public:
-  FastSystem(const Isosurface& surface, const DistributionParameters& parameters, const Monitor& monitor,
-    const ParallelFor& parallelFor)
+  FastSystem(const Isosurface& surface, const DistributionParameters& parameters,
+    const Monitor& monitor, const ParallelFor& parallelFor)
     : Surface(surface)
     , Mesh(*surface.mesh)
     , Parameters(parameters)
@@ -64,7 +64,8 @@ private:
   Location target(std::size_t i, const glm::dvec3& step, std::int64_t& cost) const;
   glm::dvec3 stepTo(std::size_t i, const glm::vec2& displacement) const;
   std::vector<Location> targets(const std::vector<glm::vec2>& displacements);
-  bool retry(std::size_t i, glm::dvec3 step, Anchor& anchor, Patch& patch, std::int64_t& cost) const;
+  bool retry(
+    std::size_t i, glm::dvec3 step, Anchor& anchor, Patch& patch, std::int64_t& cost) const;
   bool accepts(const Patch& before, const Anchor& anchor, const Patch& after) const;
   bool settle(const Location& place, const Jet& jet, float spacing, Particle& particle) const;
   void finish();
@@ -304,8 +305,8 @@ bool FastSystem::isCovered(const SurfaceProxy::Sample& sample, const SpacingGrid
       const auto& s = patch.shape;
       const float sink = 0.5f * (s[0] * t.x * t.x + 2.0f * s[1] * t.x * t.y + s[2] * t.y * t.y);
       const float bend = patch.curvatureMagnitude() * distance;
-      covered = std::abs(glm::dot(d, patch.normal) + sink) <=
-        (coverOffset + bend * bend) * patch.spacing;
+      covered =
+        std::abs(glm::dot(d, patch.normal) + sink) <= (coverOffset + bend * bend) * patch.spacing;
     });
   return covered;
 }
@@ -354,7 +355,8 @@ void FastSystem::coverBoxes()
 }
 
 /// What there is to say about a particle, if it lies on the surface to the tolerance.
-bool FastSystem::settle(const Location& place, const Jet& jet, float spacing, Particle& particle) const
+bool FastSystem::settle(
+  const Location& place, const Jet& jet, float spacing, Particle& particle) const
 {
   const FieldPoint point = fieldPoint(jet, this->Surface.isovalue);
   const double slope = length(point.gradient);
@@ -390,11 +392,9 @@ void FastSystem::finish()
           Particle& particle = particles[n];
           settled[n] = this->settle(places[i], jet, patch.spacing, particle);
           Evaluated at;
-          if (!settled[n] &&
-            walker.project(this->Anchors[i].place, patch.spacing, at, patch.fixed))
+          if (!settled[n] && walker.project(this->Anchors[i].place, patch.spacing, at, patch.fixed))
           {
-            const Jet there =
-              evaluateHessian(this->Mesh.form(at.location.element), at.location.u);
+            const Jet there = evaluateHessian(this->Mesh.form(at.location.element), at.location.u);
             ++cost;
             settled[n] = this->settle(at.location, there, patch.spacing, particle);
           }

@@ -168,7 +168,8 @@ void SweepSystem::layOut(const std::vector<int>& particles, const SeenLists& lis
   for (std::size_t first = 0; first < particles.size(); first += SweepLanes)
   {
     SweepBlock block{};
-    block.count = static_cast<std::int32_t>(std::min<std::size_t>(SweepLanes, particles.size() - first));
+    block.count =
+      static_cast<std::int32_t>(std::min<std::size_t>(SweepLanes, particles.size() - first));
     for (int lane = 0; lane < block.count; ++lane)
     {
       block.neighborCount = std::max(block.neighborCount, lists.count(particles[first + lane]));
@@ -181,8 +182,7 @@ void SweepSystem::layOut(const std::vector<int>& particles, const SeenLists& lis
   this->ColorStart.push_back(static_cast<std::ptrdiff_t>(this->Blocks.size()));
 }
 
-void SweepSystem::fillBlocks(
-  const std::vector<std::vector<int>>& byColor, const SeenLists& lists)
+void SweepSystem::fillBlocks(const std::vector<std::vector<int>>& byColor, const SeenLists& lists)
 {
   if (this->Blocks.empty())
   {
@@ -235,8 +235,8 @@ void SweepSystem::fillLane(SweepBlock& block, int lane, int particle) const
   }
   const float bend = patch.curvatureMagnitude();
   block.inverseSpacing[lane] = 1.0f / patch.spacing;
-  block.relaxation[lane] = std::max(
-    bentRelaxation, flatRelaxation - std::max(0.0f, bend * patch.spacing - flatUpTo));
+  block.relaxation[lane] =
+    std::max(bentRelaxation, flatRelaxation - std::max(0.0f, bend * patch.spacing - flatUpTo));
   block.farthest[lane] =
     std::min(farthestPerSpacing * patch.spacing, farthestPerRadius / std::max(bend, 1e-30f));
   block.particle[lane] = particle;

@@ -22,8 +22,8 @@ std::size_t slotOf(std::uint64_t key, std::size_t mask)
 
 } // namespace
 
-SpacingGrid::SpacingGrid(const std::vector<glm::dvec3>& positions,
-  const std::vector<float>& spacings, double reach)
+SpacingGrid::SpacingGrid(
+  const std::vector<glm::dvec3>& positions, const std::vector<float>& spacings, double reach)
   : Positions(positions)
   , Spacings(spacings)
   , Reach(reach)
@@ -80,7 +80,8 @@ SpacingGrid::SpacingGrid(const std::vector<glm::dvec3>& positions,
 
 int SpacingGrid::levelOf(double spacing) const
 {
-  const int level = spacing > this->SmallestSpacing ? std::ilogb(spacing / this->SmallestSpacing) : 0;
+  const int level =
+    spacing > this->SmallestSpacing ? std::ilogb(spacing / this->SmallestSpacing) : 0;
   return std::min(level, std::max(0, this->LevelCount - 1));
 }
 
@@ -170,16 +171,17 @@ SeenLists::SeenLists(const std::vector<glm::dvec3>& positions, const std::vector
     for (std::ptrdiff_t cell = chunk * cellsPerChunk; cell < end; ++cell)
     {
       candidates.clear();
-      grid.visitAround(static_cast<int>(cell), [&](int j)
-        { candidates.push_back({ positions[j], spacings[j], j }); });
+      grid.visitAround(static_cast<int>(cell),
+        [&](int j) {
+          candidates.push_back({ positions[j], spacings[j], j });
+        });
       for (int n = cellStart[cell]; n < cellStart[cell + 1]; ++n)
       {
         const int i = order[n];
         const auto first = static_cast<int>(lists.size());
         for (const Candidate& c : candidates)
         {
-          const double range =
-            2.0 * reach * (spacings[i] * c.spacing) / (spacings[i] + c.spacing);
+          const double range = 2.0 * reach * (spacings[i] * c.spacing) / (spacings[i] + c.spacing);
           const glm::dvec3 d = c.position - positions[i];
           if (glm::dot(d, d) <= range * range && c.index != i)
           {

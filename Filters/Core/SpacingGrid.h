@@ -24,8 +24,8 @@ class SpacingGrid
 public:
   /// \param reach > 0
   /// \pre as many spacings as points, all > 0; positions and spacings outlive the grid
-  SpacingGrid(const std::vector<glm::dvec3>& positions, const std::vector<float>& spacings,
-    double reach);
+  SpacingGrid(
+    const std::vector<glm::dvec3>& positions, const std::vector<float>& spacings, double reach);
 
   /// Calls use(j) for every point that may be within reach of a point at `position` with that
   /// spacing, and for some farther off, in a fixed order. The caller tests.
@@ -140,8 +140,7 @@ void SpacingGrid::visitBox(const glm::dvec3& lower, const glm::dvec3& upper, dou
 }
 
 template <class Use>
-void SpacingGrid::visitCoarser(
-  const glm::dvec3& position, double spacing, const Use& use) const
+void SpacingGrid::visitCoarser(const glm::dvec3& position, double spacing, const Use& use) const
 {
   for (int level = this->levelOf(spacing); level < this->LevelCount; ++level)
   {

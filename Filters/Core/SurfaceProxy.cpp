@@ -111,8 +111,7 @@ bool SurfaceProxy::samplePatiently(std::size_t b, std::int64_t& evaluations)
   }
   evaluations += walker.evaluations() + 1;
   return found &&
-    this->sampleAt(
-      b, at.location, evaluateHessian(mesh.form(at.location.element), at.location.u));
+    this->sampleAt(b, at.location, evaluateHessian(mesh.form(at.location.element), at.location.u));
 }
 
 /// Dijkstra's method: from the smallest spacing on, each sample limits those around it.
@@ -173,8 +172,8 @@ float SurfaceProxy::spacingAt(
       [&](int j)
       {
         spacing = std::min(spacing,
-          static_cast<float>(this->Spacings[j] +
-            GradationSlope * glm::distance(position, this->Positions[j])));
+          static_cast<float>(
+            this->Spacings[j] + GradationSlope * glm::distance(position, this->Positions[j])));
       });
   }
   return spacing;
@@ -214,8 +213,8 @@ double SurfaceProxy::weigh(std::size_t b, std::vector<WeighedTriangle>& weighed)
   double sum = 0.0;
   for (const ReferenceTriangle& t : triangles)
   {
-    const double area = 0.5 *
-      glm::length(glm::cross(push * glm::dvec3(t[1] - t[0]), push * glm::dvec3(t[2] - t[0])));
+    const double area =
+      0.5 * glm::length(glm::cross(push * glm::dvec3(t[1] - t[0]), push * glm::dvec3(t[2] - t[0])));
     weighed.push_back({ t, area * 2.0 / (std::sqrt(3.0) * h * h) });
     sum += weighed.back().weight;
   }

@@ -73,7 +73,8 @@ int main(int argc, char* argv[])
   actor->GetProperty()->SetColor(0.85, 0.65, 0.35);
   drawTo(actor, argv[4]);
 
-  const vtkIdType count = vtkPolyData::SafeDownCast(surface->GetOutputDataObject(0))->GetNumberOfPoints();
+  const vtkIdType count =
+    vtkPolyData::SafeDownCast(surface->GetOutputDataObject(0))->GetNumberOfPoints();
   std::cout << count << " particles, " << argv[4] << "\n";
   return count > 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

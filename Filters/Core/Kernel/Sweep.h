@@ -85,9 +85,7 @@ inline void pairDerivatives(Floats t, Floats& first, Floats& second)
   const Floats smooth = 0.636619647f +
     t *
       (0.1130298f +
-        t *
-          (0.0267931238f +
-            t * (0.00705648267f + t * (0.000941490328f + t * 0.000957475183f))));
+        t * (0.0267931238f + t * (0.00705648267f + t * (0.000941490328f + t * 0.000957475183f))));
   const Floats q = smooth * (1.0f - t) * inverse;
   first = -halfPi * q * q * inverse;
   second = (2.0f * halfPi * halfPi * q * (1.0f + q * q) - first) * inverse * inverse;
@@ -219,7 +217,8 @@ inline void publish(const SweepBlock& block, const Displaced& there, Seen* seen)
   }
 }
 
-void sweepBlocks(SweepBlock* blocks, std::ptrdiff_t count, const std::int32_t* neighbors, Seen* seen)
+void sweepBlocks(
+  SweepBlock* blocks, std::ptrdiff_t count, const std::int32_t* neighbors, Seen* seen)
 {
   // In hexagonal packing both eigenvalues are 3 (E''(beta) + E'(beta)/beta) = 13.7.
   constexpr float softest = 0.35f * 13.7f;
