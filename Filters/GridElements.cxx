@@ -2,10 +2,10 @@
 
 #include "BernsteinProduct.h"
 #include "SurfaceGeometry.h"
+#include "VtkCompatibility.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkCellTypes.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkGenericCell.h"
@@ -15,7 +15,6 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
-#include "vtkStaticPointLocator.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -396,10 +395,9 @@ void Builder::numberCorners()
   cloud->SetPoints(corners);
   vtkNew<vtkStaticPointLocator> locator;
   locator->SetDataSet(cloud);
-  locator->SetTraversalOrderToPointOrder(); // the same result for any number of threads
   locator->BuildLocator();
   std::vector<vtkIdType> merged(corners->GetNumberOfPoints());
-  locator->MergePoints(this->Tolerance, merged.data());
+  mergePoints(locator, this->Tolerance, merged.data());
   auto next = merged.begin();
   for (hop::Element& element : mesh.elements)
   {
@@ -415,7 +413,7 @@ void Builder::numberCorners()
 std::string nameOfCellType(int type)
 {
   const auto cell = vtk::TakeSmartPointer(vtkGenericCell::InstantiateCell(type));
-  return cell ? cell->GetClassName() : vtkCellTypes::GetClassNameFromTypeId(type);
+  return cell ? cell->GetClassName() : CellTypeNames::GetClassNameFromTypeId(type);
 }
 
 void describeCells(std::ostream& text, const SkippedCells& cells, const std::string& reason)
