@@ -22,6 +22,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <sstream>
 
 namespace
@@ -73,6 +74,7 @@ private:
   void convertElements();
   void convert(int element, CellValues& values);
   void numberCorners();
+  void dropDoubledGhosts();
   void dropCollapsed();
   bool canHoldSurface(const CellBasis& basis, const CellValues& values) const;
   bool straddles(double lower, double upper) const;
@@ -95,6 +97,7 @@ GridElements Builder::build()
   this->convertElements();
   this->dropCollapsed();
   this->numberCorners();
+  this->dropDoubledGhosts();
   hop::findFaceNeighbors(this->Result.mesh, this->Tolerance);
   return std::move(this->Result);
 }
@@ -406,6 +409,45 @@ void Builder::numberCorners()
     std::copy_n(next, count, element.corners.begin());
     next += static_cast<std::ptrdiff_t>(count);
   }
+}
+
+/// A ghost whose original, or another copy, is here too would claim the faces of its neighbours a
+/// second time: readers of files in pieces bring both together.
+void Builder::dropDoubledGhosts()
+{
+  vtkUnsignedCharArray* ghosts = this->Grid->GetCellGhostArray();
+  if (!ghosts)
+  {
+    return;
+  }
+  hop::ElementMesh& mesh = this->Result.mesh;
+  const auto isGhost = [&](const hop::Element& element)
+  { return ghosts->GetValue(element.cell) != 0; };
+  const auto sortedCorners = [](const hop::Element& element)
+  {
+    auto corners = element.corners;
+    std::sort(corners.begin(), corners.end());
+    return corners;
+  };
+  std::set<decltype(hop::Element::corners)> present;
+  for (const hop::Element& element : mesh.elements)
+  {
+    if (!isGhost(element))
+    {
+      present.insert(sortedCorners(element));
+    }
+  }
+  std::size_t kept = 0;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+  {
+    if (!isGhost(mesh.elements[e]) || present.insert(sortedCorners(mesh.elements[e])).second)
+    {
+      mesh.elements[kept] = mesh.elements[e];
+      this->Result.bases[kept++] = this->Result.bases[e];
+    }
+  }
+  mesh.elements.resize(kept);
+  this->Result.bases.resize(kept);
 }
 
 /// VTK's table of names has Lagrange and Bezier triangles and quadrilaterals the wrong way round, but
