@@ -6,8 +6,7 @@
 namespace hop
 {
 
-bool anchorPatch(
-  const Location& place, const Jet& jet, double isovalue, Anchor& anchor, Patch& patch)
+bool anchorPatch(const Location& place, const Jet& jet, double isovalue, Anchor& anchor, Patch& patch)
 {
   const FieldPoint point = fieldPoint(jet, isovalue);
   const double slope = length(point.gradient);

@@ -1,5 +1,7 @@
 #include "SurfaceWalker.h"
 
+#include "ActiveFaces.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,103 +11,29 @@ namespace hop
 namespace
 {
 
-/// Half-space values below this count as 'on the face' (reference coordinates are of order one).
-constexpr double onFace = 1e-11;
-
-/// Faces that hold a point back, at most two: with three it cannot move.
-struct ActiveFaces
+bool onBoundary(const Isosurface& surface, const Location& location, int face)
 {
-  std::array<int, 2> face{};
+  const Domain domain = surface.mesh->elements[location.element].domain;
+  return surface.neighbor(location.element, face).element < 0 &&
+    faceMargin(facts(domain).faces[face], location.u) < OnFace;
+}
+
+int boundaryFaces(const Isosurface& surface, const Location& location)
+{
+  const auto& faces = facts(surface.mesh->elements[location.element].domain).faces;
   int count = 0;
-
-  bool holds(int f) const
-  {
-    return (this->count > 0 && this->face[0] == f) || (this->count > 1 && this->face[1] == f);
-  }
-  void add(int f) { this->face[this->count++] = f; }
-};
-
-double margin(const Face& face, const ReferencePoint& u)
-{
-  return glm::dot(face.inward.xyz, u.xyz) + face.offset;
-}
-
-/// Directions in reference space along all active faces: two of them for one face, one for two.
-int freeDirections(Domain domain, const ActiveFaces& active, glm::dvec3 (&directions)[2])
-{
-  const auto& faces = facts(domain).faces;
-  const glm::dvec3 a = faces[active.face[0]].inward.xyz;
-  if (active.count == 2)
-  {
-    directions[0] = glm::cross(a, faces[active.face[1]].inward.xyz);
-    return 1;
-  }
-  const glm::dvec3 other =
-    std::abs(a.x) < 0.5 * glm::length(a) ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-  directions[0] = glm::cross(a, other);
-  directions[1] = glm::cross(a, directions[0]);
-  return 2;
-}
-
-/// The reference vector along the active faces whose world image is nearest to v.
-ReferenceVector pullAlong(
-  Domain domain, const ActiveFaces& active, const LocalMap& map, const WorldVector& v)
-{
-  if (active.count == 0)
-  {
-    return map.pull(v);
-  }
-  glm::dvec3 e[2]{};
-  const int count = freeDirections(domain, active, e);
-  const glm::dvec3 a = map.jacobian * e[0];
-  if (count == 1)
-  {
-    return { e[0] * (glm::dot(a, v.xyz) / glm::dot(a, a)) };
-  }
-  const glm::dvec3 b = map.jacobian * e[1];
-  const double aa = glm::dot(a, a), ab = glm::dot(a, b), bb = glm::dot(b, b);
-  const double av = glm::dot(a, v.xyz), bv = glm::dot(b, v.xyz);
-  const double determinant = aa * bb - ab * ab;
-  return { e[0] * ((bb * av - ab * bv) / determinant) +
-    e[1] * ((aa * bv - ab * av) / determinant) };
-}
-
-struct Exit
-{
-  double fraction = 1.0;
-  int face = -1;
-};
-
-/// Where the step leaves the domain, if it does: at fraction zero where u lies on that face.
-Exit findExit(
-  Domain domain, const ReferencePoint& u, const ReferenceVector& du, const ActiveFaces& active)
-{
-  const auto& faces = facts(domain).faces;
-  Exit exit;
   for (int f = 0; f < static_cast<int>(faces.size()); ++f)
   {
-    const double rate = glm::dot(faces[f].inward.xyz, du.xyz);
-    const double distance = margin(faces[f], u);
-    const double inside = distance < onFace ? 0.0 : distance;
-    if (rate < 0.0 && inside < -rate * exit.fraction && !active.holds(f))
-    {
-      exit = { inside / -rate, f };
-    }
+    count += onBoundary(surface, location, f);
   }
-  return exit;
-}
-
-bool onBoundary(const ElementMesh& mesh, const Location& location, int face)
-{
-  return mesh.neighbor(location.element, face).element < 0 &&
-    margin(facts(mesh.elements[location.element].domain).faces[face], location.u) < onFace;
+  return count;
 }
 
 /// \pre the place lies on one
-int firstBoundaryFace(const ElementMesh& mesh, const Location& location)
+int firstBoundaryFace(const Isosurface& surface, const Location& location)
 {
   int face = 0;
-  while (!onBoundary(mesh, location, face))
+  while (!onBoundary(surface, location, face))
   {
     ++face;
   }
@@ -152,7 +80,7 @@ Location SurfaceWalker::move(const Evaluated& start, const WorldVector& step)
     {
       break;
     }
-    const FaceNeighbor& neighbor = mesh.neighbor(at.location.element, exit.face);
+    const FaceNeighbor neighbor = this->Surface.neighbor(at.location.element, exit.face);
     // Where the walls of two elements meet, each sends the step into the other: straight back
     // through the face it came by. Then it can only follow that face.
     const bool comesBack = exit.face == entry && exit.fraction == 0.0 && active.count > 0;
@@ -195,14 +123,14 @@ WorldVector SurfaceWalker::newtonStep(const Evaluated& at, bool& alongWall) cons
     // Where the surface all but touches the boundary there is no curve to find.
     step = rate > 1e-6 * slope2 ? (-at.point.value / rate) * along : WorldVector{};
   };
-  if (alongWall && boundaryFaceCount(mesh, at.location) == 1)
+  if (alongWall && boundaryFaces(this->Surface, at.location) == 1)
   {
-    hold(firstBoundaryFace(mesh, at.location));
+    hold(firstBoundaryFace(this->Surface, at.location));
   }
   while (active.count < 2)
   {
     const Exit exit = findExit(domain, at.location.u, at.point.map.pull(step), active);
-    if (exit.face < 0 || !onBoundary(mesh, at.location, exit.face))
+    if (exit.face < 0 || !onBoundary(this->Surface, at.location, exit.face))
     {
       break;
     }
@@ -249,13 +177,7 @@ bool SurfaceWalker::project(
 
 int boundaryFaceCount(const ElementMesh& mesh, const Location& location)
 {
-  const auto& faces = facts(mesh.elements[location.element].domain).faces;
-  int count = 0;
-  for (int f = 0; f < static_cast<int>(faces.size()); ++f)
-  {
-    count += onBoundary(mesh, location, f);
-  }
-  return count;
+  return boundaryFaces({ &mesh }, location);
 }
 
 } // namespace hop

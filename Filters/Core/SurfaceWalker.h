@@ -14,6 +14,17 @@ struct Isosurface
   double isovalue = 0.0;
   /// Largest distance |F - c|/|grad F| of a particle from the surface, world units.
   double tolerance = 0.0;
+  /// MaximumFaces entries an element; nonzero: the surface ends at that face on both sides, as the
+  /// field jumps there. nullptr: it ends at no inner face.
+  const std::vector<char>* cuts = nullptr;
+
+  /// What lies behind a face, as far as the surface goes on there.
+  FaceNeighbor neighbor(int element, int face) const
+  {
+    const bool cut =
+      this->cuts && (*this->cuts)[static_cast<std::size_t>(element) * MaximumFaces + face];
+    return cut ? FaceNeighbor() : this->mesh->neighbor(element, face);
+  }
 };
 
 /// A place that was evaluated.

@@ -104,7 +104,7 @@ def main():
         results.append(row)
         contour = "| |" if row["contour_seconds"] is None else f"{row['contour_seconds']:.3f} | {row['contour_points']} |"
         print(f"| {name} | {row['particles']} | {row['seconds']:.2f} | {1e6 * row['seconds'] / max(1, row['particles']):.0f} "
-              f"| {row['evaluations_a_particle']:.0f} | {row['largest_residual_per_diagonal']:.1e} | {contour}", flush=True)
+              f"| {row['evaluations_a_particle']:.1f} | {row['largest_residual_per_diagonal']:.1e} | {contour}", flush=True)
     if arguments.json:
         arguments.json.write_text(json.dumps(results, indent=1))
 

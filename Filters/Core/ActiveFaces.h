@@ -1,0 +1,45 @@
+#pragma once
+
+#include "SurfaceGeometry.h"
+
+namespace hop
+{
+
+/// Half-space values below this count as 'on the face' (reference coordinates are of order one).
+constexpr double OnFace = 1e-11;
+
+/// Faces that hold a point back, at most two: with three it cannot move.
+struct ActiveFaces
+{
+  std::array<int, 2> face{};
+  int count = 0;
+
+  bool holds(int f) const
+  {
+    return (this->count > 0 && this->face[0] == f) || (this->count > 1 && this->face[1] == f);
+  }
+  void add(int f) { this->face[this->count++] = f; }
+};
+
+/// Half-space value of a face at u: how far inside of it.
+inline double faceMargin(const Face& face, const ReferencePoint& u)
+{
+  return glm::dot(face.inward.xyz, u.xyz) + face.offset;
+}
+
+/// The reference vector along the active faces whose world image is nearest to v.
+ReferenceVector pullAlong(
+  Domain domain, const ActiveFaces& active, const LocalMap& map, const WorldVector& v);
+
+struct Exit
+{
+  double fraction = 1.0;
+  /// -1: the step stays inside.
+  int face = -1;
+};
+
+/// Where a step leaves the domain, if it does: at fraction zero where u lies on that face.
+Exit findExit(
+  Domain domain, const ReferencePoint& u, const ReferenceVector& du, const ActiveFaces& active);
+
+} // namespace hop

@@ -1,0 +1,207 @@
+#include "RimCurves.h"
+
+#include "FaceCrossings.h"
+#include "FaceJumps.h"
+#include "RimTracer.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hop
+{
+namespace
+{
+
+/// Chords of traced rims, in units of the spacing.
+constexpr double chordPerSpacing = 0.5;
+
+/// Chords need not lie on the surface as exactly as particles.
+Isosurface roughly(Isosurface surface, double spacing)
+{
+  surface.tolerance = std::max(surface.tolerance, 1e-3 * spacing);
+  return surface;
+}
+
+class RimSampler
+{
+public:
+  RimSampler(const Isosurface& surface, const SurfaceProxy& proxy, const SpacingLaw& law)
+    : Surface(surface)
+    , Proxy(proxy)
+    , Law(law)
+    , Tracer(roughly(surface, proxy.smallestSpacing()))
+    , Exact(surface)
+    , Walker(surface)
+  {
+  }
+
+  RimCurves run();
+
+private:
+  void follow(const FaceCrossing& hint, double nearby);
+  void sample(const RimTrace& trace, double nearby);
+  void sampleStretch(const std::vector<RimVertex>& vertices, bool withEnd, double nearby);
+  double spacingAt(const RimPoint& point, double nearby);
+  void addParticle(const Location& place, int face, double nearby);
+
+  Isosurface Surface;
+  const SurfaceProxy& Proxy;
+  SpacingLaw Law;
+  RimTracer Tracer;
+  /// For the particles, when the way is known.
+  RimTracer Exact;
+  SurfaceWalker Walker;
+  RimCurves Result;
+};
+
+double RimSampler::spacingAt(const RimPoint& point, double nearby)
+{
+  if (this->Law.angularDensity == 0.0)
+  {
+    return this->Law.spacing;
+  }
+  const Evaluated at = this->Walker.evaluateCurved(point.at.location);
+  return this->Proxy.spacingAt(at.point.map.position.xyz,
+    static_cast<float>(curvature(at.point.gradient, at.hessian).magnitude),
+    static_cast<float>(nearby));
+}
+
+void RimSampler::follow(const FaceCrossing& hint, double nearby)
+{
+  const auto start = this->Tracer.project(hint.location, hint.face, 4.0 * nearby);
+  if (!start || this->Tracer.hasPassed(*start))
+  {
+    return;
+  }
+  const RimTrace trace = this->Tracer.trace(*start, chordPerSpacing * nearby);
+  this->Result.open += !trace.closed;
+  this->sample(trace, nearby);
+}
+
+/// Cuts a rim at its corners, and samples stretch by stretch.
+void RimSampler::sample(const RimTrace& trace, double nearby)
+{
+  std::vector<RimVertex> vertices = trace.vertices;
+  if (trace.closed)
+  {
+    const auto corner = std::find_if(
+      vertices.begin(), vertices.end(), [](const RimVertex& vertex) { return vertex.corner; });
+    std::rotate(
+      vertices.begin(), corner == vertices.end() ? vertices.begin() : corner, vertices.end());
+    vertices.push_back(vertices.front());
+  }
+  for (std::size_t first = 0; first + 1 < vertices.size();)
+  {
+    std::size_t last = first + 1;
+    while (last + 1 < vertices.size() && !vertices[last].corner)
+    {
+      ++last;
+    }
+    const bool end = last + 1 == vertices.size();
+    this->sampleStretch(
+      { vertices.begin() + first, vertices.begin() + last + 1 }, end && !trace.closed, nearby);
+    first = last;
+  }
+}
+
+/// Particles at equal distances, in units of the spacing wanted, from the first vertex on.
+void RimSampler::sampleStretch(
+  const std::vector<RimVertex>& vertices, bool withEnd, double nearby)
+{
+  std::vector<double> sums{ 0.0 };
+  for (std::size_t v = 1; v < vertices.size(); ++v)
+  {
+    nearby = this->spacingAt(vertices[v].arriving, nearby);
+    sums.push_back(sums.back() +
+      glm::distance(vertices[v - 1].position(), vertices[v].position()) / nearby);
+  }
+  const auto count = std::max<std::int64_t>(1, std::llround(sums.back()));
+  std::size_t v = 1;
+  for (std::int64_t n = 0; n < count + withEnd; ++n)
+  {
+    const double wanted = sums.back() * static_cast<double>(n) / static_cast<double>(count);
+    while (v + 1 < vertices.size() && sums[v] < wanted)
+    {
+      ++v;
+    }
+    const RimPoint& from = vertices[v - 1].leaving;
+    const RimPoint& to = vertices[v].arriving;
+    const double chord = sums[v] - sums[v - 1];
+    const double t = chord > 0.0 ? std::clamp((wanted - sums[v - 1]) / chord, 0.0, 1.0) : 0.0;
+    if (from.at.location.element == to.at.location.element)
+    {
+      const glm::dvec3 u = (1.0 - t) * from.at.location.u.xyz + t * to.at.location.u.xyz;
+      this->addParticle({ from.at.location.element, { u } }, from.face, nearby);
+    }
+    else
+    {
+      const WorldVector step =
+        t * (to.at.point.map.position - from.at.point.map.position);
+      this->addParticle(this->Walker.move(from.at, step), from.face, nearby);
+    }
+  }
+}
+
+void RimSampler::addParticle(const Location& place, int face, double nearby)
+{
+  const auto point = this->Exact.project(place, face, nearby);
+  if (!point)
+  {
+    return;
+  }
+  const ElementMesh& mesh = *this->Surface.mesh;
+  const Location& location = point->at.location;
+  const Jet jet = evaluateHessian(mesh.form(location.element), location.u);
+  ++this->Result.evaluations;
+  const FieldPoint field = fieldPoint(jet, this->Surface.isovalue);
+  Anchor anchor;
+  RimParticle rim;
+  if (!anchorPatch(location, jet, this->Surface.isovalue, anchor, rim.patch))
+  {
+    return;
+  }
+  rim.patch.spacing = this->Proxy.spacingAt(
+    rim.patch.position, rim.patch.curvatureMagnitude(), static_cast<float>(nearby));
+  rim.patch.fixed = true;
+  const WorldVector normal = surfaceNormal(field.gradient);
+  rim.particle = { location, field.map.position, normal,
+    curvature(field.gradient, worldHessian(jet, field)),
+    std::abs(field.value) / length(field.gradient), rim.patch.spacing, {}, 0.0, 0.0 };
+  const glm::dvec3 inward = glm::transpose(field.map.inverse) *
+    facts(mesh.elements[location.element].domain).faces[point->face].inward.xyz;
+  const glm::dvec3 along = inward - glm::dot(inward, normal.xyz) * normal.xyz;
+  rim.outward = { glm::length(along) > 0.0 ? -glm::normalize(along) : glm::dvec3(0.0) };
+  rim.particle.clipNormal = rim.outward;
+  if (mesh.neighbor(location.element, point->face).element >= 0)
+  {
+    rim.particle.jump = valueBehind(this->Surface, location, point->face);
+    ++this->Result.evaluations;
+  }
+  this->Result.particles.push_back(rim);
+}
+
+RimCurves RimSampler::run()
+{
+  for (std::size_t b = 0; b < this->Proxy.boxes().size(); ++b)
+  {
+    const SurfaceBox& box = this->Proxy.boxes()[b];
+    const SurfaceProxy::Sample& sample = this->Proxy.samples()[b];
+    const double nearby = sample.found ? sample.patch.spacing : this->Law.spacing;
+    visitFaceCrossings(
+      *this->Surface.mesh, box,
+      [&](int face) { return this->Surface.neighbor(box.middle.element, face).element < 0; },
+      [&](const FaceCrossing& crossing) { this->follow(crossing, nearby); });
+  }
+  this->Result.evaluations += this->Tracer.evaluations() + this->Exact.evaluations() + this->Walker.evaluations();
+  return std::move(this->Result);
+}
+
+} // namespace
+
+RimCurves findRimCurves(
+  const Isosurface& surface, const SurfaceProxy& proxy, const SpacingLaw& law)
+{
+  return RimSampler(surface, proxy, law).run();
+}
+
+} // namespace hop

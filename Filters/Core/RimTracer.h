@@ -1,0 +1,93 @@
+#pragma once
+
+#include "SurfaceWalker.h"
+
+#include <optional>
+#include <unordered_map>
+
+namespace hop
+{
+
+/// A point of a rim: a place on a boundary face.
+struct RimPoint
+{
+  Evaluated at;
+  int face = -1;
+};
+
+/// A vertex of a traced rim: on a mesh edge it is seen from two faces.
+struct RimVertex
+{
+  RimPoint arriving;
+  RimPoint leaving;
+  /// The rim turns here.
+  bool corner = false;
+
+  const glm::dvec3& position() const { return this->arriving.at.point.map.position.xyz; }
+};
+
+struct RimTrace
+{
+  std::vector<RimVertex> vertices;
+  /// The last vertex is followed by the first.
+  bool closed = false;
+};
+
+/// Chords of rims traced so far, by the face they run on.
+class RimChords
+{
+public:
+  void add(const RimPoint& from, const RimPoint& to);
+
+  /// Whether a chord on the same face passes a point, to a fifth of its length.
+  bool pass(const RimPoint& point) const;
+
+private:
+  static std::int64_t keyOf(const RimPoint& point);
+
+  std::unordered_map<std::int64_t, std::vector<std::pair<glm::dvec3, glm::dvec3>>> Chords;
+};
+
+/// Follows rims of the isosurface: curves {F = c} on boundary faces.
+class RimTracer
+{
+public:
+  explicit RimTracer(const Isosurface& surface)
+    : Surface(surface)
+    , Walker(surface)
+  {
+  }
+
+  /// Puts a place on a boundary face onto the rim, along the boundary.
+  std::optional<RimPoint> project(const Location& start, int face, double maximumTravel);
+
+  /// Follows the rim in direction n x w, n the surface's normal and w the inward normal of the
+  /// boundary, and from a dead end also the other way.
+  /// Ends where it meets a rim that was traced before: its own start, as a rule. (Where the field jumps
+  /// between elements, two rims can run into one.)
+  /// \param step world length of the chords, at most; less where the rim turns
+  RimTrace trace(const RimPoint& start, double step);
+
+  /// Whether a rim was traced through a point.
+  bool hasPassed(const RimPoint& point) const { return this->Chords.pass(point); }
+
+  std::int64_t evaluations() const { return this->Walker.evaluations(); }
+
+private:
+  bool follow(
+    const RimPoint& start, double step, double direction, std::vector<RimVertex>& vertices);
+  std::optional<RimVertex> advance(const RimPoint& from, double step, double direction);
+  std::optional<RimVertex> passEdge(
+    const RimPoint& from, const ReferencePoint& u, int otherFace, double step);
+  std::optional<Evaluated> projectAlongEdge(
+    const Location& start, int faceA, int faceB, double maximumTravel);
+  std::optional<RimPoint> turnAroundEdge(const Evaluated& at, int wall, int face);
+  int wallOf(const Location& location, int preferred) const;
+  WorldVector tangent(const RimPoint& point) const;
+
+  Isosurface Surface;
+  SurfaceWalker Walker;
+  RimChords Chords;
+};
+
+} // namespace hop
