@@ -7,7 +7,8 @@ status=0
 
 # Paths that begin at the top of the project; `test_*.py` is a pattern.
 while read -r path; do
-  compgen -G "$path" >/dev/null || { echo "error: $page names $path, which is not there" >&2; status=1; }
+  names=($path)
+  [ -e "${names[0]}" ] || { echo "error: $page names $path, which is not there" >&2; status=1; }
 done < <(grep -oE '`(Filters|Rendering|Plugin|Testing|Utilities)/[^` ]*`|`(CMakeLists\.txt|CHANGELOG\.md)`' "$page" | tr -d '`' | sort -u)
 
 for header in Filters/Core/*.h; do
