@@ -24,6 +24,8 @@ namespace
 constexpr double hexahedronPerSpacing = 6.0;
 constexpr double wedgePerSpacing = 7.0;
 constexpr double tetrahedronPerSpacing = 9.0;
+/// Spacing of the first look, in units of the mesh's diagonal.
+constexpr double coarseSpacingPerExtent = 0.005;
 /// Where the spacing follows the curvature, boxes are smaller by this factor, to see it change.
 constexpr double adaptiveShare = 0.67;
 /// A step of relaxation is taken back by half while it ends farther from the surface than this, in
@@ -69,12 +71,18 @@ public:
   Distribution run();
 
 private:
+  SurfaceProxy proxyAt(double spacing);
+  bool tooMany(double count);
+  bool estimateCount();
   void makeProxy();
+  void matchCount();
+  void makeExactly(std::int64_t count);
   void findJumps();
   void makeRims();
   std::vector<char> farFromRims(double nearest);
   void dropNearRims(double nearest);
-  bool makeSeeds();
+  void makeSeeds(std::int64_t count);
+  bool countIsGiven() const { return this->Parameters.particleCount > 0; }
   void putNearSurface();
   void coverBoxes();
   bool isCovered(const SurfaceProxy::Sample& sample, const SpacingGrid& grid) const;
@@ -129,52 +137,126 @@ void keep(std::vector<T>& items, const std::vector<char>& kept)
   items.resize(next);
 }
 
-void FastSystem::makeProxy()
+SurfaceProxy FastSystem::proxyAt(double spacing)
 {
-  const auto wantedSize = [this](const Location& middle)
+  SpacingLaw law = this->Law;
+  law.spacing = spacing;
+  const auto wantedSize = [&](const Location& middle)
   {
     const Domain domain = this->Mesh.elements[middle.element].domain;
     const double perSpacing = domain == Domain::Hexahedron ? hexahedronPerSpacing
       : domain == Domain::Wedge                            ? wedgePerSpacing
                                                            : tetrahedronPerSpacing;
-    if (this->Law.angularDensity == 0.0)
+    if (law.angularDensity == 0.0)
     {
-      return perSpacing * this->Law.spacing;
+      return perSpacing * law.spacing;
     }
     ++this->Evaluations;
     Anchor anchor;
     Patch patch;
     const Jet jet = evaluateHessian(this->Mesh.form(middle.element), middle.u);
     const bool regular = anchorPatch(middle, jet, this->Surface.isovalue, anchor, patch);
-    return adaptiveShare * perSpacing * this->Law.at(regular ? patch.curvatureMagnitude() : 0.0);
+    return adaptiveShare * perSpacing * law.at(regular ? patch.curvatureMagnitude() : 0.0);
   };
-  this->Proxy = std::make_unique<SurfaceProxy>(this->Surface, this->Law,
+  SurfaceProxy proxy(this->Surface, law,
     findSurfaceBoxes(this->Mesh, this->Surface.isovalue, wantedSize, this->Parallel),
     this->Parallel);
-  this->Evaluations += this->Proxy->evaluations();
+  this->Evaluations += proxy.evaluations();
+  return proxy;
+}
+
+bool FastSystem::tooMany(double count)
+{
+  const auto limit = this->Parameters.particleLimit;
+  if (count <= static_cast<double>(limit))
+  {
+    return false;
+  }
+  this->Result.report.error = "the spacing asks for about " + std::to_string(std::llround(count)) +
+    " particles, more than the limit of " + std::to_string(limit);
+  return true;
+}
+
+/// From a coarse look at the surface, before memory is asked for.
+/// \return whether there are few enough
+bool FastSystem::estimateCount()
+{
+  if (this->Parameters.particleCount > 0)
+  {
+    return !this->tooMany(static_cast<double>(this->Parameters.particleCount));
+  }
+  const double coarse = meshExtent(this->Mesh) * coarseSpacingPerExtent;
+  const double ratio = coarse / this->Law.spacing;
+  return ratio <= 1.0 || !this->tooMany(this->proxyAt(coarse).particleCount() * ratio * ratio);
+}
+
+void FastSystem::makeProxy()
+{
+  this->Proxy = std::make_unique<SurfaceProxy>(this->proxyAt(this->Law.spacing));
+  this->matchCount();
   reportUnresolved(this->Surface, this->Proxy->boxes(), this->Result.report);
 }
 
-/// Draws first places.
-/// \return false if there would be too many
-bool FastSystem::makeSeeds()
+/// Where the number of particles is given, finds the spacing that goes with it.
+void FastSystem::matchCount()
 {
-  const double wanted = this->Proxy->particleCount();
-  if (wanted > static_cast<double>(this->Parameters.particleLimit))
+  constexpr int tries = 6;
+  constexpr double closeEnough = 0.01;
+  const auto wanted = static_cast<double>(this->Parameters.particleCount);
+  for (int n = 0; n < tries && wanted > 0.0; ++n)
   {
-    this->Result.report.error = "the spacing asks for about " +
-      std::to_string(std::llround(wanted)) + " particles, more than the limit of " +
-      std::to_string(this->Parameters.particleLimit);
-    return false;
+    const double ratio = this->Proxy->particleCount() / wanted;
+    if (!(ratio > 0.0) || std::abs(ratio - 1.0) < closeEnough)
+    {
+      return;
+    }
+    this->Law.spacing *= std::sqrt(ratio);
+    this->Proxy = std::make_unique<SurfaceProxy>(this->proxyAt(this->Law.spacing));
   }
+}
+
+/// Draws that many first places.
+void FastSystem::makeSeeds(std::int64_t count)
+{
   const std::vector<Location> seeds =
-    this->Proxy->seeds(std::llround(wanted), Random(this->Parameters.seed).uniform());
+    this->Proxy->seeds(count, Random(this->Parameters.seed).uniform());
   this->Anchors.resize(seeds.size());
   for (std::size_t i = 0; i < seeds.size(); ++i)
   {
     this->Anchors[i].place = seeds[i];
   }
-  return true;
+  this->putNearSurface();
+  this->dropNearRims(seedToRim);
+  this->coverBoxes();
+}
+
+/// The first places of a given number of particles: more are drawn until those that rims push aside are
+/// made up for, and those too many are taken away evenly.
+void FastSystem::makeExactly(std::int64_t count)
+{
+  constexpr int tries = 8;
+  std::int64_t drawn = count;
+  for (int n = 0; n < tries; ++n)
+  {
+    this->makeSeeds(drawn);
+    const auto missing = count - static_cast<std::int64_t>(this->Patches.size());
+    if (missing <= 0)
+    {
+      break;
+    }
+    drawn += missing;
+  }
+  const auto moving = static_cast<std::int64_t>(this->Anchors.size());
+  const auto surplus =
+    std::clamp<std::int64_t>(static_cast<std::int64_t>(this->Patches.size()) - count, 0, moving);
+  std::vector<char> kept(this->Patches.size(), 1);
+  for (std::int64_t n = 0; n < surplus; ++n)
+  {
+    kept[n * moving / surplus] = 0;
+  }
+  keep(this->Patches, kept);
+  kept.resize(moving);
+  keep(this->Anchors, kept);
 }
 
 /// One Newton step for each seed, then its first patch.
@@ -378,13 +460,16 @@ void FastSystem::relax(int sweeps)
   Relaxed relaxed = relaxOnPatches(this->Patches, sweeps, this->Parallel);
   std::vector<char> kept(this->Patches.size());
   std::transform(relaxed.surplus.begin(), relaxed.surplus.end(), kept.begin(),
-    [](char surplus) { return !surplus; });
+    [this](char surplus) { return !surplus || this->countIsGiven(); });
   keep(relaxed.displacements, kept);
   keep(this->Patches, kept);
   kept.resize(this->Anchors.size());
   keep(this->Anchors, kept);
   this->commit(relaxed.displacements);
-  this->dropNearRims(squeezedToRim);
+  if (!this->countIsGiven())
+  {
+    this->dropNearRims(squeezedToRim);
+  }
   this->Result.report.iterations += sweeps;
 }
 
@@ -466,7 +551,7 @@ bool FastSystem::settle(
   const FieldPoint point = fieldPoint(jet, this->Surface.isovalue);
   const double slope = length(point.gradient);
   const double residual = std::abs(point.value) / slope;
-  if (point.map.singular || !(residual <= this->Surface.tolerance))
+  if (point.map.singular || !(residual <= this->Surface.tolerance) || !isNearInReference(point))
   {
     return false;
   }
@@ -546,7 +631,7 @@ void FastSystem::finish()
   }
   this->Evaluations += walker.evaluations();
   const std::ptrdiff_t lost = std::count(settled.begin(), settled.end(), 0);
-  const std::vector<char> far = this->farFromRims(squeezedToRim);
+  const std::vector<char> far = this->farFromRims(this->countIsGiven() ? 0.0 : squeezedToRim);
   std::transform(settled.begin(), settled.end(), far.begin(), settled.begin(), std::logical_and<>());
   keep(particles, settled);
   DistributionReport& report = this->Result.report;
@@ -572,14 +657,24 @@ Distribution FastSystem::run()
   }
   try
   {
+    if (!this->estimateCount())
+    {
+      return this->Result;
+    }
     this->makeProxy();
-    if (this->Proxy->particleCount() > 0.0 && this->makeSeeds())
+    const double wanted = this->Proxy->particleCount();
+    if (wanted > 0.0 && !this->tooMany(wanted))
     {
       this->findJumps();
-      this->putNearSurface();
       this->makeRims();
-      this->dropNearRims(seedToRim);
-      this->coverBoxes();
+      if (this->countIsGiven())
+      {
+        this->makeExactly(this->Parameters.particleCount);
+      }
+      else
+      {
+        this->makeSeeds(std::llround(wanted));
+      }
       for (const int sweeps : sweepsOfRounds(this->Parameters.quality))
       {
         this->relax(sweeps);

@@ -48,6 +48,7 @@ SurfaceProxy::SurfaceProxy(const Isosurface& surface, const SpacingLaw& law,
   this->sumWeights(parallelFor);
 }
 
+SurfaceProxy::SurfaceProxy(SurfaceProxy&&) noexcept = default;
 SurfaceProxy::~SurfaceProxy() = default;
 
 bool SurfaceProxy::sampleAt(std::size_t box, const Location& place, const Jet& jet)
