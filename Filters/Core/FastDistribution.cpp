@@ -38,7 +38,7 @@ constexpr int maximumHalvings = 3;
 /// distance of two rows of hexagonal packing. Those that a round of relaxation squeezed against the rim
 /// are dropped after it.
 constexpr double seedToRim = 0.433;
-constexpr double squeezedToRim = 0.6;
+constexpr double squeezed = 0.6;
 /// A patch runs through a box if it passes its sample nearer than this, in units of its spacing.
 constexpr float coverOffset = 0.1f;
 
@@ -87,6 +87,7 @@ private:
   void findJumps();
   void makeRims();
   std::vector<char> farFromRims(double nearest);
+  std::vector<char> standApart(double nearest);
   void dropNearRims(double nearest);
   void makeSeeds(std::int64_t count);
   bool countIsGiven() const { return this->Parameters.particleCount > 0; }
@@ -343,6 +344,54 @@ std::vector<char> FastSystem::farFromRims(double nearest)
   return far;
 }
 
+/// For each particle that moves, whether to keep it if any two are to be that far apart, in units of their
+/// spacings: the first of two stays, and those on rims do.
+std::vector<char> FastSystem::standApart(double nearest)
+{
+  std::vector<glm::dvec3> positions;
+  std::vector<float> spacings;
+  for (const Patch& patch : this->Patches)
+  {
+    positions.push_back(patch.position);
+    spacings.push_back(patch.spacing);
+  }
+  const SpacingGrid grid(positions, spacings, nearest, 0.5);
+  const auto visitNear = [&](std::size_t i, const auto& use)
+  {
+    grid.visit(positions[i], spacings[i],
+      [&](int j)
+      {
+        if (static_cast<std::size_t>(j) != i &&
+          glm::distance(positions[i], positions[j]) < nearest * std::min(spacings[i], spacings[j]) &&
+          glm::dot(this->Patches[i].normal, this->Patches[j].normal) > 0.0f)
+        {
+          use(j);
+        }
+      });
+  };
+  std::vector<char> kept(this->Patches.size(), 1);
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(this->Anchors.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      for (std::ptrdiff_t i = begin; i < end; ++i)
+      {
+        visitNear(i, [&](int) { kept[i] = 0; });
+      }
+    });
+  // The few that have a neighbour too near, one by one.
+  for (std::size_t i = 0; i < this->Anchors.size(); ++i)
+  {
+    if (!kept[i])
+    {
+      bool alone = true;
+      visitNear(i, [&](int j) { alone = alone && !kept[j]; });
+      kept[i] = alone;
+    }
+  }
+  kept.resize(this->Anchors.size());
+  return kept;
+}
+
 /// Particles on rims are there first: others too near to one are dropped.
 void FastSystem::dropNearRims(double nearest)
 {
@@ -502,7 +551,7 @@ void FastSystem::relax(int sweeps)
   this->commit(relaxed.displacements);
   if (!this->countIsGiven())
   {
-    this->dropNearRims(squeezedToRim);
+    this->dropNearRims(squeezed);
   }
   this->Result.report.iterations += sweeps;
 }
@@ -663,9 +712,12 @@ void FastSystem::finish()
   }
   this->Evaluations += walker.evaluations();
   const std::ptrdiff_t lost = std::count(settled.begin(), settled.end(), 0);
-  const std::vector<char> far = this->farFromRims(this->countIsGiven() ? 0.0 : squeezedToRim);
-  std::transform(
-    settled.begin(), settled.end(), far.begin(), settled.begin(), std::logical_and<>());
+  if (!this->countIsGiven())
+  {
+    const std::vector<char> apart = this->standApart(squeezed);
+    std::transform(
+      settled.begin(), settled.end(), apart.begin(), settled.begin(), std::logical_and<>());
+  }
   keep(particles, settled);
   DistributionReport& report = this->Result.report;
   report.particlesRejected += lost;
