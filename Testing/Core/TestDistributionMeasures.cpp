@@ -40,7 +40,8 @@ std::vector<Particle> hexagonalLattice(int rings, double distance, double spacin
       {
         if (std::max({ std::abs(i), std::abs(j), std::abs(i + j) }) == ring)
         {
-          particles.push_back(particleAt(distance * (double(i) * e1 + double(j) * e2), normal, spacing));
+          particles.push_back(
+            particleAt(distance * (double(i) * e1 + double(j) * e2), normal, spacing));
         }
       }
     }
