@@ -1,5 +1,6 @@
 #include "FastDistribution.h"
 
+#include "FaceJumps.h"
 #include "Interruptible.h"
 #include "Random.h"
 #include "RimCurves.h"
@@ -20,7 +21,7 @@ constexpr double boxSizePerSpacing = 4.0;
 constexpr double boxSizePerRadius = 1.0;
 /// A step of relaxation is taken back by half while it ends farther from the surface than this, in
 /// units of the spacing, or on a sheet that is turned away.
-constexpr float largestOffset = 0.3f;
+constexpr float largestOffset = 0.5f;
 constexpr float smallestTurn = 0.3f;
 constexpr int maximumHalvings = 3;
 /// Seeds nearer to a rim's particle than this, in units of their spacing, are dropped: half the
@@ -62,6 +63,7 @@ public:
 
 private:
   void makeProxy();
+  void findJumps();
   void makeRims();
   void dropNearRims(double nearest);
   bool makeSeeds();
@@ -88,6 +90,7 @@ private:
   /// Those of the particles that move, then those on rims.
   std::vector<Patch> Patches;
   RimCurves Rims;
+  FaceJumps Jumps;
   std::atomic<std::int64_t> Evaluations{ 0 };
   Distribution Result;
 };
@@ -184,6 +187,14 @@ void FastSystem::putNearSurface()
   keep(this->Anchors, found);
   keep(this->Patches, found);
   this->commit(std::vector<glm::vec2>(this->Anchors.size(), glm::vec2(0.0f)));
+}
+
+/// From here on the surface ends where its two sides miss each other.
+void FastSystem::findJumps()
+{
+  this->Jumps = findFaceJumps(this->Surface, *this->Proxy, this->Parallel);
+  this->Evaluations += this->Jumps.evaluations;
+  this->Surface.cuts = &this->Jumps.cuts;
 }
 
 void FastSystem::makeRims()
@@ -484,6 +495,7 @@ Distribution FastSystem::run()
     this->makeProxy();
     if (this->Proxy->particleCount() > 0.0 && this->makeSeeds())
     {
+      this->findJumps();
       this->putNearSurface();
       this->makeRims();
       this->dropNearRims(seedToRim);

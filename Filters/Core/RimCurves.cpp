@@ -1,6 +1,6 @@
 #include "RimCurves.h"
 
-#include "ActiveFaces.h"
+#include "FaceCrossings.h"
 #include "RimTracer.h"
 
 #include <algorithm>
@@ -13,53 +13,6 @@ namespace
 
 /// Chords of traced rims, in units of the spacing.
 constexpr double chordPerSpacing = 0.5;
-/// Corners of boxes are kept in single precision.
-constexpr double boxOnFace = 1e-6;
-
-/// Where a box shows a rim.
-struct RimHint
-{
-  Location location;
-  int face = -1;
-};
-
-/// Places on boundary faces between corners of a box's face with values of opposite sign.
-void appendHints(
-  const Isosurface& surface, const SurfaceBox& box, std::vector<RimHint>& hints)
-{
-  const int element = box.middle.element;
-  const auto& faces = facts(surface.mesh->elements[element].domain).faces;
-  for (int wall = 0; wall < static_cast<int>(faces.size()); ++wall)
-  {
-    if (surface.neighbor(element, wall).element >= 0)
-    {
-      continue;
-    }
-    const auto onWall = [&](int corner)
-    { return faceMargin(faces[wall], { glm::dvec3(box.corners[corner]) }) < boxOnFace; };
-    for (const Face& face : faces)
-    {
-      if (!std::all_of(face.corners.begin(), face.corners.begin() + face.cornerCount, onWall))
-      {
-        continue;
-      }
-      for (int c = 0; c < face.cornerCount; ++c)
-      {
-        const int a = face.corners[c];
-        const int b = face.corners[(c + 1) % face.cornerCount];
-        if ((box.values[a] > 0.0f) == (box.values[b] > 0.0f))
-        {
-          continue;
-        }
-        const double t = box.values[a] / (box.values[a] - box.values[b]);
-        glm::dvec3 u = (1.0 - t) * glm::dvec3(box.corners[a]) + t * glm::dvec3(box.corners[b]);
-        const glm::dvec3& inward = faces[wall].inward.xyz;
-        u -= (faceMargin(faces[wall], { u }) / glm::dot(inward, inward)) * inward;
-        hints.push_back({ { element, { u } }, wall });
-      }
-    }
-  }
-}
 
 class RimSampler
 {
@@ -76,7 +29,7 @@ public:
   RimCurves run();
 
 private:
-  void follow(const RimHint& hint, double nearby);
+  void follow(const FaceCrossing& hint, double nearby);
   void sample(const RimTrace& trace, double nearby);
   void sampleStretch(const std::vector<RimVertex>& vertices, bool withEnd, double nearby);
   double spacingAt(const RimPoint& point, double nearby);
@@ -102,7 +55,7 @@ double RimSampler::spacingAt(const RimPoint& point, double nearby)
     static_cast<float>(nearby));
 }
 
-void RimSampler::follow(const RimHint& hint, double nearby)
+void RimSampler::follow(const FaceCrossing& hint, double nearby)
 {
   const auto start = this->Tracer.project(hint.location, hint.face, 4.0 * nearby);
   if (!start || this->Tracer.hasPassed(*start))
@@ -211,21 +164,15 @@ void RimSampler::addParticle(const Location& place, int face, double nearby)
 
 RimCurves RimSampler::run()
 {
-  std::vector<std::pair<RimHint, double>> hints;
-  std::vector<RimHint> ofBox;
   for (std::size_t b = 0; b < this->Proxy.boxes().size(); ++b)
   {
-    ofBox.clear();
-    appendHints(this->Surface, this->Proxy.boxes()[b], ofBox);
+    const SurfaceBox& box = this->Proxy.boxes()[b];
     const SurfaceProxy::Sample& sample = this->Proxy.samples()[b];
-    for (const RimHint& hint : ofBox)
-    {
-      hints.emplace_back(hint, sample.found ? sample.patch.spacing : this->Law.spacing);
-    }
-  }
-  for (const auto& [hint, nearby] : hints)
-  {
-    this->follow(hint, nearby);
+    const double nearby = sample.found ? sample.patch.spacing : this->Law.spacing;
+    visitFaceCrossings(
+      *this->Surface.mesh, box,
+      [&](int face) { return this->Surface.neighbor(box.middle.element, face).element < 0; },
+      [&](const FaceCrossing& crossing) { this->follow(crossing, nearby); });
   }
   this->Result.evaluations += this->Tracer.evaluations() + this->Walker.evaluations();
   return std::move(this->Result);
