@@ -3,6 +3,7 @@
 #include "ParticleBins.h"
 #include "Random.h"
 #include "SurfaceBoxes.h"
+#include "UnresolvedBoxes.h"
 
 #include <algorithm>
 #include <array>
@@ -159,40 +160,6 @@ double meshExtent(const ElementMesh& mesh)
     }
   }
   return glm::distance(lower, upper);
-}
-
-/// Counts the boxes that isolation could not decide, and what makes them so.
-void reportUnresolved(
-  const Isosurface& surface, const std::vector<SurfaceBox>& boxes, DistributionReport& report)
-{
-  const ElementMesh& mesh = *surface.mesh;
-  std::vector<CriticalPoint> singular;
-  report.boxes = static_cast<std::int64_t>(boxes.size());
-  for (const SurfaceBox& box : boxes)
-  {
-    if (box.certified)
-    {
-      continue;
-    }
-    ++report.boxesUnresolved;
-    const std::int64_t cell = mesh.elements[box.middle.element].cell;
-    if (report.unresolvedCells.empty() || report.unresolvedCells.back() != cell)
-    {
-      report.unresolvedCells.push_back(cell);
-    }
-    CriticalPoint point;
-    const auto same = [&](const CriticalPoint& other)
-    {
-      return other.location.element == point.location.element &&
-        glm::distance(other.location.u.xyz, point.location.u.xyz) < 1e-6;
-    };
-    if (findCriticalPoint(mesh, surface.isovalue, box, point) && point.onSurface &&
-      std::none_of(singular.begin(), singular.end(), same))
-    {
-      singular.push_back(point);
-    }
-  }
-  report.singularPoints = static_cast<std::int64_t>(singular.size());
 }
 
 /// Neighbours that hexagonal packing can have around a particle on that many boundary faces.
@@ -704,7 +671,8 @@ bool ClassicSystem::settle(const Mover& mover, SurfaceWalker& walker, Particle& 
   at = walker.evaluateCurved(at.location);
   const Curvature bend = curvature(at.point.gradient, at.hessian);
   particle = { at.location, at.point.map.position, surfaceNormal(at.point.gradient), bend,
-    std::abs(at.point.value) / length(at.point.gradient), this->Law.at(bend.magnitude) };
+    std::abs(at.point.value) / length(at.point.gradient), this->Law.at(bend.magnitude), {}, 0.0,
+    0.0 };
   return true;
 }
 

@@ -1,5 +1,6 @@
 #include "FaceJumps.h"
 
+#include "ActiveFaces.h"
 #include "FaceCrossings.h"
 
 #include <atomic>
@@ -87,6 +88,8 @@ FaceJumps findFaceJumps(
   const std::vector<char> everywhere(result.cuts.size(), 1);
   Isosurface walled = surface;
   walled.cuts = &everywhere;
+  // Jumps and kinks are large beside this.
+  walled.tolerance = std::max(surface.tolerance, 0.02 * proxy.smallestSpacing());
   enum Finding : char
   {
     Agrees,
@@ -105,8 +108,9 @@ FaceJumps findFaceJumps(
   {
     Evaluated here;
     const Location& start = crossing.location;
+    const Face& face = facts(mesh.elements[start.element].domain).faces[crossing.face];
     if (!walker.project(start, 4.0 * spacing, here, true) ||
-      here.location.element != start.element)
+      faceMargin(face, here.location.u) > OnFace)
     {
       return Agrees;
     }

@@ -1,24 +1,31 @@
 #include "FastDistribution.h"
 
+#include "ClipPlanes.h"
 #include "FaceJumps.h"
 #include "Interruptible.h"
 #include "Random.h"
 #include "RimCurves.h"
+#include "UnresolvedBoxes.h"
 #include "SpacingGrid.h"
 #include "SurfaceProxy.h"
 
 #include <atomic>
 #include <cmath>
+#include <functional>
+#include <numeric>
 
 namespace hop
 {
 namespace
 {
 
-/// Boxes of the proxy, in units of the spacing wanted.
-constexpr double boxSizePerSpacing = 4.0;
-/// Where the surface bends, boxes are small enough that they see it as nearly flat.
-constexpr double boxSizePerRadius = 1.0;
+/// Largest boxes of the proxy, in units of the spacing wanted: some five particles each. Tetrahedra fill
+/// less of their bounds.
+constexpr double hexahedronPerSpacing = 6.0;
+constexpr double wedgePerSpacing = 7.0;
+constexpr double tetrahedronPerSpacing = 9.0;
+/// Where the spacing follows the curvature, boxes are smaller by this factor, to see it change.
+constexpr double adaptiveShare = 0.67;
 /// A step of relaxation is taken back by half while it ends farther from the surface than this, in
 /// units of the spacing, or on a sheet that is turned away.
 constexpr float largestOffset = 0.5f;
@@ -65,18 +72,22 @@ private:
   void makeProxy();
   void findJumps();
   void makeRims();
+  std::vector<char> farFromRims(double nearest);
   void dropNearRims(double nearest);
   bool makeSeeds();
   void putNearSurface();
   void coverBoxes();
   bool isCovered(const SurfaceProxy::Sample& sample, const SpacingGrid& grid) const;
+  void relax(int sweeps);
   void commit(const std::vector<glm::vec2>& displacements);
   Location target(std::size_t i, const glm::dvec3& step, std::int64_t& cost) const;
   glm::dvec3 stepTo(std::size_t i, const glm::vec2& displacement) const;
   std::vector<Location> targets(const std::vector<glm::vec2>& displacements);
   bool retry(std::size_t i, glm::dvec3 step, Anchor& anchor, Patch& patch, std::int64_t& cost) const;
   bool accepts(const Patch& before, const Anchor& anchor, const Patch& after) const;
-  bool settle(const Location& place, const Jet& jet, float spacing, Particle& particle) const;
+  bool settle(const Location& place, const Jet& jet, Patch& patch, Particle& particle) const;
+  void finishPass(
+    std::vector<int>& pending, std::vector<Particle>& particles, std::vector<char>& settled);
   void finish();
 
   Isosurface Surface;
@@ -122,21 +133,26 @@ void FastSystem::makeProxy()
 {
   const auto wantedSize = [this](const Location& middle)
   {
+    const Domain domain = this->Mesh.elements[middle.element].domain;
+    const double perSpacing = domain == Domain::Hexahedron ? hexahedronPerSpacing
+      : domain == Domain::Wedge                            ? wedgePerSpacing
+                                                           : tetrahedronPerSpacing;
     if (this->Law.angularDensity == 0.0)
     {
-      return boxSizePerSpacing * this->Law.spacing;
+      return perSpacing * this->Law.spacing;
     }
     ++this->Evaluations;
     Anchor anchor;
     Patch patch;
     const Jet jet = evaluateHessian(this->Mesh.form(middle.element), middle.u);
     const bool regular = anchorPatch(middle, jet, this->Surface.isovalue, anchor, patch);
-    return boxSizePerSpacing * this->Law.at(regular ? patch.curvatureMagnitude() : 0.0);
+    return adaptiveShare * perSpacing * this->Law.at(regular ? patch.curvatureMagnitude() : 0.0);
   };
   this->Proxy = std::make_unique<SurfaceProxy>(this->Surface, this->Law,
     findSurfaceBoxes(this->Mesh, this->Surface.isovalue, wantedSize, this->Parallel),
     this->Parallel);
   this->Evaluations += this->Proxy->evaluations();
+  reportUnresolved(this->Surface, this->Proxy->boxes(), this->Result.report);
 }
 
 /// Draws first places.
@@ -203,13 +219,11 @@ void FastSystem::makeRims()
   this->Evaluations += this->Rims.evaluations;
 }
 
-/// Particles on rims are there first: others too near to one are dropped.
-void FastSystem::dropNearRims(double nearest)
+/// For each particle that moves, whether it keeps that distance, in units of its spacing, from all
+/// particles on rims.
+std::vector<char> FastSystem::farFromRims(double nearest)
 {
-  if (this->Rims.particles.empty())
-  {
-    return;
-  }
+  std::vector<char> far(this->Anchors.size(), 1);
   std::vector<glm::dvec3> positions;
   std::vector<float> spacings;
   for (const RimParticle& rim : this->Rims.particles)
@@ -217,10 +231,8 @@ void FastSystem::dropNearRims(double nearest)
     positions.push_back(rim.patch.position);
     spacings.push_back(rim.patch.spacing);
   }
-  const SpacingGrid grid(positions, spacings, 1.0);
-  this->Patches.resize(this->Anchors.size());
-  std::vector<char> kept(this->Patches.size(), 1);
-  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(this->Patches.size()),
+  const SpacingGrid grid(positions, spacings, nearest, 0.5);
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(far.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       for (std::ptrdiff_t i = begin; i < end; ++i)
@@ -230,15 +242,23 @@ void FastSystem::dropNearRims(double nearest)
           [&](int j)
           {
             const Patch& rim = this->Rims.particles[j].patch;
-            const bool near = glm::distance(patch.position, rim.position) <
-                nearest * patch.spacing &&
+            const bool near =
+              glm::distance(patch.position, rim.position) < nearest * patch.spacing &&
               glm::dot(patch.normal, rim.normal) > 0.0f;
-            kept[i] = kept[i] && !near;
+            far[i] = far[i] && !near;
           });
       }
     });
-  keep(this->Anchors, kept);
-  keep(this->Patches, kept);
+  return far;
+}
+
+/// Particles on rims are there first: others too near to one are dropped.
+void FastSystem::dropNearRims(double nearest)
+{
+  this->Patches.resize(this->Anchors.size());
+  const std::vector<char> far = this->farFromRims(nearest);
+  keep(this->Anchors, far);
+  keep(this->Patches, far);
   for (const RimParticle& rim : this->Rims.particles)
   {
     this->Patches.push_back(rim.patch);
@@ -352,6 +372,22 @@ void FastSystem::commit(const std::vector<glm::vec2>& displacements)
   std::copy(patches.begin(), patches.end(), this->Patches.begin());
 }
 
+/// One round. Particles for which there turns out to be no room are dropped.
+void FastSystem::relax(int sweeps)
+{
+  Relaxed relaxed = relaxOnPatches(this->Patches, sweeps, this->Parallel);
+  std::vector<char> kept(this->Patches.size());
+  std::transform(relaxed.surplus.begin(), relaxed.surplus.end(), kept.begin(),
+    [](char surplus) { return !surplus; });
+  keep(relaxed.displacements, kept);
+  keep(this->Patches, kept);
+  kept.resize(this->Anchors.size());
+  keep(this->Anchors, kept);
+  this->commit(relaxed.displacements);
+  this->dropNearRims(squeezedToRim);
+  this->Result.report.iterations += sweeps;
+}
+
 /// Whether a particle stands on the piece of surface around a sample.
 bool FastSystem::isCovered(const SurfaceProxy::Sample& sample, const SpacingGrid& grid) const
 {
@@ -390,7 +426,7 @@ void FastSystem::coverBoxes()
   const auto& samples = this->Proxy->samples();
   std::vector<char> lonely(samples.size(), 0);
   {
-    const SpacingGrid grid(positions, spacings, 1.0);
+    const SpacingGrid grid(positions, spacings, 1.0, 0.5);
     runParallel(this->Parallel, static_cast<std::ptrdiff_t>(samples.size()),
       [&](std::ptrdiff_t begin, std::ptrdiff_t end)
       {
@@ -424,7 +460,8 @@ void FastSystem::coverBoxes()
 }
 
 /// What there is to say about a particle, if it lies on the surface to the tolerance.
-bool FastSystem::settle(const Location& place, const Jet& jet, float spacing, Particle& particle) const
+bool FastSystem::settle(
+  const Location& place, const Jet& jet, Patch& patch, Particle& particle) const
 {
   const FieldPoint point = fieldPoint(jet, this->Surface.isovalue);
   const double slope = length(point.gradient);
@@ -434,54 +471,97 @@ bool FastSystem::settle(const Location& place, const Jet& jet, float spacing, Pa
     return false;
   }
   particle = { place, point.map.position, surfaceNormal(point.gradient),
-    curvature(point.gradient, worldHessian(jet, point)), residual, spacing };
+    curvature(point.gradient, worldHessian(jet, point)), residual, patch.spacing, {}, 0.0,
+    0.0 };
+  patch.position = particle.position.xyz;
   return true;
 }
 
-/// Newton's method to the tolerance: one step for all, more for those that need them.
-void FastSystem::finish()
+/// Evaluates the pending particles where Newton's method takes them. Those on the surface to the
+/// tolerance are finished, the others stay pending.
+void FastSystem::finishPass(
+  std::vector<int>& pending, std::vector<Particle>& particles, std::vector<char>& settled)
 {
-  const std::size_t count = this->Anchors.size();
-  const std::vector<glm::vec2> still(count, glm::vec2(0.0f));
-  const std::vector<Location> places = this->targets(still);
-  const std::vector<int> order = orderByElement(places, this->Mesh.elements.size());
-  std::vector<Particle> particles(count);
-  std::vector<char> settled(count, 0);
-  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(count),
+  std::vector<Location> places(pending.size());
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(pending.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
-      SurfaceWalker walker(this->Surface);
-      std::int64_t cost = end - begin;
-      std::ptrdiff_t n = begin;
-      evaluateInOrder(this->Mesh, places, order, begin, end,
-        [&](int i, const Jet& jet)
-        {
-          const Patch& patch = this->Patches[i];
-          Particle& particle = particles[n];
-          settled[n] = this->settle(places[i], jet, patch.spacing, particle);
-          Evaluated at;
-          if (!settled[n] &&
-            walker.project(this->Anchors[i].place, patch.spacing, at))
-          {
-            const Jet there =
-              evaluateHessian(this->Mesh.form(at.location.element), at.location.u);
-            ++cost;
-            settled[n] = this->settle(at.location, there, patch.spacing, particle);
-          }
-          ++n;
-        });
-      this->Evaluations += cost + walker.evaluations();
+      std::int64_t cost = 0;
+      for (std::ptrdiff_t n = begin; n < end; ++n)
+      {
+        places[n] = this->target(pending[n], this->stepTo(pending[n], glm::vec2(0.0f)), cost);
+      }
+      this->Evaluations += cost;
     });
+  const std::vector<int> order = orderByElement(places, this->Mesh.elements.size());
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(pending.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      evaluateInOrder(this->Mesh, places, order, begin, end,
+        [&](int n, const Jet& jet)
+        {
+          const int i = pending[n];
+          Patch& patch = this->Patches[i];
+          settled[i] = this->settle(places[n], jet, patch, particles[i]);
+          Anchor anchor;
+          Patch there = patch;
+          if (!settled[i] &&
+            anchorPatch(places[n], jet, this->Surface.isovalue, anchor, there) &&
+            this->accepts(patch, anchor, there))
+          {
+            this->Anchors[i] = anchor;
+            patch = there;
+          }
+        });
+      this->Evaluations += end - begin;
+    });
+  pending.erase(std::remove_if(pending.begin(), pending.end(), [&](int i) { return settled[i]; }),
+    pending.end());
+}
+
+/// Newton's method to the tolerance: a few steps for all that need them at once, then one by one.
+void FastSystem::finish()
+{
+  constexpr int passes = 3;
+  const std::size_t count = this->Anchors.size();
+  std::vector<Particle> particles(count);
+  std::vector<char> settled(count, 0);
+  std::vector<int> pending(count);
+  std::iota(pending.begin(), pending.end(), 0);
+  for (int pass = 0; pass < passes; ++pass)
+  {
+    this->finishPass(pending, particles, settled);
+  }
+  SurfaceWalker walker(this->Surface);
+  for (const int i : pending)
+  {
+    Evaluated at;
+    const float spacing = this->Patches[i].spacing;
+    if (walker.project(this->Anchors[i].place, spacing, at))
+    {
+      const Jet jet = evaluateHessian(this->Mesh.form(at.location.element), at.location.u);
+      ++this->Evaluations;
+      settled[i] = this->settle(at.location, jet, this->Patches[i], particles[i]);
+    }
+  }
+  this->Evaluations += walker.evaluations();
+  const std::ptrdiff_t lost = std::count(settled.begin(), settled.end(), 0);
+  const std::vector<char> far = this->farFromRims(squeezedToRim);
+  std::transform(settled.begin(), settled.end(), far.begin(), settled.begin(), std::logical_and<>());
   keep(particles, settled);
   DistributionReport& report = this->Result.report;
-  report.particlesRejected += static_cast<std::int64_t>(count - particles.size());
+  report.particlesRejected += lost;
+  this->Evaluations += markClipPlanes(
+    this->Mesh, this->Jumps, this->Rims.particles, particles, this->Parallel);
+  for (const RimParticle& rim : this->Rims.particles)
+  {
+    particles.push_back(rim.particle);
+  }
+  std::stable_sort(particles.begin(), particles.end(),
+    [](const Particle& a, const Particle& b) { return a.location.element < b.location.element; });
   report.particlesUndersampled = std::count_if(particles.begin(), particles.end(),
     [](const Particle& p) { return p.curvature.magnitude * p.spacing > 2.0; });
   this->Result.particles = std::move(particles);
-  for (const RimParticle& rim : this->Rims.particles)
-  {
-    this->Result.particles.push_back(rim.particle);
-  }
 }
 
 Distribution FastSystem::run()
@@ -502,9 +582,7 @@ Distribution FastSystem::run()
       this->coverBoxes();
       for (const int sweeps : sweepsOfRounds(this->Parameters.quality))
       {
-        this->commit(relaxOnPatches(this->Patches, sweeps, this->Parallel));
-        this->dropNearRims(squeezedToRim);
-        this->Result.report.iterations += sweeps;
+        this->relax(sweeps);
       }
       this->finish();
     }

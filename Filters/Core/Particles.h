@@ -20,6 +20,13 @@ struct Particle
   double residual = 0.0;
   /// h, the distance to neighbours that this particle wants, world units.
   double spacing = 0.0;
+  /// Unit normal of the plane at which the surface ends or turns near this particle, pointing to the
+  /// far side; zero if there is none.
+  WorldVector clipNormal;
+  /// Distance of that plane, world units, >= 0.
+  double clipDistance = 0.0;
+  /// On a rim where the field jumps between elements: F - c on the other side. Zero elsewhere.
+  double jump = 0.0;
 };
 
 /// What a distribution cost and what it found.

@@ -18,6 +18,8 @@ using kernel::SweepLanes;
 
 /// Two particles interact up to h/beta; what they move in a round is added to that.
 constexpr double listSlack = 0.35;
+/// Energy, in units of that of hexagonal packing, from which on a particle is one too many.
+constexpr double crowdedEnergy = 1.8;
 /// Over-relaxation of Newton's steps where the surface is flat, and where it bends.
 constexpr float flatRelaxation = 1.5f;
 constexpr float bentRelaxation = 0.7f;
@@ -83,16 +85,16 @@ public:
   SweepSystem(const std::vector<Patch>& patches, const ParallelFor& parallelFor)
     : Patches(patches)
     , Parallel(parallelFor)
+    , Lists(positionsOf(patches), spacingsOf(patches),
+        (1.0 + listSlack * HexagonalDistance) / HexagonalDistance, parallelFor)
   {
     this->makeSeen();
-    const SeenLists lists(positionsOf(patches), spacingsOf(patches),
-      (1.0 + listSlack * HexagonalDistance) / HexagonalDistance, parallelFor);
-    const auto byColor = colorParticles(patches, lists);
+    const auto byColor = colorParticles(patches, this->Lists);
     for (const auto& particles : byColor)
     {
-      this->layOut(particles, lists);
+      this->layOut(particles);
     }
-    this->fillBlocks(byColor, lists);
+    this->fillBlocks(byColor);
   }
 
   void sweep()
@@ -110,27 +112,17 @@ public:
     }
   }
 
-  std::vector<glm::vec2> displacements() const
-  {
-    std::vector<glm::vec2> result(this->Patches.size(), glm::vec2(0.0f));
-    for (const SweepBlock& block : this->Blocks)
-    {
-      for (int lane = 0; lane < block.count; ++lane)
-      {
-        result[block.particle[lane]] = { block.moved[0][lane], block.moved[1][lane] };
-      }
-    }
-    return result;
-  }
+  Relaxed result() const;
 
 private:
   void makeSeen();
-  void layOut(const std::vector<int>& particles, const SeenLists& lists);
-  void fillBlocks(const std::vector<std::vector<int>>& byColor, const SeenLists& lists);
+  void layOut(const std::vector<int>& particles);
+  void fillBlocks(const std::vector<std::vector<int>>& byColor);
   void fillLane(SweepBlock& block, int lane, int particle) const;
 
   const std::vector<Patch>& Patches;
   const ParallelFor& Parallel;
+  SeenLists Lists;
   glm::dvec3 Center{ 0.0 };
   /// One a particle, and one beyond the sight of all that stands in for neighbours missing in a block.
   std::vector<Seen> SeenParticles;
@@ -163,7 +155,7 @@ void SweepSystem::makeSeen()
 }
 
 /// Appends the blocks of a colour, empty but for the sizes of their lists.
-void SweepSystem::layOut(const std::vector<int>& particles, const SeenLists& lists)
+void SweepSystem::layOut(const std::vector<int>& particles)
 {
   for (std::size_t first = 0; first < particles.size(); first += SweepLanes)
   {
@@ -171,7 +163,7 @@ void SweepSystem::layOut(const std::vector<int>& particles, const SeenLists& lis
     block.count = static_cast<std::int32_t>(std::min<std::size_t>(SweepLanes, particles.size() - first));
     for (int lane = 0; lane < block.count; ++lane)
     {
-      block.neighborCount = std::max(block.neighborCount, lists.count(particles[first + lane]));
+      block.neighborCount = std::max(block.neighborCount, this->Lists.count(particles[first + lane]));
     }
     block.firstNeighbor = this->Blocks.empty()
       ? 0
@@ -181,8 +173,7 @@ void SweepSystem::layOut(const std::vector<int>& particles, const SeenLists& lis
   this->ColorStart.push_back(static_cast<std::ptrdiff_t>(this->Blocks.size()));
 }
 
-void SweepSystem::fillBlocks(
-  const std::vector<std::vector<int>>& byColor, const SeenLists& lists)
+void SweepSystem::fillBlocks(const std::vector<std::vector<int>>& byColor)
 {
   if (this->Blocks.empty())
   {
@@ -200,7 +191,7 @@ void SweepSystem::fillBlocks(
       const int particle = particles[first + std::min(lane, block.count - 1)];
       this->fillLane(block, lane, particle);
       std::int32_t* neighbor = neighbors + lane;
-      for (const int* j = lists.begin(particle); j != lists.end(particle); ++j)
+      for (const int* j = this->Lists.begin(particle); j != this->Lists.end(particle); ++j)
       {
         *neighbor = *j;
         neighbor += SweepLanes;
@@ -219,6 +210,33 @@ void SweepSystem::fillBlocks(
         }
       });
   }
+}
+
+Relaxed SweepSystem::result() const
+{
+  const std::size_t count = this->Patches.size();
+  Relaxed result{ std::vector<glm::vec2>(count, glm::vec2(0.0f)), std::vector<char>(count, 0) };
+  std::vector<float> energies(count, 0.0f);
+  for (const SweepBlock& block : this->Blocks)
+  {
+    for (int lane = 0; lane < block.count; ++lane)
+    {
+      result.displacements[block.particle[lane]] = { block.moved[0][lane], block.moved[1][lane] };
+      energies[block.particle[lane]] = block.energy[lane];
+    }
+  }
+  const auto crowded = static_cast<float>(crowdedEnergy * idealEnergy());
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    result.surplus[i] = energies[i] > crowded &&
+      std::none_of(this->Lists.begin(i), this->Lists.end(i),
+        [&](int j)
+        {
+          return energies[j] > energies[i] ||
+            (energies[j] == energies[i] && j < static_cast<int>(i));
+        });
+  }
+  return result;
 }
 
 void SweepSystem::fillLane(SweepBlock& block, int lane, int particle) const
@@ -257,7 +275,7 @@ std::array<glm::vec3, 2> tangentsOf(const glm::vec3& normal)
   return { first, glm::cross(normal, first) };
 }
 
-std::vector<glm::vec2> relaxOnPatches(
+Relaxed relaxOnPatches(
   const std::vector<Patch>& patches, int sweeps, const ParallelFor& parallelFor)
 {
   if (patches.empty())
@@ -269,33 +287,7 @@ std::vector<glm::vec2> relaxOnPatches(
   {
     system.sweep();
   }
-  return system.displacements();
-}
-
-std::vector<float> relativeEnergies(
-  const std::vector<Patch>& patches, const ParallelFor& parallelFor)
-{
-  const std::vector<float> spacings = spacingsOf(patches);
-  const SeenLists lists(positionsOf(patches), spacings, 1.0 / HexagonalDistance, parallelFor);
-  std::vector<float> energies(patches.size(), 0.0f);
-  runParallel(parallelFor, static_cast<std::ptrdiff_t>(patches.size()),
-    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-    {
-      for (std::ptrdiff_t i = begin; i < end; ++i)
-      {
-        double energy = 0.0;
-        for (const int* j = lists.begin(i); j != lists.end(i); ++j)
-        {
-          const double facing =
-            std::clamp(2.0 * glm::dot(patches[i].normal, patches[*j].normal), 0.0, 1.0);
-          const double alpha = 0.5 * HexagonalDistance * (1.0 / spacings[i] + 1.0 / spacings[*j]);
-          const double distance = glm::distance(patches[i].position, patches[*j].position);
-          energy += facing * facing * (3.0 - 2.0 * facing) * pairEnergy(alpha * distance);
-        }
-        energies[i] = static_cast<float>(energy / idealEnergy());
-      }
-    });
-  return energies;
+  return system.result();
 }
 
 } // namespace hop

@@ -32,6 +32,16 @@ struct Patch
 /// Two unit vectors that span the plane normal to a unit vector, right-handed with it.
 std::array<glm::vec3, 2> tangentsOf(const glm::vec3& normal);
 
+/// Where relaxation takes particles.
+struct Relaxed
+{
+  /// In the basis of each particle's tangents; zero for fixed ones.
+  std::vector<glm::vec2> displacements;
+  /// Particles that there is no room for, none of which see each other: their energy is far above that
+  /// of hexagonal packing, and above that of all around them.
+  std::vector<char> surplus;
+};
+
 /// Spreads particles evenly over their patches: Gauss-Seidel sweeps over the energy of
 /// Energy.h with the weight (h_ij/h_i)^2 of a pair, h_ij the harmonic mean of the two spacings (it
 /// makes the pressure, and with it the area around a particle, even where spacings differ). Pairs
@@ -41,13 +51,7 @@ std::array<glm::vec3, 2> tangentsOf(const glm::vec3& normal);
 ///
 /// Particles that see each other never move at the same time: a greedy colouring in the order of the
 /// particles decides who moves together. So the result does not depend on threads.
-/// \return displacement of each particle in the basis of its tangents; zero for fixed ones
-std::vector<glm::vec2> relaxOnPatches(
+Relaxed relaxOnPatches(
   const std::vector<Patch>& patches, int sweeps, const ParallelFor& parallelFor);
-
-/// Energy of each particle over that of its hexagonal packing, six neighbours at distance h: less
-/// than one where it is lonely (or on a rim), more where it is crowded.
-std::vector<float> relativeEnergies(
-  const std::vector<Patch>& patches, const ParallelFor& parallelFor);
 
 } // namespace hop

@@ -1,6 +1,7 @@
 #include "RimCurves.h"
 
 #include "FaceCrossings.h"
+#include "FaceJumps.h"
 #include "RimTracer.h"
 
 #include <algorithm>
@@ -14,6 +15,13 @@ namespace
 /// Chords of traced rims, in units of the spacing.
 constexpr double chordPerSpacing = 0.5;
 
+/// Chords need not lie on the surface as exactly as particles.
+Isosurface roughly(Isosurface surface, double spacing)
+{
+  surface.tolerance = std::max(surface.tolerance, 1e-3 * spacing);
+  return surface;
+}
+
 class RimSampler
 {
 public:
@@ -21,7 +29,8 @@ public:
     : Surface(surface)
     , Proxy(proxy)
     , Law(law)
-    , Tracer(surface)
+    , Tracer(roughly(surface, proxy.smallestSpacing()))
+    , Exact(surface)
     , Walker(surface)
   {
   }
@@ -39,6 +48,8 @@ private:
   const SurfaceProxy& Proxy;
   SpacingLaw Law;
   RimTracer Tracer;
+  /// For the particles, when the way is known.
+  RimTracer Exact;
   SurfaceWalker Walker;
   RimCurves Result;
 };
@@ -115,7 +126,8 @@ void RimSampler::sampleStretch(
     }
     const RimPoint& from = vertices[v - 1].leaving;
     const RimPoint& to = vertices[v].arriving;
-    const double t = std::clamp((wanted - sums[v - 1]) / (sums[v] - sums[v - 1]), 0.0, 1.0);
+    const double chord = sums[v] - sums[v - 1];
+    const double t = chord > 0.0 ? std::clamp((wanted - sums[v - 1]) / chord, 0.0, 1.0) : 0.0;
     if (from.at.location.element == to.at.location.element)
     {
       const glm::dvec3 u = (1.0 - t) * from.at.location.u.xyz + t * to.at.location.u.xyz;
@@ -132,7 +144,7 @@ void RimSampler::sampleStretch(
 
 void RimSampler::addParticle(const Location& place, int face, double nearby)
 {
-  const auto point = this->Tracer.project(place, face, nearby);
+  const auto point = this->Exact.project(place, face, nearby);
   if (!point)
   {
     return;
@@ -154,11 +166,17 @@ void RimSampler::addParticle(const Location& place, int face, double nearby)
   const WorldVector normal = surfaceNormal(field.gradient);
   rim.particle = { location, field.map.position, normal,
     curvature(field.gradient, worldHessian(jet, field)),
-    std::abs(field.value) / length(field.gradient), rim.patch.spacing };
+    std::abs(field.value) / length(field.gradient), rim.patch.spacing, {}, 0.0, 0.0 };
   const glm::dvec3 inward = glm::transpose(field.map.inverse) *
     facts(mesh.elements[location.element].domain).faces[point->face].inward.xyz;
   const glm::dvec3 along = inward - glm::dot(inward, normal.xyz) * normal.xyz;
   rim.outward = { glm::length(along) > 0.0 ? -glm::normalize(along) : glm::dvec3(0.0) };
+  rim.particle.clipNormal = rim.outward;
+  if (mesh.neighbor(location.element, point->face).element >= 0)
+  {
+    rim.particle.jump = valueBehind(this->Surface, location, point->face);
+    ++this->Result.evaluations;
+  }
   this->Result.particles.push_back(rim);
 }
 
@@ -174,7 +192,7 @@ RimCurves RimSampler::run()
       [&](int face) { return this->Surface.neighbor(box.middle.element, face).element < 0; },
       [&](const FaceCrossing& crossing) { this->follow(crossing, nearby); });
   }
-  this->Result.evaluations += this->Tracer.evaluations() + this->Walker.evaluations();
+  this->Result.evaluations += this->Tracer.evaluations() + this->Exact.evaluations() + this->Walker.evaluations();
   return std::move(this->Result);
 }
 

@@ -23,7 +23,7 @@ std::size_t slotOf(std::uint64_t key, std::size_t mask)
 } // namespace
 
 SpacingGrid::SpacingGrid(const std::vector<glm::dvec3>& positions,
-  const std::vector<float>& spacings, double reach)
+  const std::vector<float>& spacings, double reach, double cellsPerReach)
   : Positions(positions)
   , Spacings(spacings)
   , Reach(reach)
@@ -49,11 +49,13 @@ SpacingGrid::SpacingGrid(const std::vector<glm::dvec3>& positions,
   for (int level = 0; level < this->LevelCount; ++level)
   {
     this->CellSizes.push_back(
-      std::max(reach * std::ldexp(this->SmallestSpacing, level + 1), smallestCell));
+      std::max(reach * std::ldexp(this->SmallestSpacing, level + 1) / cellsPerReach, smallestCell));
+    this->LargestSpacings.push_back(std::ldexp(this->SmallestSpacing, level + 1));
   }
   if (this->LevelCount == 1)
   {
-    this->CellSizes[0] = std::max(reach * largestSpacing * (1.0 + 1e-9), smallestCell);
+    this->LargestSpacings[0] = largestSpacing;
+    this->CellSizes[0] = std::max(reach * largestSpacing / cellsPerReach, smallestCell);
   }
 
   std::size_t slots = 64;
@@ -157,39 +159,45 @@ SeenLists::SeenLists(const std::vector<glm::dvec3>& positions, const std::vector
   this->Places.resize(positions.size());
   this->Chunks.resize((cellCount + cellsPerChunk - 1) / cellsPerChunk);
 
+  // Two points see each other if d <= 2 reach/(1/h_i + 1/h_j): the same sum for both, so that either
+  // both see each other or neither.
   struct Candidate
   {
     glm::dvec3 position;
-    double spacing;
+    double inverseSpacing;
     int index;
   };
   const auto fillChunk = [&](std::ptrdiff_t chunk, std::vector<Candidate>& candidates)
   {
     std::vector<int>& lists = this->Chunks[chunk];
+    std::size_t used = 0;
     const std::ptrdiff_t end = std::min(cellCount, (chunk + 1) * cellsPerChunk);
     for (std::ptrdiff_t cell = chunk * cellsPerChunk; cell < end; ++cell)
     {
       candidates.clear();
-      grid.visitAround(static_cast<int>(cell), [&](int j)
-        { candidates.push_back({ positions[j], spacings[j], j }); });
+      grid.visitAround(static_cast<int>(cell),
+        [&](int j) { candidates.push_back({ positions[j], 1.0 / spacings[j], j }); });
       for (int n = cellStart[cell]; n < cellStart[cell + 1]; ++n)
       {
         const int i = order[n];
-        const auto first = static_cast<int>(lists.size());
+        const glm::dvec3 position = positions[i];
+        const double inverseSpacing = 1.0 / spacings[i];
+        const std::size_t first = used;
+        lists.resize(std::max(lists.size(), used + candidates.size()));
+        int* list = lists.data();
         for (const Candidate& c : candidates)
         {
-          const double range =
-            2.0 * reach * (spacings[i] * c.spacing) / (spacings[i] + c.spacing);
-          const glm::dvec3 d = c.position - positions[i];
-          if (glm::dot(d, d) <= range * range && c.index != i)
-          {
-            lists.push_back(c.index);
-          }
+          const glm::dvec3 d = c.position - position;
+          const double sum = c.inverseSpacing + inverseSpacing;
+          // Without a branch: nearly half of the candidates are neighbours.
+          list[used] = c.index;
+          used += (glm::dot(d, d) * (sum * sum) <= 4.0 * reach * reach) & (c.index != i);
         }
-        this->Places[i] = { static_cast<int>(chunk), first,
-          static_cast<int>(lists.size()) - first };
+        this->Places[i] = { static_cast<int>(chunk), static_cast<int>(first),
+          static_cast<int>(used - first) };
       }
     }
+    lists.resize(used);
   };
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(this->Chunks.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)

@@ -16,16 +16,18 @@ namespace hop
 /// within `reach` times the harmonic mean of theirs.
 ///
 /// Points are sorted into cubic cells, by levels: those of level l have spacings in
-/// [2^l, 2^(l+1)) times the smallest, and cells of `reach` times the largest of these. Spacings of
+/// [2^l, 2^(l+1)) times the smallest, and cells of `reach` times the largest of these or more. Spacings of
 /// points that see each other are taken to differ by less than a factor of two (SurfaceProxy.h grades
 /// them so), so that three levels are looked at.
 class SpacingGrid
 {
 public:
   /// \param reach > 0
+  /// \param cellsPerReach one: good for visiting whole cells; a half: for single points, which then
+  ///   look into fewer cells
   /// \pre as many spacings as points, all > 0; positions and spacings outlive the grid
   SpacingGrid(const std::vector<glm::dvec3>& positions, const std::vector<float>& spacings,
-    double reach);
+    double reach, double cellsPerReach = 1.0);
 
   /// Calls use(j) for every point that may be within reach of a point at `position` with that
   /// spacing, and for some farther off, in a fixed order. The caller tests.
@@ -68,6 +70,7 @@ private:
   int LevelCount = 0;
   glm::dvec3 Origin{ 0.0 };
   std::vector<double> CellSizes;
+  std::vector<double> LargestSpacings;
   /// Open addressing: key and cell of each slot, cell -1 where it is free.
   std::vector<std::pair<std::uint64_t, int>> Slots;
   std::vector<int> CellStart;
@@ -133,7 +136,7 @@ void SpacingGrid::visitBox(const glm::dvec3& lower, const glm::dvec3& upper, dou
        ++level)
   {
     // Harmonic mean of the spacing and the largest one of the level.
-    const double largest = this->CellSizes[level] / this->Reach;
+    const double largest = this->LargestSpacings[level];
     const double radius = this->Reach * 2.0 * spacing * largest / (spacing + largest);
     this->visitLevel(level, lower - radius, upper + radius, use);
   }
@@ -145,7 +148,7 @@ void SpacingGrid::visitCoarser(
 {
   for (int level = this->levelOf(spacing); level < this->LevelCount; ++level)
   {
-    const double radius = this->CellSizes[level];
+    const double radius = this->Reach * this->LargestSpacings[level];
     this->visitLevel(level, position - radius, position + radius, use);
   }
 }

@@ -16,6 +16,8 @@ namespace
 
 /// A sample may be this far from the surface, by one Newton step, in units of its box.
 constexpr double sampleOffset = 0.02;
+/// A patch is not believed to be steeper than this makes it.
+constexpr double largestStretch = 2.0;
 /// How far a sample's spacing is felt, in units of its own, where spacings are looked up.
 constexpr double lookUpReach = 4.0;
 
@@ -36,6 +38,12 @@ SurfaceProxy::SurfaceProxy(const Isosurface& surface, const SpacingLaw& law,
   if (law.angularDensity > 0.0)
   {
     this->gradeSpacings();
+  }
+  this->SmallestSpacing = law.spacing;
+  for (const Sample& sample : this->Samples)
+  {
+    this->SmallestSpacing = std::min<double>(
+      this->SmallestSpacing, sample.found ? sample.patch.spacing : law.spacing);
   }
   this->sumWeights(parallelFor);
 }
@@ -72,7 +80,10 @@ void SurfaceProxy::putOnSurface(const ParallelFor& parallelFor)
             const Location there{ places[b].element,
               { places[b].u.xyz +
                 glm::dvec3(sample.anchor.pull * (sample.anchor.offset * sample.patch.normal)) } };
-            places[b] = isAtBox(this->Boxes[b], there) ? there : places[b];
+            const Domain domain = mesh.elements[there.element].domain;
+            const bool inBox =
+              isAtBox(this->Boxes[b], there) && insideMargin(domain, there.u) >= 0.0;
+            places[b] = inBox ? there : places[b];
           }
         });
       std::int64_t count = 2 * (end - begin);
@@ -195,28 +206,42 @@ void SurfaceProxy::sumWeights(const ParallelFor& parallelFor)
   std::partial_sum(this->Sums.begin(), this->Sums.end(), this->Sums.begin());
 }
 
-/// The triangles of a box with the numbers of particles that they want; areas by the map at the
-/// sample, taken for the whole box.
+/// The triangles of a box with the numbers of particles that they want. They are taken to the tangent
+/// plane of the sample, by the map there; above a place t of it the sample's patch has sqrt(1 + |S t|^2)
+/// times the area.
 /// \return the sum of the numbers
-double SurfaceProxy::weigh(std::size_t b, std::vector<WeighedTriangle>& weighed) const
+double SurfaceProxy::weigh(std::size_t which, std::vector<WeighedTriangle>& weighed) const
 {
   weighed.clear();
-  const Sample& sample = this->Samples[b];
+  const Sample& sample = this->Samples[which];
   if (!sample.found)
   {
     return 0.0;
   }
-  const SurfaceBox& box = this->Boxes[b];
+  const SurfaceBox& box = this->Boxes[which];
   std::vector<ReferenceTriangle> triangles;
   appendProxyTriangles(this->Surface.mesh->elements[box.middle.element].domain, box, triangles);
   const glm::dmat3 push = glm::inverse(glm::dmat3(sample.anchor.pull));
   const double h = sample.patch.spacing;
   double sum = 0.0;
+  const auto tangents = tangentsOf(sample.patch.normal);
+  const auto inPlane = [&](const glm::vec3& corner)
+  {
+    const glm::dvec3 d = push * (glm::dvec3(corner) - sample.anchor.place.u.xyz);
+    return glm::dvec2(glm::dot(d, glm::dvec3(tangents[0])), glm::dot(d, glm::dvec3(tangents[1])));
+  };
+  const auto& s = sample.patch.shape;
   for (const ReferenceTriangle& t : triangles)
   {
-    const double area = 0.5 *
-      glm::length(glm::cross(push * glm::dvec3(t[1] - t[0]), push * glm::dvec3(t[2] - t[0])));
-    weighed.push_back({ t, area * 2.0 / (std::sqrt(3.0) * h * h) });
+    const glm::dvec2 a = inPlane(t[0]);
+    const glm::dvec2 b = inPlane(t[1]);
+    const glm::dvec2 c = inPlane(t[2]);
+    const glm::dvec2 middle = (a + b + c) / 3.0;
+    const glm::dvec2 slope(s[0] * middle.x + s[1] * middle.y, s[1] * middle.x + s[2] * middle.y);
+    const double stretch = std::min(largestStretch, std::sqrt(1.0 + glm::dot(slope, slope)));
+    const double footprint =
+      0.5 * std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
+    weighed.push_back({ t, stretch * footprint * 2.0 / (std::sqrt(3.0) * h * h) });
     sum += weighed.back().weight;
   }
   return sum;

@@ -46,6 +46,9 @@ public:
   /// \param nearby a spacing found near the position before
   float spacingAt(const glm::dvec3& position, float curvatureMagnitude, float nearby) const;
 
+  /// Of all samples.
+  double smallestSpacing() const { return this->SmallestSpacing; }
+
   const std::vector<Sample>& samples() const { return this->Samples; }
   const std::vector<SurfaceBox>& boxes() const { return this->Boxes; }
   std::int64_t evaluations() const { return this->Evaluations; }
@@ -74,6 +77,7 @@ private:
   /// Weights of the boxes, summed up.
   std::vector<double> Sums;
   std::int64_t Evaluations = 0;
+  double SmallestSpacing = 0.0;
   // For looking up spacings, where they vary.
   std::vector<glm::dvec3> Positions;
   std::vector<float> Spacings;

@@ -72,6 +72,8 @@ struct SweepBlock
   float farthest[SweepLanes];
   /// (x, y): where the particles are.
   float moved[2][SweepLanes];
+  /// Their energies before the last step.
+  float energy[SweepLanes];
   std::int32_t particle[SweepLanes];
   /// Lanes in use; the others hold copies.
   std::int32_t count;

@@ -75,9 +75,10 @@ struct TangentialHessian
   Floats yy{};
 };
 
-/// With q = cot(pi r / 2): E' = -(pi/2) q^2 and E'' = (pi^2/2) q (1 + q^2). Returns E'/r and
-/// (E'' - E'/r)/r^2 for t = r^2 in (0, 1]; both are exactly zero at t = 1.
-inline void pairDerivatives(Floats t, Floats& first, Floats& second)
+/// With q = cot(pi r / 2): E = q + (pi/2)(r - 1), E' = -(pi/2) q^2 and E'' = (pi^2/2) q (1 + q^2).
+/// Returns E, E'/r and (E'' - E'/r)/r^2 for t = r^2 in (0, 1]; the latter two are exactly zero at
+/// t = 1.
+inline void pairEnergy(Floats t, Floats& energy, Floats& first, Floats& second)
 {
   constexpr float halfPi = 1.57079632679f;
   const Floats inverse = inverseSquareRoot(t);
@@ -89,6 +90,7 @@ inline void pairDerivatives(Floats t, Floats& first, Floats& second)
           (0.0267931238f +
             t * (0.00705648267f + t * (0.000941490328f + t * 0.000957475183f))));
   const Floats q = smooth * (1.0f - t) * inverse;
+  energy = q + halfPi * (t * inverse - 1.0f);
   first = -halfPi * q * q * inverse;
   second = (2.0f * halfPi * halfPi * q * (1.0f + q * q) - first) * inverse * inverse;
 }
@@ -109,7 +111,7 @@ inline Tangential newtonStep(const TangentialHessian& h, const Tangential& g, fl
     isotropic * g.y + directed * (h.xy * g.x - difference * g.y) };
 }
 
-/// What eight neighbours, one a lane, let be seen of them.
+/// What eight neighbours, one a lane, let be seen of them: eight rows of eight numbers, transposed.
 struct SeenLanes
 {
   Floats position[3];
@@ -118,23 +120,50 @@ struct SeenLanes
 
   SeenLanes(const Seen* seen, const std::int32_t* index)
   {
-    float rows[7][SweepLanes];
-    for (int lane = 0; lane < SweepLanes; ++lane)
-    {
-      const Seen& s = seen[index[lane]];
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        rows[axis][lane] = s.position[axis];
-        rows[4 + axis][lane] = s.normal[axis];
-      }
-      rows[3][lane] = s.inverseSpacing;
-    }
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      this->position[axis] = load(rows[axis]);
-      this->normal[axis] = load(rows[4 + axis]);
-    }
-    this->inverseSpacing = load(rows[3]);
+    static_assert(sizeof(Seen) == sizeof(Floats));
+    const auto row = [&](int lane) { return load(seen[index[lane]].position); };
+    const Floats r0 = row(0), r1 = row(1), r2 = row(2), r3 = row(3);
+    const Floats r4 = row(4), r5 = row(5), r6 = row(6), r7 = row(7);
+    // Pairs of columns of two rows, then of four, then of all.
+    const Floats a0 = low(r0, r1), a1 = high(r0, r1), a2 = low(r2, r3), a3 = high(r2, r3);
+    const Floats a4 = low(r4, r5), a5 = high(r4, r5), a6 = low(r6, r7), a7 = high(r6, r7);
+    const Floats b0 = lowPairs(a0, a2), b1 = highPairs(a0, a2);
+    const Floats b2 = lowPairs(a1, a3), b3 = highPairs(a1, a3);
+    const Floats b4 = lowPairs(a4, a6), b5 = highPairs(a4, a6);
+    const Floats b6 = lowPairs(a5, a7), b7 = highPairs(a5, a7);
+    this->position[0] = lowHalves(b0, b4);
+    this->position[1] = lowHalves(b1, b5);
+    this->position[2] = lowHalves(b2, b6);
+    this->inverseSpacing = lowHalves(b3, b7);
+    this->normal[0] = highHalves(b0, b4);
+    this->normal[1] = highHalves(b1, b5);
+    this->normal[2] = highHalves(b2, b6);
+  }
+
+private:
+  static Floats low(Floats a, Floats b)
+  {
+    return __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
+  }
+  static Floats high(Floats a, Floats b)
+  {
+    return __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
+  }
+  static Floats lowPairs(Floats a, Floats b)
+  {
+    return __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
+  }
+  static Floats highPairs(Floats a, Floats b)
+  {
+    return __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
+  }
+  static Floats lowHalves(Floats a, Floats b)
+  {
+    return __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11);
+  }
+  static Floats highHalves(Floats a, Floats b)
+  {
+    return __builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15);
   }
 };
 
@@ -167,11 +196,11 @@ inline Floats dot(const Floats (&a)[3], const Floats (&b)[3])
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Gradient and Hessian of a particle's energy, both over (beta/h_i)^2: with the weight
-/// (h_ij/h_i)^2 of a pair and alpha = beta/h_ij, its gradient w alpha E' d/|d| and its Hessian
+/// The energy of a particle, and its weighted gradient and Hessian, both over (beta/h_i)^2: with the
+/// weight (h_ij/h_i)^2 of a pair and alpha = beta/h_ij, its gradient w alpha E' d/|d| and its Hessian
 /// w alpha^2 (...) have that factor in common, and it cancels in Newton's step.
 inline void sumPairs(const SweepBlock& block, const std::int32_t* neighbors, const Seen* seen,
-  const Displaced& here, Tangential& gradient, TangentialHessian& hessian)
+  const Displaced& here, Floats& energy, Tangential& gradient, TangentialHessian& hessian)
 {
   constexpr float halfBeta = 0.288675135f;
   constexpr float closest = 1e-4f;
@@ -185,12 +214,14 @@ inline void sumPairs(const SweepBlock& block, const std::int32_t* neighbors, con
     const Floats alpha = halfBeta * (inverseSpacing + other.inverseSpacing);
     const Floats alpha2 = alpha * alpha;
     const Floats t = least(greatest(alpha2 * dot(d, d), all(closest)), all(1.0f));
+    Floats value;
     Floats first;
     Floats second;
-    pairDerivatives(t, first, second);
+    pairEnergy(t, value, first, second);
     // Neighbours on a sheet that is turned away fade out, from 60 to 90 degrees.
     const Floats facing = least(greatest(2.0f * dot(normal, other.normal), all(0.0f)), all(1.0f));
     const Floats fade = facing * facing * (3.0f - 2.0f * facing);
+    energy += fade * value;
     first *= fade;
     second *= fade * alpha2;
     const Floats dx = dot(d, here.tangents[0]);
@@ -227,9 +258,11 @@ void sweepBlocks(SweepBlock* blocks, std::ptrdiff_t count, const std::int32_t* n
   {
     Tangential moved{ load(block->moved[0]), load(block->moved[1]) };
     const Displaced here(*block, moved);
+    Floats energy{};
     Tangential gradient;
     TangentialHessian hessian;
-    sumPairs(*block, neighbors + block->firstNeighbor, seen, here, gradient, hessian);
+    sumPairs(*block, neighbors + block->firstNeighbor, seen, here, energy, gradient, hessian);
+    store(energy, block->energy);
     const Tangential step = newtonStep(hessian, gradient, softest);
     const Floats relaxation = load(block->relaxation);
     moved.x -= relaxation * step.x;
