@@ -32,8 +32,8 @@ CASES = (
 )
 LARGE_CASES = ({"grid": "gyroid", "particles": 10_000_000},)
 
-# Tessellate takes minutes on more cells.
-MOST_CELLS_TO_TESSELLATE = 100
+# Tessellate takes a minute and more on more cells.
+MOST_CELLS_TO_TESSELLATE = 10
 TIME_LIMIT = 900
 
 COST = (
