@@ -144,6 +144,64 @@ TEST_P(FastQuality, IsAsPromised)
   EXPECT_LE(coverageRadius(result.particles, probesOf(mesh, smallest)), farthest);
 }
 
+/// A surface that ends at the faces of the cube [-1,1]^3.
+struct OpenCase
+{
+  const char* name;
+  KnownSurface surface;
+};
+
+std::ostream& operator<<(std::ostream& out, const OpenCase& which)
+{
+  return out << which.name;
+}
+
+class FastQualityAtRims : public ::testing::TestWithParam<std::tuple<OpenCase, Domain>>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(FastDistribution, FastQualityAtRims,
+  ::testing::Combine(
+    ::testing::Values(OpenCase{ "Plane", plane({ 0, 0, 1 }, 0.05) },
+      OpenCase{ "SlantedPlane", plane(glm::normalize(glm::dvec3(0.3, 0.5, 1.0)), 0.1) },
+      OpenCase{ "Cylinder", cylinder(0.7) }, OpenCase{ "Sphere", sphere({ 0, 0, 0 }, 1.2) }),
+    ::testing::ValuesIn(allDomains)),
+  [](const auto& which)
+  {
+    return std::get<0>(which.param).name +
+      ("In" + ::testing::PrintToString(std::get<1>(which.param)));
+  });
+
+TEST_P(FastQualityAtRims, IsAsPromised)
+{
+  constexpr double spacing = 0.05;
+  const auto& [which, domain] = this->GetParam();
+  MeshRecipe recipe;
+  recipe.domain = domain;
+  recipe.field = which.surface.field;
+  const ElementMesh mesh = makeMesh(recipe);
+  DistributionParameters parameters;
+  parameters.law.spacing = spacing;
+  const Distribution result = distributeFast({ &mesh, 0.0, tolerance }, parameters, {}, {});
+  const double count = static_cast<double>(result.particles.size());
+  EXPECT_LE(static_cast<double>(result.report.evaluations) / count, 8.0);
+  const Evenness evenness = measureEvenness(result.particles);
+  EXPECT_GE(evenness.minSpacing, 0.80);
+  EXPECT_LE(evenness.variation, 0.035);
+  EXPECT_GE(evenness.sixValentShare, 0.72);
+  EXPECT_GE(evenness.meanMinAngle, 50.5);
+  EXPECT_GE(evenness.worstMinAngle, 30.0);
+  EXPECT_LE(coverageRadius(result.particles, probesOf(mesh, spacing)), 0.80);
+  // Only the particles on the rim miss neighbours, and no hole is wide enough for others to.
+  std::size_t onRim = 0;
+  for (const Particle& p : result.particles)
+  {
+    onRim += boundaryFaceCount(mesh, p.location) > 0;
+  }
+  EXPECT_GT(onRim, 0u);
+  EXPECT_LE(evenness.openStars, onRim);
+}
+
 TEST_P(FastQuality, DoesNotDependOnThreads)
 {
   const auto& [which, domain] = this->GetParam();
