@@ -214,8 +214,8 @@ void runStages(const Request& request, Stages& stages)
     });
   stages.surface = { &stages.elements.mesh, stages.elements.fieldIsovalue(request.isovalue),
     tolerancePerDiagonal * request.grid->GetLength() };
-  // Part of the distribution, done once more: Fast asks for boxes of this size where nothing bends.
-  constexpr double boxSizePerSpacing = 4.0;
+  // Part of the distribution, done once more: Fast asks for boxes of this size in hexahedra.
+  constexpr double boxSizePerSpacing = 6.0;
   stages.isolation = onTwoThreads(
     [&]
     {

@@ -7,7 +7,7 @@ Every FOLDER (default: Testing/Data) is searched for the files of solvers named 
 said. Each measurement is a process of its own. Wall times on one and two threads, and processor time of
 the run on one thread, from the VTK grid to the VTK polydata, the best of the repetitions; on a machine
 that does other work the processor time is the one to compare. Stages are those of one run on two
-threads, in processor time; isolation (to boxes of four spacings) is part of the distribution.
+threads, in processor time; isolation (to boxes of six spacings) is part of the distribution.
 """
 
 import argparse
