@@ -383,7 +383,7 @@ void addErrors(const Request& request, vtkPolyData* points, Record& record)
     errors.empty() ? 0.0 : *std::max_element(errors.begin(), errors.end()) / diagonal);
 }
 
-/// Contour, after Tessellate if asked for.
+/// Contour as it comes, normals included, after Tessellate if asked for.
 void measureStock(const Request& request, Record& record)
 {
   vtkNew<vtkTessellatorFilter> tessellate;
@@ -391,7 +391,6 @@ void measureStock(const Request& request, Record& record)
   contour->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, request.array.c_str());
   contour->SetValue(0, request.isovalue);
-  contour->ComputeNormalsOff();
   const bool pieces = request.method == "tessellate";
   vtkPointData* arrays = request.grid->GetPointData();
   if (pieces)

@@ -1,7 +1,7 @@
 """What particles cost and how even they stand, on all cases of distribution_benchmark: two tables, and JSON.
 
     python3 Testing/Benchmarks/distribution_table.py PROGRAM [FOLDER ...] [--only WORD] [--large]
-        [--classic-up-to N] [--repetitions N] [--json OUT.json]
+        [--methods METHOD ...] [--classic-up-to N] [--repetitions N] [--json OUT.json]
 
 Every FOLDER (default: Testing/Data) is searched for the files of solvers named below; those missing are
 said. Each measurement is a process of its own. Wall times on one and two threads, and processor time of
@@ -31,6 +31,8 @@ CASES = (
     *({"grid": "gyroid", "particles": n} for n in (10_000, 100_000, 1_000_000)),
 )
 LARGE_CASES = ({"grid": "gyroid", "particles": 10_000_000},)
+
+METHODS = ("fast", "classic", "contour", "tessellate")
 
 # Tessellate takes a minute and more on more cells.
 MOST_CELLS_TO_TESSELLATE = 10
@@ -88,12 +90,11 @@ def measure(program, **arguments):
 
 
 def methods(case, cells, arguments):
-    yield "fast"
-    if case["particles"] <= arguments.classic_up_to:
-        yield "classic"
-    yield "contour"
-    if cells <= MOST_CELLS_TO_TESSELLATE:
-        yield "tessellate"
+    affordable = {
+        "classic": case["particles"] <= arguments.classic_up_to,
+        "tessellate": cells <= MOST_CELLS_TO_TESSELLATE,
+    }
+    return [method for method in arguments.methods if affordable.get(method, True)]
 
 
 def measure_case(program, case, arguments):
@@ -130,6 +131,7 @@ def main():
     parser.add_argument("folders", nargs="*", type=Path)
     parser.add_argument("--only", default="", help="cases whose name contains this")
     parser.add_argument("--large", action="store_true", help="10 million particles too: several GB")
+    parser.add_argument("--methods", nargs="+", choices=METHODS, default=METHODS)
     parser.add_argument("--classic-up-to", type=int, default=20_000, metavar="N")
     parser.add_argument("--repetitions", type=int, default=3)
     parser.add_argument("--json", type=Path)
