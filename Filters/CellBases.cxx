@@ -83,12 +83,12 @@ std::optional<hop::Degrees> fittingDegrees(
   if (given != degreesFromCount)
   {
     const auto [lowest, highest] = std::minmax_element(given.begin(), given.end());
-    return *lowest >= 1 && *highest <= hop::MaximumInputDegree &&
+    return *lowest >= 1 && *highest <= hop::maximumInputDegree(domain) &&
         hop::coefficientCount(domain, given) == nodes
       ? std::optional<hop::Degrees>(given)
       : std::nullopt;
   }
-  for (int p = 1; p <= hop::MaximumInputDegree; ++p)
+  for (int p = 1; p <= hop::maximumInputDegree(domain); ++p)
   {
     if (hop::coefficientCount(domain, { p, p, p }) == nodes)
     {
@@ -196,7 +196,7 @@ std::shared_ptr<const CellBasis> sampleBasis(vtkCell* cell, hop::Domain domain)
     const hop::NodalBasis basis = hop::NodalBasis::sampled(domain, degrees, samples);
     if (reproduces(cell, basis))
     {
-      return std::make_shared<const CellBasis>(CellBasis{ basis, false });
+      return std::make_shared<const CellBasis>(CellBasis(basis, false));
     }
   }
   return nullptr;
@@ -208,6 +208,7 @@ CellBases::CellBases(vtkUnstructuredGrid* grid, hop::NodeSpacing spacing)
   : Grid(grid)
   , Spacing(spacing)
   , HigherOrderDegrees(grid->GetCellData()->GetHigherOrderDegrees())
+  , Latest(Known.end())
 {
 }
 
@@ -231,12 +232,17 @@ std::shared_ptr<const CellBasis> CellBases::basisOf(vtkIdType cell)
 {
   const Key key{ this->Grid->GetCellType(cell), this->Grid->GetCellSize(cell),
     this->explicitDegrees(cell) };
-  auto [entry, isNew] = this->Known.try_emplace(key);
-  if (isNew)
+  // Cells of a kind mostly follow one another.
+  if (this->Latest == this->Known.end() || this->Latest->first != key)
   {
-    entry->second = this->makeBasis(key);
+    bool isNew = false;
+    std::tie(this->Latest, isNew) = this->Known.try_emplace(key);
+    if (isNew)
+    {
+      this->Latest->second = this->makeBasis(key);
+    }
   }
-  return entry->second;
+  return this->Latest->second;
 }
 
 std::shared_ptr<const CellBasis> CellBases::makeBasis(const Key& key) const
@@ -280,8 +286,8 @@ std::shared_ptr<const CellBasis> CellBases::makeLatticeBasis(
     order.push_back({ onLattice(0), onLattice(1), onLattice(2) });
   }
   return std::make_shared<const CellBasis>(isBezier(vtk->GetCellType())
-      ? CellBasis{ hop::NodalBasis::bezier(domain, degrees, order), true }
-      : CellBasis{ hop::NodalBasis::lagrange(domain, degrees, order, this->Spacing), false });
+      ? CellBasis(hop::NodalBasis::bezier(domain, degrees, order), true)
+      : CellBasis(hop::NodalBasis::lagrange(domain, degrees, order, this->Spacing), false));
 }
 
 hop::ReferencePoint parametricCoordinates(int cellType, const hop::ReferencePoint& u)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "JacobianTest.h"
 #include "NodalBasis.h"
 #include "Space.h"
 
@@ -8,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <tuple>
+#include <utility>
 
 class vtkCell;
 class vtkDataArray;
@@ -16,7 +18,15 @@ class vtkUnstructuredGrid;
 /// How the cells of one kind are rewritten as elements.
 struct CellBasis
 {
+  CellBasis(hop::NodalBasis nodal, bool isBezier)
+    : basis(std::move(nodal))
+    , jacobian(basis.domain(), basis.degrees())
+    , bezier(isBezier)
+  {
+  }
+
   hop::NodalBasis basis;
+  hop::JacobianTest jacobian;
   /// Bezier: nodal values are Bernstein coefficients, and the grid's RationalWeights apply.
   bool bezier = false;
 };
@@ -32,6 +42,8 @@ class CellBases
 {
 public:
   CellBases(vtkUnstructuredGrid* grid, hop::NodeSpacing spacing);
+  CellBases(const CellBases&) = delete;
+  CellBases& operator=(const CellBases&) = delete;
 
   /// The basis of a cell, or nullptr: its type is not supported, or its number of points does not
   /// fit its degrees. Not for several threads at once.
@@ -49,6 +61,7 @@ private:
   hop::NodeSpacing Spacing;
   vtkDataArray* HigherOrderDegrees;
   std::map<Key, std::shared_ptr<const CellBasis>> Known;
+  std::map<Key, std::shared_ptr<const CellBasis>>::iterator Latest;
 };
 
 /// VTK's parametric coordinates of a cell of that type at a reference point. They are the reference

@@ -1,7 +1,7 @@
 #include "GridElements.h"
 
 #include "BernsteinProduct.h"
-#include "SurfaceGeometry.h"
+#include "GatherValues.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -42,12 +42,32 @@ enum class Verdict : char
 /// What is read of one cell.
 struct CellValues
 {
-  vtkNew<vtkIdList> ids;
+  vtkIdType count = 0;
+  const vtkIdType* ids = nullptr;
+  /// Where the ids are if the grid stores them otherwise.
+  vtkNew<vtkIdList> copiedIds;
   /// Nodal values of the field, `components` a node: one, or all of a vector's for its magnitude.
   std::vector<double> field;
   /// Empty unless the cell is rational.
   std::vector<double> weights;
 };
+
+bool isFinite(double value)
+{
+  return std::isfinite(value);
+}
+
+/// Adds a row, times a factor, to all rows of values.
+void addToRows(std::vector<double>& values, double factor, const std::vector<double>& row)
+{
+  for (std::size_t start = 0; start < values.size(); start += row.size())
+  {
+    for (std::size_t c = 0; c < row.size(); ++c)
+    {
+      values[start + c] += factor * row[c];
+    }
+  }
+}
 
 class Builder
 {
@@ -72,7 +92,8 @@ private:
   Verdict read(vtkIdType cell, const CellBasis& basis, CellValues& values) const;
   void count(const std::vector<Verdict>& verdicts);
   void convertElements();
-  void convert(int element, CellValues& values);
+  hop::JacobianSign convert(int element, CellValues& values);
+  std::vector<double> controlValues(const CellBasis& cell, const CellValues& values) const;
   void numberCorners();
   void dropCollapsed();
   bool canHoldSurface(const CellBasis& basis, const CellValues& values) const;
@@ -96,7 +117,7 @@ GridElements Builder::build()
   this->convertElements();
   this->dropCollapsed();
   this->numberCorners();
-  hop::findFaceNeighbors(this->Result.mesh, this->Tolerance);
+  hop::findFaceNeighbors(this->Result.mesh, this->Tolerance, this->Parallel);
   return std::move(this->Result);
 }
 
@@ -163,37 +184,34 @@ void Builder::judgeCells()
 
 Verdict Builder::read(vtkIdType cell, const CellBasis& basis, CellValues& values) const
 {
-  this->Grid->GetCells()->GetCellAtId(cell, values.ids);
-  const vtkIdType nodes = values.ids->GetNumberOfIds();
+  this->Grid->GetCells()->GetCellAtId(cell, values.count, values.ids, values.copiedIds);
   const vtkIdType points = this->Grid->GetNumberOfPoints();
-  values.field.clear();
-  values.weights.clear();
-  for (vtkIdType node = 0; node < nodes; ++node)
+  const auto isOutside = [points](vtkIdType id) { return id < 0 || id >= points; };
+  if (std::any_of(values.ids, values.ids + values.count, isOutside))
   {
-    const vtkIdType id = values.ids->GetId(node);
-    if (id < 0 || id >= points)
-    {
-      return Verdict::BrokenConnectivity;
-    }
-    for (int c = 0; c < this->Components; ++c)
-    {
-      const int component = this->Result.squared ? c : this->Scalars.component;
-      values.field.push_back(this->Scalars.array->GetComponent(id, component));
-      if (!std::isfinite(values.field.back()))
-      {
-        return Verdict::NotFinite;
-      }
-    }
-    if (basis.bezier && this->Result.rationalWeights)
-    {
-      values.weights.push_back(this->Result.rationalWeights->GetComponent(id, 0));
-      if (!(values.weights.back() > 0.0) || !std::isfinite(values.weights.back()))
-      {
-        return Verdict::BadWeights;
-      }
-    }
+    return Verdict::BrokenConnectivity;
   }
-  return Verdict::Keep;
+  values.field.resize(values.count * this->Components);
+  for (int c = 0; c < this->Components; ++c)
+  {
+    gatherComponent(this->Scalars.array, values.ids, values.count,
+      this->Result.squared ? c : this->Scalars.component, values.field.data() + c,
+      this->Components);
+  }
+  if (!std::all_of(values.field.begin(), values.field.end(), isFinite))
+  {
+    return Verdict::NotFinite;
+  }
+  values.weights.clear();
+  if (basis.bezier && this->Result.rationalWeights)
+  {
+    values.weights.resize(values.count);
+    gatherComponent(
+      this->Result.rationalWeights, values.ids, values.count, 0, values.weights.data());
+  }
+  const auto isGood = [](double weight) { return weight > 0.0 && isFinite(weight); };
+  return std::all_of(values.weights.begin(), values.weights.end(), isGood) ? Verdict::Keep
+                                                                           : Verdict::BadWeights;
 }
 
 bool Builder::straddles(double lower, double upper) const
@@ -215,11 +233,12 @@ bool Builder::canHoldSurface(const CellBasis& cell, const CellValues& values) co
   std::vector<double> control(
     static_cast<std::size_t>(cell.basis.coefficientCount()) * this->Components);
   cell.basis.toBernstein(values.field.data(), this->Components, control.data());
-  const double slack = 8.0 * std::numeric_limits<double>::epsilon() * cell.basis.conversionNorm() *
-    std::max(std::abs(*lowest), std::abs(*highest));
+  const auto [lower, upper] = std::minmax_element(control.begin(), control.end());
+  const double slack =
+    2.0 * cell.basis.conversionError() * std::max(std::abs(*lowest), std::abs(*highest)) +
+    4.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(*lower), std::abs(*upper));
   if (!this->Result.squared)
   {
-    const auto [lower, upper] = std::minmax_element(control.begin(), control.end());
     return this->straddles(*lower - slack, *upper + slack);
   }
   double longest2 = 0.0;
@@ -261,72 +280,95 @@ void Builder::count(const std::vector<Verdict>& verdicts)
 
 void Builder::convertElements()
 {
-  const hop::ElementMesh& mesh = this->Result.mesh;
-  this->Signs.resize(mesh.elements.size());
-  hop::runParallel(this->Parallel, static_cast<std::ptrdiff_t>(mesh.elements.size()),
+  this->Signs.resize(this->Result.mesh.elements.size());
+  hop::runParallel(this->Parallel, static_cast<std::ptrdiff_t>(this->Signs.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       CellValues values;
       for (std::ptrdiff_t e = begin; e < end; ++e)
       {
-        this->convert(static_cast<int>(e), values);
-        this->Signs[e] = hop::jacobianSign(mesh.form(static_cast<int>(e)));
+        this->Signs[e] = this->convert(static_cast<int>(e), values);
       }
     });
 }
 
 /// Writes an element's coefficients: homogeneous ones and their weights for a rational cell, those of
 /// the squared magnitude where that is the field.
-void Builder::convert(int element, CellValues& values)
+hop::JacobianSign Builder::convert(int element, CellValues& values)
 {
   hop::ElementMesh& mesh = this->Result.mesh;
   const hop::Element& e = mesh.elements[element];
   const CellBasis& cell = *this->Result.bases[element];
   this->read(e.cell, cell, values);
-
-  // x, y, z, then the field; all times the weight.
+  const std::vector<double> control = this->controlValues(cell, values);
   const int width = 3 + this->Components;
-  const int nodes = cell.basis.nodeCount();
-  std::vector<double> nodal(static_cast<std::size_t>(nodes) * width);
-  for (int node = 0; node < nodes; ++node)
-  {
-    double* row = &nodal[static_cast<std::size_t>(node) * width];
-    this->Grid->GetPoints()->GetPoint(values.ids->GetId(node), row);
-    std::copy_n(
-      &values.field[static_cast<std::size_t>(node) * this->Components], this->Components, row + 3);
-    if (e.rational)
-    {
-      std::transform(
-        row, row + width, row, [w = values.weights[node]](double value) { return w * value; });
-    }
-  }
   const int count = cell.basis.coefficientCount();
-  std::vector<double> control(static_cast<std::size_t>(count) * width);
-  cell.basis.toBernstein(nodal.data(), width, control.data());
   std::vector<double> weights(count, 1.0);
   if (e.rational)
   {
     cell.basis.toBernstein(values.weights.data(), 1, weights.data());
   }
+  std::vector<hop::Coefficient> plain(count);
+  for (int i = 0; i < count; ++i)
+  {
+    const double* row = &control[static_cast<std::size_t>(i) * width];
+    plain[i] = { row[0], row[1], row[2], std::accumulate(row + 3, row + width, 0.0) };
+  }
+  const hop::BernsteinForm form{ cell.basis.domain(), cell.basis.degrees(), plain.data(),
+    e.rational ? weights.data() : nullptr };
+  // At the highest degrees the bound is far above what coordinates suffer that vary smoothly.
+  constexpr double largestRounding = 1e-6;
+  const hop::JacobianSign sign =
+    cell.jacobian.sign(form, std::min(cell.basis.conversionError(), largestRounding));
 
   hop::Coefficient* coefficients = &mesh.coefficients[e.firstCoefficient];
   if (this->Result.squared)
   {
-    weights = hop::squareField(
-      cell.basis.domain(), cell.basis.degrees(), width, control, weights, coefficients);
+    weights = hop::squareField(form.domain, form.degrees, width, control, weights, coefficients);
   }
   else
   {
-    for (int i = 0; i < count; ++i)
-    {
-      coefficients[i] = { control[4 * i], control[4 * i + 1], control[4 * i + 2],
-        control[4 * i + 3] };
-    }
+    std::copy(plain.begin(), plain.end(), coefficients);
   }
   if (e.rational)
   {
     std::copy(weights.begin(), weights.end(), &mesh.weights[e.firstCoefficient]);
   }
+  return sign;
+}
+
+/// Bernstein coefficients of x, y, z and the field's components, times the weight if there is one.
+std::vector<double> Builder::controlValues(const CellBasis& cell, const CellValues& values) const
+{
+  const int width = 3 + this->Components;
+  const int nodes = cell.basis.nodeCount();
+  std::vector<double> nodal(static_cast<std::size_t>(nodes) * width);
+  for (int c = 0; c < 3; ++c)
+  {
+    gatherComponent(
+      this->Grid->GetPoints()->GetData(), values.ids, nodes, c, nodal.data() + c, width);
+  }
+  for (int node = 0; node < nodes; ++node)
+  {
+    double* row = &nodal[static_cast<std::size_t>(node) * width];
+    std::copy_n(
+      &values.field[static_cast<std::size_t>(node) * this->Components], this->Components, row + 3);
+    for (int c = 0; c < width && !values.weights.empty(); ++c)
+    {
+      row[c] *= values.weights[node];
+    }
+  }
+  // The conversion enlarges rounding errors, so it is given differences from the first node.
+  std::vector<double> origin(width, 0.0);
+  if (cell.basis.conversionNorm() > 1.0)
+  {
+    std::copy_n(nodal.begin(), width, origin.begin());
+  }
+  addToRows(nodal, -1.0, origin);
+  std::vector<double> control(static_cast<std::size_t>(cell.basis.coefficientCount()) * width);
+  cell.basis.toBernstein(nodal.data(), width, control.data());
+  addToRows(control, 1.0, origin);
+  return control;
 }
 
 /// Takes out elements without volume and those whose coordinates are not finite.
@@ -448,7 +490,8 @@ std::string CellCensus::describe() const
     describeCells(text, cells,
       "of type " + nameOfCellType(type) +
         " skipped: not a supported 3-D cell, or its number of points fits no degree up to " +
-        std::to_string(hop::MaximumInputDegree));
+        std::to_string(hop::maximumInputDegree(hop::Domain::Tetrahedron)) +
+        " (hexahedra: " + std::to_string(hop::maximumInputDegree(hop::Domain::Hexahedron)) + ")");
   }
   describeCells(text, this->brokenConnectivity, "skipped: point ids outside the grid");
   describeCells(text, this->notFinite, "skipped: coordinates or values that are NaN or infinite");

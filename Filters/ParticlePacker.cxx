@@ -32,7 +32,8 @@ struct Row
 };
 
 const std::set<std::string> ownArrays{ "Normals", "Radius", "Mean_Curvature", "Gauss_Curvature",
-  "Residual", "Clip_Normal", "Clip_Distance", "Jump", "Isovalue", "vtkOriginalCellIds", "ParametricCoordinates" };
+  "Residual", "Clip_Normal", "Clip_Distance", "Jump", "Isovalue", "vtkOriginalCellIds",
+  "ParametricCoordinates" };
 
 /// Rational basis functions R_i = w_i B_i / sum_j w_j B_j from polynomial ones.
 void applyRationalWeights(const std::vector<double>& weights, std::vector<double>& basis)
@@ -189,8 +190,8 @@ void Packer::addOwnArrays()
   this->addArray("Residual", 1, [](const Row& row, double* out) { *out = row.particle->residual; });
   this->addArray("Clip_Normal", 3,
     [&](const Row& row, double* out) { writeVector(row.particle->clipNormal.xyz, out); });
-  this->addArray("Clip_Distance", 1,
-    [](const Row& row, double* out) { *out = row.particle->clipDistance; });
+  this->addArray(
+    "Clip_Distance", 1, [](const Row& row, double* out) { *out = row.particle->clipDistance; });
   this->addArray("Jump", 1, [](const Row& row, double* out) { *out = row.particle->jump; });
   this->addArray("Isovalue", 1, [](const Row& row, double* out) { *out = row.isovalue; });
   // Places on a face may have left the domain by a rounding error.

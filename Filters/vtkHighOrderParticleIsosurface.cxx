@@ -327,7 +327,8 @@ void vtkHighOrderParticleIsosurface::Process(vtkUnstructuredGrid* grid, const Sc
       parameters.quality = static_cast<hop::Quality>(this->Quality);
       parameters.seed = static_cast<std::uint64_t>(this->Seed);
       parameters.particleCount = this->NumberOfParticles;
-      const auto distribute = this->Method == CLASSIC ? hop::distributeClassic : hop::distributeFast;
+      const auto distribute =
+        this->Method == CLASSIC ? hop::distributeClassic : hop::distributeFast;
       particles.push_back({ values[i],
         distribute({ &elements.mesh, elements.fieldIsovalue(values[i]), scale.Tolerance },
           parameters, monitor, parallelFor) });

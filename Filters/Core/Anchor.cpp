@@ -6,7 +6,8 @@
 namespace hop
 {
 
-bool anchorPatch(const Location& place, const Jet& jet, double isovalue, Anchor& anchor, Patch& patch)
+bool anchorPatch(
+  const Location& place, const Jet& jet, double isovalue, Anchor& anchor, Patch& patch)
 {
   const FieldPoint point = fieldPoint(jet, isovalue);
   const double slope = length(point.gradient);

@@ -24,7 +24,8 @@ struct Anchor
 /// The patch and the anchor that belong to an evaluation; the patch's spacing is left as it is.
 /// \return false, and nothing changed, where the element is singular, the gradient vanishes or
 ///   anything is not finite
-bool anchorPatch(const Location& place, const Jet& jet, double isovalue, Anchor& anchor, Patch& patch);
+bool anchorPatch(
+  const Location& place, const Jet& jet, double isovalue, Anchor& anchor, Patch& patch);
 
 /// Indices of places sorted by element, stably.
 std::vector<int> orderByElement(const std::vector<Location>& places, std::size_t elementCount);
@@ -43,7 +44,8 @@ void evaluateInOrder(const ElementMesh& mesh, const std::vector<Location>& place
   {
     const int element = places[order[first]].element;
     std::ptrdiff_t last = first;
-    for (; last < std::min(end, first + batchSize) && places[order[last]].element == element; ++last)
+    for (; last < std::min(end, first + batchSize) && places[order[last]].element == element;
+         ++last)
     {
       points[last - first] = places[order[last]].u;
     }

@@ -9,7 +9,7 @@ namespace hop
 namespace
 {
 
-constexpr int MaximumLine = MaximumDegree + 1;
+constexpr int MaximumLine = MaximumPolynomialDegree + 1;
 
 // The kernels write a jet as 40 doubles, a gradient as the first 16 of them.
 static_assert(sizeof(Jet) == 40 * sizeof(double));

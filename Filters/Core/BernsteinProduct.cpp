@@ -1,5 +1,7 @@
 #include "BernsteinProduct.h"
 
+#include <utility>
+
 namespace hop
 {
 namespace
@@ -31,46 +33,101 @@ double multiplicity(Domain domain, const Degrees& degrees, const LatticePoint& p
   }
 }
 
+Degrees sumOf(const Degrees& a, const Degrees& b)
+{
+  return { a[0] + b[0], a[1] + b[1], a[2] + b[2] };
+}
+
+/// Component c of control values that are `width` wide.
+ScaledPolynomial component(
+  Domain domain, const Degrees& degrees, int width, int c, const std::vector<double>& control)
+{
+  std::vector<double> coefficients;
+  for (std::size_t i = c; i < control.size(); i += width)
+  {
+    coefficients.push_back(control[i]);
+  }
+  return scaled(domain, degrees, std::move(coefficients));
+}
+
 } // namespace
+
+ScaledPolynomial scaled(Domain domain, const Degrees& degrees, std::vector<double> coefficients)
+{
+  auto value = coefficients.begin();
+  for (const LatticePoint& point : latticePoints(domain, degrees))
+  {
+    *value++ *= multiplicity(domain, degrees, point);
+  }
+  return { domain, degrees, std::move(coefficients) };
+}
+
+std::vector<double> unscaled(ScaledPolynomial polynomial)
+{
+  auto value = polynomial.values.begin();
+  for (const LatticePoint& point : latticePoints(polynomial.domain, polynomial.degrees))
+  {
+    *value++ /= multiplicity(polynomial.domain, polynomial.degrees, point);
+  }
+  return std::move(polynomial.values);
+}
+
+ScaledPolynomial operator*(const ScaledPolynomial& a, const ScaledPolynomial& b)
+{
+  ScaledPolynomial product{ a.domain, sumOf(a.degrees, b.degrees), {} };
+  product.values.assign(coefficientCount(product.domain, product.degrees), 0.0);
+  addProduct(1.0, a, b, product);
+  return product;
+}
+
+void addProduct(
+  double factor, const ScaledPolynomial& a, const ScaledPolynomial& b, ScaledPolynomial& sum)
+{
+  // The first index runs fastest in every domain: row by row of b, without looking up each place.
+  const std::vector<LatticePoint> left = latticePoints(a.domain, a.degrees);
+  const std::vector<LatticePoint> right = latticePoints(b.domain, b.degrees);
+  for (std::size_t n = 0; n < left.size(); ++n)
+  {
+    const double scale = factor * a.values[n];
+    const auto& [i, j, k] = left[n];
+    for (std::size_t row = 0, end = 0; row < right.size(); row = end)
+    {
+      double* out = &sum.values[coefficientIndex(
+        sum.domain, sum.degrees, { i, j + right[row].j, k + right[row].k })];
+      for (end = row; end < right.size() && right[end].i == static_cast<int>(end - row); ++end)
+      {
+        out[end - row] += scale * b.values[end];
+      }
+    }
+  }
+}
 
 std::vector<double> squareField(Domain domain, const Degrees& degrees, int width,
   const std::vector<double>& control, const std::vector<double>& weights, Coefficient* result)
 {
-  const Degrees doubled{ 2 * degrees[0], 2 * degrees[1], 2 * degrees[2] };
-  const std::vector<LatticePoint> lattice = latticePoints(domain, degrees);
-  const std::vector<LatticePoint> fine = latticePoints(domain, doubled);
-  std::fill_n(result, fine.size(), Coefficient(0.0));
-  std::vector<double> squaredWeights(fine.size(), 0.0);
-
-  // B_a B_b = m_a m_b / m_(a+b) B_(a+b) with the multiplicities m of the two bases.
-  for (std::size_t a = 0; a < lattice.size(); ++a)
+  const ScaledPolynomial weight = scaled(domain, degrees, weights);
+  ScaledPolynomial square{ domain, sumOf(degrees, degrees), {} };
+  square.values.assign(coefficientCount(domain, square.degrees), 0.0);
+  for (int c = 0; c < width; ++c)
   {
-    const double* left = &control[a * width];
-    const double multiplicityA = multiplicity(domain, degrees, lattice[a]);
-    for (std::size_t b = 0; b < lattice.size(); ++b)
+    const ScaledPolynomial factor = component(domain, degrees, width, c, control);
+    if (c >= 3)
     {
-      const double* right = &control[b * width];
-      const LatticePoint sum{ lattice[a].i + lattice[b].i, lattice[a].j + lattice[b].j,
-        lattice[a].k + lattice[b].k };
-      const double share = multiplicityA * multiplicity(domain, degrees, lattice[b]);
-      double product = 0.0;
-      for (int c = 3; c < width; ++c)
-      {
-        product += left[c] * right[c];
-      }
-      const int index = coefficientIndex(domain, doubled, sum);
-      result[index] += share *
-        Coefficient(weights[b] * left[0], weights[b] * left[1], weights[b] * left[2], product);
-      squaredWeights[index] += share * weights[a] * weights[b];
+      addProduct(1.0, factor, factor, square);
+      continue;
+    }
+    const std::vector<double> elevated = unscaled(weight * factor);
+    for (std::size_t i = 0; i < elevated.size(); ++i)
+    {
+      result[i][c] = elevated[i];
     }
   }
-  for (std::size_t i = 0; i < fine.size(); ++i)
+  const std::vector<double> field = unscaled(std::move(square));
+  for (std::size_t i = 0; i < field.size(); ++i)
   {
-    const double m = multiplicity(domain, doubled, fine[i]);
-    result[i] /= m;
-    squaredWeights[i] /= m;
+    result[i].w = field[i];
   }
-  return squaredWeights;
+  return unscaled(weight * weight);
 }
 
 } // namespace hop

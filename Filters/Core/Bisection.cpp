@@ -1,5 +1,7 @@
 #include "Bisection.h"
 
+#include <cmath>
+
 namespace hop
 {
 
@@ -23,6 +25,19 @@ LatticeLines::LatticeLines(Domain domain, const Degrees& degrees, const LatticeP
     }
   }
   this->Begin.push_back(static_cast<int>(this->Index.size()));
+}
+
+double LatticeLines::variation(const std::vector<double>& coefficients) const
+{
+  double sum = 0.0;
+  for (std::size_t l = 0; l + 1 < this->Begin.size(); ++l)
+  {
+    for (int at = this->Begin[l] + 1; at < this->Begin[l + 1]; ++at)
+    {
+      sum += std::abs(coefficients[this->Index[at]] - coefficients[this->Index[at - 1]]);
+    }
+  }
+  return sum;
 }
 
 } // namespace hop

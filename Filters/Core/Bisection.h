@@ -19,6 +19,9 @@ public:
   template <class Value>
   void bisect(std::vector<Value>& coefficients, std::vector<Value>& second) const;
 
+  /// Sum of the differences of neighbouring coefficients along the direction, as absolute values.
+  double variation(const std::vector<double>& coefficients) const;
+
 private:
   std::vector<int> Begin;
   std::vector<int> Index;
@@ -28,7 +31,7 @@ template <class Value>
 void LatticeLines::bisect(std::vector<Value>& coefficients, std::vector<Value>& second) const
 {
   second.resize(coefficients.size());
-  Value line[MaximumDegree + 1];
+  Value line[MaximumPolynomialDegree + 1];
   for (std::size_t l = 0; l + 1 < this->Begin.size(); ++l)
   {
     const int* where = &this->Index[this->Begin[l]];

@@ -145,23 +145,6 @@ double extentOf(const std::vector<Mover>& movers)
   return glm::distance(lower, upper);
 }
 
-double meshExtent(const ElementMesh& mesh)
-{
-  glm::dvec3 lower(controlPoint(mesh.form(0), 0));
-  glm::dvec3 upper = lower;
-  for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
-  {
-    const BernsteinForm form = mesh.form(e);
-    for (int i = 0; i < coefficientCount(form.domain, form.degrees); ++i)
-    {
-      const glm::dvec3 x(controlPoint(form, i));
-      lower = glm::min(lower, x);
-      upper = glm::max(upper, x);
-    }
-  }
-  return glm::distance(lower, upper);
-}
-
 /// Neighbours that hexagonal packing can have around a particle on that many boundary faces.
 double idealEnergyOnBoundary(int boundaryFaces)
 {

@@ -22,8 +22,7 @@ void offer(Particle& particle, const glm::dvec3& normal, double distance)
   }
 }
 
-void offerRims(
-  const SpacingGrid& grid, const std::vector<RimParticle>& rims, Particle& particle)
+void offerRims(const SpacingGrid& grid, const std::vector<RimParticle>& rims, Particle& particle)
 {
   double nearest = ClipReach * particle.spacing;
   int rim = -1;

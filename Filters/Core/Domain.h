@@ -22,12 +22,21 @@ enum class Domain : std::uint8_t
 /// Tetrahedron: the total degree, three times.
 using Degrees = std::array<int, 3>;
 
-/// Highest degree of an element of the input. Beyond it the conversion of equispaced nodal values
-/// loses more digits than doubles can spare (condition 3e10 for a hexahedron of degree 10).
-constexpr int MaximumInputDegree = 10;
+/// Highest degree of an element of the input: 15 for hexahedra, 10 for the others, of which the
+/// conversion is not one of lines. Beyond it the conversion of equispaced nodal values, although in
+/// extended precision, loses more digits than doubles can spare.
+constexpr int MaximumInputDegree = 15;
+
+constexpr int maximumInputDegree(Domain domain)
+{
+  return domain == Domain::Hexahedron ? MaximumInputDegree : 10;
+}
 
 /// Highest degree that the evaluators take: squares of the input's fields.
 constexpr int MaximumDegree = 2 * MaximumInputDegree;
+
+/// Highest degree of any polynomial: the Jacobian determinants of rational elements.
+constexpr int MaximumPolynomialDegree = 4 * MaximumInputDegree;
 
 /// A point of an element's lattice of coefficients or nodes, at reference coordinates
 /// (i/p, j/q, k/r); for simplices i + j (+ k) does not exceed the degree.

@@ -1,7 +1,6 @@
 #include "ElementMesh.h"
 
 #include <algorithm>
-#include <unordered_map>
 
 namespace hop
 {
@@ -15,20 +14,6 @@ struct FaceReference
 };
 
 using FaceKey = std::array<std::int64_t, 4>;
-
-struct FaceKeyHash
-{
-  std::size_t operator()(const FaceKey& key) const
-  {
-    std::uint64_t hash = 0;
-    for (const std::int64_t corner : key)
-    {
-      hash = (hash ^ static_cast<std::uint64_t>(corner)) * 0x9e3779b97f4a7c15ULL;
-      hash ^= hash >> 29;
-    }
-    return static_cast<std::size_t>(hash);
-  }
-};
 
 std::int64_t cornerNumber(const Element& element, const Face& face, int c)
 {
@@ -153,40 +138,90 @@ FaceNeighbor joinTo(const ElementMesh& mesh, const FaceReference& from, const Fa
   return neighbor;
 }
 
-} // namespace
-
-void findFaceNeighbors(ElementMesh& mesh, double tolerance)
+/// A face, and the corners by which it is found.
+struct FaceClaim
 {
-  mesh.neighbors.assign(mesh.elements.size() * MaximumFaces, {});
-  std::unordered_map<FaceKey, std::vector<FaceReference>, FaceKeyHash> claims;
-  claims.reserve(mesh.elements.size() * 3);
+  FaceKey key;
+  FaceReference where;
+};
+
+/// All faces, sorted by their corners.
+std::vector<FaceClaim> faceClaims(const ElementMesh& mesh)
+{
+  std::vector<FaceClaim> claims;
+  claims.reserve(mesh.elements.size() * MaximumFaces);
   for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
   {
-    const Element& element = mesh.elements[e];
-    const auto& faces = facts(element.domain).faces;
+    const auto& faces = facts(mesh.elements[e].domain).faces;
     for (int f = 0; f < static_cast<int>(faces.size()); ++f)
     {
-      const FaceKey key = faceKey(element, faces[f]);
+      const FaceKey key = faceKey(mesh.elements[e], faces[f]);
       if (key[1] >= 0) // three distinct corners at least: a face, not an edge or a point
       {
-        claims[key].push_back({ e, f });
+        claims.push_back({ key, { e, f } });
       }
     }
   }
-  for (const auto& [key, pair] : claims)
+  std::stable_sort(claims.begin(), claims.end(),
+    [](const FaceClaim& a, const FaceClaim& b) { return a.key < b.key; });
+  return claims;
+}
+
+FaceNeighbor& neighborAt(ElementMesh& mesh, const FaceReference& face)
+{
+  return mesh.neighbors[static_cast<std::size_t>(face.element) * MaximumFaces + face.face];
+}
+
+} // namespace
+
+void findFaceNeighbors(ElementMesh& mesh, double tolerance, const ParallelFor& parallelFor)
+{
+  mesh.neighbors.assign(mesh.elements.size() * MaximumFaces, {});
+  const std::vector<FaceClaim> claims = faceClaims(mesh);
+  // Where in the list two faces of one key follow each other, and no third one.
+  std::vector<std::size_t> pairs;
+  for (std::size_t first = 0, end = 0; first < claims.size(); first = end)
   {
-    if (pair.size() != 2 ||
-      glm::distance(faceMiddle(mesh, pair[0]), faceMiddle(mesh, pair[1])) > tolerance)
+    for (end = first + 1; end < claims.size() && claims[end].key == claims[first].key;)
     {
-      continue;
+      ++end;
     }
-    for (int side = 0; side < 2; ++side)
+    if (end - first == 2)
     {
-      const FaceReference& from = pair[side];
-      mesh.neighbors[static_cast<std::size_t>(from.element) * MaximumFaces + from.face] =
-        joinTo(mesh, from, pair[1 - side]);
+      pairs.push_back(first);
     }
   }
+  runParallel(parallelFor, static_cast<std::ptrdiff_t>(pairs.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      for (std::ptrdiff_t p = begin; p < end; ++p)
+      {
+        const FaceReference& a = claims[pairs[p]].where;
+        const FaceReference& b = claims[pairs[p] + 1].where;
+        if (glm::distance(faceMiddle(mesh, a), faceMiddle(mesh, b)) <= tolerance)
+        {
+          neighborAt(mesh, a) = joinTo(mesh, a, b);
+          neighborAt(mesh, b) = joinTo(mesh, b, a);
+        }
+      }
+    });
+}
+
+double meshExtent(const ElementMesh& mesh)
+{
+  glm::dvec3 lower(controlPoint(mesh.form(0), 0));
+  glm::dvec3 upper = lower;
+  for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
+  {
+    const BernsteinForm form = mesh.form(e);
+    for (int i = 0; i < coefficientCount(form.domain, form.degrees); ++i)
+    {
+      const glm::dvec3 x(controlPoint(form, i));
+      lower = glm::min(lower, x);
+      upper = glm::max(upper, x);
+    }
+  }
+  return glm::distance(lower, upper);
 }
 
 Location crossFace(const ElementMesh& mesh, const Location& location, int face)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Bernstein.h"
+#include "Monitor.h"
 
 #include <cstdint>
 #include <limits>
@@ -63,11 +64,15 @@ struct Location
   ReferencePoint u;
 };
 
+/// Diagonal of the bounds of all control points, world units.
+/// \pre there are elements
+double meshExtent(const ElementMesh& mesh);
+
 /// Fills mesh.neighbors: two faces are joined when their corners carry the same numbers and their
 /// middles coincide within `tolerance` (world units; two curved faces may share all corners and
 /// still be different). A quadrilateral of which two corners coincide joins triangles. Where three
 /// or more elements claim one face, none is joined.
-void findFaceNeighbors(ElementMesh& mesh, double tolerance);
+void findFaceNeighbors(ElementMesh& mesh, double tolerance, const ParallelFor& parallelFor = {});
 
 /// The same place, seen from the element behind `face`, on which `location` lies.
 /// \pre the face has a neighbour

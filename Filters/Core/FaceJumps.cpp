@@ -141,16 +141,15 @@ FaceJumps findFaceJumps(
     {
       std::array<bool, MaximumFaces> seen{};
       visitFaceCrossings(
-        mesh, proxy.boxes()[b],
-        [&](int face) { return wanted[face] && proxy.samples()[b].found; },
+        mesh, proxy.boxes()[b], [&](int face) { return wanted[face] && proxy.samples()[b].found; },
         [&](const FaceCrossing& crossing)
         {
           if (!seen[crossing.face])
           {
             seen[crossing.face] = true;
             wanted[crossing.face] = jumps[crossing.face];
-            ofElement[element].push_back({ crossing.face,
-              check(crossing, proxy.samples()[b].patch.spacing, walker) });
+            ofElement[element].push_back(
+              { crossing.face, check(crossing, proxy.samples()[b].patch.spacing, walker) });
           }
         });
     }

@@ -1,13 +1,14 @@
 #include "FastDistribution.h"
 
+#include "ActiveFaces.h"
 #include "ClipPlanes.h"
 #include "FaceJumps.h"
 #include "Interruptible.h"
 #include "Random.h"
 #include "RimCurves.h"
-#include "UnresolvedBoxes.h"
 #include "SpacingGrid.h"
 #include "SurfaceProxy.h"
+#include "UnresolvedBoxes.h"
 
 #include <atomic>
 #include <cmath>
@@ -24,6 +25,8 @@ namespace
 constexpr double hexahedronPerSpacing = 6.0;
 constexpr double wedgePerSpacing = 7.0;
 constexpr double tetrahedronPerSpacing = 9.0;
+/// Spacing of the first look, in units of the mesh's diagonal.
+constexpr double coarseSpacingPerExtent = 0.005;
 /// Where the spacing follows the curvature, boxes are smaller by this factor, to see it change.
 constexpr double adaptiveShare = 0.67;
 /// A step of relaxation is taken back by half while it ends farther from the surface than this, in
@@ -55,8 +58,8 @@ std::vector<int> sweepsOfRounds(Quality quality)
 class FastSystem
 {
 public:
-  FastSystem(const Isosurface& surface, const DistributionParameters& parameters, const Monitor& monitor,
-    const ParallelFor& parallelFor)
+  FastSystem(const Isosurface& surface, const DistributionParameters& parameters,
+    const Monitor& monitor, const ParallelFor& parallelFor)
     : Surface(surface)
     , Mesh(*surface.mesh)
     , Parameters(parameters)
@@ -69,21 +72,35 @@ public:
   Distribution run();
 
 private:
+  /// Reports how far the work is; may throw Interrupted.
+  void reach(double fraction)
+  {
+    this->Work.setFraction(fraction);
+    this->Work.ask();
+  }
+  SurfaceProxy proxyAt(double spacing);
+  bool tooMany(double count);
+  bool estimateCount();
   void makeProxy();
+  void matchCount();
+  void makeExactly(std::int64_t count);
   void findJumps();
   void makeRims();
   std::vector<char> farFromRims(double nearest);
   void dropNearRims(double nearest);
-  bool makeSeeds();
+  void makeSeeds(std::int64_t count);
+  bool countIsGiven() const { return this->Parameters.particleCount > 0; }
   void putNearSurface();
   void coverBoxes();
   bool isCovered(const SurfaceProxy::Sample& sample, const SpacingGrid& grid) const;
   void relax(int sweeps);
   void commit(const std::vector<glm::vec2>& displacements);
+  bool isOnWall(const Location& location) const;
   Location target(std::size_t i, const glm::dvec3& step, std::int64_t& cost) const;
   glm::dvec3 stepTo(std::size_t i, const glm::vec2& displacement) const;
   std::vector<Location> targets(const std::vector<glm::vec2>& displacements);
-  bool retry(std::size_t i, glm::dvec3 step, Anchor& anchor, Patch& patch, std::int64_t& cost) const;
+  bool retry(
+    std::size_t i, glm::dvec3 step, Anchor& anchor, Patch& patch, std::int64_t& cost) const;
   bool accepts(const Patch& before, const Anchor& anchor, const Patch& after) const;
   bool settle(const Location& place, const Jet& jet, Patch& patch, Particle& particle) const;
   void finishPass(
@@ -129,52 +146,126 @@ void keep(std::vector<T>& items, const std::vector<char>& kept)
   items.resize(next);
 }
 
-void FastSystem::makeProxy()
+SurfaceProxy FastSystem::proxyAt(double spacing)
 {
-  const auto wantedSize = [this](const Location& middle)
+  SpacingLaw law = this->Law;
+  law.spacing = spacing;
+  const auto wantedSize = [&](const Location& middle)
   {
     const Domain domain = this->Mesh.elements[middle.element].domain;
     const double perSpacing = domain == Domain::Hexahedron ? hexahedronPerSpacing
       : domain == Domain::Wedge                            ? wedgePerSpacing
                                                            : tetrahedronPerSpacing;
-    if (this->Law.angularDensity == 0.0)
+    if (law.angularDensity == 0.0)
     {
-      return perSpacing * this->Law.spacing;
+      return perSpacing * law.spacing;
     }
     ++this->Evaluations;
     Anchor anchor;
     Patch patch;
     const Jet jet = evaluateHessian(this->Mesh.form(middle.element), middle.u);
     const bool regular = anchorPatch(middle, jet, this->Surface.isovalue, anchor, patch);
-    return adaptiveShare * perSpacing * this->Law.at(regular ? patch.curvatureMagnitude() : 0.0);
+    return adaptiveShare * perSpacing * law.at(regular ? patch.curvatureMagnitude() : 0.0);
   };
-  this->Proxy = std::make_unique<SurfaceProxy>(this->Surface, this->Law,
+  SurfaceProxy proxy(this->Surface, law,
     findSurfaceBoxes(this->Mesh, this->Surface.isovalue, wantedSize, this->Parallel),
     this->Parallel);
-  this->Evaluations += this->Proxy->evaluations();
+  this->Evaluations += proxy.evaluations();
+  return proxy;
+}
+
+bool FastSystem::tooMany(double count)
+{
+  const auto limit = this->Parameters.particleLimit;
+  if (count <= static_cast<double>(limit))
+  {
+    return false;
+  }
+  this->Result.report.error = "the spacing asks for about " + std::to_string(std::llround(count)) +
+    " particles, more than the limit of " + std::to_string(limit);
+  return true;
+}
+
+/// From a coarse look at the surface, before memory is asked for.
+/// \return whether there are few enough
+bool FastSystem::estimateCount()
+{
+  if (this->Parameters.particleCount > 0)
+  {
+    return !this->tooMany(static_cast<double>(this->Parameters.particleCount));
+  }
+  const double coarse = meshExtent(this->Mesh) * coarseSpacingPerExtent;
+  const double ratio = coarse / this->Law.spacing;
+  return ratio <= 1.0 || !this->tooMany(this->proxyAt(coarse).particleCount() * ratio * ratio);
+}
+
+void FastSystem::makeProxy()
+{
+  this->Proxy = std::make_unique<SurfaceProxy>(this->proxyAt(this->Law.spacing));
+  this->matchCount();
   reportUnresolved(this->Surface, this->Proxy->boxes(), this->Result.report);
 }
 
-/// Draws first places.
-/// \return false if there would be too many
-bool FastSystem::makeSeeds()
+/// Where the number of particles is given, finds the spacing that goes with it.
+void FastSystem::matchCount()
 {
-  const double wanted = this->Proxy->particleCount();
-  if (wanted > static_cast<double>(this->Parameters.particleLimit))
+  constexpr int tries = 6;
+  constexpr double closeEnough = 0.01;
+  const auto wanted = static_cast<double>(this->Parameters.particleCount);
+  for (int n = 0; n < tries && wanted > 0.0; ++n)
   {
-    this->Result.report.error = "the spacing asks for about " +
-      std::to_string(std::llround(wanted)) + " particles, more than the limit of " +
-      std::to_string(this->Parameters.particleLimit);
-    return false;
+    const double ratio = this->Proxy->particleCount() / wanted;
+    if (!(ratio > 0.0) || std::abs(ratio - 1.0) < closeEnough)
+    {
+      return;
+    }
+    this->Law.spacing *= std::sqrt(ratio);
+    this->Proxy = std::make_unique<SurfaceProxy>(this->proxyAt(this->Law.spacing));
   }
+}
+
+/// Draws that many first places.
+void FastSystem::makeSeeds(std::int64_t count)
+{
   const std::vector<Location> seeds =
-    this->Proxy->seeds(std::llround(wanted), Random(this->Parameters.seed).uniform());
+    this->Proxy->seeds(count, Random(this->Parameters.seed).uniform());
   this->Anchors.resize(seeds.size());
   for (std::size_t i = 0; i < seeds.size(); ++i)
   {
     this->Anchors[i].place = seeds[i];
   }
-  return true;
+  this->putNearSurface();
+  this->dropNearRims(seedToRim);
+  this->coverBoxes();
+}
+
+/// The first places of a given number of particles: more are drawn until those that rims push aside are
+/// made up for, and those too many are taken away evenly.
+void FastSystem::makeExactly(std::int64_t count)
+{
+  constexpr int tries = 8;
+  std::int64_t drawn = count;
+  for (int n = 0; n < tries; ++n)
+  {
+    this->makeSeeds(drawn);
+    const auto missing = count - static_cast<std::int64_t>(this->Patches.size());
+    if (missing <= 0)
+    {
+      break;
+    }
+    drawn += missing;
+  }
+  const auto moving = static_cast<std::int64_t>(this->Anchors.size());
+  const auto surplus =
+    std::clamp<std::int64_t>(static_cast<std::int64_t>(this->Patches.size()) - count, 0, moving);
+  std::vector<char> kept(this->Patches.size(), 1);
+  for (std::int64_t n = 0; n < surplus; ++n)
+  {
+    kept[n * moving / surplus] = 0;
+  }
+  keep(this->Patches, kept);
+  kept.resize(moving);
+  keep(this->Anchors, kept);
 }
 
 /// One Newton step for each seed, then its first patch.
@@ -275,10 +366,35 @@ Location FastSystem::target(std::size_t i, const glm::dvec3& step, std::int64_t&
     return { anchor.place.element, { u } };
   }
   SurfaceWalker walker(this->Surface);
-  const Evaluated start = walker.evaluate(anchor.place);
-  const Location reached = walker.move(start, { step });
+  Evaluated start{ anchor.place, {} };
+  LocalMap& map = start.point.map;
+  map.position = { this->Patches[i].position -
+    static_cast<double>(anchor.offset) * glm::dvec3(this->Patches[i].normal) };
+  map.inverse = glm::dmat3(anchor.pull);
+  map.jacobian = glm::inverse(map.inverse);
+  // Onto a wall only particles on rims may go.
+  Location reached = walker.move(start, { step });
+  const auto onWall = [&]() { return this->isOnWall(reached); };
+  if (onWall())
+  {
+    reached = walker.move(start, { 0.5 * step });
+  }
   cost += walker.evaluations();
-  return reached;
+  return onWall() ? anchor.place : reached;
+}
+
+bool FastSystem::isOnWall(const Location& location) const
+{
+  const auto& faces = facts(this->Mesh.elements[location.element].domain).faces;
+  for (int f = 0; f < static_cast<int>(faces.size()); ++f)
+  {
+    if (faceMargin(faces[f], location.u) < OnFace &&
+      this->Surface.neighbor(location.element, f).element < 0)
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 bool FastSystem::accepts(const Patch& before, const Anchor& anchor, const Patch& after) const
@@ -378,13 +494,16 @@ void FastSystem::relax(int sweeps)
   Relaxed relaxed = relaxOnPatches(this->Patches, sweeps, this->Parallel);
   std::vector<char> kept(this->Patches.size());
   std::transform(relaxed.surplus.begin(), relaxed.surplus.end(), kept.begin(),
-    [](char surplus) { return !surplus; });
+    [this](char surplus) { return !surplus || this->countIsGiven(); });
   keep(relaxed.displacements, kept);
   keep(this->Patches, kept);
   kept.resize(this->Anchors.size());
   keep(this->Anchors, kept);
   this->commit(relaxed.displacements);
-  this->dropNearRims(squeezedToRim);
+  if (!this->countIsGiven())
+  {
+    this->dropNearRims(squeezedToRim);
+  }
   this->Result.report.iterations += sweeps;
 }
 
@@ -408,8 +527,8 @@ bool FastSystem::isCovered(const SurfaceProxy::Sample& sample, const SpacingGrid
       const auto& s = patch.shape;
       const float sink = 0.5f * (s[0] * t.x * t.x + 2.0f * s[1] * t.x * t.y + s[2] * t.y * t.y);
       const float bend = patch.curvatureMagnitude() * distance;
-      covered = std::abs(glm::dot(d, patch.normal) + sink) <=
-        (coverOffset + bend * bend) * patch.spacing;
+      covered =
+        std::abs(glm::dot(d, patch.normal) + sink) <= (coverOffset + bend * bend) * patch.spacing;
     });
   return covered;
 }
@@ -466,13 +585,12 @@ bool FastSystem::settle(
   const FieldPoint point = fieldPoint(jet, this->Surface.isovalue);
   const double slope = length(point.gradient);
   const double residual = std::abs(point.value) / slope;
-  if (point.map.singular || !(residual <= this->Surface.tolerance))
+  if (point.map.singular || !(residual <= this->Surface.tolerance) || !isNearInReference(point))
   {
     return false;
   }
   particle = { place, point.map.position, surfaceNormal(point.gradient),
-    curvature(point.gradient, worldHessian(jet, point)), residual, patch.spacing, {}, 0.0,
-    0.0 };
+    curvature(point.gradient, worldHessian(jet, point)), residual, patch.spacing, {}, 0.0, 0.0 };
   patch.position = particle.position.xyz;
   return true;
 }
@@ -505,8 +623,7 @@ void FastSystem::finishPass(
           settled[i] = this->settle(places[n], jet, patch, particles[i]);
           Anchor anchor;
           Patch there = patch;
-          if (!settled[i] &&
-            anchorPatch(places[n], jet, this->Surface.isovalue, anchor, there) &&
+          if (!settled[i] && anchorPatch(places[n], jet, this->Surface.isovalue, anchor, there) &&
             this->accepts(patch, anchor, there))
           {
             this->Anchors[i] = anchor;
@@ -546,13 +663,14 @@ void FastSystem::finish()
   }
   this->Evaluations += walker.evaluations();
   const std::ptrdiff_t lost = std::count(settled.begin(), settled.end(), 0);
-  const std::vector<char> far = this->farFromRims(squeezedToRim);
-  std::transform(settled.begin(), settled.end(), far.begin(), settled.begin(), std::logical_and<>());
+  const std::vector<char> far = this->farFromRims(this->countIsGiven() ? 0.0 : squeezedToRim);
+  std::transform(
+    settled.begin(), settled.end(), far.begin(), settled.begin(), std::logical_and<>());
   keep(particles, settled);
   DistributionReport& report = this->Result.report;
   report.particlesRejected += lost;
-  this->Evaluations += markClipPlanes(
-    this->Mesh, this->Jumps, this->Rims.particles, particles, this->Parallel);
+  this->Evaluations +=
+    markClipPlanes(this->Mesh, this->Jumps, this->Rims.particles, particles, this->Parallel);
   for (const RimParticle& rim : this->Rims.particles)
   {
     particles.push_back(rim.particle);
@@ -572,17 +690,32 @@ Distribution FastSystem::run()
   }
   try
   {
+    if (!this->estimateCount())
+    {
+      return this->Result;
+    }
     this->makeProxy();
-    if (this->Proxy->particleCount() > 0.0 && this->makeSeeds())
+    this->reach(0.25);
+    const double wanted = this->Proxy->particleCount();
+    if (wanted > 0.0 && !this->tooMany(wanted))
     {
       this->findJumps();
-      this->putNearSurface();
       this->makeRims();
-      this->dropNearRims(seedToRim);
-      this->coverBoxes();
-      for (const int sweeps : sweepsOfRounds(this->Parameters.quality))
+      this->reach(0.35);
+      if (this->countIsGiven())
       {
-        this->relax(sweeps);
+        this->makeExactly(this->Parameters.particleCount);
+      }
+      else
+      {
+        this->makeSeeds(std::llround(wanted));
+      }
+      this->reach(0.45);
+      const std::vector<int> rounds = sweepsOfRounds(this->Parameters.quality);
+      for (std::size_t n = 0; n < rounds.size(); ++n)
+      {
+        this->relax(rounds[n]);
+        this->reach(0.45 + 0.45 * static_cast<double>(n + 1) / static_cast<double>(rounds.size()));
       }
       this->finish();
     }

@@ -3,10 +3,13 @@
 #include "Bernstein.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <stdexcept>
+#include <type_traits>
 
 namespace hop
 {
@@ -50,7 +53,7 @@ Extended bernsteinAt(const std::array<int, 4>& index, const Barycentric& point, 
 }
 
 /// Gauss-Jordan elimination with row pivoting.
-std::vector<double> invert(std::vector<Extended> a, int n)
+std::vector<Extended> invert(std::vector<Extended> a, int n)
 {
   std::vector<Extended> inverse(a.size(), 0.0L);
   for (int i = 0; i < n; ++i)
@@ -85,11 +88,11 @@ std::vector<double> invert(std::vector<Extended> a, int n)
       inverse[column * n + k] *= scale;
     }
   }
-  return { inverse.begin(), inverse.end() };
+  return inverse;
 }
 
 /// The inverse of V_ij = B_j(node i).
-std::vector<double> makeConversion(int dimension, int degree, const std::vector<Barycentric>& nodes)
+ConversionMatrix makeConversion(int dimension, int degree, const std::vector<Barycentric>& nodes)
 {
   const auto lattice = simplexLattice(dimension, degree);
   const std::size_t n = lattice.size();
@@ -101,7 +104,10 @@ std::vector<double> makeConversion(int dimension, int degree, const std::vector<
       vandermonde[i * n + j] = bernsteinAt(lattice[j], nodes[i], degree);
     }
   }
-  return invert(std::move(vandermonde), static_cast<int>(n));
+  ConversionMatrix matrix;
+  matrix.extended = invert(std::move(vandermonde), static_cast<int>(n));
+  matrix.rounded.assign(matrix.extended.begin(), matrix.extended.end());
+  return matrix;
 }
 
 std::vector<Barycentric> equispacedNodes(int dimension, int degree)
@@ -119,10 +125,10 @@ std::vector<Barycentric> equispacedNodes(int dimension, int degree)
 
 /// Computed at the first request, kept for the life of the program.
 template <class Make>
-const std::vector<double>& cached(const std::array<int, 3>& key, const Make& make)
+const ConversionMatrix& cached(const std::array<int, 3>& key, const Make& make)
 {
   static std::mutex mutex;
-  static std::map<std::array<int, 3>, std::vector<double>> known;
+  static std::map<std::array<int, 3>, ConversionMatrix> known;
   const std::lock_guard<std::mutex> lock(mutex);
   auto [entry, isNew] = known.try_emplace(key);
   if (isNew)
@@ -148,22 +154,64 @@ double infinityNorm(const std::vector<double>& matrix, int columns)
   return norm;
 }
 
-/// A tensor or simplex matrix times values: `rows` results of `components` each.
-void multiply(const double* matrix, int rows, int columns, const double* values, int stride,
-  int components, double* result)
+/// `Width` neighbouring results of one row of a matrix times rows of values that are `stride` long.
+template <int Width, class Number>
+void multiplyRow(const Number* row, int columns, const Number* values, int stride, Number* result)
 {
-  std::fill_n(result, static_cast<std::size_t>(rows) * components, 0.0);
-  for (int row = 0; row < rows; ++row)
+  std::array<Number, Width> sum{};
+  for (int column = 0; column < columns; ++column, values += stride)
   {
-    for (int column = 0; column < columns; ++column)
+    for (int c = 0; c < Width; ++c)
     {
-      const double entry = matrix[row * columns + column];
-      const double* value = values + static_cast<std::size_t>(column) * stride * components;
-      for (int c = 0; c < components; ++c)
-      {
-        result[row * components + c] += entry * value[c];
-      }
+      sum[c] += row[column] * values[c];
     }
+  }
+  std::copy(sum.begin(), sum.end(), result);
+}
+
+/// A matrix times rows of values: `rows` results from `columns` rows, each `width` values long.
+template <class Number>
+void multiply(
+  const Number* matrix, int rows, int columns, const Number* values, int width, Number* result)
+{
+  constexpr int together = 4; // stays in registers
+  for (int row = 0; row < rows; ++row, matrix += columns, result += width)
+  {
+    int c = 0;
+    for (; c + together <= width; c += together)
+    {
+      multiplyRow<together>(matrix, columns, values + c, width, result + c);
+    }
+    for (; c < width; ++c)
+    {
+      multiplyRow<1>(matrix, columns, values + c, width, result + c);
+    }
+  }
+}
+
+/// One factor on every line, triangle or tetrahedron of values.
+/// \param width how many values stand side by side, and are converted side by side
+template <class Number>
+void applyFactor(const std::vector<Number>& matrix, int size, int width,
+  const std::vector<Number>& values, std::vector<Number>& result)
+{
+  const std::size_t block = static_cast<std::size_t>(size) * width;
+  for (std::size_t start = 0; start < values.size(); start += block)
+  {
+    multiply(matrix.data(), size, size, &values[start], width, &result[start]);
+  }
+}
+
+template <class Number>
+const std::vector<Number>& entries(const ConversionMatrix& matrix)
+{
+  if constexpr (std::is_same_v<Number, double>)
+  {
+    return matrix.rounded;
+  }
+  else
+  {
+    return matrix.extended;
   }
 }
 
@@ -196,13 +244,13 @@ std::vector<long double> gaussLobattoPoints(int degree)
   return points;
 }
 
-const std::vector<double>& equispacedToBernstein(int dimension, int degree)
+const ConversionMatrix& equispacedToBernstein(int dimension, int degree)
 {
   return cached({ dimension, degree, 0 },
     [&]() { return makeConversion(dimension, degree, equispacedNodes(dimension, degree)); });
 }
 
-const std::vector<double>& gaussLobattoToBernstein(int degree)
+const ConversionMatrix& gaussLobattoToBernstein(int degree)
 {
   return cached({ 1, degree, 1 },
     [&]()
@@ -222,9 +270,10 @@ NodalBasis::NodalBasis(Domain domain, const Degrees& degrees)
   , Coefficients(hop::coefficientCount(domain, degrees))
 {
   const auto [lowest, highest] = std::minmax_element(degrees.begin(), degrees.end());
-  if (*lowest < 1 || *highest > MaximumInputDegree)
+  if (*lowest < 1 || *highest > maximumInputDegree(domain))
   {
-    throw std::invalid_argument("degree outside 1 to " + std::to_string(MaximumInputDegree));
+    throw std::invalid_argument(
+      "degree outside 1 to " + std::to_string(maximumInputDegree(domain)));
   }
 }
 
@@ -256,9 +305,12 @@ NodalBasis NodalBasis::sampled(
   basis.Nodes = static_cast<int>(shapeAtLattice.size()) / basis.Coefficients;
   basis.Dense = shapeAtLattice;
   basis.addLatticeFactors(NodeSpacing::Uniform);
+  std::vector<double> converted(basis.Dense.size());
   for (const Factor& factor : basis.Factors)
   {
-    basis.apply(factor, basis.Nodes, basis.Dense.data());
+    applyFactor(
+      factor.matrix->rounded, factor.size, factor.stride * basis.Nodes, basis.Dense, converted);
+    basis.Dense.swap(converted);
   }
   basis.Factors.clear();
   basis.Norm = infinityNorm(basis.Dense, basis.Nodes);
@@ -286,18 +338,18 @@ void NodalBasis::placeNodes(const std::vector<LatticePoint>& order)
   this->Nodes = this->Coefficients;
 }
 
-int NodalBasis::addFactor(const std::vector<double>& matrix, int stride)
+int NodalBasis::addFactor(const ConversionMatrix& matrix, int stride)
 {
-  const int size = static_cast<int>(std::lround(std::sqrt(matrix.size())));
+  const int size = static_cast<int>(std::lround(std::sqrt(matrix.rounded.size())));
   this->Factors.push_back({ &matrix, size, stride });
-  this->Norm *= infinityNorm(matrix, size);
+  this->Norm *= infinityNorm(matrix.rounded, size);
   return size;
 }
 
 void NodalBasis::addLatticeFactors(NodeSpacing spacing)
 {
   const auto [p, q, r] = this->ItsDegrees;
-  const auto line = [spacing](int degree) -> const std::vector<double>&
+  const auto line = [spacing](int degree) -> const ConversionMatrix&
   {
     return spacing == NodeSpacing::Uniform ? equispacedToBernstein(1, degree)
                                            : gaussLobattoToBernstein(degree);
@@ -317,44 +369,54 @@ void NodalBasis::addLatticeFactors(NodeSpacing spacing)
   }
 }
 
-/// One factor, in place, on every line, triangle or tetrahedron of values.
-void NodalBasis::apply(const Factor& factor, int components, double* values) const
+// Well below it doubles give all digits that the data have.
+bool NodalBasis::isIllConditioned() const
 {
-  std::vector<double> result(static_cast<std::size_t>(factor.size) * components);
-  const int block = factor.size * factor.stride;
-  for (int start = 0; start < this->Coefficients; ++start)
+  constexpr double illConditioned = 1e6;
+  return this->Norm > illConditioned;
+}
+
+double NodalBasis::conversionError() const
+{
+  const double epsilon =
+    this->isIllConditioned() && this->Dense.empty() && sizeof(Extended) > sizeof(double)
+    ? static_cast<double>(std::numeric_limits<Extended>::epsilon())
+    : std::numeric_limits<double>::epsilon();
+  return 4.0 * epsilon * this->Norm;
+}
+
+template <class Number>
+void NodalBasis::convert(const double* nodal, int components, double* coefficients) const
+{
+  std::vector<Number> values(static_cast<std::size_t>(this->Coefficients) * components);
+  std::vector<Number> converted(values.size());
+  for (int node = 0; node < this->Nodes; ++node)
   {
-    if (start % block >= factor.stride)
-    {
-      continue; // not the first value of a line
-    }
-    double* first = values + static_cast<std::size_t>(start) * components;
-    multiply(factor.matrix->data(), factor.size, factor.size, first, factor.stride, components,
-      result.data());
-    for (int row = 0; row < factor.size; ++row)
-    {
-      std::copy_n(result.data() + row * components, components,
-        first + static_cast<std::size_t>(row) * factor.stride * components);
-    }
+    std::copy_n(nodal + static_cast<std::ptrdiff_t>(node) * components, components,
+      values.begin() + static_cast<std::ptrdiff_t>(this->Place[node]) * components);
   }
+  for (const Factor& factor : this->Factors)
+  {
+    applyFactor(
+      entries<Number>(*factor.matrix), factor.size, factor.stride * components, values, converted);
+    values.swap(converted);
+  }
+  std::copy(values.begin(), values.end(), coefficients);
 }
 
 void NodalBasis::toBernstein(const double* nodal, int components, double* coefficients) const
 {
   if (!this->Dense.empty())
   {
-    multiply(
-      this->Dense.data(), this->Coefficients, this->Nodes, nodal, 1, components, coefficients);
-    return;
+    multiply(this->Dense.data(), this->Coefficients, this->Nodes, nodal, components, coefficients);
   }
-  for (int node = 0; node < this->Nodes; ++node)
+  else if (this->isIllConditioned())
   {
-    std::copy_n(
-      nodal + node * components, components, coefficients + this->Place[node] * components);
+    this->convert<Extended>(nodal, components, coefficients);
   }
-  for (const Factor& factor : this->Factors)
+  else
   {
-    this->apply(factor, components, coefficients);
+    this->convert<double>(nodal, components, coefficients);
   }
 }
 

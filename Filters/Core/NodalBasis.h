@@ -16,6 +16,13 @@ enum class NodeSpacing
   GaussLobattoLegendre
 };
 
+/// A conversion from nodal values to Bernstein coefficients, square, row by row.
+struct ConversionMatrix
+{
+  std::vector<double> rounded;
+  std::vector<long double> extended;
+};
+
 /// How an element's nodal values determine its polynomials, whatever kind of cell it was: the linear
 /// map from nodal values to Bernstein coefficients. With V_ij = B_j(node i) the coefficients of a
 /// Lagrange element are V^-1 times the values. Matrices are built in extended precision and once a
@@ -28,7 +35,7 @@ public:
   /// lattice point exactly once
   /// \param spacing other than Uniform for hexahedra only
   /// \throw std::invalid_argument if `order` is no permutation of the lattice, or a degree is below
-  /// 1 or above MaximumInputDegree
+  /// 1 or above maximumInputDegree(domain)
   static NodalBasis lagrange(Domain domain, const Degrees& degrees,
     const std::vector<LatticePoint>& order, NodeSpacing spacing = NodeSpacing::Uniform);
 
@@ -56,15 +63,21 @@ public:
   /// \param coefficients coefficientCount x components values, in the order of coefficientIndex
   void toBernstein(const double* nodal, int components, double* coefficients) const;
 
-  /// Bound on max|coefficient| / max|nodal value|: the infinity norm of the conversion. Rounding
-  /// errors of the coefficients are bounded by a few eps times this times the largest value.
+  /// Bound on max|coefficient| / max|nodal value|: the infinity norm of the conversion.
   double conversionNorm() const { return this->Norm; }
+
+  /// Bound on the errors of the coefficients, before they are rounded to doubles, relative to the
+  /// largest nodal value. Ill-conditioned conversions are done in extended precision. Measured on
+  /// hexahedra with equispaced nodes, error of values anywhere relative to the largest one: smooth fields
+  /// 3e-15 at degree 6, 1e-13 at 12, 2e-11 at 15; random nodal values 1e-13, 1e-10, 1e-7, because their
+  /// coefficients are 1e14 times as large at degree 15.
+  double conversionError() const;
 
 private:
   /// A square matrix that acts on `size` values that stand `stride` apart, for every other index.
   struct Factor
   {
-    const std::vector<double>* matrix = nullptr;
+    const ConversionMatrix* matrix = nullptr;
     int size = 0;
     int stride = 0;
   };
@@ -72,8 +85,10 @@ private:
   NodalBasis(Domain domain, const Degrees& degrees);
   void placeNodes(const std::vector<LatticePoint>& order);
   void addLatticeFactors(NodeSpacing spacing);
-  int addFactor(const std::vector<double>& matrix, int stride);
-  void apply(const Factor& factor, int components, double* values) const;
+  int addFactor(const ConversionMatrix& matrix, int stride);
+  bool isIllConditioned() const;
+  template <class Number>
+  void convert(const double* nodal, int components, double* coefficients) const;
 
   Domain ItsDomain;
   Degrees ItsDegrees;
@@ -88,12 +103,12 @@ private:
   double Norm = 1.0;
 };
 
-/// Square matrix, row by row, that takes values at the equispaced points of a line, triangle or
+/// The matrix that takes values at the equispaced points of a line, triangle or
 /// tetrahedron (dimension 1, 2, 3) to Bernstein coefficients of that degree. Computed once, kept.
-const std::vector<double>& equispacedToBernstein(int dimension, int degree);
+const ConversionMatrix& equispacedToBernstein(int dimension, int degree);
 
 /// The same from values at the degree + 1 Gauss-Lobatto-Legendre points of a line.
-const std::vector<double>& gaussLobattoToBernstein(int degree);
+const ConversionMatrix& gaussLobattoToBernstein(int degree);
 
 /// The degree + 1 Gauss-Lobatto-Legendre points on [0, 1]: its ends and the extrema of the Legendre
 /// polynomial of that degree.

@@ -160,10 +160,12 @@ void SweepSystem::layOut(const std::vector<int>& particles)
   for (std::size_t first = 0; first < particles.size(); first += SweepLanes)
   {
     SweepBlock block{};
-    block.count = static_cast<std::int32_t>(std::min<std::size_t>(SweepLanes, particles.size() - first));
+    block.count =
+      static_cast<std::int32_t>(std::min<std::size_t>(SweepLanes, particles.size() - first));
     for (int lane = 0; lane < block.count; ++lane)
     {
-      block.neighborCount = std::max(block.neighborCount, this->Lists.count(particles[first + lane]));
+      block.neighborCount =
+        std::max(block.neighborCount, this->Lists.count(particles[first + lane]));
     }
     block.firstNeighbor = this->Blocks.empty()
       ? 0
@@ -230,8 +232,7 @@ Relaxed SweepSystem::result() const
   {
     result.surplus[i] = energies[i] > crowded &&
       std::none_of(this->Lists.begin(i), this->Lists.end(i),
-        [&](int j)
-        {
+        [&](int j) {
           return energies[j] > energies[i] ||
             (energies[j] == energies[i] && j < static_cast<int>(i));
         });
@@ -253,8 +254,8 @@ void SweepSystem::fillLane(SweepBlock& block, int lane, int particle) const
   }
   const float bend = patch.curvatureMagnitude();
   block.inverseSpacing[lane] = 1.0f / patch.spacing;
-  block.relaxation[lane] = std::max(
-    bentRelaxation, flatRelaxation - std::max(0.0f, bend * patch.spacing - flatUpTo));
+  block.relaxation[lane] =
+    std::max(bentRelaxation, flatRelaxation - std::max(0.0f, bend * patch.spacing - flatUpTo));
   block.farthest[lane] =
     std::min(farthestPerSpacing * patch.spacing, farthestPerRadius / std::max(bend, 1e-30f));
   block.particle[lane] = particle;

@@ -1,5 +1,6 @@
 #include "RimCurves.h"
 
+#include "ActiveFaces.h"
 #include "FaceCrossings.h"
 #include "FaceJumps.h"
 #include "RimTracer.h"
@@ -105,15 +106,14 @@ void RimSampler::sample(const RimTrace& trace, double nearby)
 }
 
 /// Particles at equal distances, in units of the spacing wanted, from the first vertex on.
-void RimSampler::sampleStretch(
-  const std::vector<RimVertex>& vertices, bool withEnd, double nearby)
+void RimSampler::sampleStretch(const std::vector<RimVertex>& vertices, bool withEnd, double nearby)
 {
   std::vector<double> sums{ 0.0 };
   for (std::size_t v = 1; v < vertices.size(); ++v)
   {
     nearby = this->spacingAt(vertices[v].arriving, nearby);
-    sums.push_back(sums.back() +
-      glm::distance(vertices[v - 1].position(), vertices[v].position()) / nearby);
+    sums.push_back(
+      sums.back() + glm::distance(vertices[v - 1].position(), vertices[v].position()) / nearby);
   }
   const auto count = std::max<std::int64_t>(1, std::llround(sums.back()));
   std::size_t v = 1;
@@ -135,8 +135,7 @@ void RimSampler::sampleStretch(
     }
     else
     {
-      const WorldVector step =
-        t * (to.at.point.map.position - from.at.point.map.position);
+      const WorldVector step = t * (to.at.point.map.position - from.at.point.map.position);
       this->addParticle(this->Walker.move(from.at, step), from.face, nearby);
     }
   }
@@ -167,15 +166,20 @@ void RimSampler::addParticle(const Location& place, int face, double nearby)
   rim.particle = { location, field.map.position, normal,
     curvature(field.gradient, worldHessian(jet, field)),
     std::abs(field.value) / length(field.gradient), rim.patch.spacing, {}, 0.0, 0.0 };
-  const glm::dvec3 inward = glm::transpose(field.map.inverse) *
-    facts(mesh.elements[location.element].domain).faces[point->face].inward.xyz;
+  const auto& faces = facts(mesh.elements[location.element].domain).faces;
+  const glm::dvec3 inward = glm::transpose(field.map.inverse) * faces[point->face].inward.xyz;
   const glm::dvec3 along = inward - glm::dot(inward, normal.xyz) * normal.xyz;
   rim.outward = { glm::length(along) > 0.0 ? -glm::normalize(along) : glm::dvec3(0.0) };
   rim.particle.clipNormal = rim.outward;
-  if (mesh.neighbor(location.element, point->face).element >= 0)
+  for (int f = 0; f < static_cast<int>(faces.size()); ++f)
   {
-    rim.particle.jump = valueBehind(this->Surface, location, point->face);
-    ++this->Result.evaluations;
+    const bool cut = this->Surface.neighbor(location.element, f).element < 0 &&
+      mesh.neighbor(location.element, f).element >= 0;
+    if (cut && faceMargin(faces[f], location.u) < OnFace)
+    {
+      rim.particle.jump = valueBehind(this->Surface, location, f);
+      ++this->Result.evaluations;
+    }
   }
   this->Result.particles.push_back(rim);
 }
@@ -192,14 +196,14 @@ RimCurves RimSampler::run()
       [&](int face) { return this->Surface.neighbor(box.middle.element, face).element < 0; },
       [&](const FaceCrossing& crossing) { this->follow(crossing, nearby); });
   }
-  this->Result.evaluations += this->Tracer.evaluations() + this->Exact.evaluations() + this->Walker.evaluations();
+  this->Result.evaluations +=
+    this->Tracer.evaluations() + this->Exact.evaluations() + this->Walker.evaluations();
   return std::move(this->Result);
 }
 
 } // namespace
 
-RimCurves findRimCurves(
-  const Isosurface& surface, const SurfaceProxy& proxy, const SpacingLaw& law)
+RimCurves findRimCurves(const Isosurface& surface, const SurfaceProxy& proxy, const SpacingLaw& law)
 {
   return RimSampler(surface, proxy, law).run();
 }

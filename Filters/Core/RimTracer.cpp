@@ -68,8 +68,8 @@ int RimTracer::wallOf(const Location& location, int preferred) const
   {
     return preferred;
   }
-  const auto count = static_cast<int>(
-    facts(this->Surface.mesh->elements[location.element].domain).faces.size());
+  const auto count =
+    static_cast<int>(facts(this->Surface.mesh->elements[location.element].domain).faces.size());
   for (int f = 0; f < count; ++f)
   {
     if (onWall(f))
@@ -80,8 +80,7 @@ int RimTracer::wallOf(const Location& location, int preferred) const
   return -1;
 }
 
-std::optional<RimPoint> RimTracer::project(
-  const Location& start, int face, double maximumTravel)
+std::optional<RimPoint> RimTracer::project(const Location& start, int face, double maximumTravel)
 {
   Evaluated at;
   if (!this->Walker.project(start, maximumTravel, at, true))
@@ -111,8 +110,8 @@ std::optional<Evaluated> RimTracer::projectAlongEdge(
   ActiveFaces edge;
   edge.add(faceA);
   edge.add(faceB);
-  const glm::dvec3 direction = glm::cross(
-    faceOf(mesh, start, faceA).inward.xyz, faceOf(mesh, start, faceB).inward.xyz);
+  const glm::dvec3 direction =
+    glm::cross(faceOf(mesh, start, faceA).inward.xyz, faceOf(mesh, start, faceB).inward.xyz);
   Evaluated at = this->Walker.evaluate(start);
   double travel = 0.0;
   for (int n = 0; n < SurfaceWalker::MaximumNewtonSteps; ++n)
@@ -179,8 +178,7 @@ std::optional<RimPoint> RimTracer::turnAroundEdge(const Evaluated& at, int wall,
     for (int f = 0; f < faceCount && face < 0; ++f)
     {
       const auto corners = cornersOf(location, f);
-      const bool hasEdge =
-        std::includes(corners.begin(), corners.end(), edge.begin(), edge.end());
+      const bool hasEdge = std::includes(corners.begin(), corners.end(), edge.begin(), edge.end());
       face = f != entry && hasEdge ? f : -1;
     }
     if (face < 0)
@@ -191,10 +189,11 @@ std::optional<RimPoint> RimTracer::turnAroundEdge(const Evaluated& at, int wall,
   return std::nullopt;
 }
 
-std::optional<RimVertex> RimTracer::passEdge(const RimPoint& from, const ReferencePoint& u,
-  int otherFace, double step)
+std::optional<RimVertex> RimTracer::passEdge(
+  const RimPoint& from, const ReferencePoint& u, int otherFace, double step)
 {
-  const auto at = this->projectAlongEdge({ from.at.location.element, u }, from.face, otherFace, step);
+  const auto at =
+    this->projectAlongEdge({ from.at.location.element, u }, from.face, otherFace, step);
   const auto beyond = at ? this->turnAroundEdge(*at, from.face, otherFace) : std::nullopt;
   if (!beyond)
   {

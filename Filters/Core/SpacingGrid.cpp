@@ -82,7 +82,8 @@ SpacingGrid::SpacingGrid(const std::vector<glm::dvec3>& positions,
 
 int SpacingGrid::levelOf(double spacing) const
 {
-  const int level = spacing > this->SmallestSpacing ? std::ilogb(spacing / this->SmallestSpacing) : 0;
+  const int level =
+    spacing > this->SmallestSpacing ? std::ilogb(spacing / this->SmallestSpacing) : 0;
   return std::min(level, std::max(0, this->LevelCount - 1));
 }
 
@@ -176,7 +177,9 @@ SeenLists::SeenLists(const std::vector<glm::dvec3>& positions, const std::vector
     {
       candidates.clear();
       grid.visitAround(static_cast<int>(cell),
-        [&](int j) { candidates.push_back({ positions[j], 1.0 / spacings[j], j }); });
+        [&](int j) {
+          candidates.push_back({ positions[j], 1.0 / spacings[j], j });
+        });
       for (int n = cellStart[cell]; n < cellStart[cell + 1]; ++n)
       {
         const int i = order[n];

@@ -143,8 +143,7 @@ void SpacingGrid::visitBox(const glm::dvec3& lower, const glm::dvec3& upper, dou
 }
 
 template <class Use>
-void SpacingGrid::visitCoarser(
-  const glm::dvec3& position, double spacing, const Use& use) const
+void SpacingGrid::visitCoarser(const glm::dvec3& position, double spacing, const Use& use) const
 {
   for (int level = this->levelOf(spacing); level < this->LevelCount; ++level)
   {

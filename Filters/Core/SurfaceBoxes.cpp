@@ -86,7 +86,8 @@ public:
         piece.certified = piece.certified || this->isOneSheet(piece);
         const double size = this->worldSize(piece);
         const bool last = piece.bisections == MaximumBisections;
-        if (piece.certified ? last || size <= this->WantedSize({ element, middle(piece) }) : last || tooMany)
+        if (piece.certified ? last || size <= this->WantedSize({ element, middle(piece) })
+                            : last || tooMany)
         {
           piece.certified = piece.certified || this->Monotone.rises(valuesOf(piece));
           boxes.push_back(this->boxOf(piece, element, size));
@@ -188,8 +189,8 @@ private:
       box.referenceRadius =
         std::max(box.referenceRadius, glm::distance(this->corner(piece, c), box.middle.u.xyz));
       box.corners[c] = glm::vec3(this->corner(piece, c));
-      box.values[c] =
-        static_cast<float>(piece.weights.empty() ? value(c) : value(c) / piece.weights[this->CornerPlaces[c]]);
+      box.values[c] = static_cast<float>(
+        piece.weights.empty() ? value(c) : value(c) / piece.weights[this->CornerPlaces[c]]);
       lowest = value(c) < value(lowest) ? c : lowest;
       highest = value(c) > value(highest) ? c : highest;
     }

@@ -38,33 +38,6 @@ glm::dmat3 symmetric(const std::array<Coefficient, 6>& second, int component)
 
 } // namespace
 
-JacobianSign jacobianSign(const BernsteinForm& form)
-{
-  const int count = coefficientCount(form.domain, form.degrees);
-  for (int i = 0; i < count; ++i)
-  {
-    const Coefficient& c = form.coefficients[i];
-    if (!std::isfinite(c.x + c.y + c.z + c.w))
-    {
-      return JacobianSign::NotFinite;
-    }
-  }
-  constexpr Degrees places{ 2, 2, 2 };
-  bool positive = false;
-  bool negative = false;
-  for (const LatticePoint& place : latticePoints(form.domain, places))
-  {
-    const LocalMap map = localMap(evaluateGradient(form, latticePosition(places, place)));
-    const double determinant = map.singular ? 0.0 : glm::determinant(map.jacobian);
-    positive = positive || determinant > 0.0;
-    negative = negative || determinant < 0.0;
-  }
-  return positive && negative ? JacobianSign::Mixed
-    : positive                ? JacobianSign::Positive
-    : negative                ? JacobianSign::Negative
-                              : JacobianSign::Zero;
-}
-
 FieldPoint fieldPoint(const Jet& jet, double isovalue)
 {
   FieldPoint point;
@@ -73,6 +46,13 @@ FieldPoint fieldPoint(const Jet& jet, double isovalue)
   point.gradient = { glm::transpose(point.map.inverse) *
     glm::dvec3(jet.first[0].w, jet.first[1].w, jet.first[2].w) };
   return point;
+}
+
+bool isNearInReference(const FieldPoint& point)
+{
+  constexpr double near = 1e-3; // of the element
+  const glm::dvec3 slope = glm::transpose(point.map.jacobian) * point.gradient.xyz;
+  return std::abs(point.value) <= near * glm::length(slope);
 }
 
 glm::dmat3 worldHessian(const Jet& jet, const FieldPoint& point)

@@ -40,24 +40,12 @@ struct Curvature
   double magnitude = 0.0;
 };
 
-/// What the Jacobian determinant of an element does, where it was looked at.
-enum class JacobianSign
-{
-  Positive,
-  /// Left-handed everywhere: harmless, and common.
-  Negative,
-  /// Partly inverted; a zero beside values of one sign counts as that sign.
-  Mixed,
-  /// No volume anywhere.
-  Zero,
-  /// A coefficient is NaN or infinite.
-  NotFinite
-};
-
-/// Looks at the corners, edge middles, face middles and the middle of the element.
-JacobianSign jacobianSign(const BernsteinForm& form);
-
 FieldPoint fieldPoint(const Jet& jet, double isovalue);
+
+/// Whether the field is near the isovalue in reference space too, to a thousandth of the element by its
+/// slope there. Where an element folds over (det J = 0) the world gradient is infinite, and any residual
+/// over it small.
+bool isNearInReference(const FieldPoint& point);
 
 /// F_xx = K^T (F*_uu - sum_i (F_x)_i d2x_i/du2) K. The paper's eqs. (17), (18) are misprinted; this
 /// form follows from differentiating F*(u) = F(x(u)) twice.

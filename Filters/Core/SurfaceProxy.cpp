@@ -42,12 +42,13 @@ SurfaceProxy::SurfaceProxy(const Isosurface& surface, const SpacingLaw& law,
   this->SmallestSpacing = law.spacing;
   for (const Sample& sample : this->Samples)
   {
-    this->SmallestSpacing = std::min<double>(
-      this->SmallestSpacing, sample.found ? sample.patch.spacing : law.spacing);
+    this->SmallestSpacing =
+      std::min<double>(this->SmallestSpacing, sample.found ? sample.patch.spacing : law.spacing);
   }
   this->sumWeights(parallelFor);
 }
 
+SurfaceProxy::SurfaceProxy(SurfaceProxy&&) noexcept = default;
 SurfaceProxy::~SurfaceProxy() = default;
 
 bool SurfaceProxy::sampleAt(std::size_t box, const Location& place, const Jet& jet)
@@ -122,8 +123,7 @@ bool SurfaceProxy::samplePatiently(std::size_t b, std::int64_t& evaluations)
   }
   evaluations += walker.evaluations() + 1;
   return found &&
-    this->sampleAt(
-      b, at.location, evaluateHessian(mesh.form(at.location.element), at.location.u));
+    this->sampleAt(b, at.location, evaluateHessian(mesh.form(at.location.element), at.location.u));
 }
 
 /// Dijkstra's method: from the smallest spacing on, each sample limits those around it.
@@ -184,8 +184,8 @@ float SurfaceProxy::spacingAt(
       [&](int j)
       {
         spacing = std::min(spacing,
-          static_cast<float>(this->Spacings[j] +
-            GradationSlope * glm::distance(position, this->Positions[j])));
+          static_cast<float>(
+            this->Spacings[j] + GradationSlope * glm::distance(position, this->Positions[j])));
       });
   }
   return spacing;
@@ -239,8 +239,7 @@ double SurfaceProxy::weigh(std::size_t which, std::vector<WeighedTriangle>& weig
     const glm::dvec2 middle = (a + b + c) / 3.0;
     const glm::dvec2 slope(s[0] * middle.x + s[1] * middle.y, s[1] * middle.x + s[2] * middle.y);
     const double stretch = std::min(largestStretch, std::sqrt(1.0 + glm::dot(slope, slope)));
-    const double footprint =
-      0.5 * std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
+    const double footprint = 0.5 * std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
     weighed.push_back({ t, stretch * footprint * 2.0 / (std::sqrt(3.0) * h * h) });
     sum += weighed.back().weight;
   }

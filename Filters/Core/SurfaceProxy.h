@@ -31,6 +31,7 @@ public:
   /// distance: neighbours can only pack evenly if their spacings differ little.
   SurfaceProxy(const Isosurface& surface, const SpacingLaw& law, std::vector<SurfaceBox> boxes,
     const ParallelFor& parallelFor);
+  SurfaceProxy(SurfaceProxy&&) noexcept;
   ~SurfaceProxy();
 
   /// Number of particles in hexagonal packing at the spacings wanted: the sum of 2 area/(sqrt(3) h^2).

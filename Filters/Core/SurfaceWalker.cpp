@@ -159,7 +159,8 @@ bool SurfaceWalker::project(
       return false;
     }
     const double floor = noise < farFromNoise * maximumTravel * slope ? noise : 0.0;
-    if (std::abs(at.point.value) <= std::max(this->Surface.tolerance * slope, floor))
+    if (std::abs(at.point.value) <= std::max(this->Surface.tolerance * slope, floor) &&
+      isNearInReference(at.point))
     {
       result = at;
       return true;

@@ -122,7 +122,7 @@ int main(int argc, char** argv)
   for (const auto domain :
     { hop::Domain::Hexahedron, hop::Domain::Tetrahedron, hop::Domain::Wedge })
   {
-    for (int p = 1; p <= hop::MaximumInputDegree; ++p)
+    for (int p = 1; p <= hop::maximumInputDegree(hop::Domain::Tetrahedron); ++p)
     {
       hop::testing::registerCase({ domain, { p, p, p } });
     }

@@ -353,5 +353,61 @@ TEST_P(IsolationIn, ASingularPointIsFoundWhereItIs)
   }
 }
 
+/// The polynomials of a mesh from their values at the nodes, as if its Bezier cells had been written as
+/// Lagrange cells.
+ElementMesh throughNodes(const ElementMesh& mesh)
+{
+  ElementMesh result = mesh;
+  for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
+  {
+    const BernsteinForm form = mesh.form(e);
+    const auto lattice = latticePoints(form.domain, form.degrees);
+    std::vector<Coefficient> nodal;
+    for (const LatticePoint& point : lattice)
+    {
+      nodal.push_back(evaluateGradient(form, latticePosition(form.degrees, point)).value);
+    }
+    NodalBasis::lagrange(form.domain, form.degrees, lattice)
+      .toBernstein(&nodal[0].x, 4, &result.coefficients[mesh.elements[e].firstCoefficient].x);
+  }
+  return result;
+}
+
+/// Boxes and seeds move by rounding errors only.
+TEST(Isolation, TheSamePolynomialsAsBezierAndAsLagrangeGiveTheSameSeeds)
+{
+  constexpr double wantedSize = 0.3;
+  constexpr double isovalue = 0.6;
+  for (const Domain domain : allDomains)
+  {
+    for (int degree = 1; degree <= 8; ++degree)
+    {
+      SCOPED_TRACE(::testing::Message() << domain << ", degree " << degree);
+      MeshRecipe recipe;
+      recipe.domain = domain;
+      recipe.degrees = { degree, degree, degree };
+      recipe.map = wavyMap(0.1);
+      recipe.field = [](const glm::dvec3& x)
+      { return glm::length(x - glm::dvec3(0.11, 0.07, 0.05)); };
+      const ElementMesh bezier = makeMesh(recipe);
+      const ElementMesh lagrange = throughNodes(bezier);
+      const auto boxes = findSurfaceBoxes(bezier, isovalue, wantedSize, {});
+      const auto otherBoxes = findSurfaceBoxes(lagrange, isovalue, wantedSize, {});
+      ASSERT_EQ(boxes.size(), otherBoxes.size());
+      const auto seeds = surfaceSeeds(bezier, isovalue, boxes);
+      const auto otherSeeds = surfaceSeeds(lagrange, isovalue, otherBoxes);
+      ASSERT_EQ(seeds.size(), otherSeeds.size());
+      double farthest = 0.0;
+      for (std::size_t i = 0; i < seeds.size(); ++i)
+      {
+        EXPECT_EQ(seeds[i].element, otherSeeds[i].element);
+        farthest = std::max(farthest,
+          glm::distance(positionAt(bezier, seeds[i]), positionAt(lagrange, otherSeeds[i])));
+      }
+      EXPECT_LT(farthest, 1e-12);
+    }
+  }
+}
+
 } // namespace
 } // namespace hop::testing

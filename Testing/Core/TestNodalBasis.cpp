@@ -1,6 +1,7 @@
 #include "NodalBasis.h"
 
 #include "ElementCases.h"
+#include "TestMeshes.h"
 
 #include <gtest/gtest.h>
 
@@ -243,8 +244,8 @@ TEST(NodalBasis, ConversionNormIsThatOfTheQuadraticLine)
   const NodalBasis basis =
     NodalBasis::lagrange(Domain::Hexahedron, degrees, latticePoints(Domain::Hexahedron, degrees));
   EXPECT_NEAR(basis.conversionNorm(), 27.0, 1e-12);
-  EXPECT_NEAR(equispacedToBernstein(1, 2)[3], -0.5, 1e-15);
-  EXPECT_NEAR(equispacedToBernstein(1, 2)[4], 2.0, 1e-15);
+  EXPECT_NEAR(equispacedToBernstein(1, 2).rounded[3], -0.5, 1e-15);
+  EXPECT_NEAR(equispacedToBernstein(1, 2).rounded[4], 2.0, 1e-15);
 }
 
 TEST(NodalBasis, RefusesNodesThatAreNoPermutationOfTheLattice)
@@ -271,6 +272,76 @@ TEST(NodalBasis, RefusesNodesThatAreNoPermutationOfTheLattice)
     outside.back() = { 4, 0, 0 };
     EXPECT_THROW(build(outside), std::invalid_argument);
     EXPECT_THROW(build({}), std::invalid_argument);
+  }
+}
+
+/// The value of a Lagrange polynomial of equispaced nodes by its definition, in extended precision.
+std::vector<long double> lagrangeBasis(int degree, long double t)
+{
+  std::vector<long double> basis(degree + 1, 1.0L);
+  for (int i = 0; i <= degree; ++i)
+  {
+    for (int j = 0; j <= degree; ++j)
+    {
+      basis[i] *= j == i ? 1.0L : (degree * t - j) / (i - j);
+    }
+  }
+  return basis;
+}
+
+/// Largest error of the converted polynomial, and its largest value.
+std::array<double, 2> errorOfConversion(int degree, const Field& field, Random& random)
+{
+  const ElementCase which{ Domain::Hexahedron, { degree, degree, degree } };
+  const auto lattice = latticePoints(which.domain, which.degrees);
+  std::vector<double> nodal;
+  for (const LatticePoint& point : lattice)
+  {
+    const double value = field(latticePosition(which.degrees, point).xyz);
+    nodal.insert(nodal.end(), { value, 0.0, 0.0, value });
+  }
+  std::vector<Coefficient> coefficients(lattice.size());
+  NodalBasis::lagrange(which.domain, which.degrees, lattice)
+    .toBernstein(nodal.data(), 4, &coefficients[0].x);
+  std::array<double, 2> result{};
+  for (int n = 0; n < 200; ++n)
+  {
+    const ReferencePoint u = randomPoint(which.domain, random);
+    const auto a = lagrangeBasis(degree, u.xyz.x);
+    const auto b = lagrangeBasis(degree, u.xyz.y);
+    const auto c = lagrangeBasis(degree, u.xyz.z);
+    long double exact = 0.0L;
+    for (std::size_t i = 0; i < lattice.size(); ++i)
+    {
+      exact += a[lattice[i].i] * b[lattice[i].j] * c[lattice[i].k] * nodal[4 * i];
+    }
+    const double value = evaluateGradient(formOf(which, coefficients), u).value.w;
+    result[0] = std::max(result[0], static_cast<double>(std::abs(value - exact)));
+    result[1] = std::max(result[1], static_cast<double>(std::abs(exact)));
+  }
+  return result;
+}
+
+/// Smooth coordinates and fields, and values without any order: the worst that a file can hold, of which
+/// the coefficients grow too large for doubles (1e14 times the values at degree 15).
+TEST(NodalBasis, HighDegreesKeepTheirDigits)
+{
+  Random random(11);
+  const Field coordinate = [](const glm::dvec3& x)
+  { return x.x + 0.1 * std::sin(3.0 * x.y + x.z); };
+  const Field smooth = [](const glm::dvec3& x)
+  { return std::sin(6.0 * x.x) * std::cos(5.0 * x.y) * std::sin(4.0 * x.z + 1.0); };
+  const Field noise = [&random](const glm::dvec3&) { return randomNumber(random); };
+  for (int degree = 1; degree <= MaximumInputDegree; ++degree)
+  {
+    SCOPED_TRACE(degree);
+    for (const Field& field : { coordinate, smooth })
+    {
+      const auto [error, largest] = errorOfConversion(degree, field, random);
+      EXPECT_LT(error, 1e-10 * largest);
+    }
+    const auto [error, largest] = errorOfConversion(degree, noise, random);
+    EXPECT_LT(error, (degree <= 12 ? 1e-9 : 1e-6) * largest);
   }
 }
 

@@ -77,12 +77,17 @@ def test_weights_that_are_not_positive(weight):
     expect_skipped(grid, [2], "not positive", isovalue=0.5)
 
 
-def test_orders_above_the_limit():
+@pytest.mark.parametrize("name, degrees", [("LAGRANGE_HEXAHEDRON", (16, 16, 16)), ("LAGRANGE_HEXAHEDRON", (1, 16, 2)),
+                                           ("BEZIER_HEXAHEDRON", (16, 2, 1)), ("LAGRANGE_WEDGE", (11, 11, 2)),
+                                           ("BEZIER_WEDGE", (2, 2, 11))])  # fmt: skip
+def test_orders_above_the_limit(name, degrees):
     good = row_of_cells(count=1)
-    high = cells.anisotropic_grid("LAGRANGE_HEXAHEDRON", (11, 11, 11))
+    high = cells.anisotropic_grid(name, degrees)
     support.add_point_array(high, "f", ball(support.points_of(high)))
     cells.set_points(high, support.points_of(high) + [1.5, 0, 0])
-    on_their_balls(expect_skipped(cells.append([good, high]), [1], "up to 10"))
+    grid = cells.append([good, high])
+    cells.set_degrees(grid, [(2, 2, 2), degrees])
+    on_their_balls(expect_skipped(grid, [1], "up to 10 (hexahedra: 15)"))
 
 
 @pytest.mark.parametrize("missing", [1, 20])
@@ -103,6 +108,155 @@ def test_values_that_are_not_finite(poison):
     grid.GetPointData().RemoveArray("f")
     support.add_point_array(grid, "f", values)
     on_their_balls(expect_skipped(grid, [1], "NaN or infinite"))
+
+
+# Every type of cell: three cubes side by side, of which the middle one has something wrong
+
+
+TYPES = [*cells.OF_THE_SOURCE, *cells.BY_HAND, *cells.ARBITRARY_ORDER]
+PLANE = 0.71
+ORDER = 3  # where the type leaves it open
+
+
+def cubes(name, change=lambda points: points):
+    """Three cubes of cells of one type that share no points; `change` moves those of the middle one."""
+    parts = []
+    for n in range(3):
+        grid = cells.straight_grid(name, ORDER if name in cells.ARBITRARY_ORDER else None)
+        points = support.points_of(grid)
+        support.add_point_array(grid, "f", points @ [1.0, 0.31, 0.23])  # every type holds it exactly
+        cells.set_points(grid, (change(points) if n == 1 else points) + [1.5 * n, 0, 0])
+        parts.append(grid)
+    return cells.append(parts), parts[0].GetNumberOfCells()
+
+
+def run_and_check(grid, kept, folded=()):
+    """Particles lie on the polynomials of the cells `kept`, and of no others. Returns them and what was said
+    of cells. Where a cell folds over, its map does not move (det J = 0), so that places on the surface in
+    the world may be off in the field: the world gradient is infinite."""
+    particles, messages = support.run(grid, "f", PLANE, Spacing=SPACING)
+    assert messages.errors == []
+    points = support.points_of(particles)
+    found = set(support.array_of(particles, "vtkOriginalCellIds"))
+    assert found <= kept and len(found) > len(kept) / 2
+    assert np.isfinite(points).all() and np.isfinite(support.array_of(particles, "Normals")).all()
+    positions, values, _ = support.evaluate_by_vtk(grid, particles, ["f"])
+    np.testing.assert_allclose(points, positions, atol=1e-9, rtol=0)
+    smooth = ~np.isin(support.array_of(particles, "vtkOriginalCellIds"), folded)
+    np.testing.assert_allclose(values["f"][smooth], PLANE, atol=1e-8, rtol=0)
+    np.testing.assert_allclose(values["f"], PLANE, atol=2e-3, rtol=0)
+    assert support.array_of(particles, "Residual").max() < 1e-9
+    return particles, [text for text in messages.warnings if "Not every cell" in text]
+
+
+def expect_one_warning(warnings, reason, count, first):
+    assert len(warnings) == 1
+    assert reason in warnings[0] and f"{count} cell" in warnings[0] and f"first: cell {first})" in warnings[0]
+
+
+def holds_surface(grid, cell):
+    values = support.array_of(grid, "f")[cells.ids_of(grid, cell)]
+    return values.min() <= PLANE <= values.max()
+
+
+def with_cell(grid, changed, change):
+    """The same grid with other point ids in one cell."""
+    parts = [(grid.GetCellType(c), cells.ids_of(grid, c)) for c in range(grid.GetNumberOfCells())]
+    parts[changed] = (parts[changed][0], change(list(parts[changed][1])))
+    result = support.grid_of_cells(support.points_of(grid), parts)
+    support.add_point_array(result, "f", support.array_of(grid, "f"))
+    return result
+
+
+@pytest.mark.parametrize("id", [-1, 10**9])
+@pytest.mark.parametrize("name", TYPES)
+def test_point_ids_outside_the_grid(name, id):
+    grid, each = cubes(name)
+    grid = with_cell(grid, each, lambda ids: [*ids[:-2], id, ids[-1]])
+    _, warnings = run_and_check(grid, set(range(3 * each)) - {each})
+    expect_one_warning(warnings, "point ids outside the grid", 1, each)
+
+
+@pytest.mark.parametrize("name", TYPES)
+def test_one_point_too_few(name):
+    grid, each = cubes(name)
+    grid = with_cell(grid, each, lambda ids: ids[:-1])
+    _, warnings = run_and_check(grid, set(range(3 * each)) - {each})
+    expect_one_warning(warnings, "fits no degree", 1, each)
+
+
+@pytest.mark.parametrize("name", ["BEZIER_TETRAHEDRON", "BEZIER_HEXAHEDRON", "BEZIER_WEDGE"])
+@pytest.mark.parametrize("weight", [0.0, -1.0, np.nan])
+def test_weights_of_every_type(name, weight):
+    grid, each = cubes(name)
+    weights = np.ones(grid.GetNumberOfPoints())
+    inside = cells.ids_of(grid, each)[-1]  # no other cell's
+    weights[inside] = weight
+    bad = {c for c in range(3 * each) if inside in cells.ids_of(grid, c)}
+    array = numpy_to_vtk(weights, deep=True)
+    array.SetName("RationalWeights")
+    grid.GetPointData().AddArray(array)
+    grid.GetPointData().SetRationalWeights(array)
+    _, warnings = run_and_check(grid, set(range(3 * each)) - bad)
+    expect_one_warning(warnings, "not positive", len(bad), min(bad))
+
+
+@pytest.mark.parametrize("name", cells.ARBITRARY_ORDER)
+def test_degrees_that_contradict_any_type(name):
+    grid, each = cubes(name)
+    degrees = [(ORDER,) * 3] * (3 * each)
+    degrees[each] = (ORDER + 1, ORDER, ORDER)
+    cells.set_degrees(grid, degrees)
+    _, warnings = run_and_check(grid, set(range(3 * each)) - {each})
+    expect_one_warning(warnings, "fits no degree", 1, each)
+
+
+@pytest.mark.parametrize("name", TYPES)
+def test_flat_cells_of_every_type(name):
+    grid, each = cubes(name, lambda points: points * [1, 1, 0] + [0, 0, 0.5])
+    _, warnings = run_and_check(grid, set(range(3 * each)) - set(range(each, 2 * each)))
+    # Cells that hold no surface are not looked at.
+    flat = [c for c in range(each, 2 * each) if holds_surface(grid, c)]
+    expect_one_warning(warnings, "without volume", len(flat), flat[0])
+
+
+@pytest.mark.parametrize("name", TYPES)
+def test_left_handed_cells_of_every_type_are_harmless(name):
+    grid, each = cubes(name, lambda points: points * [-1, 1, 1] + [1, 0, 0])
+    particles, warnings = run_and_check(grid, set(range(3 * each)))
+    assert warnings == []
+    counts = np.bincount(support.array_of(particles, "vtkOriginalCellIds") // each)
+    assert counts[1] == pytest.approx(counts[0], rel=0.15)
+
+
+def fold(points):
+    """Turns x back in a part of the cube."""
+    x, y, z = points.T
+    return np.c_[x - 1.6 * x * y * z, y, z]
+
+
+@pytest.mark.parametrize("name", [name for name in TYPES if name not in ("TETRA", "VOXEL")])
+def test_partly_inverted_cells_of_every_type(name):
+    grid, each = cubes(name, fold)
+    _, warnings = run_and_check(grid, set(range(3 * each)), folded=range(each, 2 * each))
+    assert len(warnings) == 1 and "partly inverted" in warnings[0]
+
+
+@pytest.mark.parametrize("degree", [3, 5])
+def test_a_small_inverted_part_is_noticed(degree):
+    """det J = |u - (0.2, 0.2, 0.2)|^2 - 0.01^2: below zero in a ball that no regular sampling hits."""
+
+    def dent(u):
+        d = u - 0.2
+        return np.c_[d[:, 0] * (d[:, 0] ** 2 / 3 + d[:, 1] ** 2 + d[:, 2] ** 2 - 1e-4), u[:, 1:]]
+
+    grid = cells.anisotropic_grid("LAGRANGE_HEXAHEDRON", (degree,) * 3)
+    support.add_point_array(grid, "f", support.points_of(grid)[:, 2])
+    cells.set_points(grid, dent(support.points_of(grid)))
+    particles, messages = support.run(grid, "f", 0.21, Spacing=0.05)
+    assert messages.errors == []
+    assert any("1 cell kept, but partly inverted" in text for text in messages.warnings)
+    np.testing.assert_allclose(support.points_of(particles)[:, 2], 0.21, atol=1e-9)
 
 
 def test_cells_without_volume():

@@ -38,12 +38,12 @@ const std::vector<ElementCase>& allElementCases()
     std::vector<ElementCase> cases;
     for (const Domain domain : allDomains)
     {
-      for (int p = 1; p <= MaximumInputDegree; ++p)
+      for (int p = 1; p <= maximumInputDegree(Domain::Tetrahedron); ++p)
       {
         cases.push_back({ domain, { p, p, p } });
       }
     }
-    for (const Degrees& degrees : { Degrees{ 4, 2, 3 }, { 1, 5, 2 }, { 2, 1, 10 } })
+    for (const Degrees& degrees : { Degrees{ 4, 2, 3 }, { 1, 5, 2 }, { 2, 1, 10 }, { 15, 1, 12 } })
     {
       cases.push_back({ Domain::Hexahedron, degrees });
     }

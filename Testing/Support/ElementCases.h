@@ -25,7 +25,7 @@ struct ElementCase
 
 std::ostream& operator<<(std::ostream& out, const ElementCase& which);
 
-/// Every domain with degrees 1 to MaximumInputDegree, and hexahedra and wedges whose degrees differ from
+/// Every domain with degrees 1 to 10, and hexahedra and wedges whose degrees differ from
 /// axis to axis.
 const std::vector<ElementCase>& allElementCases();
 

@@ -7,7 +7,7 @@ namespace hop::kernel
 {
 
 /// Highest degree that the kernels have room for.
-constexpr int MaximumDegree = 20;
+constexpr int MaximumDegree = 30;
 
 /// An element in Bernstein form as the kernels see it: plain memory. (The kernels are compiled once
 /// an instruction set. An inline function of a shared header, compiled there with AVX-512, could be

@@ -86,9 +86,7 @@ inline void pairEnergy(Floats t, Floats& energy, Floats& first, Floats& second)
   const Floats smooth = 0.636619647f +
     t *
       (0.1130298f +
-        t *
-          (0.0267931238f +
-            t * (0.00705648267f + t * (0.000941490328f + t * 0.000957475183f))));
+        t * (0.0267931238f + t * (0.00705648267f + t * (0.000941490328f + t * 0.000957475183f))));
   const Floats q = smooth * (1.0f - t) * inverse;
   energy = q + halfPi * (t * inverse - 1.0f);
   first = -halfPi * q * q * inverse;
@@ -250,7 +248,8 @@ inline void publish(const SweepBlock& block, const Displaced& there, Seen* seen)
   }
 }
 
-void sweepBlocks(SweepBlock* blocks, std::ptrdiff_t count, const std::int32_t* neighbors, Seen* seen)
+void sweepBlocks(
+  SweepBlock* blocks, std::ptrdiff_t count, const std::int32_t* neighbors, Seen* seen)
 {
   // In hexagonal packing both eigenvalues are 3 (E''(beta) + E'(beta)/beta) = 13.7.
   constexpr float softest = 0.35f * 13.7f;
