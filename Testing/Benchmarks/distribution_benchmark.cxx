@@ -20,6 +20,7 @@
 #include "DistributionMeasures.h"
 #include "FastDistribution.h"
 #include "GridElements.h"
+#include "Measurement.h"
 #include "ParticlePacker.h"
 #include "PointGrid.h"
 #include "SurfaceSeeds.h"
@@ -34,16 +35,11 @@
 #include <vtkTessellatorFilter.h>
 #include <vtkUnstructuredGrid.h>
 
-#include <sys/resource.h>
-
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <functional>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <stdexcept>
@@ -53,6 +49,11 @@ namespace
 {
 
 using hop::testing::Evenness;
+using hop::testing::fastest;
+using hop::testing::peakMegabytes;
+using hop::testing::presentMegabytes;
+using hop::testing::Record;
+using hop::testing::Seconds;
 
 constexpr std::size_t mostParticlesWithStars = 2'000'000;
 constexpr std::size_t mostParticlesWithProbes = 100'000;
@@ -64,81 +65,6 @@ struct Request
   double isovalue = 0.0, density = 0.0, particles = 0.0, spacing = 0.0, error = 1e-3;
   int repetitions = 3;
   vtkSmartPointer<vtkUnstructuredGrid> grid;
-};
-
-struct Seconds
-{
-  double wall = std::numeric_limits<double>::infinity();
-  double cpu = std::numeric_limits<double>::infinity();
-};
-
-double cpuSeconds()
-{
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
-    1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
-}
-
-double peakMegabytes()
-{
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
-
-double presentMegabytes()
-{
-  std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;)
-  {
-    if (word == "VmRSS:")
-    {
-      double kilobytes = 0.0;
-      status >> kilobytes;
-      return kilobytes / 1024.0;
-    }
-  }
-  return 0.0;
-}
-
-/// The least wall and processor time of several runs on so many threads.
-Seconds fastest(int threads, int repetitions, const std::function<void()>& work)
-{
-  // The filter chooses the back end itself, and with it the number of threads from this variable.
-  setenv("VTK_SMP_MAX_THREADS", std::to_string(threads).c_str(), 1);
-  Seconds best;
-  for (int i = 0; i < repetitions; ++i)
-  {
-    const double cpu = cpuSeconds();
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-    best.wall = std::min(best.wall, wall.count());
-    best.cpu = std::min(best.cpu, cpuSeconds() - cpu);
-  }
-  return best;
-}
-
-/// JSON: numbers in the order they are added.
-class Record
-{
-public:
-  void add(const std::string& key, double value)
-  {
-    char text[32];
-    std::snprintf(text, sizeof(text), std::isfinite(value) ? "%.6g" : "null", value);
-    this->Text += (this->Text.empty() ? "" : ", ") + ("\"" + key + "\": ") + text;
-  }
-  void add(const std::string& key, const Seconds& seconds)
-  {
-    this->add(key + "_wall", seconds.wall);
-    this->add(key + "_cpu", seconds.cpu);
-  }
-  void print() const { std::printf("{%s}\n", this->Text.c_str()); }
-
-private:
-  std::string Text;
 };
 
 vtkSmartPointer<vtkHighOrderParticleIsosurface> makeFilter(const Request& request)

@@ -113,7 +113,7 @@ def row(result, columns):
     for _, form, value in columns:
         try:
             cells.append(form.format(value(result)))
-        except KeyError:
+        except (KeyError, TypeError):  # not measured, or not finite
             cells.append("")
     return " | ".join(cells)
 
