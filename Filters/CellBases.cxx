@@ -3,6 +3,7 @@
 #include "Bernstein.h"
 #include "Random.h"
 
+#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDataArray.h"
@@ -230,7 +231,7 @@ hop::Degrees CellBases::explicitDegrees(vtkIdType cell) const
 
 std::shared_ptr<const CellBasis> CellBases::basisOf(vtkIdType cell)
 {
-  const Key key{ this->Grid->GetCellType(cell), this->Grid->GetCellSize(cell),
+  const Key key{ this->Grid->GetCellType(cell), this->Grid->GetCells()->GetCellSize(cell),
     this->explicitDegrees(cell) };
   // Cells of a kind mostly follow one another.
   if (this->Latest == this->Known.end() || this->Latest->first != key)

@@ -2,10 +2,10 @@
 
 #include "BernsteinProduct.h"
 #include "GatherValues.h"
+#include "VtkCompatibility.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkCellTypes.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkGenericCell.h"
@@ -15,7 +15,6 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
-#include "vtkStaticPointLocator.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -23,6 +22,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <sstream>
 
 namespace
@@ -95,6 +95,7 @@ private:
   hop::JacobianSign convert(int element, CellValues& values);
   std::vector<double> controlValues(const CellBasis& cell, const CellValues& values) const;
   void numberCorners();
+  void dropDoubledGhosts();
   void dropCollapsed();
   bool canHoldSurface(const CellBasis& basis, const CellValues& values) const;
   bool straddles(double lower, double upper) const;
@@ -117,6 +118,7 @@ GridElements Builder::build()
   this->convertElements();
   this->dropCollapsed();
   this->numberCorners();
+  this->dropDoubledGhosts();
   hop::findFaceNeighbors(this->Result.mesh, this->Tolerance, this->Parallel);
   return std::move(this->Result);
 }
@@ -438,10 +440,9 @@ void Builder::numberCorners()
   cloud->SetPoints(corners);
   vtkNew<vtkStaticPointLocator> locator;
   locator->SetDataSet(cloud);
-  locator->SetTraversalOrderToPointOrder(); // the same result for any number of threads
   locator->BuildLocator();
   std::vector<vtkIdType> merged(corners->GetNumberOfPoints());
-  locator->MergePoints(this->Tolerance, merged.data());
+  mergePoints(locator, this->Tolerance, merged.data());
   auto next = merged.begin();
   for (hop::Element& element : mesh.elements)
   {
@@ -452,12 +453,51 @@ void Builder::numberCorners()
   }
 }
 
+/// A ghost whose original, or another copy, is here too would claim the faces of its neighbours a
+/// second time: readers of files in pieces bring both together.
+void Builder::dropDoubledGhosts()
+{
+  vtkUnsignedCharArray* ghosts = this->Grid->GetCellGhostArray();
+  if (!ghosts)
+  {
+    return;
+  }
+  hop::ElementMesh& mesh = this->Result.mesh;
+  const auto isGhost = [&](const hop::Element& element)
+  { return ghosts->GetValue(element.cell) != 0; };
+  const auto sortedCorners = [](const hop::Element& element)
+  {
+    auto corners = element.corners;
+    std::sort(corners.begin(), corners.end());
+    return corners;
+  };
+  std::set<decltype(hop::Element::corners)> present;
+  for (const hop::Element& element : mesh.elements)
+  {
+    if (!isGhost(element))
+    {
+      present.insert(sortedCorners(element));
+    }
+  }
+  std::size_t kept = 0;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+  {
+    if (!isGhost(mesh.elements[e]) || present.insert(sortedCorners(mesh.elements[e])).second)
+    {
+      mesh.elements[kept] = mesh.elements[e];
+      this->Result.bases[kept++] = this->Result.bases[e];
+    }
+  }
+  mesh.elements.resize(kept);
+  this->Result.bases.resize(kept);
+}
+
 /// VTK's table of names has Lagrange and Bezier triangles and quadrilaterals the wrong way round, but
 /// it also knows the types of which no cell can be made.
 std::string nameOfCellType(int type)
 {
   const auto cell = vtk::TakeSmartPointer(vtkGenericCell::InstantiateCell(type));
-  return cell ? cell->GetClassName() : vtkCellTypes::GetClassNameFromTypeId(type);
+  return cell ? cell->GetClassName() : CellTypeNames::GetClassNameFromTypeId(type);
 }
 
 void describeCells(std::ostream& text, const SkippedCells& cells, const std::string& reason)

@@ -5,6 +5,7 @@
 #include "GridElements.h"
 #include "ParticlePacker.h"
 #include "Threads.h"
+#include "VtkCompatibility.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkCellData.h"
@@ -197,7 +198,7 @@ int vtkHighOrderParticleIsosurface::RequestData(
     return 1;
   }
   const double share = 1.0 / std::max<std::size_t>(1, grids.size());
-  for (std::size_t g = 0; g < grids.size() && !this->CheckAbort(); ++g)
+  for (std::size_t g = 0; g < grids.size() && !isAborted(this); ++g)
   {
     this->Process(grids[g], scale, static_cast<double>(g) * share, share, results[g]);
   }
@@ -313,14 +314,14 @@ void vtkHighOrderParticleIsosurface::Process(vtkUnstructuredGrid* grid, const Sc
       vtkWarningMacro("Not every cell is as it should be:" << remarks);
     }
     std::vector<IsovalueParticles> particles;
-    for (vtkIdType i = 0; i < isovalueCount && !this->CheckAbort(); ++i)
+    for (vtkIdType i = 0; i < isovalueCount && !isAborted(this); ++i)
     {
       hop::Monitor monitor;
       monitor.report = [&](double fraction)
       {
         this->UpdateProgress(
           progressBegin + progressShare * (static_cast<double>(i) + fraction) / isovalueCount);
-        return !this->CheckAbort();
+        return !isAborted(this);
       };
       hop::DistributionParameters parameters;
       parameters.law = { scale.Spacing, this->AngularDensity };

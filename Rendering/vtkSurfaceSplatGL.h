@@ -1,4 +1,5 @@
-// The OpenGL functions, from the loader that this VTK was built with.
+// What differs between versions of VTK: the loader of the OpenGL functions, and the name of an actor's
+// matrix.
 #ifndef vtkSurfaceSplatGL_h
 #define vtkSurfaceSplatGL_h
 
@@ -7,5 +8,18 @@
 #else
 #include "vtk_glew.h"
 #endif
+
+#include "vtkActor.h"
+#include "vtkVersionMacros.h"
+
+/** From an actor's own coordinates to the world's. */
+inline void GetModelToWorld(vtkActor* actor, vtkMatrix4x4* matrix)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20220801)
+  actor->GetModelToWorldMatrix(matrix);
+#else
+  actor->GetMatrix(matrix);
+#endif
+}
 
 #endif

@@ -427,7 +427,7 @@ void vtkSurfaceSplatMapper::SetShiftedClippingPlanes(vtkOpenGLHelper& cellBO, vt
   }
   const std::array<double, 3>& origin = this->Internal->Buffers.GetOrigin();
   float planes[6][4] = {};
-  actor->GetModelToWorldMatrix(this->TempMatrix4);
+  GetModelToWorld(actor, this->TempMatrix4);
   for (int i = 0; i < count; ++i)
   {
     double plane[4];

@@ -1,27 +1,36 @@
 #!/usr/bin/env bash
 # Make the plugin ready to use from this checkout: install what is missing (Debian 12 to sid), build into build/.
 #   bash Utilities/setup.sh [CMAKE_OPTION ...]
+# With HOP_WITH_PARAVIEW=OFF in the environment: filter and mapper for VTK alone, into build-vtk/.
 # Asks for nothing but bash and apt-get, and for root or sudo only where a package is missing.
 set -euo pipefail
 
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+with_paraview=${HOP_WITH_PARAVIEW:-ON}
 build=$project/build
+[ "$with_paraview" = ON ] || build=$project/build-vtk
 
 packages=(
-  g++ cmake ninja-build
-  paraview paraview-dev python3-paraview python3-dev libglm-dev
+  g++ cmake ninja-build libglm-dev
   xvfb                                  # pictures where there is no display
-  python3-pytest libgtest-dev libbenchmark-dev # tests, benchmarks
+  libgtest-dev libbenchmark-dev         # tests, benchmarks
+)
+paraview=(
+  paraview paraview-dev python3-paraview python3-dev python3-pytest
   # paraview-dev's CMake files look these up, but its package does not depend on them.
   libglew-dev liblz4-dev liblzma-dev libdouble-conversion-dev libutfcpp-dev libopenmpi-dev
   libboost-dev libpugixml-dev libjpeg-dev libpng-dev libtiff-dev libfreetype-dev libgl2ps-dev
 )
 qt5=(qtbase5-dev qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools)
-case "$(. /etc/os-release 2>/dev/null && echo "${VERSION_CODENAME:-}")" in
-  bookworm) packages+=("${qt5[@]}" clang-format-14) ;;
-  forky | sid) packages+=(libvtk9-dev qt6-base-dev qt6-tools-dev qt6-tools-dev-tools xsltproc) ;;
-  *) packages+=("${qt5[@]}") ;;
+release=$(. /etc/os-release 2>/dev/null && echo "${VERSION_CODENAME:-}")
+# The GUI's buttons are blank without Qt's plugin for SVG.
+case "$release" in
+  bookworm) paraview+=("${qt5[@]}" libqt5svg5) ;;
+  forky | sid) paraview+=(libvtk9-dev qt6-base-dev qt6-tools-dev qt6-tools-dev-tools xsltproc qt6-svg-plugins) ;;
+  *) paraview+=("${qt5[@]}" qt6-svg-plugins) ;;
 esac
+[ "$release" != bookworm ] || packages+=(clang-format-14)
+if [ "$with_paraview" = ON ]; then packages+=("${paraview[@]}"); else packages+=(libvtk9-dev libglew-dev); fi
 
 say() { printf '== %s\n' "$*"; }
 fail() { printf 'error: %s\n' "$*" >&2; exit 1; }
@@ -53,7 +62,7 @@ configure_and_build() { # CMAKE_OPTION ...
   # A build folder keeps the generator it was made with.
   [ -e "$build/CMakeCache.txt" ] || generator=(-G Ninja)
   say "configuring"
-  cmake -S "$project" -B "$build" "${generator[@]}" -DCMAKE_BUILD_TYPE=Release "$@"
+  cmake -S "$project" -B "$build" "${generator[@]}" -DCMAKE_BUILD_TYPE=Release -DHOP_WITH_PARAVIEW="$with_paraview" "$@"
   say "building"
   cmake --build "$build" --parallel "$(nproc)"
 }

@@ -39,7 +39,10 @@ void offerRims(const SpacingGrid& grid, const std::vector<RimParticle>& rims, Pa
   if (rim >= 0)
   {
     const WorldVector& outward = rims[rim].outward;
-    offer(particle, outward.xyz, dot(rims[rim].particle.position - particle.position, outward));
+    if (dot(outward, outward) > 0.0)
+    {
+      offer(particle, outward.xyz, dot(rims[rim].particle.position - particle.position, outward));
+    }
   }
 }
 

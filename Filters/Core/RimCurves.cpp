@@ -4,6 +4,7 @@
 #include "FaceCrossings.h"
 #include "FaceJumps.h"
 #include "RimTracer.h"
+#include "SpacingGrid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,6 +45,7 @@ private:
   void sampleStretch(const std::vector<RimVertex>& vertices, bool withEnd, double nearby);
   double spacingAt(const RimPoint& point, double nearby);
   void addParticle(const Location& place, int face, double nearby);
+  void mergeCurves();
 
   Isosurface Surface;
   const SurfaceProxy& Proxy;
@@ -52,6 +54,7 @@ private:
   /// For the particles, when the way is known.
   RimTracer Exact;
   SurfaceWalker Walker;
+  std::int64_t Curves = 0;
   RimCurves Result;
 };
 
@@ -76,6 +79,7 @@ void RimSampler::follow(const FaceCrossing& hint, double nearby)
   }
   const RimTrace trace = this->Tracer.trace(*start, chordPerSpacing * nearby);
   this->Result.open += !trace.closed;
+  ++this->Curves;
   this->sample(trace, nearby);
 }
 
@@ -171,6 +175,7 @@ void RimSampler::addParticle(const Location& place, int face, double nearby)
   const glm::dvec3 along = inward - glm::dot(inward, normal.xyz) * normal.xyz;
   rim.outward = { glm::length(along) > 0.0 ? -glm::normalize(along) : glm::dvec3(0.0) };
   rim.particle.clipNormal = rim.outward;
+  rim.curve = this->Curves;
   for (int f = 0; f < static_cast<int>(faces.size()); ++f)
   {
     const bool cut = this->Surface.neighbor(location.element, f).element < 0 &&
@@ -182,6 +187,53 @@ void RimSampler::addParticle(const Location& place, int face, double nearby)
     }
   }
   this->Result.particles.push_back(rim);
+}
+
+/// Of particles on different curves that are as near as particles of one surface never are, the first
+/// stays. If they look at each other, the surface goes on there.
+void RimSampler::mergeCurves()
+{
+  constexpr double sameSurface = 0.6;
+  std::vector<glm::dvec3> positions;
+  std::vector<float> spacings;
+  for (const RimParticle& rim : this->Result.particles)
+  {
+    positions.push_back(rim.patch.position);
+    spacings.push_back(rim.patch.spacing);
+  }
+  const SpacingGrid grid(positions, spacings, sameSurface, 0.5);
+  std::vector<RimParticle>& rims = this->Result.particles;
+  std::vector<char> kept(rims.size(), 1);
+  std::vector<char> seam(rims.size(), 0);
+  for (std::size_t i = 0; i < rims.size(); ++i)
+  {
+    grid.visit(positions[i], spacings[i],
+      [&](int j)
+      {
+        const bool earlier = j < static_cast<int>(i) && kept[j];
+        const double near = rims[i].curve == rims[j].curve ? 0.5 * sameSurface : sameSurface;
+        if (earlier && glm::distance(positions[i], positions[j]) < near * spacings[i] &&
+          dot(rims[i].particle.normal, rims[j].particle.normal) > 0.5)
+        {
+          kept[i] = 0;
+          seam[j] = seam[j] || dot(rims[i].outward, rims[j].outward) < -0.5;
+        }
+      });
+  }
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < rims.size(); ++i)
+  {
+    if (kept[i])
+    {
+      if (seam[i])
+      {
+        rims[i].outward = {};
+        rims[i].particle.clipNormal = {};
+      }
+      rims[next++] = rims[i];
+    }
+  }
+  rims.resize(next);
 }
 
 RimCurves RimSampler::run()
@@ -196,6 +248,7 @@ RimCurves RimSampler::run()
       [&](int face) { return this->Surface.neighbor(box.middle.element, face).element < 0; },
       [&](const FaceCrossing& crossing) { this->follow(crossing, nearby); });
   }
+  this->mergeCurves();
   this->Result.evaluations +=
     this->Tracer.evaluations() + this->Exact.evaluations() + this->Walker.evaluations();
   return std::move(this->Result);

@@ -12,8 +12,11 @@ struct RimParticle
   Particle particle;
   /// Anchored to the wall and fixed.
   Patch patch;
-  /// Unit vector along the surface, out of the domain.
+  /// Unit vector along the surface, out of the domain; zero where the surface goes on, in elements that
+  /// the mesh does not join to this one.
   WorldVector outward;
+  /// Number of the curve that it stands on.
+  std::int64_t curve = 0;
 };
 
 /// The rims {F = c} on boundary faces, as closed curves: they pass from face to face around the edges
@@ -27,7 +30,9 @@ struct RimCurves
 };
 
 /// Follows every rim that the boxes of the proxy show, and places particles on it, evenly at the
-/// spacing that the surface wants there, and on its corners.
+/// spacing that the surface wants there, and on its corners. Where two curves run side by side (on the
+/// two sides of faces that are not joined, or where two sides that jump apart elsewhere agree), only one
+/// keeps its particles.
 RimCurves findRimCurves(
   const Isosurface& surface, const SurfaceProxy& proxy, const SpacingLaw& law);
 

@@ -391,7 +391,7 @@ def test_degrees_that_contradict_the_point_count(good, degrees):
 def test_point_ids_outside_the_grid(good, id):
     whole = support.run_quietly(good, **SPHERE)
     connectivity = good.GetCells().GetConnectivityArray()
-    connectivity.SetValue(4 * 27 + 5, id)
+    connectivity.SetTuple1(4 * 27 + 5, id)
     particles, messages = support.run(good, **SPHERE)
     assert_one_warning(messages, "1 cell skipped", "point ids outside the grid", "first: cell 4")
     assert_rest_is_right(particles, whole, {4})
@@ -400,7 +400,7 @@ def test_point_ids_outside_the_grid(good, id):
 @pytest.mark.parametrize("id", [-1, 10**6])
 def test_point_ids_outside_the_grid_in_the_first_cell(good, id):
     """By which the order of the nodes of this kind of cell is found out."""
-    good.GetCells().GetConnectivityArray().SetValue(5, id)
+    good.GetCells().GetConnectivityArray().SetTuple1(5, id)
     particles, messages = support.run(good, **SPHERE)
     assert_one_warning(messages, "1 cell skipped", "point ids outside the grid", "first: cell 0")
     assert particles.GetNumberOfPoints() > 400

@@ -2,6 +2,7 @@
 
 #include "NodalBasis.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hop::testing

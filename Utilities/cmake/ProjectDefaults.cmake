@@ -17,6 +17,7 @@ if (NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
 endif ()
 
 option(BUILD_SHARED_LIBS "Build the VTK modules as shared libraries" ON)
+option(HOP_WITH_PARAVIEW "Build the plugin for ParaView; OFF: filter and mapper for VTK alone" ON)
 option(BUILD_TESTING "Build the tests" ON)
 option(BUILD_BENCHMARKS "Build the benchmarks of the numerics (needs Google Benchmark and BUILD_TESTING)" OFF)
 option(WARNINGS_AS_ERRORS "Stop at the first compiler warning, as CI does" OFF)

@@ -11,8 +11,8 @@
 #ifndef vtkSurfaceSplatRepresentation_h
 #define vtkSurfaceSplatRepresentation_h
 
-#include "vtkHighOrderParticleRenderingModule.h" // for export macro
-#include "vtkNew.h"                              // for vtkNew
+#include "vtkHighOrderParticleRepresentationModule.h" // for export macro
+#include "vtkNew.h"                                   // for vtkNew
 #include "vtkPVDataRepresentation.h"
 #include "vtkSmartPointer.h" // for vtkSmartPointer
 
@@ -21,7 +21,7 @@ class vtkPolyData;
 class vtkScalarsToColors;
 class vtkSurfaceSplatMapper;
 
-class VTKHIGHORDERPARTICLERENDERING_EXPORT vtkSurfaceSplatRepresentation
+class VTKHIGHORDERPARTICLEREPRESENTATION_EXPORT vtkSurfaceSplatRepresentation
   : public vtkPVDataRepresentation
 {
 public:

@@ -1,0 +1,41 @@
+#pragma once
+
+// What differs between VTK 9.1 and 9.6, and ParaView's snapshots of VTK in between.
+
+#include "vtkAlgorithm.h"
+#include "vtkStaticPointLocator.h"
+#include "vtkVersionMacros.h"
+
+#if __has_include("vtkCellTypeUtilities.h") // from VTK 9.6 on
+#include "vtkCellTypeUtilities.h"
+using CellTypeNames = vtkCellTypeUtilities;
+#else
+#include "vtkCellTypes.h"
+using CellTypeNames = vtkCellTypes;
+#endif
+
+#if VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 2, 20220801)
+#include "vtkSMPTools.h"
+#endif
+
+/// Whether a user, or the pipeline, wants the algorithm to stop.
+inline bool isAborted(vtkAlgorithm* algorithm)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20220801)
+  return algorithm->CheckAbort(); // also looks upstream
+#else
+  return algorithm->GetAbortExecute() != 0;
+#endif
+}
+
+/// vtkStaticPointLocator::MergePoints with the same result for any number of threads.
+inline void mergePoints(vtkStaticPointLocator* locator, double tolerance, vtkIdType* merged)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20220801)
+  locator->SetTraversalOrderToPointOrder();
+  locator->MergePoints(tolerance, merged);
+#else
+  vtkSMPTools::LocalScope(
+    vtkSMPTools::Config{ 1 }, [&]() { locator->MergePoints(tolerance, merged); });
+#endif
+}

@@ -1,0 +1,84 @@
+"""ParaView's own window: the filter is chosen from the menu and its surface appears.
+
+The display is an X server whose screen is a file, so that the whole window can be looked at. What was
+seen stays in gui.png in the build folder's Testing/.
+"""
+
+import os
+import shutil
+import struct
+import subprocess
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from pictures import write_png
+
+WIDTH, HEIGHT = 1280, 800
+PARAVIEW = Path(os.environ["HOP_PVPYTHON"]).parent / "paraview"
+
+
+@pytest.fixture
+def screen(tmp_path):
+    """A display of our own: (its name, the file with its pixels)."""
+    reading, writing = os.pipe()
+    server = subprocess.Popen(
+        ["Xvfb", "-displayfd", str(writing), "-screen", "0", f"{WIDTH}x{HEIGHT}x24", "-fbdir", str(tmp_path),
+         "-noreset", "-nolisten", "tcp"],
+        pass_fds=[writing], stderr=subprocess.DEVNULL)
+    os.close(writing)
+    with os.fdopen(reading) as number:
+        display = ":" + number.readline().strip()
+    yield display, tmp_path / "Xvfb_screen0"
+    server.terminate()
+    server.wait()
+
+
+def pixels_of(path):
+    """An X window dump's pixels, top row first, (height, width, RGB)."""
+    dump = path.read_bytes()
+    head = struct.unpack(">25I", dump[:100])
+    header_size, width, height, row_bytes, colors = head[0], head[4], head[5], head[12], head[19]
+    data = np.frombuffer(dump, np.uint8, row_bytes * height, header_size + 12 * colors)
+    return data.reshape(height, -1, 4)[:, :width, 2::-1].astype(int)
+
+
+def watch(process, screen_file, seconds):
+    """The picture that stood longest on the screen in the last seconds of the process."""
+    seen = []
+    end = time.monotonic() + seconds
+    while process.poll() is None:
+        assert time.monotonic() < end, "ParaView's window did not close in time"
+        seen = (seen + [screen_file.read_bytes()])[-12:]
+        time.sleep(0.25)
+    screen_file.write_bytes(max(seen, key=seen.count))
+    return pixels_of(screen_file)
+
+
+
+@pytest.mark.skipif(not PARAVIEW.is_file(), reason="this ParaView has no GUI")
+@pytest.mark.skipif(not shutil.which("Xvfb"), reason="no Xvfb")
+def test_a_user_finds_the_filter_and_sees_the_surface(plugin, data, screen, tmp_path):
+    display, screen_file = screen
+    home = {"HOME": str(tmp_path), "XDG_CONFIG_HOME": str(tmp_path), "XDG_RUNTIME_DIR": str(tmp_path)}
+    process = subprocess.Popen(
+        [str(PARAVIEW), "-qwindowgeometry", f"{WIDTH}x{HEIGHT}+0+0", "--dr", f"--plugin-search-paths={plugin.parent}",
+         f"--plugins={plugin.stem}", f"--data={data('mfem_hex1_p8.vtu')}",
+         f"--test-script={Path(__file__).parent / 'gui_events.xml'}", "--exit"],
+        env={**os.environ, **home, "DISPLAY": display}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    try:
+        window = watch(process, screen_file, 120)
+        said = process.stdout.read()
+    finally:
+        process.kill()
+    write_png(Path(os.environ["HOP_BUILD"]) / "Testing" / "gui.png", window)
+    assert process.returncode == 0, said
+    assert "ERR|" not in said and "WARN|" not in said, said
+
+    view = window[HEIGHT // 4 : -50, WIDTH // 4 : -20]
+    colors, counts = np.unique(view.reshape(-1, 3), axis=0, return_counts=True)
+    background = colors[counts.argmax()]
+    surface = np.any(np.abs(view - background) > 8, axis=2)
+    assert 0.05 < surface.mean() < 0.6
+    assert np.unique(view[surface], axis=0).shape[0] > 1000, "shaded, and coloured by curvature"

@@ -1,0 +1,101 @@
+"""Time series and files in pieces, as simulations write them."""
+
+import numpy as np
+import pytest
+from paraview import simple
+from support import (
+    add_cell_array, add_point_array, array_of, contents, grid_of_cells, longest_side, make_filter, nearest_neighbors,
+    output_of, points_of, read, run_quietly)
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
+
+FILES = ["mfem_dg_advection_0.vtu", "mfem_dg_advection_2.vtu", "mfem_dg_advection_4.vtu"]
+
+
+def test_every_step_of_a_series_is_what_its_file_is_alone(data):
+    series = simple.PVDReader(FileName=data("mfem_dg_advection.pvd"))
+    series.UpdatePipelineInformation()
+    surface, messages = make_filter(series, "rho", 0.3, Spacing=0.06)
+    times = list(series.TimestepValues)
+    assert times == [0, 0.3, 0.6]
+    for time, file in zip(times + times[:1], FILES + FILES[:1]):  # and back to the start
+        surface.UpdatePipeline(time)
+        step = surface.GetClientSideObject().GetOutputDataObject(0)
+        alone = run_quietly(read(data(file)), "rho", 0.3, Spacing=0.06)
+        assert step.GetNumberOfPoints() > 300
+        assert contents(step) == contents(alone)
+    assert messages.errors == []
+
+
+def cells_of(grid, ids):
+    """These cells of a grid, with the array u, each with nodes of its own."""
+    cells, nodes = [], []
+    for id in ids:
+        cell = grid.GetCell(int(id))
+        count = cell.GetNumberOfPoints()
+        cells.append((cell.GetCellType(), range(len(nodes), len(nodes) + count)))
+        nodes += [cell.GetPointId(n) for n in range(count)]
+    part = grid_of_cells(points_of(grid)[nodes], cells)
+    add_point_array(part, "u", array_of(grid, "u")[nodes])
+    return part
+
+
+def middles_of(grid):
+    cells = range(grid.GetNumberOfCells())
+    return np.array([np.mean(np.reshape(grid.GetCell(i).GetBounds(), (3, 2)), axis=1) for i in cells])
+
+
+def write_in_pieces(grid, owner, folder, ghosts):
+    """A .pvtu of as many pieces as there are owners, each, with ghosts, with the cells around it."""
+    middles, reach = middles_of(grid), 0.3 * longest_side(grid)
+    names = []
+    for piece in np.unique(owner):
+        own = np.flatnonzero(owner == piece)
+        around = [i for i in np.flatnonzero(owner != piece)
+                  if np.linalg.norm(middles[own] - middles[i], axis=1).min() < reach] if ghosts else []
+        part = cells_of(grid, np.append(own, around))
+        add_cell_array(part, "vtkGhostType", np.repeat([0, 1], [len(own), len(around)]).astype(np.uint8))
+        writer = vtkXMLUnstructuredGridWriter()
+        names.append(f"piece_{piece}.vtu")
+        writer.SetFileName(str(folder / names[-1]))
+        writer.SetInputData(part)
+        writer.Write()
+    listing = folder / "pieces.pvtu"
+    listing.write_text("\n".join([
+        '<VTKFile type="PUnstructuredGrid" version="0.1" byte_order="LittleEndian">',
+        f'<PUnstructuredGrid GhostLevel="{int(ghosts)}">',
+        '<PPoints><PDataArray type="Float64" NumberOfComponents="3"/></PPoints>',
+        '<PPointData><PDataArray type="Float64" Name="u"/></PPointData>',
+        '<PCellData><PDataArray type="UInt8" Name="vtkGhostType"/></PCellData>',
+        *[f'<Piece Source="{name}"/>' for name in names],
+        "</PUnstructuredGrid></VTKFile>"]))
+    return str(listing)
+
+
+def test_nothing_is_sampled_twice_where_pieces_meet(data, tmp_path):
+    """A box of tetrahedra, whose faces all match, cut into three pieces, without and with ghost cells."""
+    grid = output_of(read(data("dolfinx_tet_p3.vtu")))
+    across = middles_of(grid)[:, 0]
+    owner = np.digitize(across, np.quantile(across, [1 / 3, 2 / 3]))
+    assert np.bincount(owner).min() > 20
+
+    whole = run_quietly(grid, "u", 0.5, Spacing=0.03)
+    bare, overlapping = (
+        run_quietly(read(write_in_pieces(grid, owner, tmp_path, ghosts)), "u", 0.5, Spacing=0.03)
+        for ghosts in (False, True))
+    assert bare.GetNumberOfPoints() == pytest.approx(whole.GetNumberOfPoints(), rel=0.02)
+    assert np.array_equal(points_of(overlapping), points_of(bare))
+    # A sheet sampled twice would have its particles anywhere between each other.
+    apart, together = nearest_neighbors(bare), nearest_neighbors(whole)
+    assert np.quantile(apart, 0.01) == pytest.approx(np.quantile(together, 0.01), abs=0.1)
+    assert len(np.unique(points_of(bare), axis=0)) == bare.GetNumberOfPoints()
+
+
+def test_a_solvers_file_in_three_pieces(data):
+    """deal.II's shell: duplicated nodes on the interfaces, no ghost cells. Classic, because Fast puts rims
+    on either side of the file's hanging faces, which meet there."""
+    particles = run_quietly(read(data("dealii_shell_p3_00.pvtu")), "u", 0.4, Spacing=0.05, Method="Classic")
+    assert particles.GetNumberOfPoints() > 1500
+    assert len(np.unique(points_of(particles), axis=0)) == particles.GetNumberOfPoints()
+    apart = nearest_neighbors(particles)
+    # Doubled sheets would have half of all particles at a small distance from another's.
+    assert np.mean(apart < 0.4) < 0.02
