@@ -18,7 +18,9 @@ void setNodeCount(vtkNonLinearCell& cell, int count)
   cell.GetPointIds()->SetNumberOfIds(count);
 }
 
-vtkSmartPointer<vtkNonLinearCell> makeCell(Domain domain, int nodeCount)
+} // namespace
+
+vtkSmartPointer<vtkNonLinearCell> makeLagrangeCell(Domain domain, int nodeCount)
 {
   if (domain == Domain::Tetrahedron)
   {
@@ -42,12 +44,10 @@ vtkSmartPointer<vtkNonLinearCell> makeCell(Domain domain, int nodeCount)
   return cell;
 }
 
-} // namespace
-
 VtkCell::VtkCell(const ElementCase& which)
 {
   const int count = coefficientCount(which.domain, which.degrees);
-  this->Cell = makeCell(which.domain, count);
+  this->Cell = makeLagrangeCell(which.domain, count);
   this->Weights.resize(count);
   Random random(2);
   const double* nodes = this->Cell->GetParametricCoords();

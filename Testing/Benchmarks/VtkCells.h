@@ -12,6 +12,9 @@ class vtkNonLinearCell;
 namespace hop::testing
 {
 
+/// VTK's Lagrange cell of so many nodes, the same degree along every axis: it knows where they stand.
+vtkSmartPointer<vtkNonLinearCell> makeLagrangeCell(Domain domain, int nodeCount);
+
 /// VTK's Lagrange cell of the same kind as an element, slightly warped, with random nodal values.
 class VtkCell
 {

@@ -2,6 +2,10 @@
 
 #include "Particles.h"
 
+#include <glm/glm.hpp>
+
+#include <vector>
+
 namespace hop::testing
 {
 
@@ -11,5 +15,52 @@ std::vector<double> nearestSpacings(const std::vector<Particle>& particles);
 
 /// Number of particles of hexagonal packing at spacing s on an area: area / (sqrt(3)/2 s^2).
 double hexagonalCount(double area, double spacing);
+
+/// The Delaunay triangles around a particle, among its neighbours on the same sheet: they are laid
+/// into its tangent plane at their true distances, and the edges of the particle's Voronoi cell there
+/// name those it shares a triangle with.
+struct Star
+{
+  /// Number of these neighbours.
+  int valence = 0;
+  /// Whether they surround the particle. They do not on the rim of a surface, nor beside a hole more
+  /// than OpenRadius spacings away.
+  bool closed = false;
+  /// Of the triangles, in space: the largest circumradius over the particle's spacing (1/sqrt(3) in
+  /// hexagonal packing), and the mean and smallest of their smallest angles, degrees. Zero if open.
+  double circumradius = 0.0;
+  double meanMinAngle = 0.0;
+  double worstMinAngle = 0.0;
+
+  static constexpr double OpenRadius = 1.25;
+};
+
+std::vector<Star> delaunayStars(const std::vector<Particle>& particles);
+
+/// How even particles stand. In parentheses: hexagonal packing.
+struct Evenness
+{
+  /// Over all particles: least distance to the nearest (nearestSpacings, 1), and the standard
+  /// deviation of that distance over its mean, lonely ones left out (0).
+  double minSpacing = 0.0;
+  double variation = 0.0;
+  /// Over the closed stars: share of those with six neighbours (1), largest circumradius (0.577), mean
+  /// and least of the triangles' smallest angles, degrees (60).
+  double sixValentShare = 0.0;
+  double circumradius = 0.0;
+  double meanMinAngle = 0.0;
+  double worstMinAngle = 0.0;
+  /// Number of stars that are not closed: none on a closed surface without holes.
+  std::size_t openStars = 0;
+};
+
+/// All zero for fewer than two particles.
+Evenness measureEvenness(const std::vector<Particle>& particles);
+
+/// Largest distance from a probe on the surface to the nearest particle, whichever way that one is
+/// turned, in units of the nearest particle's spacing (1/sqrt(3) in hexagonal packing). Infinite
+/// without particles, 0 without probes.
+double coverageRadius(
+  const std::vector<Particle>& particles, const std::vector<glm::dvec3>& probes);
 
 } // namespace hop::testing

@@ -1,0 +1,235 @@
+// How even the Fast distribution is, and what it costs: the figures that are promised for it.
+
+#include "FastDistribution.h"
+
+#include "AnalyticFields.h"
+#include "DistributionMeasures.h"
+#include "ElementCases.h"
+#include "SurfaceSeeds.h"
+#include "ThreadedFor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace hop::testing
+{
+namespace
+{
+
+constexpr double tolerance = 1e-9;
+
+/// A closed surface of revolution, and how it is to be covered.
+struct QualityCase
+{
+  const char* name;
+  KnownSurface surface;
+  /// Degree of the elements: enough to hold the surface well in bent ones.
+  int degree = 4;
+  SpacingLaw law;
+  glm::dvec3 axis{ 0, 0, 1 };
+  /// A curve that makes the surface when turned around the axis; t in [0,1].
+  std::function<glm::dvec3(double)> profile;
+};
+
+std::ostream& operator<<(std::ostream& out, const QualityCase& which)
+{
+  return out << which.name;
+}
+
+QualityCase sphereCase()
+{
+  constexpr double r = 0.6;
+  return { "Sphere", sphere({ 0, 0, 0 }, r), 4, { 0.05, 0.0 }, { 0, 0, 1 },
+    [](double t) { return r * glm::dvec3(std::sin(Pi * t), 0.0, std::cos(Pi * t)); } };
+}
+
+QualityCase torusCase(const char* name, double spacing, double angularDensity)
+{
+  constexpr double R = 0.5, r = 0.22;
+  return { name, torus(R, r), 6, { spacing, angularDensity }, { 0, 0, 1 },
+    [](double t)
+    {
+      const double v = 2.0 * Pi * t;
+      return glm::dvec3(R + r * std::cos(v), 0.0, r * std::sin(v));
+    } };
+}
+
+QualityCase ellipsoidCase()
+{
+  constexpr double a = 0.8, b = 0.35;
+  return { "EllipsoidDense7", prolateEllipsoid(a, b), 5, { 0.1, 7.0 }, { 1, 0, 0 },
+    [](double t) { return glm::dvec3(a * std::cos(Pi * t), b * std::sin(Pi * t), 0.0); } };
+}
+
+/// Particles of hexagonal packing: the integral of 2/(sqrt(3) h^2) over the surface.
+double wantedCount(const QualityCase& which)
+{
+  constexpr int pieces = 4000;
+  double count = 0.0;
+  for (int n = 0; n < pieces; ++n)
+  {
+    const glm::dvec3 from = which.profile(n / double(pieces));
+    const glm::dvec3 to = which.profile((n + 1) / double(pieces));
+    const glm::dvec3 middle = which.profile((n + 0.5) / pieces);
+    const double radius = glm::length(glm::cross(middle, which.axis));
+    const double h = which.law.at(which.surface.curvature(middle).magnitude);
+    count += hexagonalCount(2.0 * Pi * radius * glm::distance(from, to), h);
+  }
+  return count;
+}
+
+ElementMesh bentMesh(const QualityCase& which, Domain domain)
+{
+  MeshRecipe recipe;
+  recipe.domain = domain;
+  recipe.degrees = { which.degree, which.degree, which.degree };
+  recipe.map = wavyMap(0.1);
+  recipe.field = which.surface.field;
+  return makeMesh(recipe);
+}
+
+/// Points all over the surface, closer than particles.
+std::vector<glm::dvec3> probesOf(const ElementMesh& mesh, double spacing)
+{
+  std::vector<glm::dvec3> probes;
+  for (const Location& seed :
+    surfaceSeeds(mesh, 0.0, findSurfaceBoxes(mesh, 0.0, 0.5 * spacing, {})))
+  {
+    probes.push_back(positionAt(mesh, seed));
+  }
+  return probes;
+}
+
+class FastQuality : public ::testing::TestWithParam<std::tuple<QualityCase, Domain>>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(FastDistribution, FastQuality,
+  ::testing::Combine(
+    ::testing::Values(sphereCase(), torusCase("Torus", 0.04, 0.0),
+      torusCase("TorusDense7", 0.12, 7.0), torusCase("TorusDense15", 0.15, 15.0), ellipsoidCase()),
+    ::testing::ValuesIn(allDomains)),
+  [](const auto& which)
+  {
+    return std::get<0>(which.param).name +
+      ("In" + ::testing::PrintToString(std::get<1>(which.param)));
+  });
+
+TEST_P(FastQuality, IsAsPromised)
+{
+  const auto& [which, domain] = this->GetParam();
+  const ElementMesh mesh = bentMesh(which, domain);
+  DistributionParameters parameters;
+  parameters.law = which.law;
+  const Distribution result = distributeFast({ &mesh, 0.0, tolerance }, parameters, {}, {});
+  ASSERT_TRUE(result.report.error.empty()) << result.report.error;
+  const double count = static_cast<double>(result.particles.size());
+  EXPECT_NEAR(count / wantedCount(which), 1.0, 0.03);
+  EXPECT_LE(static_cast<double>(result.report.evaluations) / count, 8.0);
+  double smallest = which.law.spacing;
+  for (const Particle& p : result.particles)
+  {
+    ASSERT_LE(p.residual, tolerance);
+    smallest = std::min(smallest, p.spacing);
+  }
+  const Evenness evenness = measureEvenness(result.particles);
+  EXPECT_GE(evenness.minSpacing, 0.80);
+  EXPECT_LE(evenness.variation, 0.035);
+  EXPECT_GE(evenness.sixValentShare, 0.72);
+  EXPECT_GE(evenness.meanMinAngle, 50.5);
+  EXPECT_GE(evenness.worstMinAngle, 30.0);
+  EXPECT_EQ(evenness.openStars, 0u);
+  const double farthest = which.law.angularDensity == 0.0 ? 0.80 : 1.0;
+  EXPECT_LE(coverageRadius(result.particles, probesOf(mesh, smallest)), farthest);
+}
+
+/// A surface that ends at the faces of the cube [-1,1]^3.
+struct OpenCase
+{
+  const char* name;
+  KnownSurface surface;
+};
+
+std::ostream& operator<<(std::ostream& out, const OpenCase& which)
+{
+  return out << which.name;
+}
+
+class FastQualityAtRims : public ::testing::TestWithParam<std::tuple<OpenCase, Domain>>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(FastDistribution, FastQualityAtRims,
+  ::testing::Combine(
+    ::testing::Values(OpenCase{ "Plane", plane({ 0, 0, 1 }, 0.05) },
+      OpenCase{ "SlantedPlane", plane(glm::normalize(glm::dvec3(0.3, 0.5, 1.0)), 0.1) },
+      OpenCase{ "Cylinder", cylinder(0.7) }, OpenCase{ "Sphere", sphere({ 0, 0, 0 }, 1.2) }),
+    ::testing::ValuesIn(allDomains)),
+  [](const auto& which)
+  {
+    return std::get<0>(which.param).name +
+      ("In" + ::testing::PrintToString(std::get<1>(which.param)));
+  });
+
+TEST_P(FastQualityAtRims, IsAsPromised)
+{
+  constexpr double spacing = 0.05;
+  const auto& [which, domain] = this->GetParam();
+  MeshRecipe recipe;
+  recipe.domain = domain;
+  recipe.field = which.surface.field;
+  const ElementMesh mesh = makeMesh(recipe);
+  DistributionParameters parameters;
+  parameters.law.spacing = spacing;
+  const Distribution result = distributeFast({ &mesh, 0.0, tolerance }, parameters, {}, {});
+  const double count = static_cast<double>(result.particles.size());
+  EXPECT_LE(static_cast<double>(result.report.evaluations) / count, 8.0);
+  const Evenness evenness = measureEvenness(result.particles);
+  EXPECT_GE(evenness.minSpacing, 0.80);
+  EXPECT_LE(evenness.variation, 0.035);
+  EXPECT_GE(evenness.sixValentShare, 0.72);
+  EXPECT_GE(evenness.meanMinAngle, 50.5);
+  EXPECT_GE(evenness.worstMinAngle, 30.0);
+  EXPECT_LE(coverageRadius(result.particles, probesOf(mesh, spacing)), 0.80);
+  // Only the particles on the rim miss neighbours, and no hole is wide enough for others to.
+  std::size_t onRim = 0;
+  for (const Particle& p : result.particles)
+  {
+    onRim += boundaryFaceCount(mesh, p.location) > 0;
+  }
+  EXPECT_GT(onRim, 0u);
+  EXPECT_LE(evenness.openStars, onRim);
+}
+
+TEST_P(FastQuality, DoesNotDependOnThreads)
+{
+  const auto& [which, domain] = this->GetParam();
+  const ElementMesh mesh = bentMesh(which, domain);
+  DistributionParameters parameters;
+  parameters.law = which.law;
+  const Isosurface surface{ &mesh, 0.0, tolerance };
+  const Distribution serial = distributeFast(surface, parameters, {}, {});
+  for (const int threads : { 1, 2, 3, 8 })
+  {
+    SCOPED_TRACE(::testing::Message() << threads << " threads");
+    const Distribution other = distributeFast(surface, parameters, {}, threadedFor(threads));
+    EXPECT_EQ(other.report.evaluations, serial.report.evaluations);
+    ASSERT_EQ(other.particles.size(), serial.particles.size());
+    for (std::size_t i = 0; i < serial.particles.size(); ++i)
+    {
+      const Particle& a = other.particles[i];
+      const Particle& b = serial.particles[i];
+      ASSERT_EQ(a.location.element, b.location.element);
+      ASSERT_EQ(a.location.u.xyz, b.location.u.xyz);
+      ASSERT_EQ(a.position.xyz, b.position.xyz);
+      ASSERT_EQ(a.normal.xyz, b.normal.xyz);
+      ASSERT_EQ(a.curvature.mean, b.curvature.mean);
+      ASSERT_EQ(a.residual, b.residual);
+      ASSERT_EQ(a.spacing, b.spacing);
+    }
+  }
+}
+
+} // namespace
+} // namespace hop::testing

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <unordered_map>
+#include <vector>
+
+namespace hop::testing
+{
+
+/// Points by cubic cells, to look up those around a place. Apart from the grids of the distributions,
+/// so that measures do not share their mistakes.
+class PointGrid
+{
+public:
+  /// \param cellSize > 0; queries cost least at about their radius
+  PointGrid(std::vector<glm::dvec3> points, double cellSize);
+
+  /// Indices of the points within `radius` of a place, ascending.
+  std::vector<int> within(const glm::dvec3& place, double radius) const;
+
+private:
+  using Cell = glm::i64vec3;
+  struct Hash
+  {
+    std::size_t operator()(const Cell& cell) const;
+  };
+
+  Cell cellOf(const glm::dvec3& place) const;
+
+  std::vector<glm::dvec3> Points;
+  double CellSize;
+  std::unordered_map<Cell, std::vector<int>, Hash> Cells;
+};
+
+} // namespace hop::testing
