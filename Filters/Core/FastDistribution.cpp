@@ -27,8 +27,6 @@ constexpr double wedgePerSpacing = 7.0;
 constexpr double tetrahedronPerSpacing = 9.0;
 /// Spacing of the first look, in units of the mesh's diagonal.
 constexpr double coarseSpacingPerExtent = 0.005;
-/// Where the spacing follows the curvature, boxes are smaller by this factor, to see it change.
-constexpr double adaptiveShare = 0.67;
 /// A step of relaxation is taken back by half while it ends farther from the surface than this, in
 /// units of the spacing, or on a sheet that is turned away.
 constexpr float largestOffset = 0.5f;
@@ -151,25 +149,30 @@ SurfaceProxy FastSystem::proxyAt(double spacing)
 {
   SpacingLaw law = this->Law;
   law.spacing = spacing;
-  const auto wantedSize = [&](const Location& middle)
+  const auto isSmall = [&](const Location& middle, double size)
   {
     const Domain domain = this->Mesh.elements[middle.element].domain;
     const double perSpacing = domain == Domain::Hexahedron ? hexahedronPerSpacing
       : domain == Domain::Wedge                            ? wedgePerSpacing
                                                            : tetrahedronPerSpacing;
-    if (law.angularDensity == 0.0)
+    const double largest = perSpacing * law.spacing;
+    const double smallest = largest / (1.0 + law.angularDensity);
+    if (law.angularDensity == 0.0 || size > largest || size <= smallest)
     {
-      return perSpacing * law.spacing;
+      return size <= largest;
     }
     ++this->Evaluations;
     Anchor anchor;
     Patch patch;
     const Jet jet = evaluateHessian(this->Mesh.form(middle.element), middle.u);
-    const bool regular = anchorPatch(middle, jet, this->Surface.isovalue, anchor, patch);
-    return adaptiveShare * perSpacing * law.at(regular ? patch.curvatureMagnitude() : 0.0);
+    if (!anchorPatch(middle, jet, this->Surface.isovalue, anchor, patch))
+    {
+      return true;
+    }
+    return size <= perSpacing * law.at(patch.curvatureMagnitude());
   };
   SurfaceProxy proxy(this->Surface, law,
-    findSurfaceBoxes(this->Mesh, this->Surface.isovalue, wantedSize, this->Parallel),
+    findSurfaceBoxes(this->Mesh, this->Surface.isovalue, isSmall, this->Parallel),
     this->Parallel);
   this->Evaluations += proxy.evaluations();
   return proxy;

@@ -19,7 +19,7 @@ using kernel::SweepLanes;
 /// Two particles interact up to h/beta; what they move in a round is added to that.
 constexpr double listSlack = 0.35;
 /// Energy, in units of that of hexagonal packing, from which on a particle is one too many.
-constexpr double crowdedEnergy = 1.8;
+constexpr double crowdedEnergy = 2.5;
 /// Over-relaxation of Newton's steps where the surface is flat, and where it bends.
 constexpr float flatRelaxation = 1.5f;
 constexpr float bentRelaxation = 0.7f;

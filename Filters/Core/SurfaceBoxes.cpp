@@ -57,10 +57,10 @@ class ElementSplitter
 {
 public:
   ElementSplitter(const ElementMesh& mesh, double isovalue,
-    const std::function<double(const Location&)>& wantedSize)
+    const std::function<bool(const Location&, double)>& isSmall)
     : Mesh(mesh)
     , Isovalue(isovalue)
-    , WantedSize(wantedSize)
+    , IsSmall(isSmall)
   {
   }
 
@@ -86,7 +86,7 @@ public:
         piece.certified = piece.certified || this->isOneSheet(piece);
         const double size = this->worldSize(piece);
         const bool last = piece.bisections == MaximumBisections;
-        if (piece.certified ? last || size <= this->WantedSize({ element, middle(piece) })
+        if (piece.certified ? last || this->IsSmall({ element, middle(piece) }, size)
                             : last || tooMany)
         {
           piece.certified = piece.certified || this->Monotone.rises(valuesOf(piece));
@@ -322,7 +322,7 @@ private:
 
   const ElementMesh& Mesh;
   double Isovalue;
-  const std::function<double(const Location&)>& WantedSize;
+  const std::function<bool(const Location&, double)>& IsSmall;
   BernsteinForm Form;
   MonotoneTest Monotone{ Domain::Hexahedron, cornerDegrees };
   BoundaryTest Boundary{ Domain::Hexahedron, cornerDegrees };
@@ -399,17 +399,18 @@ std::vector<SurfaceBox> findSurfaceBoxes(
   const ElementMesh& mesh, double isovalue, double wantedSize, const ParallelFor& parallelFor)
 {
   return findSurfaceBoxes(
-    mesh, isovalue, [wantedSize](const Location&) { return wantedSize; }, parallelFor);
+    mesh, isovalue, [wantedSize](const Location&, double size) { return size <= wantedSize; },
+    parallelFor);
 }
 
 std::vector<SurfaceBox> findSurfaceBoxes(const ElementMesh& mesh, double isovalue,
-  const std::function<double(const Location&)>& wantedSize, const ParallelFor& parallelFor)
+  const std::function<bool(const Location&, double)>& isSmall, const ParallelFor& parallelFor)
 {
   std::vector<std::vector<SurfaceBox>> ofElement(mesh.elements.size());
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(mesh.elements.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
-      ElementSplitter splitter(mesh, isovalue, wantedSize);
+      ElementSplitter splitter(mesh, isovalue, isSmall);
       for (std::ptrdiff_t e = begin; e < end; ++e)
       {
         splitter.split(static_cast<int>(e), ofElement[e]);

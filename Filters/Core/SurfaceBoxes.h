@@ -43,13 +43,14 @@ struct SurfaceBox
 /// 2^-(MaximumBisections/3) of an element, or has no critical point near, in certified ones. Bounds
 /// are widened by the rounding errors of the splitting. Elements with a coefficient that is NaN or
 /// infinite give no boxes.
-/// \param wantedSize world units, > 0; as a function: the size wanted where a certified box has its
-///   middle, called from several threads
+/// \param wantedSize world units, > 0
+/// \param isSmall instead: whether a certified box of that middle and size is small enough; called from
+///   several threads
 /// \return boxes in the order of the elements, the same for any number of threads
 std::vector<SurfaceBox> findSurfaceBoxes(
   const ElementMesh& mesh, double isovalue, double wantedSize, const ParallelFor& parallelFor);
 std::vector<SurfaceBox> findSurfaceBoxes(const ElementMesh& mesh, double isovalue,
-  const std::function<double(const Location&)>& wantedSize, const ParallelFor& parallelFor);
+  const std::function<bool(const Location&, double)>& isSmall, const ParallelFor& parallelFor);
 
 /// Whether a place lies in the ball around a box: a seed that Newton's method took farther may be on
 /// another component than the box's own.
