@@ -172,8 +172,7 @@ SurfaceProxy FastSystem::proxyAt(double spacing)
     return size <= perSpacing * law.at(patch.curvatureMagnitude());
   };
   SurfaceProxy proxy(this->Surface, law,
-    findSurfaceBoxes(this->Mesh, this->Surface.isovalue, isSmall, this->Parallel),
-    this->Parallel);
+    findSurfaceBoxes(this->Mesh, this->Surface.isovalue, isSmall, this->Parallel), this->Parallel);
   this->Evaluations += proxy.evaluations();
   return proxy;
 }
@@ -365,7 +364,8 @@ std::vector<char> FastSystem::standApart(double nearest)
       [&](int j)
       {
         if (static_cast<std::size_t>(j) != i &&
-          glm::distance(positions[i], positions[j]) < nearest * std::min(spacings[i], spacings[j]) &&
+          glm::distance(positions[i], positions[j]) <
+            nearest * std::min(spacings[i], spacings[j]) &&
           glm::dot(this->Patches[i].normal, this->Patches[j].normal) > 0.0f)
         {
           use(j);
@@ -642,7 +642,8 @@ bool FastSystem::settle(
     return false;
   }
   particle = { place, point.map.position, surfaceNormal(point.gradient),
-    curvature(point.gradient, worldHessian(jet, point)), residual, patch.spacing, {}, 0.0, 0.0 };
+    curvature(point.gradient, worldHessian(jet, point)), residual,
+    this->Law.angularDensity == 0.0 ? this->Law.spacing : patch.spacing, {}, 0.0, 0.0 };
   patch.position = particle.position.xyz;
   return true;
 }

@@ -169,7 +169,8 @@ void RimSampler::addParticle(const Location& place, int face, double nearby)
   const WorldVector normal = surfaceNormal(field.gradient);
   rim.particle = { location, field.map.position, normal,
     curvature(field.gradient, worldHessian(jet, field)),
-    std::abs(field.value) / length(field.gradient), rim.patch.spacing, {}, 0.0, 0.0 };
+    std::abs(field.value) / length(field.gradient),
+    this->Law.angularDensity == 0.0 ? this->Law.spacing : rim.patch.spacing, {}, 0.0, 0.0 };
   const auto& faces = facts(mesh.elements[location.element].domain).faces;
   const glm::dvec3 inward = glm::transpose(field.map.inverse) * faces[point->face].inward.xyz;
   const glm::dvec3 along = inward - glm::dot(inward, normal.xyz) * normal.xyz;

@@ -232,8 +232,7 @@ double SurfaceProxy::weigh(std::size_t which, std::vector<WeighedTriangle>& weig
   const auto onPatch = [&](const glm::vec3& corner)
   {
     const glm::dvec3 d = push * (glm::dvec3(corner) - sample.anchor.place.u.xyz);
-    const glm::dvec2 t(
-      glm::dot(d, glm::dvec3(tangents[0])), glm::dot(d, glm::dvec3(tangents[1])));
+    const glm::dvec2 t(glm::dot(d, glm::dvec3(tangents[0])), glm::dot(d, glm::dvec3(tangents[1])));
     const glm::dvec2 slope(s[0] * t.x + s[1] * t.y, s[1] * t.x + s[2] * t.y);
     const double off = glm::dot(d, glm::dvec3(sample.patch.normal)) - sample.anchor.offset +
       0.5 * glm::dot(t, slope);
@@ -249,8 +248,8 @@ double SurfaceProxy::weigh(std::size_t which, std::vector<WeighedTriangle>& weig
     const glm::dvec2 slope(s[0] * middle.x + s[1] * middle.y, s[1] * middle.x + s[2] * middle.y);
     const double stretch = std::min(largestStretch, std::sqrt(1.0 + glm::dot(slope, slope)));
     const double footprint = 0.5 * std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
-    const glm::dvec3 position = sample.patch.position +
-      middle.x * glm::dvec3(tangents[0]) + middle.y * glm::dvec3(tangents[1]) -
+    const glm::dvec3 position = sample.patch.position + middle.x * glm::dvec3(tangents[0]) +
+      middle.y * glm::dvec3(tangents[1]) -
       0.5 * glm::dot(middle, slope) * glm::dvec3(sample.patch.normal);
     const double h =
       this->spacingAt(position, sample.patch.curvatureMagnitude(), sample.patch.spacing);

@@ -54,7 +54,7 @@ CASES = [
     Case("trixi_adv_sphere_hex_p3.vtu", "scalar", 1.28, jumps=True),
     Case(
         "pyfr_cylinder_5040hex_696prism_p3.vtu", "Pressure", 17.6,
-        jumps=True, undersampled=True, nearest=0.02, nearest_of_most=0.2, coverage=0.85, shared=True,
+        jumps=True, undersampled=True, nearest=0.02, nearest_of_most=0.1, coverage=0.85, shared=True,
     ),
     Case(
         "pyfr_cylinder_3360hex_7656prism_p3.vtu", "Pressure", 17.8,
