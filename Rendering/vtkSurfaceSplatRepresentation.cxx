@@ -174,6 +174,21 @@ vtkDataObject* vtkSurfaceSplatRepresentation::GetRenderedDataObject(int)
 }
 
 //------------------------------------------------------------------------------
+void vtkSurfaceSplatRepresentation::SetMode(int mode)
+{
+  this->Mapper->SetMode(mode);
+}
+
+void vtkSurfaceSplatRepresentation::SetSharpness(double sharpness)
+{
+  this->Mapper->SetSharpness(sharpness);
+}
+
+void vtkSurfaceSplatRepresentation::SetInterpolateScalarsBeforeMapping(int interpolate)
+{
+  this->Mapper->SetInterpolateScalarsBeforeMapping(interpolate);
+}
+
 void vtkSurfaceSplatRepresentation::SetRadiusArrayName(const char* name)
 {
   this->Mapper->SetRadiusArrayName(name);
@@ -326,6 +341,11 @@ void vtkSurfaceSplatRepresentation::PrintSelf(ostream& os, vtkIndent indent)
   };
   vtkProperty* property = this->Actor->GetProperty();
   const char* radiusName = this->Mapper->GetRadiusArrayName();
+  os << indent << "Mode: " << this->Mapper->GetMode() << "\n";
+  os << indent << "Sharpness: " << this->Mapper->GetSharpness() << "\n";
+  os << indent
+     << "InterpolateScalarsBeforeMapping: " << this->Mapper->GetInterpolateScalarsBeforeMapping()
+     << "\n";
   os << indent << "RadiusArrayName: " << (radiusName ? radiusName : "(none)") << "\n";
   os << indent << "RadiusScale: " << this->Mapper->GetRadiusScale() << "\n";
   os << indent << "Radius: " << this->Mapper->GetRadius() << "\n";

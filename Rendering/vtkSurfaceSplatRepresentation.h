@@ -1,6 +1,6 @@
 /**
  * @class vtkSurfaceSplatRepresentation
- * @brief ParaView's representation 'Surface Splats': oriented particles drawn by
+ * @brief ParaView's representation 'Surface Splats': oriented particles drawn as a surface by
  * vtkSurfaceSplatMapper
  *
  * Takes polydata and other point sets, or composites of them, whose blocks are drawn as one surface.
@@ -36,6 +36,9 @@ public:
 
   ///@{
   /** Forwarded to vtkSurfaceSplatMapper, which documents them. */
+  void SetMode(int mode);
+  void SetSharpness(double sharpness);
+  void SetInterpolateScalarsBeforeMapping(int interpolate);
   void SetRadiusArrayName(const char* name);
   void SetRadiusScale(double scale);
   void SetRadius(double radius);

@@ -78,6 +78,7 @@ SplatScene::SplatScene(vtkPolyData* particles, glm::dvec3 centre)
   , Centre(centre)
 {
   this->Mapper->SetInputDataObject(particles);
+  this->Mapper->SetModeToDisks();
   this->Actor->SetMapper(this->Mapper);
   this->Renderer->AddActor(this->Actor);
   this->Window->SetSize(Size, Size);

@@ -35,7 +35,7 @@ class SplatScene
 public:
   static constexpr int Size = 256; // pixels, both ways
 
-  // All positions that a scene gives or takes are relative to `centre`.
+  // The mode is Disks until a test chooses another one. All positions that a scene gives or takes are relative to `centre`.
   explicit SplatScene(vtkPolyData* particles, glm::dvec3 centre = glm::dvec3(0.));
   ~SplatScene();
 

@@ -1,0 +1,69 @@
+//VTK::System::Dec
+
+// Vertex stage of the splat passes (visibility, accumulation, strongest). A splat is a triangle in
+// the plane of its disk, so that depth and disk coordinates are interpolated by the rasterizer, right
+// for every projection, and the near plane clips it.
+
+//Splat::Disk::Dec
+
+uniform mat4 splatMCVC;
+uniform mat4 splatVCDC;
+uniform mat3 splatNormalMatrix; // normals from MC to VC
+uniform int splatParallel;      // 1: parallel projection
+uniform float splatPixel; // size of a pixel (VC) at distance 1, or everywhere if parallel
+uniform float splatPush;  // by how many radii the disk is moved along the view ray, away from the eye
+uniform float splatHiddenSide; // 1 or -1: splats seen from that side are left out; 0: none
+
+out vec2 splatDiskCoord;         // inside the unit circle = inside the splat
+flat out vec3 splatClipLines[2]; // see splatClipLine()
+out vec3 splatPointMC;           // for clipping planes
+out vec3 splatOffsetVC;          // from the centre of the disk
+out float splatDepthVC;          // z
+flat out vec3 splatNormalVC;     // outward, unit
+flat out float splatSeenFromSide;
+flat out int splatParticle;
+
+// A splat covers at least this many pixels from its centre to its rim: smaller ones would fall
+// between the pixels, and of those that do not only one or two would make a pixel.
+const float splatLeastPixels = 0.75;
+
+void main()
+{
+  splatParticle = gl_VertexID / 3 * splatStride;
+  SplatDisk disk = splatDiskOf(splatParticle);
+  splatSeenFromSide = disk.seenFrom;
+  splatNormalVC = normalize(splatNormalMatrix * disk.normalMC);
+  splatClipLines[0] = splatClipLine(splatParticle, 0, disk);
+  splatClipLines[1] = splatClipLine(splatParticle, 1, disk);
+
+  vec3 centreVC = (splatMCVC * vec4(disk.centreMC, 1.0)).xyz;
+  mat3 rotateScale = mat3(splatMCVC);
+  vec3 tangentVC = rotateScale * disk.tangentMC;
+  vec3 bitangentVC = rotateScale * disk.bitangentMC;
+  float radiusVC = sqrt(max(dot(tangentVC, tangentVC), dot(bitangentVC, bitangentVC)));
+  bool nothing = radiusVC == 0.0 || splatSeenFromSide == splatHiddenSide;
+
+  float pixel = splatPixel * (splatParallel == 1 ? 1.0 : abs(centreVC.z));
+  float enlarge = max(1.0, splatLeastPixels * pixel / max(radiusVC, 1e-30));
+  splatClipLines[0].xy *= enlarge;
+  splatClipLines[1].xy *= enlarge;
+  radiusVC *= enlarge;
+
+  splatDiskCoord = splatCorner[gl_VertexID % 3];
+  vec2 across = enlarge * splatDiskCoord;
+  splatOffsetVC = across.x * tangentVC + across.y * bitangentVC;
+  splatPointMC = disk.centreMC + across.x * disk.tangentMC + across.y * disk.bitangentMC;
+
+  vec3 vertexVC = centreVC + splatOffsetVC;
+  splatDepthVC = vertexVC.z;
+  // Every point of the disk moves along its own view ray: the picture of the disk stays the same.
+  if (splatParallel == 1)
+  {
+    vertexVC.z -= splatPush * radiusVC;
+  }
+  else
+  {
+    vertexVC *= 1.0 + splatPush * radiusVC / max(length(centreVC), 2.0 * radiusVC);
+  }
+  gl_Position = nothing ? vec4(2.0, 2.0, 2.0, 1.0) : splatVCDC * vec4(vertexVC, 1.0);
+}
