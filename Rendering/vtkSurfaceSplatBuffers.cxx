@@ -23,6 +23,7 @@ void vtkSurfaceSplatTexels::UploadTexels(
   vtkOpenGLRenderWindow* window, const std::vector<T>& rgba, int vtkType)
 {
   this->Texture->SetContext(window);
+  this->Texture->ResetFormatAndType(); // colours may be bytes now and floats then
   this->Buffer->Upload(rgba, vtkOpenGLBufferObject::TextureBuffer);
   this->Texture->CreateTextureBuffer(
     static_cast<unsigned int>(rgba.size() / 4), 4, vtkType, this->Buffer);

@@ -337,7 +337,7 @@ void vtkSurfaceSplatMapper::UploadLookupCoordinates(vtkRenderer* renderer)
   std::vector<float> texels(4 * count, 0.f);
   for (vtkIdType i = 0; i < count; ++i)
   {
-    float coordinate[2];
+    float coordinate[2] = { 0.f, 0.f };
     coordinates->GetTypedTuple(this->Internal->PointIds[i], coordinate);
     if (coordinate[1] < 0.75f)
     {
