@@ -67,18 +67,6 @@ void vtkSurfaceSplatTexels::ReleaseGraphicsResources(vtkWindow* window)
 
 namespace
 {
-double MeanOfRadii(const std::vector<float>& centreRadius)
-{
-  double sum = 0.;
-  vtkIdType drawn = 0;
-  for (std::size_t i = 3; i < centreRadius.size(); i += 4)
-  {
-    sum += centreRadius[i];
-    drawn += centreRadius[i] > 0.f;
-  }
-  return drawn > 0 ? sum / drawn : 0.;
-}
-
 std::vector<unsigned char> IdsAsBytes(const std::vector<vtkIdType>& ids, vtkIdType count)
 {
   std::vector<unsigned char> bytes;
@@ -106,7 +94,7 @@ void vtkSurfaceSplatBuffers::Upload(
     std::min<vtkIdType>(particles.GetNumberOfParticles(), this->HasClip ? limit / 2 : limit);
   this->NumberOfParticles = count;
   this->Origin = particles.Origin;
-  this->MeanRadius = MeanOfRadii(particles.CentreRadius);
+  this->MeasureRadii(particles.CentreRadius);
   if (count == 0)
   {
     return;
@@ -120,6 +108,23 @@ void vtkSurfaceSplatBuffers::Upload(
     this->Clip.Upload(window, first(particles.Clip, 8 * count));
   }
   this->PointIds.Upload(window, IdsAsBytes(particles.PointIds, count));
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatBuffers::MeasureRadii(const std::vector<float>& centreRadius)
+{
+  double sum = 0.;
+  double largest = 0.;
+  vtkIdType drawn = 0;
+  for (std::size_t i = 3; i < centreRadius.size(); i += 4)
+  {
+    const double radius = centreRadius[i];
+    sum += radius;
+    drawn += radius > 0.;
+    largest = std::max(largest, radius);
+  }
+  this->MeanRadius = drawn > 0 ? sum / drawn : 0.;
+  this->LargestRadius = largest;
 }
 
 //------------------------------------------------------------------------------

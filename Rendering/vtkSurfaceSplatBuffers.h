@@ -64,8 +64,14 @@ public:
 
   vtkIdType GetNumberOfParticles() const { return this->NumberOfParticles; }
 
+  /** Whether particles carry clip planes. */
+  bool GetHasClip() const { return this->HasClip; }
+
+  ///@{
   /** Of those particles that are drawn; model coordinates. */
   double GetMeanRadius() const { return this->MeanRadius; }
+  double GetLargestRadius() const { return this->LargestRadius; }
+  ///@}
 
   /** What was subtracted from the model coordinates. */
   const std::array<double, 3>& GetOrigin() const { return this->Origin; }
@@ -79,6 +85,10 @@ public:
 private:
   vtkIdType NumberOfParticles = 0;
   double MeanRadius = 0.;
+  double LargestRadius = 0.;
+
+  void MeasureRadii(const std::vector<float>& centreRadius);
+
   std::array<double, 3> Origin = { 0., 0., 0. };
   vtkSurfaceSplatTexels CentreRadius;
   vtkSurfaceSplatTexels Normal;

@@ -13,17 +13,24 @@
 #include "vtkSurfaceSplatFragment.h"
 #include "vtkSurfaceSplatPassState.h"
 #include "vtkSurfaceSplatPassVS.h"
+#include "vtkSurfaceSplatRay.h"
 #include "vtkSurfaceSplatStrongestFS.h"
 #include "vtkSurfaceSplatView.h"
 #include "vtkSurfaceSplatVisibilityFS.h"
 #include "vtkTextureObject.h"
 
+#include <cmath>
 #include <string>
 
 namespace
 {
 // Splats whose depths along the view ray differ by less than this many radii are of one surface.
 constexpr double Thickness = 1.;
+
+// Up to this many pixels from middle to rim, splats are drawn as points. The depth of a point is that
+// of its middle, which is no great error then.
+constexpr double LargestPoint = 2.;
+constexpr double LeastPixels = 0.75;
 
 struct Format
 {
@@ -58,6 +65,12 @@ void PrepareTexture(
   {
     texture->AllocateDepth(width, height, vtkTextureObject::Float32);
   }
+}
+
+bool DrawsPoints(const vtkSurfaceSplatDrawing& drawing)
+{
+  const double radius = drawing.RadiusScale * drawing.Buffers->GetLargestRadius();
+  return drawing.View->GetLargestPixels(radius) <= LargestPoint;
 }
 
 void SetSampler(vtkShaderProgram* program, const char* name, vtkTextureObject* texture)
@@ -247,10 +260,16 @@ void vtkSurfaceSplatLayer::FindStrongest(const vtkSurfaceSplatDrawing& drawing)
 vtkShaderProgram* vtkSurfaceSplatLayer::ReadyProgram(
   const vtkSurfaceSplatDrawing& drawing, const char* fragmentSource, double push)
 {
+  const std::string definitions = "#define SPLAT_POINTS " + std::to_string(DrawsPoints(drawing)) +
+    "\n#define SPLAT_LEAST_PIXELS " + std::to_string(LeastPixels) + "\n#define SPLAT_HAS_CLIP " +
+    std::to_string(drawing.Buffers->GetHasClip()) + "\n#define SPLAT_CLIPPING_PLANES " +
+    std::to_string(drawing.NumberOfClippingPlanes) + "\n";
   std::string vertex = vtkSurfaceSplatPassVS;
   std::string fragment = fragmentSource;
-  vtkShaderProgram::Substitute(vertex, "//Splat::Disk::Dec", vtkSurfaceSplatDisk);
-  vtkShaderProgram::Substitute(fragment, "//Splat::Fragment::Dec", vtkSurfaceSplatFragment);
+  vtkShaderProgram::Substitute(vertex, "//Splat::Disk::Dec", definitions + vtkSurfaceSplatDisk);
+  vtkShaderProgram::Substitute(
+    fragment, "//Splat::Fragment::Dec", definitions + vtkSurfaceSplatFragment);
+  vtkShaderProgram::Substitute(fragment, "//Splat::Ray::Dec", vtkSurfaceSplatRay);
   vtkShaderProgram* program =
     drawing.Window->GetShaderCache()->ReadyShaderProgram(vertex.c_str(), fragment.c_str(), "");
   if (!program)
@@ -260,12 +279,13 @@ vtkShaderProgram* vtkSurfaceSplatLayer::ReadyProgram(
   drawing.Buffers->SetSamplers(program);
   drawing.View->SetUniforms(program);
   program->SetUniformf("splatRadiusScale", static_cast<float>(drawing.RadiusScale));
-  program->SetUniformf("splatSharpness", static_cast<float>(drawing.Sharpness));
+  const float falloff[2] = { static_cast<float>(drawing.Sharpness),
+    static_cast<float>(std::exp(-drawing.Sharpness)) };
+  program->SetUniform2f("splatFalloff", falloff);
   program->SetUniformf("splatPush", static_cast<float>(push));
   program->SetUniformf("splatHiddenSide", static_cast<float>(drawing.HiddenSide));
   program->SetUniformi("splatFacesViewer", drawing.FacesViewer ? 1 : 0);
   program->SetUniformi("splatStride", drawing.Stride);
-  program->SetUniformi("splatClippingPlanes", drawing.NumberOfClippingPlanes);
   program->SetUniform4fv("splatClippingPlane", 6, drawing.ClippingPlanes);
   return program;
 }
@@ -275,7 +295,14 @@ void vtkSurfaceSplatLayer::DrawSplats(const vtkSurfaceSplatDrawing& drawing)
 {
   const vtkIdType count =
     (drawing.Buffers->GetNumberOfParticles() + drawing.Stride - 1) / drawing.Stride;
-  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * count));
+  if (DrawsPoints(drawing))
+  {
+    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(count));
+  }
+  else
+  {
+    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * count));
+  }
 }
 
 //------------------------------------------------------------------------------

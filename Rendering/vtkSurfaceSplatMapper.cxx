@@ -23,6 +23,7 @@
 #include "vtkSurfaceSplatDisk.h"
 #include "vtkSurfaceSplatLayer.h"
 #include "vtkSurfaceSplatParticles.h"
+#include "vtkSurfaceSplatRay.h"
 #include "vtkSurfaceSplatResolve.h"
 #include "vtkSurfaceSplatResolveVS.h"
 #include "vtkSurfaceSplatVS.h"
@@ -586,6 +587,7 @@ void vtkSurfaceSplatMapper::ReplaceShaderPositionVC(
   if (this->DrawsSplats())
   {
     Replace(fragment, "//VTK::PositionVC::Dec", vtkSurfaceSplatResolve);
+    Replace(fragment, "//Splat::Ray::Dec", vtkSurfaceSplatRay);
     std::string code = "SplatSurface splat = splatResolve();\n"
                        "  vec4 vertexVC = vec4(splat.positionVC, 1.0);\n"
                        "  float splatSeenFromSide = splat.seenFrom;\n"

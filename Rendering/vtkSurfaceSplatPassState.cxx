@@ -17,6 +17,7 @@ vtkSurfaceSplatPassState::vtkSurfaceSplatPassState(
   , ScissorTest(state, GL_SCISSOR_TEST)
   , StencilTest(state, GL_STENCIL_TEST)
   , CullFace(state, GL_CULL_FACE)
+  , ProgramPointSize(glIsEnabled(GL_PROGRAM_POINT_SIZE))
 {
   state->PushFramebufferBindings();
   glGetIntegerv(GL_BLEND_EQUATION_RGB, &this->BlendEquation[0]);
@@ -31,10 +32,15 @@ vtkSurfaceSplatPassState::vtkSurfaceSplatPassState(
   state->vtkglEnable(GL_DEPTH_TEST);
   state->vtkglDisable(GL_STENCIL_TEST);
   state->vtkglDisable(GL_CULL_FACE);
+  glEnable(GL_PROGRAM_POINT_SIZE); // which vtkOpenGLState does not know
 }
 
 vtkSurfaceSplatPassState::~vtkSurfaceSplatPassState()
 {
+  if (!this->ProgramPointSize)
+  {
+    glDisable(GL_PROGRAM_POINT_SIZE);
+  }
   this->State->vtkglBlendEquationSeparate(this->BlendEquation[0], this->BlendEquation[1]);
   this->State->PopFramebufferBindings();
 }

@@ -32,6 +32,7 @@ private:
   vtkOpenGLState::ScopedglDepthFunc DepthFunc;
   vtkOpenGLState::ScopedglBlendFuncSeparate BlendFunc;
   vtkOpenGLState::ScopedglEnableDisable Blend, DepthTest, ScissorTest, StencilTest, CullFace;
+  unsigned char ProgramPointSize;
 };
 
 #endif

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 //------------------------------------------------------------------------------
 void vtkSurfaceSplatView::Update(vtkRenderer* renderer, vtkActor* actor,
@@ -68,6 +69,7 @@ void vtkSurfaceSplatView::FindRectangle(const std::array<double, 3>& origin, con
 {
   vtkNew<vtkMatrix4x4> toDevice;
   vtkMatrix4x4::Transpose(this->MCDC, toDevice);
+  this->NearestDepth = std::numeric_limits<double>::infinity();
   double low[2] = { 1., 1. };
   double high[2] = { -1., -1. };
   for (int corner = 0; corner < 8; ++corner)
@@ -79,6 +81,7 @@ void vtkSurfaceSplatView::FindRectangle(const std::array<double, 3>& origin, con
     }
     toDevice->MultiplyPoint(place, place);
     const bool beforeTheEye = place[3] > 0.;
+    this->NearestDepth = std::min(this->NearestDepth, place[3]); // 1 for parallel projections
     for (int axis = 0; axis < 2; ++axis)
     {
       low[axis] = beforeTheEye ? std::min(low[axis], place[axis] / place[3]) : -1.;
@@ -106,6 +109,25 @@ double vtkSurfaceSplatView::GetScale() const
   return std::cbrt(std::abs(1. / this->NormalMatrix->Determinant()));
 }
 
+//------------------------------------------------------------------------------
+double vtkSurfaceSplatView::GetPixelSize() const
+{
+  // VCDC[1][1] takes half the viewport's height, at distance 1, to 1.
+  return 2. / (std::abs(this->VCDC->GetElement(1, 1)) * this->Viewport[3]);
+}
+
+double vtkSurfaceSplatView::GetLargestPixels(double length) const
+{
+  double largest = 0.; // length of a unit vector along an axis
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double* row = this->MCVC->GetData() + 4 * axis;
+    largest = std::max(largest, std::hypot(row[0], row[1], row[2]));
+  }
+  return this->NearestDepth > 0. ? largest * length / (this->GetPixelSize() * this->NearestDepth)
+                                 : std::numeric_limits<double>::infinity();
+}
+
 namespace
 {
 template <typename Matrix>
@@ -124,8 +146,6 @@ void vtkSurfaceSplatView::SetUniforms(vtkShaderProgram* program) const
   SetMatrix(program, "splatMCVC", this->MCVC.Get());
   SetMatrix(program, "splatVCDC", this->VCDC.Get());
   SetMatrix(program, "splatNormalMatrix", this->NormalMatrix.Get());
-  // VCDC[1][1] takes half the viewport's height, at distance 1, to 1.
-  const double pixel = 2. / (std::abs(this->VCDC->GetElement(1, 1)) * this->Viewport[3]);
   const float viewport[4] = { static_cast<float>(this->Viewport[0]),
     static_cast<float>(this->Viewport[1]), static_cast<float>(this->Viewport[2]),
     static_cast<float>(this->Viewport[3]) };
@@ -139,7 +159,7 @@ void vtkSurfaceSplatView::SetUniforms(vtkShaderProgram* program) const
   // Uniforms that a program lacks are ignored.
   program->SetUniform4f("splatEyeMC", this->Eye.data());
   program->SetUniformi("splatParallel", this->Parallel ? 1 : 0);
-  program->SetUniformf("splatPixel", static_cast<float>(pixel));
+  program->SetUniformf("splatPixel", static_cast<float>(this->GetPixelSize()));
   program->SetUniform4f("splatViewport", viewport);
   program->SetUniform4f("splatRectangleDC", rectangle);
 }

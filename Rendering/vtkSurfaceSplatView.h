@@ -37,6 +37,12 @@ public:
   /** By how much lengths grow from model to view coordinates, on average over the axes. */
   double GetScale() const;
 
+  /**
+   * How many pixels a length in model coordinates, anywhere in the bounds, may have at most.
+   * Infinite if the bounds reach behind the eye.
+   */
+  double GetLargestPixels(double length) const;
+
   /** Left, bottom, width and height, within the viewport, of the pixels that splats can reach. */
   const std::array<int, 4>& GetRectangle() const { return this->Rectangle; }
 
@@ -53,12 +59,14 @@ public:
 
 private:
   void FindEye();
+  double GetPixelSize() const; // at distance 1, or everywhere if parallel
   void FindRectangle(const std::array<double, 3>& origin, const double bounds[6]);
 
   mutable vtkNew<vtkMatrix4x4> VCDC;
   mutable vtkNew<vtkMatrix3x3> NormalMatrix;
   std::array<float, 4> Eye = { 0.f, 0.f, 0.f, 1.f }; // MC; with w = 0 the direction to it
   bool Parallel = false;
+  double NearestDepth = 0.; // of the bounds, before the eye; <= 0: they reach behind it
   std::array<int, 4> Viewport = { 0, 0, 0, 0 };
   std::array<int, 4> Rectangle = { 0, 0, 0, 0 };
 };

@@ -1,8 +1,10 @@
 //VTK::System::Dec
 
-// Vertex stage of the splat passes (visibility, accumulation, strongest). A splat is a triangle in
-// the plane of its disk, so that depth and disk coordinates are interpolated by the rasterizer, right
-// for every projection, and the near plane clips it.
+// Vertex stage of the splat passes (visibility, accumulation, strongest), behind definitions of
+// SPLAT_POINTS and SPLAT_LEAST_PIXELS. A splat is a triangle in the plane of its disk, so that depth
+// and disk coordinates are interpolated by the rasterizer, right for every projection, and the near
+// plane clips it. Where all splats cover a few pixels only (SPLAT_POINTS 1), each is a point instead,
+// of the depth of its middle: a third of the vertices.
 
 //Splat::Disk::Dec
 
@@ -14,22 +16,24 @@ uniform float splatPixel; // size of a pixel (VC) at distance 1, or everywhere i
 uniform float splatPush;  // by how many radii the disk is moved along the view ray, away from the eye
 uniform float splatHiddenSide; // 1 or -1: splats seen from that side are left out; 0: none
 
-out vec2 splatDiskCoord;         // inside the unit circle = inside the splat
+#if SPLAT_POINTS
+flat out vec3 splatCentreVC;
+flat out vec3 splatTangentDual; // these two take an offset in the disk's plane (VC) to disk coordinates
+flat out vec3 splatBitangentDual;
+#else
+out vec2 splatDiskCoord; // inside the unit circle = inside the splat
+out vec3 splatOffsetVC;  // from the centre of the disk
+out float splatDepthVC;  // z
+#endif
 flat out vec3 splatClipLines[2]; // see splatClipLine()
 out vec3 splatPointMC;           // for clipping planes
-out vec3 splatOffsetVC;          // from the centre of the disk
-out float splatDepthVC;          // z
 flat out vec3 splatNormalVC;     // outward, unit
 flat out float splatSeenFromSide;
 flat out int splatParticle;
 
-// A splat covers at least this many pixels from its centre to its rim: smaller ones would fall
-// between the pixels, and of those that do not only one or two would make a pixel.
-const float splatLeastPixels = 0.75;
-
 void main()
 {
-  splatParticle = gl_VertexID / 3 * splatStride;
+  splatParticle = gl_VertexID / (SPLAT_POINTS == 1 ? 1 : 3) * splatStride;
   SplatDisk disk = splatDiskOf(splatParticle);
   splatSeenFromSide = disk.seenFrom;
   splatNormalVC = normalize(splatNormalMatrix * disk.normalMC);
@@ -43,19 +47,33 @@ void main()
   float radiusVC = sqrt(max(dot(tangentVC, tangentVC), dot(bitangentVC, bitangentVC)));
   bool nothing = radiusVC == 0.0 || splatSeenFromSide == splatHiddenSide;
 
+  // A splat covers at least SPLAT_LEAST_PIXELS from its middle to its rim: smaller ones would fall
+  // between the pixels, and of those that do not only one or two would make a pixel.
   float pixel = splatPixel * (splatParallel == 1 ? 1.0 : abs(centreVC.z));
-  float enlarge = max(1.0, splatLeastPixels * pixel / max(radiusVC, 1e-30));
+  float enlarge = max(1.0, SPLAT_LEAST_PIXELS * pixel / max(radiusVC, 1e-30));
   splatClipLines[0].xy *= enlarge;
   splatClipLines[1].xy *= enlarge;
+  tangentVC *= enlarge;
+  bitangentVC *= enlarge;
   radiusVC *= enlarge;
 
+#if SPLAT_POINTS
+  splatCentreVC = centreVC;
+  splatPointMC = disk.centreMC;
+  vec3 scaledNormal = cross(tangentVC, bitangentVC);
+  float area = max(dot(scaledNormal, scaledNormal), 1e-30);
+  splatTangentDual = cross(bitangentVC, scaledNormal) / area;
+  splatBitangentDual = cross(scaledNormal, tangentVC) / area;
+  gl_PointSize = max(2.0 * radiusVC / pixel, 1.0);
+  vec3 vertexVC = centreVC;
+#else
   splatDiskCoord = splatCorner[gl_VertexID % 3];
-  vec2 across = enlarge * splatDiskCoord;
-  splatOffsetVC = across.x * tangentVC + across.y * bitangentVC;
-  splatPointMC = disk.centreMC + across.x * disk.tangentMC + across.y * disk.bitangentMC;
-
+  splatOffsetVC = splatDiskCoord.x * tangentVC + splatDiskCoord.y * bitangentVC;
+  splatPointMC = disk.centreMC +
+    enlarge * (splatDiskCoord.x * disk.tangentMC + splatDiskCoord.y * disk.bitangentMC);
   vec3 vertexVC = centreVC + splatOffsetVC;
   splatDepthVC = vertexVC.z;
+#endif
   // Every point of the disk moves along its own view ray: the picture of the disk stays the same.
   if (splatParallel == 1)
   {

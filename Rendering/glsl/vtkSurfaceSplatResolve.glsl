@@ -1,5 +1,7 @@
 // The resolve pass, inserted into VTK's fragment shader: what the sums say of the surface at a pixel.
 
+//Splat::Ray::Dec
+
 uniform sampler2D splatNormalWeight; // sums of weight * normal (VC, outward), weight
 uniform sampler2D splatOffsetDepth;  // sums of weight * offset from the particle (VC), weight * z
 uniform sampler2D splatColorSum;     // sums of weight * colour or lookup coordinates
@@ -9,9 +11,7 @@ uniform sampler2D splatFrontOffsetDepth;
 uniform sampler2D splatFrontSeenFrom;
 uniform float splatLayerDistance; // VC; layers closer than this are one; < 0: this is the front layer
 uniform usampler2D splatStrongest; // number of the particle that counts most, from 1 on
-uniform mat4 splatVCDC;
 uniform int splatParallel;
-uniform vec4 splatViewport; // left, bottom, width, height in pixels
 
 // Less than this summed weight is the outermost rim of splats beyond the outline.
 const float splatLeastWeight = 0.05;
@@ -26,15 +26,6 @@ struct SplatSurface
   float seenFrom; // 1: from outward
   float depth;    // for the depth buffer
 };
-
-vec3 splatOnRay(vec2 pixelDC, float z)
-{
-  // Solves for x and y; the last row of a projection knows no x and y.
-  float w = splatVCDC[2][3] * z + splatVCDC[3][3];
-  vec2 fixedPart = vec2(splatVCDC[2][0], splatVCDC[2][1]) * z +
-    vec2(splatVCDC[3][0], splatVCDC[3][1]);
-  return vec3((pixelDC * w - fixedPart) / vec2(splatVCDC[0][0], splatVCDC[1][1]), z);
-}
 
 // Where the view ray meets one surface only, the back layer is the front layer once more.
 bool splatIsFrontLayer(ivec2 texel, float z, float seenFrom, float towardsEye)

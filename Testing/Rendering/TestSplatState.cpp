@@ -63,7 +63,7 @@ std::map<std::string, std::vector<GLint>> GraphicsState()
   add("vertex array", GL_VERTEX_ARRAY_BINDING, 1);
   add("array buffer", GL_ARRAY_BUFFER_BINDING, 1);
   for (GLenum what : { GL_BLEND, GL_DEPTH_TEST, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_CULL_FACE,
-         GL_MULTISAMPLE, GL_POLYGON_OFFSET_FILL })
+         GL_MULTISAMPLE, GL_POLYGON_OFFSET_FILL, GL_PROGRAM_POINT_SIZE })
   {
     state["enabled " + std::to_string(what)] = { glIsEnabled(what) };
   }
