@@ -66,6 +66,9 @@ void main()
   splatBitangentDual = cross(scaledNormal, tangentVC) / area;
   gl_PointSize = max(2.0 * radiusVC / pixel, 1.0);
   vec3 vertexVC = centreVC;
+  // The depths of middles differ by as much more than those of neighbouring planes as they tilt.
+  vec3 toEye = splatParallel == 1 ? vec3(0.0, 0.0, 1.0) : normalize(-centreVC);
+  radiusVC /= max(abs(dot(splatNormalVC, toEye)), 0.2);
 #else
   splatDiskCoord = splatCorner[gl_VertexID % 3];
   splatOffsetVC = splatDiskCoord.x * tangentVC + splatDiskCoord.y * bitangentVC;

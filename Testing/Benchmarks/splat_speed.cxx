@@ -45,7 +45,8 @@ vtkSmartPointer<vtkPolyData> ParticlesOnSphere(vtkIdType count)
   {
     const double z = 1. - (2. * i + 1.) / count;
     const double ring = std::sqrt(1. - z * z);
-    const double place[3] = { ring * std::cos(i * goldenAngle), ring * std::sin(i * goldenAngle), z };
+    const double place[3] = { ring * std::cos(i * goldenAngle), ring * std::sin(i * goldenAngle),
+      z };
     points->InsertNextPoint(place);
     normals->InsertNextTuple(place);
     radii->InsertNextValue(static_cast<float>(radius));
