@@ -195,7 +195,7 @@ void vtkSurfaceSplatLayer::FindVisible(const vtkSurfaceSplatDrawing& drawing)
   state->vtkglDepthMask(GL_TRUE);
   state->vtkglDepthFunc(front ? GL_LESS : GL_GREATER);
   const float depth = front ? 1.f : 0.f;
-  const float nothing[4] = { 0.f, 0.f, 0.f, 0.f };
+  const float nothing[4] = { 0.5f, 0.5f, 0.5f, 0.5f }; // between the sides
   glClearBufferfv(GL_DEPTH, 0, &depth);
   glClearBufferfv(GL_COLOR, 0, nothing);
   if (this->ReadyProgram(drawing, vtkSurfaceSplatVisibilityFS, front ? Thickness : -Thickness))
@@ -261,7 +261,8 @@ vtkShaderProgram* vtkSurfaceSplatLayer::ReadyProgram(
   const vtkSurfaceSplatDrawing& drawing, const char* fragmentSource, double push)
 {
   const std::string definitions = "#define SPLAT_POINTS " + std::to_string(DrawsPoints(drawing)) +
-    "\n#define SPLAT_LEAST_PIXELS " + std::to_string(LeastPixels) + "\n#define SPLAT_HAS_CLIP " +
+    "\n#define SPLAT_LEAST_PIXELS " + std::to_string(LeastPixels) +
+    "\n#define SPLAT_LEAST_WEIGHT " + std::to_string(LeastWeight) + "\n#define SPLAT_HAS_CLIP " +
     std::to_string(drawing.Buffers->GetHasClip()) + "\n#define SPLAT_CLIPPING_PLANES " +
     std::to_string(drawing.NumberOfClippingPlanes) + "\n";
   std::string vertex = vtkSurfaceSplatPassVS;

@@ -51,6 +51,9 @@ public:
     Back
   };
 
+  /** Of the weights that a splat has, 1 in its middle, the smallest that makes a surface. */
+  static constexpr double LeastWeight = 0.05;
+
   explicit vtkSurfaceSplatLayer(Side side);
   ~vtkSurfaceSplatLayer();
 

@@ -22,6 +22,7 @@
 #include "vtkSurfaceSplatBuffers.h"
 #include "vtkSurfaceSplatDisk.h"
 #include "vtkSurfaceSplatLayer.h"
+#include "vtkSurfaceSplatOutline.h"
 #include "vtkSurfaceSplatParticles.h"
 #include "vtkSurfaceSplatRay.h"
 #include "vtkSurfaceSplatResolve.h"
@@ -539,6 +540,10 @@ void vtkSurfaceSplatMapper::ReplaceShaderColor(
   const std::string mixColors = "  ambientColor = ambientIntensity * splatRgba.rgb;\n"
                                 "  diffuseColor = diffuseIntensity * splatRgba.rgb;\n"
                                 "  opacity = opacityUniform * splatRgba.a;\n";
+  if (this->DrawsSplats())
+  {
+    InsertAfter(fragment, "//VTK::Color::Impl", "  opacity *= splat.coverage;\n");
+  }
   if (this->ColorByNormalDirection)
   {
     InsertBefore(fragment, "//VTK::Color::Dec",
@@ -586,8 +591,11 @@ void vtkSurfaceSplatMapper::ReplaceShaderPositionVC(
   vtkShader* fragment = shaders[vtkShader::Fragment];
   if (this->DrawsSplats())
   {
-    Replace(fragment, "//VTK::PositionVC::Dec", vtkSurfaceSplatResolve);
+    Replace(fragment, "//VTK::PositionVC::Dec",
+      "#define SPLAT_LEAST_WEIGHT " + std::to_string(vtkSurfaceSplatLayer::LeastWeight) + "\n" +
+        vtkSurfaceSplatResolve);
     Replace(fragment, "//Splat::Ray::Dec", vtkSurfaceSplatRay);
+    Replace(fragment, "//Splat::Outline::Dec", vtkSurfaceSplatOutline);
     std::string code = "SplatSurface splat = splatResolve();\n"
                        "  vec4 vertexVC = vec4(splat.positionVC, 1.0);\n"
                        "  float splatSeenFromSide = splat.seenFrom;\n"
@@ -699,6 +707,10 @@ void vtkSurfaceSplatMapper::SetMapperShaderParameters(
       this->Internal->Buffers.GetMeanRadius() * this->Internal->View.GetScale();
     layer->SetSamplers(program, this->Internal->FrontLayer);
     program->SetUniformf("splatLayerDistance", front ? -1.f : static_cast<float>(diameter));
+    // Outlines are mixed with what was drawn before, which makes sense for pictures of opaque things.
+    const bool opaque =
+      !renderer->GetSelector() && !actor->IsRenderingTranslucentPolygonalGeometry();
+    program->SetUniformi("splatSmoothOutline", opaque ? 1 : 0);
   }
   program->SetUniformf("splatRadiusScale", static_cast<float>(this->GetDrawnRadiusScale()));
   program->SetUniformi("splatStride", this->Stride);

@@ -13,7 +13,7 @@ uniform samplerBuffer splatColor; // RGBA, or lookup coordinates (position in th
 void main()
 {
   float seenFrom = 2.0 * texelFetch(splatSeenFrom, ivec2(gl_FragCoord.xy), 0).r - 1.0;
-  if (splatOutside() || seenFrom * splatSeenFromSide < 0.0)
+  if (splatOutside() || seenFrom * splatSeenFromSide < 0.5)
   {
     discard;
   }

@@ -11,14 +11,16 @@ uniform sampler2D splatFrontOffsetDepth;
 uniform sampler2D splatFrontSeenFrom;
 uniform float splatLayerDistance; // VC; layers closer than this are one; < 0: this is the front layer
 uniform usampler2D splatStrongest; // number of the particle that counts most, from 1 on
-uniform int splatParallel;
 
-// Less than this summed weight is the outermost rim of splats beyond the outline.
-const float splatLeastWeight = 0.05;
+// Pixels with surface have at least twice this summed weight, others none (see the visibility pass).
+const float splatLeastWeight = 0.5 * SPLAT_LEAST_WEIGHT;
+
+//Splat::Outline::Dec
 
 struct SplatSurface
 {
   bool covered;
+  float coverage; // of the pixel, 0 to 1; less than 1 at smoothed outlines
   ivec2 texel;
   float weight;
   vec3 positionVC;
@@ -44,8 +46,24 @@ SplatSurface splatResolve()
 {
   SplatSurface surface;
   surface.texel = ivec2(gl_FragCoord.xy - splatViewport.xy);
+  vec2 pixelDC = 2.0 * (gl_FragCoord.xy - splatViewport.xy) / splatViewport.zw - 1.0;
+  vec3 origin = splatOnRay(pixelDC, 0.0);
+  vec3 toEye = normalize(origin - splatOnRay(pixelDC, -1.0));
   vec4 normalWeight = texelFetch(splatNormalWeight, surface.texel, 0);
   surface.covered = normalWeight.w > splatLeastWeight;
+  surface.coverage = 1.0;
+  bool beyondOutline = false;
+  if (splatSmoothOutline == 1 && surface.covered)
+  {
+    surface.coverage = splatInnerCoverage(surface.texel, toEye);
+  }
+  else if (splatSmoothOutline == 1)
+  {
+    surface.texel = splatOutlineNeighbor(surface.texel, toEye, surface.coverage);
+    beyondOutline = surface.coverage > 0.0;
+    surface.covered = beyondOutline;
+    normalWeight = texelFetch(splatNormalWeight, surface.texel, 0);
+  }
   surface.weight = surface.covered ? normalWeight.w : 1.0;
   surface.positionVC = vec3(0.0, 0.0, -1.0);
   surface.normalVC = vec3(0.0, 0.0, 1.0);
@@ -56,9 +74,6 @@ SplatSurface splatResolve()
     return surface;
   }
   vec4 offsetDepth = texelFetch(splatOffsetDepth, surface.texel, 0) / surface.weight;
-  vec2 pixelDC = 2.0 * (gl_FragCoord.xy - splatViewport.xy) / splatViewport.zw - 1.0;
-  vec3 tangential = splatOnRay(pixelDC, offsetDepth.w);
-  vec3 toEye = splatParallel == 1 ? vec3(0.0, 0.0, 1.0) : normalize(-tangential);
   vec3 normal = normalize(normalWeight.xyz);
   surface.seenFrom = texelFetch(splatSeenFrom, surface.texel, 0).r < 0.5 ? -1.0 : 1.0;
 
@@ -73,7 +88,9 @@ SplatSurface splatResolve()
   // Beyond the outline the mean may point away, which lights would take for darkness.
   surface.normalVC = normalize(surface.seenFrom * normal - min(towardsEye, 0.0) * toEye);
   vec4 positionDC = splatVCDC * vec4(surface.positionVC, 1.0);
-  surface.depth = clamp(0.5 * positionDC.z / positionDC.w + 0.5, 0.0, 1.0);
+  // What is mixed in beyond the outline hides nothing that is drawn later.
+  surface.depth =
+    beyondOutline ? 1.0 : clamp(0.5 * positionDC.z / positionDC.w + 0.5, 0.0, 1.0);
   return surface;
 }
 

@@ -16,7 +16,7 @@ void main()
   ivec2 texel = ivec2(gl_FragCoord.xy);
   float seenFrom = 2.0 * texelFetch(splatSeenFrom, texel, 0).r - 1.0;
   float visible = texelFetch(splatVisibleDepth, texel, 0).r;
-  if (splatOutside() || seenFrom * splatSeenFromSide < 0.0 ||
+  if (splatOutside() || seenFrom * splatSeenFromSide < 0.5 ||
     splatNearer * (gl_FragCoord.z - visible) > 0.0)
   {
     discard;

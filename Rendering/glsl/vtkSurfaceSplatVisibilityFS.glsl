@@ -2,7 +2,7 @@
 
 // First pass: the depth of the nearest splats, which the vertex stage has moved away from the eye, and
 // the side from which the nearest is seen. What lies in front of this depth belongs to the surface
-// that is seen.
+// that is seen. The outermost rim of a splat counts too little to be seen alone.
 
 //VTK::Output::Dec
 
@@ -10,7 +10,7 @@
 
 void main()
 {
-  if (splatOutside())
+  if (splatOutside() || splatWeight() < SPLAT_LEAST_WEIGHT)
   {
     discard;
   }

@@ -268,6 +268,42 @@ TEST(SplatGeometry, EveryFourthParticleStillShowsTheSurface)
   ExpectSphere(scene);
 }
 
+TEST(SplatGeometry, OutlinesAreSmooth)
+{
+  for (bool parallel : { false, true })
+  {
+    SplatScene scene(FibonacciSphere(Count, 1., Spacing));
+    UseSplats(scene, { { 0.3, 0.5, 1. }, parallel });
+    scene.ShowPlainColors();
+    scene.Render();
+    int partly = 0;
+    double sum = 0.;
+    for (int y = 0; y < SplatScene::Size; ++y)
+    {
+      for (int x = 0; x < SplatScene::Size; ++x)
+      {
+        // The share of the pixel inside of the true outline.
+        constexpr int samples = 8;
+        int inside = 0;
+        for (int i = 0; i < samples * samples; ++i)
+        {
+          const glm::dvec2 offset(
+            (i % samples + 0.5) / samples - 0.5, (i / samples + 0.5) / samples - 0.5);
+          inside += scene.HitSphere(x + offset.x, y + offset.y, 1.).has_value();
+        }
+        const double expected = static_cast<double>(inside) / (samples * samples);
+        const double error = std::abs(scene.ColorAt(x, y).r / 255. - expected);
+        ASSERT_LT(error, 0.5) << "at pixel " << x << ", " << y;
+        const bool atOutline = expected > 0.02 && expected < 0.98;
+        partly += atOutline;
+        sum += atOutline ? error : 0.;
+      }
+    }
+    ASSERT_GT(partly, 300);
+    EXPECT_LT(sum / partly, 0.14); // 0.25 with pixels that are covered or not
+  }
+}
+
 namespace
 {
 void AddClipPlane(
