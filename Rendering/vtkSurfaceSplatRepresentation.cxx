@@ -19,6 +19,12 @@
 
 vtkStandardNewMacro(vtkSurfaceSplatRepresentation);
 
+namespace
+{
+// While the camera moves and the view asks for a level of detail, about this many are drawn.
+constexpr vtkIdType InteractiveParticles = 50000;
+}
+
 //------------------------------------------------------------------------------
 vtkSurfaceSplatRepresentation::vtkSurfaceSplatRepresentation()
   : Particles(vtkSmartPointer<vtkPolyData>::New())
@@ -63,20 +69,37 @@ int vtkSurfaceSplatRepresentation::ProcessViewRequest(
   {
     this->ProvideParticles(inInfo, outInfo);
   }
+  else if (request == vtkPVView::REQUEST_UPDATE_LOD())
+  {
+    vtkPVView::SetPieceLOD(inInfo, this, this->Particles); // the mapper thins them out
+  }
   else if (request == vtkPVView::REQUEST_RENDER())
   {
-    auto* particles = vtkPolyData::SafeDownCast(vtkPVView::GetDeliveredPiece(inInfo, this));
-    this->Mapper->SetInputDataObject(particles);
-    this->UpdateColoring();
-
-    // Merged blocks say where their particles came from.
-    using namespace vtkSurfaceSplatInput;
-    const bool merged = particles && particles->GetCellData()->HasArray(BlockIndexName);
-    this->Mapper->SetPointIdArrayName(merged ? BlockPointIdName : nullptr);
-    this->Mapper->SetCellIdArrayName(merged ? BlockCellIdName : nullptr);
-    this->Mapper->SetCompositeIdArrayName(merged ? BlockIndexName : nullptr);
+    this->PrepareMapper(inInfo);
   }
   return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatRepresentation::PrepareMapper(vtkInformation* inInfo)
+{
+  const bool lod = inInfo->Has(vtkPVRenderView::USE_LOD()) != 0;
+  auto* particles = vtkPolyData::SafeDownCast(vtkPVView::GetDeliveredPiece(inInfo, this));
+  if (lod && !particles)
+  {
+    particles = vtkPolyData::SafeDownCast(vtkPVView::GetDeliveredPieceLOD(inInfo, this));
+  }
+  const vtkIdType count = particles ? particles->GetNumberOfPoints() : 0;
+  this->Mapper->SetStride(lod ? static_cast<int>(1 + count / InteractiveParticles) : 1);
+  this->Mapper->SetInputDataObject(particles);
+  this->UpdateColoring();
+
+  // Merged blocks say where their particles came from.
+  using namespace vtkSurfaceSplatInput;
+  const bool merged = particles && particles->GetCellData()->HasArray(BlockIndexName);
+  this->Mapper->SetPointIdArrayName(merged ? BlockPointIdName : nullptr);
+  this->Mapper->SetCellIdArrayName(merged ? BlockCellIdName : nullptr);
+  this->Mapper->SetCompositeIdArrayName(merged ? BlockIndexName : nullptr);
 }
 
 //------------------------------------------------------------------------------

@@ -4,6 +4,7 @@
  * vtkSurfaceSplatMapper
  *
  * Takes polydata and other point sets, or composites of them, whose blocks are drawn as one surface.
+ * While the camera moves, if the view asks for a level of detail, some of the particles stand for all.
  * Particles carry point normals and, in a point array, radii; see the mapper for what happens
  * without.
  */
@@ -93,6 +94,7 @@ private:
   vtkSurfaceSplatRepresentation(const vtkSurfaceSplatRepresentation&) = delete;
   void operator=(const vtkSurfaceSplatRepresentation&) = delete;
 
+  void PrepareMapper(vtkInformation* inInfo);
   void ProvideParticles(vtkInformation* inInfo, vtkInformation* outInfo);
   void UpdateColoring();
   bool IsTranslucent();

@@ -28,6 +28,10 @@
 #include <map>
 #include <string>
 
+#ifndef GLAPIENTRY
+#define GLAPIENTRY
+#endif
+
 namespace
 {
 constexpr int Count = 5000;
@@ -161,6 +165,40 @@ TEST(SplatState, ReleasedResourcesAreBuiltAgain)
   EXPECT_LT(CountGraphicsObjects(), objects - 10);
   scene.Render();
   EXPECT_EQ(scene.CountDrawnPixels(), pixels);
+}
+
+namespace
+{
+// As a driver that cannot draw into several floating-point textures at once.
+GLenum GLAPIENTRY RefuseSeveralTargets(GLenum)
+{
+  GLint second = GL_NONE;
+  glGetIntegerv(GL_DRAW_BUFFER1, &second);
+  return second == GL_NONE ? GL_FRAMEBUFFER_COMPLETE : GL_FRAMEBUFFER_UNSUPPORTED;
+}
+}
+
+TEST(SplatState, WithoutFloatingPointTargetsThereAreDisksAndOneWarning)
+{
+  vtkSmartPointer<vtkPolyData> sphere = FibonacciSphere(Count, 1., Spacing);
+  SplatScene asDisks(sphere);
+  asDisks.Render();
+
+  SplatScene scene(sphere);
+  WarningCounter warnings(scene.Mapper);
+  scene.Render(); // the window loads OpenGL's functions
+  scene.Mapper->SetModeToSplats();
+  const auto check = glCheckFramebufferStatus; // a pointer of the OpenGL loader
+  glCheckFramebufferStatus = RefuseSeveralTargets;
+  scene.Render();
+  scene.LookFrom({ 0., 1., 1. }, false);
+  scene.Render();
+  scene.LookFrom({ 0., 0., 1. }, false);
+  scene.Render();
+  glCheckFramebufferStatus = check;
+  EXPECT_EQ(warnings.Count, 1) << warnings.Text;
+  EXPECT_NE(warnings.Text.find("disks"), std::string::npos) << warnings.Text;
+  EXPECT_EQ(scene.CountDrawnPixels(), asDisks.CountDrawnPixels());
 }
 
 TEST(SplatState, SeveralRenderersShareAWindow)
