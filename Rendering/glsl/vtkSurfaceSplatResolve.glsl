@@ -83,7 +83,7 @@ SplatSurface splatResolve()
   float below = 0.5 * dot(normal, offsetDepth.xyz);
   float towardsEye = surface.seenFrom * dot(normal, toEye);
   surface.covered = !splatIsFrontLayer(surface.texel, offsetDepth.w, surface.seenFrom, towardsEye);
-  float z = offsetDepth.w - surface.seenFrom * below * toEye.z / max(towardsEye, 0.1);
+  float z = offsetDepth.w - surface.seenFrom * below * toEye.z / max(towardsEye, 0.03);
   surface.positionVC = splatOnRay(pixelDC, z);
   // Beyond the outline the mean may point away, which lights would take for darkness.
   surface.normalVC = normalize(surface.seenFrom * normal - min(towardsEye, 0.0) * toEye);
