@@ -51,8 +51,8 @@ int vtkSurfaceSplatRepresentation::RequestData(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   const bool hasInput = inputs[0]->GetNumberOfInformationObjects() == 1;
-  this->Particles =
-    vtkSurfaceSplatInput::AsParticles(hasInput ? vtkDataObject::GetData(inputs[0], 0) : nullptr);
+  this->Particles = vtkSurfaceSplatInput::AsParticles(
+    hasInput ? vtkDataObject::GetData(inputs[0], 0) : nullptr, this->BlockSelectors);
   this->ArraysToColorBy = vtkSurfaceSplatInput::WithoutBlockIds(this->Particles);
   return this->Superclass::RequestData(request, inputs, outputs);
 }
@@ -194,6 +194,24 @@ void vtkSurfaceSplatRepresentation::SetVisibility(bool visible)
 vtkDataObject* vtkSurfaceSplatRepresentation::GetRenderedDataObject(int)
 {
   return this->ArraysToColorBy;
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatRepresentation::AddBlockSelector(const char* selector)
+{
+  if (selector && this->BlockSelectors.insert(selector).second)
+  {
+    this->MarkModified();
+  }
+}
+
+void vtkSurfaceSplatRepresentation::RemoveAllBlockSelectors()
+{
+  if (!this->BlockSelectors.empty())
+  {
+    this->BlockSelectors.clear();
+    this->MarkModified();
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -364,6 +382,12 @@ void vtkSurfaceSplatRepresentation::PrintSelf(ostream& os, vtkIndent indent)
   };
   vtkProperty* property = this->Actor->GetProperty();
   const char* radiusName = this->Mapper->GetRadiusArrayName();
+  os << indent << "BlockSelectors:";
+  for (const std::string& selector : this->BlockSelectors)
+  {
+    os << " " << selector;
+  }
+  os << "\n";
   os << indent << "Mode: " << this->Mapper->GetMode() << "\n";
   os << indent << "Sharpness: " << this->Mapper->GetSharpness() << "\n";
   os << indent

@@ -17,6 +17,9 @@
 #include "vtkPVDataRepresentation.h"
 #include "vtkSmartPointer.h" // for vtkSmartPointer
 
+#include <set>    // for std::set
+#include <string> // for std::string
+
 class vtkActor;
 class vtkPolyData;
 class vtkScalarsToColors;
@@ -51,6 +54,15 @@ public:
 
   /** 1: colours through the lookup table; 0: arrays of 2 to 4 components are colours. */
   void SetMapScalars(int map);
+
+  ///@{
+  /**
+   * Which blocks of a composite are drawn, in the language of vtkDataAssembly for its hierarchy.
+   * Default: "/", all of them.
+   */
+  void AddBlockSelector(const char* selector);
+  void RemoveAllBlockSelectors();
+  ///@}
 
   /** 400: both sides; 401: only the outward one; 402: only the inward one. */
   void SetBackfaceRepresentation(int sides);
@@ -101,6 +113,7 @@ private:
 
   vtkNew<vtkSurfaceSplatMapper> Mapper;
   vtkNew<vtkActor> Actor;
+  std::set<std::string> BlockSelectors = { "/" };
   vtkSmartPointer<vtkPolyData> Particles;       // of this process; empty where it has no data
   vtkSmartPointer<vtkPolyData> ArraysToColorBy; // the same as far as users care
 };
