@@ -261,8 +261,7 @@ vtkShaderProgram* vtkSurfaceSplatLayer::ReadyProgram(
   const vtkSurfaceSplatDrawing& drawing, const char* fragmentSource, double push)
 {
   const std::string definitions = "#define SPLAT_POINTS " + std::to_string(DrawsPoints(drawing)) +
-    "\n#define SPLAT_LEAST_PIXELS " + std::to_string(LeastPixels) +
-    "\n#define SPLAT_LEAST_WEIGHT " + std::to_string(LeastWeight) + "\n#define SPLAT_HAS_CLIP " +
+    "\n#define SPLAT_LEAST_PIXELS " + std::to_string(LeastPixels) + "\n#define SPLAT_HAS_CLIP " +
     std::to_string(drawing.Buffers->GetHasClip()) + "\n#define SPLAT_CLIPPING_PLANES " +
     std::to_string(drawing.NumberOfClippingPlanes) + "\n";
   std::string vertex = vtkSurfaceSplatPassVS;
@@ -280,9 +279,11 @@ vtkShaderProgram* vtkSurfaceSplatLayer::ReadyProgram(
   drawing.Buffers->SetSamplers(program);
   drawing.View->SetUniforms(program);
   program->SetUniformf("splatRadiusScale", static_cast<float>(drawing.RadiusScale));
-  const float falloff[2] = { static_cast<float>(drawing.Sharpness),
-    static_cast<float>(std::exp(-drawing.Sharpness)) };
-  program->SetUniform2f("splatFalloff", falloff);
+  const double rim = std::exp(-drawing.Sharpness);
+  const double least = -std::log(LeastWeight * (1. - rim) + rim) / drawing.Sharpness;
+  const float falloff[3] = { static_cast<float>(drawing.Sharpness), static_cast<float>(rim),
+    static_cast<float>(least) };
+  program->SetUniform3f("splatFalloff", falloff);
   program->SetUniformf("splatPush", static_cast<float>(push));
   program->SetUniformf("splatHiddenSide", static_cast<float>(drawing.HiddenSide));
   program->SetUniformi("splatFacesViewer", drawing.FacesViewer ? 1 : 0);

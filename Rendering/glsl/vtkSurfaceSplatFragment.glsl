@@ -20,7 +20,7 @@ flat in vec3 splatNormalVC;
 flat in float splatSeenFromSide;
 flat in int splatParticle;
 
-uniform vec2 splatFalloff; // sharpness, and the Gaussian at the rim
+uniform vec3 splatFalloff; // sharpness; the Gaussian at the rim; where the weight is the least, squared
 uniform vec4 splatClippingPlane[6]; // MC
 
 #if SPLAT_POINTS
@@ -59,6 +59,12 @@ bool splatOutside()
   }
 #endif
   return outside;
+}
+
+// Whether the fragment belongs to the outermost rim, which counts too little to be seen alone.
+bool splatAtRim()
+{
+  return dot(splatDiskCoord, splatDiskCoord) > splatFalloff.z;
 }
 
 // A Gaussian, lowered so that it ends with zero at the rim of the disk; 1 in the middle.

@@ -25,24 +25,31 @@ float splatDerivative(float before, float here, float after)
                       : (after < 0.0 ? here - before : 0.5 * (after - before));
 }
 
-// How much of a pixel with surface lies inside of the outline.
+bool splatHasSurface(ivec2 texel)
+{
+  return abs(texelFetch(splatSeenFrom, texel, 0).r - 0.5) > 0.25;
+}
+
+// Whether a pixel with surface has a neighbour without, or the other way round.
+bool splatIsAtEdge(ivec2 texel, bool covered)
+{
+  return splatHasSurface(texel + ivec2(1, 0)) != covered ||
+    splatHasSurface(texel - ivec2(1, 0)) != covered ||
+    splatHasSurface(texel + ivec2(0, 1)) != covered ||
+    splatHasSurface(texel - ivec2(0, 1)) != covered;
+}
+
+// How much of a pixel with surface, at an edge of it, lies inside of the outline.
 float splatInnerCoverage(ivec2 texel, vec3 toEye)
 {
   float here = splatFacing(texel, toEye);
-  if (here > splatOutlineLimit)
-  {
-    return 1.0;
-  }
-  float left = splatFacing(texel - ivec2(1, 0), toEye);
-  float right = splatFacing(texel + ivec2(1, 0), toEye);
-  float below = splatFacing(texel - ivec2(0, 1), toEye);
-  float above = splatFacing(texel + ivec2(0, 1), toEye);
-  if (min(min(left, right), min(below, above)) >= 0.0)
-  {
-    return 1.0; // an outline before more surface has nothing to be mixed with
-  }
-  vec2 gradient = vec2(splatDerivative(left, here, right), splatDerivative(below, here, above));
-  return clamp(here / max(length(gradient), 1e-6) + 0.5, 0.5, 1.0);
+  vec2 gradient =
+    vec2(splatDerivative(
+           splatFacing(texel - ivec2(1, 0), toEye), here, splatFacing(texel + ivec2(1, 0), toEye)),
+      splatDerivative(
+        splatFacing(texel - ivec2(0, 1), toEye), here, splatFacing(texel + ivec2(0, 1), toEye)));
+  float coverage = clamp(here / max(length(gradient), 1e-6) + 0.5, 0.5, 1.0);
+  return here > splatOutlineLimit ? 1.0 : coverage;
 }
 
 // How much of a pixel without surface does, seen from a neighbour with surface; 0 if that is none, or
@@ -78,4 +85,24 @@ ivec2 splatOutlineNeighbor(ivec2 texel, vec3 toEye, out float coverage)
     }
   }
   return best;
+}
+
+// Coverage of a pixel. Beyond the outline `texel` becomes the neighbour to take the surface from.
+float splatCoverage(inout ivec2 texel, bool covered, vec3 toEye)
+{
+  float coverage = covered ? 1.0 : 0.0;
+  // A loop, because software rasterizers skip loops, but not branches, that no pixel needs.
+  int looks = splatSmoothOutline == 1 && splatIsAtEdge(texel, covered) ? 1 : 0;
+  for (int look = 0; look < looks; ++look)
+  {
+    if (covered)
+    {
+      coverage = splatInnerCoverage(texel, toEye);
+    }
+    else
+    {
+      texel = splatOutlineNeighbor(texel, toEye, coverage);
+    }
+  }
+  return coverage;
 }

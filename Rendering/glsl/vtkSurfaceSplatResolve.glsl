@@ -49,21 +49,10 @@ SplatSurface splatResolve()
   vec2 pixelDC = 2.0 * (gl_FragCoord.xy - splatViewport.xy) / splatViewport.zw - 1.0;
   vec3 origin = splatOnRay(pixelDC, 0.0);
   vec3 toEye = normalize(origin - splatOnRay(pixelDC, -1.0));
+  bool inside = splatHasSurface(surface.texel);
+  surface.coverage = splatCoverage(surface.texel, inside, toEye);
+  surface.covered = surface.coverage > 0.0;
   vec4 normalWeight = texelFetch(splatNormalWeight, surface.texel, 0);
-  surface.covered = normalWeight.w > splatLeastWeight;
-  surface.coverage = 1.0;
-  bool beyondOutline = false;
-  if (splatSmoothOutline == 1 && surface.covered)
-  {
-    surface.coverage = splatInnerCoverage(surface.texel, toEye);
-  }
-  else if (splatSmoothOutline == 1)
-  {
-    surface.texel = splatOutlineNeighbor(surface.texel, toEye, surface.coverage);
-    beyondOutline = surface.coverage > 0.0;
-    surface.covered = beyondOutline;
-    normalWeight = texelFetch(splatNormalWeight, surface.texel, 0);
-  }
   surface.weight = surface.covered ? normalWeight.w : 1.0;
   surface.positionVC = vec3(0.0, 0.0, -1.0);
   surface.normalVC = vec3(0.0, 0.0, 1.0);
@@ -90,7 +79,7 @@ SplatSurface splatResolve()
   vec4 positionDC = splatVCDC * vec4(surface.positionVC, 1.0);
   // What is mixed in beyond the outline hides nothing that is drawn later.
   surface.depth =
-    beyondOutline ? 1.0 : clamp(0.5 * positionDC.z / positionDC.w + 0.5, 0.0, 1.0);
+    inside ? clamp(0.5 * positionDC.z / positionDC.w + 0.5, 0.0, 1.0) : 1.0;
   return surface;
 }
 

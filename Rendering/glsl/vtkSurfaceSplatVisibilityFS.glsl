@@ -10,7 +10,7 @@
 
 void main()
 {
-  if (splatOutside() || splatWeight() < SPLAT_LEAST_WEIGHT)
+  if (splatOutside() || splatAtRim())
   {
     discard;
   }
