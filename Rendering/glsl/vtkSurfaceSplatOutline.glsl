@@ -5,7 +5,7 @@
 // R. So cos^2 over its gradient is that distance in pixels, which says how much of a pixel is covered;
 // before the outline and, extrapolated, beyond it.
 
-uniform int splatSmoothOutline;
+uniform int splatSmoothOutline; // 1: outlines are smooth, 0: pixels are covered or not
 
 // Pixels with a larger cos^2 are no neighbours of an outline.
 const float splatOutlineLimit = 0.3;
@@ -92,7 +92,7 @@ float splatCoverage(inout ivec2 texel, bool covered, vec3 toEye)
 {
   float coverage = covered ? 1.0 : 0.0;
   // A loop, because software rasterizers skip loops, but not branches, that no pixel needs.
-  int looks = splatSmoothOutline == 1 && splatIsAtEdge(texel, covered) ? 1 : 0;
+  int looks = splatIsAtEdge(texel, covered) ? splatSmoothOutline : 0;
   for (int look = 0; look < looks; ++look)
   {
     if (covered)
