@@ -168,7 +168,7 @@ double ShareUpTo(const std::vector<double>& values, double bound)
 {
   const auto within =
     std::count_if(values.begin(), values.end(), [bound](double v) { return v <= bound; });
-  return values.empty() ? 0. : static_cast<double>(within) / values.size();
+  return values.empty() ? 1. : static_cast<double>(within) / values.size();
 }
 
 bool IsInterior(const std::vector<SeenPoint>& seen, int size, int x, int y)
@@ -214,7 +214,7 @@ PictureFigures Compare(const SurfacePicture& drawn, const SurfacePicture& refere
     figures.Holes +=
       !a.covered() && IsInterior(reference.Seen, camera.size, i % camera.size, i / camera.size);
   }
-  figures.IntersectionOverUnion = either ? static_cast<double>(depthErrors.size()) / either : 0.;
+  figures.IntersectionOverUnion = either ? static_cast<double>(depthErrors.size()) / either : 1.;
   figures.DepthShare = ShareUpTo(depthErrors, DepthTarget);
   figures.Depth99 = Percentile99(depthErrors);
   figures.NormalShare = ShareUpTo(normalErrors, NormalTarget);

@@ -27,7 +27,7 @@ void WriteShade(const SurfacePicture& picture, const hop::testing::PictureCamera
 
 struct PictureFigures
 {
-  // Pixels covered in both over pixels covered in either.
+  // Pixels covered in both over pixels covered in either; 1 where a surface seen edge-on covers none.
   double IntersectionOverUnion = 0.;
   // Of the pixels covered in both: share with a depth error of at most 0.02 spacings, and the 99th
   // percentile in spacings.
