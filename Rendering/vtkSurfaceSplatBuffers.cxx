@@ -23,6 +23,7 @@ void vtkSurfaceSplatTexels::UploadTexels(
   vtkOpenGLRenderWindow* window, const std::vector<T>& rgba, int vtkType)
 {
   this->Texture->SetContext(window);
+  this->Texture->ResetFormatAndType(); // colours may be bytes now and floats then
   this->Buffer->Upload(rgba, vtkOpenGLBufferObject::TextureBuffer);
   this->Texture->CreateTextureBuffer(
     static_cast<unsigned int>(rgba.size() / 4), 4, vtkType, this->Buffer);
@@ -79,11 +80,6 @@ std::vector<unsigned char> IdsAsBytes(const std::vector<vtkIdType>& ids, vtkIdTy
   }
   return bytes;
 }
-
-std::vector<float> FirstTexels(const std::vector<float>& texels, vtkIdType count)
-{
-  return std::vector<float>(texels.begin(), texels.begin() + 4 * count);
-}
 }
 
 //------------------------------------------------------------------------------
@@ -92,19 +88,43 @@ void vtkSurfaceSplatBuffers::Upload(
 {
   GLint limit = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
-  const vtkIdType count = particles.GetNumberOfParticles();
-  this->NumberOfParticles = std::min<vtkIdType>(count, limit);
+  this->HasClip = !particles.Clip.empty();
+  this->HasColor = false;
+  const vtkIdType count =
+    std::min<vtkIdType>(particles.GetNumberOfParticles(), this->HasClip ? limit / 2 : limit);
+  this->NumberOfParticles = count;
   this->Origin = particles.Origin;
-  if (this->NumberOfParticles == 0)
+  this->MeasureRadii(particles.CentreRadius);
+  if (count == 0)
   {
     return;
   }
-  const bool all = this->NumberOfParticles == count;
-  this->CentreRadius.Upload(window,
-    all ? particles.CentreRadius : FirstTexels(particles.CentreRadius, this->NumberOfParticles));
-  this->Normal.Upload(
-    window, all ? particles.Normal : FirstTexels(particles.Normal, this->NumberOfParticles));
-  this->PointIds.Upload(window, IdsAsBytes(particles.PointIds, this->NumberOfParticles));
+  const auto first = [](const std::vector<float>& values, vtkIdType size)
+  { return std::vector<float>(values.begin(), values.begin() + size); };
+  this->CentreRadius.Upload(window, first(particles.CentreRadius, 4 * count));
+  this->Normal.Upload(window, first(particles.Normal, 4 * count));
+  if (this->HasClip)
+  {
+    this->Clip.Upload(window, first(particles.Clip, 8 * count));
+  }
+  this->PointIds.Upload(window, IdsAsBytes(particles.PointIds, count));
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatBuffers::MeasureRadii(const std::vector<float>& centreRadius)
+{
+  double sum = 0.;
+  double largest = 0.;
+  vtkIdType drawn = 0;
+  for (std::size_t i = 3; i < centreRadius.size(); i += 4)
+  {
+    const double radius = centreRadius[i];
+    sum += radius;
+    drawn += radius > 0.;
+    largest = std::max(largest, radius);
+  }
+  this->MeanRadius = drawn > 0 ? sum / drawn : 0.;
+  this->LargestRadius = largest;
 }
 
 //------------------------------------------------------------------------------
@@ -113,6 +133,14 @@ void vtkSurfaceSplatBuffers::Activate()
   this->CentreRadius.Activate();
   this->Normal.Activate();
   this->PointIds.Activate();
+  if (this->HasClip)
+  {
+    this->Clip.Activate();
+  }
+  if (this->HasColor)
+  {
+    this->Color.Activate();
+  }
 }
 
 void vtkSurfaceSplatBuffers::Deactivate()
@@ -120,6 +148,14 @@ void vtkSurfaceSplatBuffers::Deactivate()
   this->CentreRadius.Deactivate();
   this->Normal.Deactivate();
   this->PointIds.Deactivate();
+  if (this->HasClip)
+  {
+    this->Clip.Deactivate();
+  }
+  if (this->HasColor)
+  {
+    this->Color.Deactivate();
+  }
 }
 
 void vtkSurfaceSplatBuffers::SetSamplers(vtkShaderProgram* program)
@@ -127,12 +163,18 @@ void vtkSurfaceSplatBuffers::SetSamplers(vtkShaderProgram* program)
   this->CentreRadius.SetSampler(program, "splatCentreRadius");
   this->Normal.SetSampler(program, "splatNormal");
   this->PointIds.SetSampler(program, "splatPointIds");
+  // Samplers that are not read must still name a buffer: drivers check their kind.
+  (this->HasClip ? this->Clip : this->CentreRadius).SetSampler(program, "splatClip");
+  (this->HasColor ? this->Color : this->CentreRadius).SetSampler(program, "splatColor");
+  program->SetUniformi("splatHasClip", this->HasClip ? 1 : 0);
 }
 
 void vtkSurfaceSplatBuffers::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->CentreRadius.ReleaseGraphicsResources(window);
   this->Normal.ReleaseGraphicsResources(window);
+  this->Clip.ReleaseGraphicsResources(window);
+  this->Color.ReleaseGraphicsResources(window);
   this->PointIds.ReleaseGraphicsResources(window);
   this->NumberOfParticles = 0;
 }

@@ -52,7 +52,26 @@ public:
    */
   void Upload(vtkOpenGLRenderWindow* window, const vtkSurfaceSplatParticles& particles);
 
+  /**
+   * One RGBA colour, or four numbers, a particle, for shaders as `splatColor`.
+   */
+  template <typename T>
+  void UploadColors(vtkOpenGLRenderWindow* window, const std::vector<T>& rgba)
+  {
+    this->Color.Upload(window, rgba);
+    this->HasColor = true;
+  }
+
   vtkIdType GetNumberOfParticles() const { return this->NumberOfParticles; }
+
+  /** Whether particles carry clip planes. */
+  bool GetHasClip() const { return this->HasClip; }
+
+  ///@{
+  /** Of those particles that are drawn; model coordinates. */
+  double GetMeanRadius() const { return this->MeanRadius; }
+  double GetLargestRadius() const { return this->LargestRadius; }
+  ///@}
 
   /** What was subtracted from the model coordinates. */
   const std::array<double, 3>& GetOrigin() const { return this->Origin; }
@@ -65,9 +84,18 @@ public:
 
 private:
   vtkIdType NumberOfParticles = 0;
+  double MeanRadius = 0.;
+  double LargestRadius = 0.;
+
+  void MeasureRadii(const std::vector<float>& centreRadius);
+
   std::array<double, 3> Origin = { 0., 0., 0. };
   vtkSurfaceSplatTexels CentreRadius;
   vtkSurfaceSplatTexels Normal;
+  vtkSurfaceSplatTexels Clip; // two a particle; stays empty without clip planes
+  vtkSurfaceSplatTexels Color;
+  bool HasClip = false;
+  bool HasColor = false;
   vtkSurfaceSplatTexels PointIds; // four bytes, as the selection passes write them
 };
 

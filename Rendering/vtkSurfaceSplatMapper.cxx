@@ -2,36 +2,64 @@
 
 #include "vtkSurfaceSplatMapper.h"
 
+#include "vtkFloatArray.h"
 #include "vtkHardwareSelector.h"
+#include "vtkImageData.h"
 #include "vtkMath.h"
-#include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
-#include "vtkOpenGLActor.h"
-#include "vtkOpenGLBufferObject.h"
-#include "vtkOpenGLCamera.h"
 #include "vtkOpenGLIndexBufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
+#include "vtkOpenGLTexture.h"
 #include "vtkOpenGLVertexArrayObject.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
+#include "vtkScalarsToColors.h"
 #include "vtkShaderProgram.h"
 #include "vtkShaderProperty.h"
 #include "vtkSurfaceSplatBuffers.h"
+#include "vtkSurfaceSplatDisk.h"
+#include "vtkSurfaceSplatLayer.h"
+#include "vtkSurfaceSplatOutline.h"
 #include "vtkSurfaceSplatParticles.h"
+#include "vtkSurfaceSplatRay.h"
+#include "vtkSurfaceSplatResolve.h"
+#include "vtkSurfaceSplatResolveVS.h"
 #include "vtkSurfaceSplatVS.h"
-#include "vtkTextureObject.h"
+#include "vtkSurfaceSplatView.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
+namespace
+{
+// Where the colour of a pixel comes from.
+enum class ColorSource
+{
+  Property, // of the actor
+  Colors,   // one a particle, averaged
+  Lookup,   // averaged lookup coordinates
+  Strongest // one a particle, not to be mixed
+};
+
+constexpr const char* ClipNormalName = "Clip_Normal";
+constexpr const char* ClipDistanceName = "Clip_Distance";
+}
+
 struct vtkSurfaceSplatMapper::Internals
 {
   vtkSurfaceSplatBuffers Buffers;
+  vtkSurfaceSplatView View;
+  vtkSurfaceSplatLayer FrontLayer{ vtkSurfaceSplatLayer::Front };
+  vtkSurfaceSplatLayer BackLayer{ vtkSurfaceSplatLayer::Back };
+  vtkSurfaceSplatLayer* DrawnLayer = nullptr;
+  ColorSource Source = ColorSource::Property;
+  bool CannotSplat = false; // the driver has no floating-point targets
+
   std::vector<vtkIdType> PointIds; // of the particles on the GPU, to colour them
   std::vector<vtkIdType> CellIds;
 
@@ -52,6 +80,7 @@ vtkSurfaceSplatMapper::vtkSurfaceSplatMapper()
   : Internal(new Internals)
 {
   this->SetRadiusArrayName("Radius");
+  this->InterpolateScalarsBeforeMapping = 1;
 }
 
 vtkSurfaceSplatMapper::~vtkSurfaceSplatMapper()
@@ -68,6 +97,8 @@ void vtkSurfaceSplatMapper::ReleaseGraphicsResources(vtkWindow* window)
   // buffers are released in the inner call; after that there is nothing left to release.
   this->Superclass::ReleaseGraphicsResources(window);
   this->Internal->Buffers.ReleaseGraphicsResources(window);
+  this->Internal->FrontLayer.ReleaseGraphicsResources(window);
+  this->Internal->BackLayer.ReleaseGraphicsResources(window);
   this->Internal->Input = nullptr;
 }
 
@@ -76,6 +107,9 @@ void vtkSurfaceSplatMapper::ShallowCopy(vtkAbstractMapper* mapper)
 {
   if (auto* other = vtkSurfaceSplatMapper::SafeDownCast(mapper))
   {
+    this->SetMode(other->GetMode());
+    this->SetSharpness(other->GetSharpness());
+    this->SetStride(other->GetStride());
     this->SetRadiusArrayName(other->GetRadiusArrayName());
     this->SetRadiusScale(other->GetRadiusScale());
     this->SetRadius(other->GetRadius());
@@ -119,6 +153,13 @@ double vtkSurfaceSplatMapper::GetFallbackRadius(vtkPolyData* input)
 }
 
 //------------------------------------------------------------------------------
+double vtkSurfaceSplatMapper::GetDrawnRadiusScale() const
+{
+  // A share of 1 / Stride of the particles covers the surface when each covers Stride times as much.
+  return this->RadiusScale * std::sqrt(static_cast<double>(this->Stride));
+}
+
+//------------------------------------------------------------------------------
 void vtkSurfaceSplatMapper::ComputeBounds()
 {
   this->GetDiskBounds(this->GetInput(), this->Bounds);
@@ -137,7 +178,7 @@ void vtkSurfaceSplatMapper::GetDiskBounds(vtkPolyData* input, double bounds[6])
   {
     radii->GetFiniteRange(range, 0);
   }
-  const double margin = this->RadiusScale * std::max(range[1], 0.);
+  const double margin = this->GetDrawnRadiusScale() * std::max(range[1], 0.);
   for (int axis = 0; axis < 3; ++axis)
   {
     double extent[2];
@@ -207,9 +248,14 @@ void vtkSurfaceSplatMapper::UploadParticles(vtkRenderer* renderer, vtkPolyData* 
   {
     return;
   }
-  vtkSurfaceSplatParticles particles =
-    vtkSurfaceSplatParticles::FromPolyData(input, this->GetRadiusArray(input),
-      this->GetFallbackRadius(input), input->GetPointData()->GetNormals());
+  vtkPointData* data = input->GetPointData();
+  vtkSurfaceSplatArrays arrays;
+  arrays.Radii = this->GetRadiusArray(input);
+  arrays.FallbackRadius = this->GetFallbackRadius(input);
+  arrays.Normals = data->GetNormals();
+  arrays.ClipNormals = data->GetArray(ClipNormalName);
+  arrays.ClipDistances = data->GetArray(ClipDistanceName);
+  vtkSurfaceSplatParticles particles = vtkSurfaceSplatParticles::FromPolyData(input, arrays);
   gpu.Buffers.Upload(vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()), particles);
   if (gpu.Buffers.GetNumberOfParticles() < particles.GetNumberOfParticles())
   {
@@ -229,26 +275,42 @@ void vtkSurfaceSplatMapper::UploadParticles(vtkRenderer* renderer, vtkPolyData* 
 //------------------------------------------------------------------------------
 void vtkSurfaceSplatMapper::UploadColors(vtkRenderer* renderer, vtkPolyData* input)
 {
-  // The base class's shader code for cell colours looks one RGBA up per primitive: just what a
-  // particle is, whether its colour comes from a point or from a cell array.
-  enum ColorSource
-  {
-    Points,
-    Cells,
-    Field
-  }; // what MapScalars() returns
-  int source = Points;
+  // Only splats have something between the particles to look colours up for.
+  const vtkTypeBool interpolate = this->InterpolateScalarsBeforeMapping;
+  this->InterpolateScalarsBeforeMapping = interpolate && this->DrawsSplats();
+  int source = 0;
   vtkUnsignedCharArray* colors = this->MapScalars(input, 1.0, source);
+  this->InterpolateScalarsBeforeMapping = interpolate;
+
+  const ColorSource before = this->Internal->Source;
+  this->Internal->Source = ColorSource::Property;
+  if (this->ColorCoordinates)
+  {
+    this->UploadLookupCoordinates(renderer);
+  }
+  else if (colors && colors->GetNumberOfComponents() == 4 && colors->GetNumberOfTuples() > 0)
+  {
+    this->UploadMappedColors(renderer, colors, source);
+  }
+  if (this->Internal->Source != before)
+  {
+    this->Primitives[PrimitiveTris].ShaderSourceTime = vtkTimeStamp(); // to be built again
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatMapper::UploadMappedColors(
+  vtkRenderer* renderer, vtkUnsignedCharArray* colors, int source)
+{
+  constexpr int Cells = 1; // what MapScalars() says of the source
+  constexpr int Field = 2;
   const std::vector<vtkIdType>& ids =
     source == Cells ? this->Internal->CellIds : this->Internal->PointIds;
   const vtkIdType count = this->Internal->Buffers.GetNumberOfParticles();
-  this->HaveCellScalars = colors && colors->GetNumberOfComponents() == 4 &&
-    colors->GetNumberOfTuples() > 0 && count > 0 && static_cast<vtkIdType>(ids.size()) >= count;
-  if (!this->HaveCellScalars)
+  if (static_cast<vtkIdType>(ids.size()) < count || count == 0)
   {
-    return;
+    return; // cell colours, but no vertex cells
   }
-
   const bool single = source == Field && this->FieldDataTupleId >= 0;
   const vtkIdType last = colors->GetNumberOfTuples() - 1;
   std::vector<unsigned char> rgba(4 * count);
@@ -257,24 +319,52 @@ void vtkSurfaceSplatMapper::UploadColors(vtkRenderer* renderer, vtkPolyData* inp
     const vtkIdType id = single ? this->FieldDataTupleId : ids[i];
     colors->GetTypedTuple(std::min(id, last), &rgba[4 * i]);
   }
-  if (!this->CellScalarTexture)
+  this->Internal->Buffers.UploadColors(
+    vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()), rgba);
+  const bool categorical = this->LookupTable && this->LookupTable->GetIndexedLookup() &&
+    this->ColorMode != VTK_COLOR_MODE_DIRECT_SCALARS;
+  this->Internal->Source = categorical ? ColorSource::Strongest : ColorSource::Colors;
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatMapper::UploadLookupCoordinates(vtkRenderer* renderer)
+{
+  const vtkIdType count = this->Internal->Buffers.GetNumberOfParticles();
+  auto* coordinates = vtkFloatArray::SafeDownCast(this->ColorCoordinates);
+  if (!coordinates || coordinates->GetNumberOfComponents() != 2 || count == 0)
   {
-    this->CellScalarTexture = vtkTextureObject::New();
-    this->CellScalarBuffer = vtkOpenGLBufferObject::New();
-    this->CellScalarBuffer->SetType(vtkOpenGLBufferObject::TextureBuffer);
+    return;
   }
-  this->CellScalarTexture->SetContext(
-    vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()));
-  this->CellScalarBuffer->Upload(rgba, vtkOpenGLBufferObject::TextureBuffer);
-  this->CellScalarTexture->CreateTextureBuffer(
-    static_cast<unsigned int>(count), 4, VTK_UNSIGNED_CHAR, this->CellScalarBuffer);
+  // VTK marks values that are no numbers by the second coordinate. They have no part in the mean.
+  std::vector<float> texels(4 * count, 0.f);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    float coordinate[2] = { 0.f, 0.f };
+    coordinates->GetTypedTuple(this->Internal->PointIds[i], coordinate);
+    if (coordinate[1] < 0.75f)
+    {
+      texels[4 * i] = coordinate[0];
+      texels[4 * i + 1] = 1.f;
+    }
+  }
+  this->Internal->Buffers.UploadColors(
+    vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()), texels);
+  this->Internal->Source = ColorSource::Lookup;
+
+  // The base class binds this texture, of one colour a column, whenever there is a ColorTextureMap.
+  if (!this->InternalColorTexture)
+  {
+    this->InternalColorTexture = vtkOpenGLTexture::New();
+    this->InternalColorTexture->RepeatOff();
+  }
+  this->InternalColorTexture->SetInputData(this->ColorTextureMap);
 }
 
 //------------------------------------------------------------------------------
 void vtkSurfaceSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
 {
-  vtkSurfaceSplatBuffers& buffers = this->Internal->Buffers;
-  if (buffers.GetNumberOfParticles() == 0)
+  Internals& internal = *this->Internal;
+  if (internal.Buffers.GetNumberOfParticles() == 0)
   {
     return;
   }
@@ -282,32 +372,120 @@ void vtkSurfaceSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* act
   this->DrawingSelection = false;
   if (this->PointPicking)
   {
-    // For points the base class draws without depth, on top of the surface they belong to; disks
+    // For points the base class draws without depth, on top of the surface they belong to; splats
     // are that surface, and the nearest one must win.
     vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow())
       ->GetState()
       ->vtkglDepthMask(GL_TRUE);
   }
-  vtkOpenGLHelper& disks = this->Primitives[PrimitiveTris];
-  buffers.Activate();
-  this->UpdateShaders(disks, renderer, actor);
-  if (disks.Program)
+  double bounds[6];
+  this->GetDiskBounds(this->CurrentInput, bounds);
+  internal.View.Update(renderer, actor, internal.Buffers.GetOrigin(), bounds);
+  internal.Buffers.Activate();
+  if (!this->DrawsSplats() || !this->DrawSplats(renderer, actor))
   {
-    // A program that was just built has a new vertex array, which UpdateShaders() may leave unbound.
-    disks.VAO->Bind();
-    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * buffers.GetNumberOfParticles()));
+    this->DrawPrimitives(renderer, actor);
   }
-  buffers.Deactivate();
+  internal.Buffers.Deactivate();
 }
 
 //------------------------------------------------------------------------------
-void vtkSurfaceSplatMapper::GetShaderTemplate(
-  ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor)
+bool vtkSurfaceSplatMapper::DrawsSplats() const
 {
-  this->Superclass::GetShaderTemplate(shaders, renderer, actor);
-  if (!actor->GetShaderProperty()->HasVertexShaderCode())
+  return this->Mode == Splats && !this->Internal->CannotSplat;
+}
+
+//------------------------------------------------------------------------------
+bool vtkSurfaceSplatMapper::DrawSplats(vtkRenderer* renderer, vtkActor* actor)
+{
+  // Far to near, for blending without depth peeling.
+  std::vector<vtkSurfaceSplatLayer*> layers = { &this->Internal->FrontLayer };
+  if (actor->IsRenderingTranslucentPolygonalGeometry())
   {
-    shaders[vtkShader::Vertex]->SetSource(vtkSurfaceSplatVS);
+    layers.insert(layers.begin(), &this->Internal->BackLayer);
+  }
+  vtkSurfaceSplatDrawing drawing;
+  this->DescribeDrawing(renderer, actor, drawing);
+  for (vtkSurfaceSplatLayer* layer : layers)
+  {
+    if (!layer->Update(drawing))
+    {
+      vtkWarningMacro("This graphics driver cannot draw into floating-point textures: the "
+                      "particles are drawn as disks.");
+      this->Internal->CannotSplat = true;
+      this->UploadColors(renderer, this->CurrentInput);
+      this->Primitives[PrimitiveTris].ShaderSourceTime = vtkTimeStamp(); // to be built again
+      return false;
+    }
+  }
+  for (vtkSurfaceSplatLayer* layer : layers)
+  {
+    this->DrawResolved(*layer, renderer, actor);
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatMapper::DescribeDrawing(
+  vtkRenderer* renderer, vtkActor* actor, vtkSurfaceSplatDrawing& drawing)
+{
+  const ColorSource source = this->Internal->Source;
+  vtkProperty* property = actor->GetProperty();
+  drawing.Window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  drawing.Buffers = &this->Internal->Buffers;
+  drawing.View = &this->Internal->View;
+  drawing.RadiusScale = this->GetDrawnRadiusScale();
+  drawing.Sharpness = this->Sharpness;
+  drawing.Stride = this->Stride;
+  drawing.FacesViewer = !this->CurrentInput->GetPointData()->GetNormals();
+  drawing.HiddenSide =
+    property->GetBackfaceCulling() ? -1 : (property->GetFrontfaceCulling() ? 1 : 0);
+  drawing.Colors = source == ColorSource::Colors || source == ColorSource::Lookup;
+  drawing.Strongest = source == ColorSource::Strongest || renderer->GetSelector() != nullptr;
+  drawing.NumberOfClippingPlanes = this->GetShiftedClippingPlanes(actor, drawing.ClippingPlanes);
+  drawing.Key.push_back(static_cast<double>(this->VBOBuildTime.GetMTime()));
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatMapper::DrawResolved(
+  vtkSurfaceSplatLayer& layer, vtkRenderer* renderer, vtkActor* actor)
+{
+  vtkOpenGLState* state =
+    vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow())->GetState();
+  vtkOpenGLState::ScopedglEnableDisable cullFace(state, GL_CULL_FACE);
+  state->vtkglDisable(GL_CULL_FACE);
+  this->Internal->FrontLayer.Activate();
+  if (&layer != &this->Internal->FrontLayer)
+  {
+    layer.Activate();
+  }
+  this->Internal->DrawnLayer = &layer;
+  vtkOpenGLHelper& rectangle = this->Primitives[PrimitiveTris];
+  this->UpdateShaders(rectangle, renderer, actor);
+  if (rectangle.Program)
+  {
+    // A program that was just built has a new vertex array, which UpdateShaders() may leave unbound.
+    rectangle.VAO->Bind();
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  }
+  this->Internal->DrawnLayer = nullptr;
+  layer.Deactivate();
+  this->Internal->FrontLayer.Deactivate();
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatMapper::DrawPrimitives(vtkRenderer* renderer, vtkActor* actor)
+{
+  vtkOpenGLHelper& primitives = this->Primitives[PrimitiveTris];
+  this->UpdateShaders(primitives, renderer, actor);
+  if (primitives.Program)
+  {
+    primitives.VAO->Bind(); // see DrawResolved()
+    const vtkIdType count =
+      (this->Internal->Buffers.GetNumberOfParticles() + this->Stride - 1) / this->Stride;
+    const bool points = this->Mode == Points;
+    glDrawArrays(
+      points ? GL_POINTS : GL_TRIANGLES, 0, static_cast<GLsizei>(points ? count : 3 * count));
   }
 }
 
@@ -321,31 +499,71 @@ void InsertBefore(vtkShader* shader, const std::string& tag, const std::string& 
   shader->SetSource(source);
 }
 
-void Replace(vtkShader* shader, const std::string& tag, const std::string& code)
+// Puts code behind what the base class will put at a tag.
+void InsertAfter(vtkShader* shader, const std::string& tag, const std::string& code)
 {
   std::string source = shader->GetSource();
-  vtkShaderProgram::Substitute(source, tag, code);
+  vtkShaderProgram::Substitute(source, tag, tag + "\n" + code, false);
   shader->SetSource(source);
 }
+
+void Replace(vtkShader* shader, const std::string& what, const std::string& code)
+{
+  std::string source = shader->GetSource();
+  vtkShaderProgram::Substitute(source, what, code);
+  shader->SetSource(source);
+}
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatMapper::GetShaderTemplate(
+  ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor)
+{
+  this->Superclass::GetShaderTemplate(shaders, renderer, actor);
+  if (actor->GetShaderProperty()->HasVertexShaderCode())
+  {
+    return;
+  }
+  vtkShader* vertex = shaders[vtkShader::Vertex];
+  vertex->SetSource(this->DrawsSplats() ? vtkSurfaceSplatResolveVS : vtkSurfaceSplatVS);
+  Replace(vertex, "//Splat::Disk::Dec",
+    std::string(vtkSurfaceSplatDisk) +
+      "const int splatVerticesAParticle = " + (this->Mode == Points ? "1" : "3") + ";\n");
 }
 
 //------------------------------------------------------------------------------
 void vtkSurfaceSplatMapper::ReplaceShaderColor(
   ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor)
 {
+  vtkShader* fragment = shaders[vtkShader::Fragment];
+  const ColorSource source = this->Internal->Source;
+  const std::string mixColors = "  ambientColor = ambientIntensity * splatRgba.rgb;\n"
+                                "  diffuseColor = diffuseIntensity * splatRgba.rgb;\n"
+                                "  opacity = opacityUniform * splatRgba.a;\n";
+  if (this->DrawsSplats())
+  {
+    InsertAfter(fragment, "//VTK::Color::Impl", "  opacity *= splat.coverage;\n");
+  }
   if (this->ColorByNormalDirection)
   {
-    vtkShader* fragment = shaders[vtkShader::Fragment];
     InsertBefore(fragment, "//VTK::Color::Dec",
-      "flat in float splatSeenFromSide;\n"
       "uniform vec3 splatOutwardColor;\n"
       "uniform vec3 splatInwardColor;");
-    // After the base class's code, which declares the two colours and the opacity.
-    Replace(fragment, "//VTK::Color::Impl",
-      "//VTK::Color::Impl\n"
+    InsertAfter(fragment, "//VTK::Color::Impl",
       "  vec3 splatSide = splatSeenFromSide > 0.0 ? splatOutwardColor : splatInwardColor;\n"
       "  ambientColor = ambientIntensity * splatSide;\n"
       "  diffuseColor = diffuseIntensity * splatSide;\n");
+  }
+  else if (source == ColorSource::Colors && this->DrawsSplats())
+  {
+    InsertAfter(fragment, "//VTK::Color::Impl",
+      "  vec4 splatRgba = texelFetch(splatColorSum, splat.texel, 0) / splat.weight;\n" + mixColors);
+  }
+  else if (source == ColorSource::Colors || source == ColorSource::Strongest)
+  {
+    InsertBefore(fragment, "//VTK::Color::Dec", "uniform samplerBuffer splatColor;");
+    InsertAfter(fragment, "//VTK::Color::Impl",
+      "  vec4 splatRgba = texelFetch(splatColor, splatParticle);\n" + mixColors);
   }
   this->Superclass::ReplaceShaderColor(shaders, renderer, actor);
 }
@@ -354,8 +572,10 @@ void vtkSurfaceSplatMapper::ReplaceShaderColor(
 void vtkSurfaceSplatMapper::ReplaceShaderNormal(ShaderMap shaders, vtkRenderer*, vtkActor* actor)
 {
   vtkShader* fragment = shaders[vtkShader::Fragment];
-  Replace(fragment, "//VTK::Normal::Dec", "flat in vec3 splatNormalVC;\n");
-  std::string code = "vec3 normalVCVSOutput = normalize(splatNormalVC);\n";
+  const bool splats = this->DrawsSplats();
+  Replace(fragment, "//VTK::Normal::Dec", splats ? "" : "flat in vec3 splatNormalVC;\n");
+  std::string code = splats ? "vec3 normalVCVSOutput = splat.normalVC;\n"
+                            : "vec3 normalVCVSOutput = normalize(splatNormalVC);\n";
   vtkProperty* property = actor->GetProperty();
   if (property->GetInterpolation() == VTK_PBR && property->GetCoatStrength() > 0.)
   {
@@ -365,13 +585,59 @@ void vtkSurfaceSplatMapper::ReplaceShaderNormal(ShaderMap shaders, vtkRenderer*,
 }
 
 //------------------------------------------------------------------------------
+void vtkSurfaceSplatMapper::ReplaceShaderPositionVC(
+  ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor)
+{
+  vtkShader* fragment = shaders[vtkShader::Fragment];
+  if (this->DrawsSplats())
+  {
+    Replace(fragment, "//VTK::PositionVC::Dec",
+      "#define SPLAT_LEAST_WEIGHT " + std::to_string(vtkSurfaceSplatLayer::LeastWeight) + "\n" +
+        vtkSurfaceSplatResolve);
+    Replace(fragment, "//Splat::Ray::Dec", vtkSurfaceSplatRay);
+    Replace(fragment, "//Splat::Outline::Dec", vtkSurfaceSplatOutline);
+    std::string code = "SplatSurface splat = splatResolve();\n"
+                       "  vec4 vertexVC = vec4(splat.positionVC, 1.0);\n"
+                       "  float splatSeenFromSide = splat.seenFrom;\n"
+                       "  gl_FragDepth = splat.depth;\n";
+    if (this->Internal->Source == ColorSource::Strongest ||
+      this->LastSelectionState >= vtkHardwareSelector::MIN_KNOWN_PASS)
+    {
+      code += "  int splatParticle = splatStrongestAt(splat.texel);\n";
+    }
+    if (this->Internal->Source == ColorSource::Lookup)
+    {
+      // Under the names that VTK 9.2 and later versions read.
+      code += "  vec2 tcoordVCVSOutput = splatLookupCoordinates(splat);\n"
+              "  vec2 colorTCoordVCVSOutput = tcoordVCVSOutput;\n";
+    }
+    Replace(fragment, "//VTK::PositionVC::Impl", code);
+  }
+  this->Superclass::ReplaceShaderPositionVC(shaders, renderer, actor);
+}
+
+//------------------------------------------------------------------------------
 void vtkSurfaceSplatMapper::ReplaceShaderClip(
   ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor)
 {
   vtkShader* fragment = shaders[vtkShader::Fragment];
-  InsertBefore(fragment, "//VTK::Clip::Dec", "in vec2 splatDiskCoord;");
-  InsertBefore(
-    fragment, "//VTK::Clip::Impl", "if (dot(splatDiskCoord, splatDiskCoord) > 1.0) discard;");
+  if (this->DrawsSplats())
+  {
+    Replace(fragment, "//VTK::Clip::Dec", ""); // the splat passes have clipped
+    Replace(fragment, "//VTK::Clip::Impl", "if (!splat.covered) discard;");
+  }
+  else
+  {
+    InsertBefore(fragment, "//VTK::Clip::Dec",
+      "in vec2 splatDiskCoord;\n"
+      "flat in vec3 splatClipLines[2];\n"
+      "flat in int splatParticle;\n"
+      "flat in float splatSeenFromSide;");
+    InsertBefore(fragment, "//VTK::Clip::Impl",
+      "if (dot(splatDiskCoord, splatDiskCoord) > 1.0 ||\n"
+      "    dot(splatClipLines[0].xy, splatDiskCoord) > splatClipLines[0].z ||\n"
+      "    dot(splatClipLines[1].xy, splatDiskCoord) > splatClipLines[1].z) discard;");
+  }
   this->Superclass::ReplaceShaderClip(shaders, renderer, actor);
 }
 
@@ -379,22 +645,50 @@ void vtkSurfaceSplatMapper::ReplaceShaderClip(
 void vtkSurfaceSplatMapper::ReplaceShaderPicking(
   ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor)
 {
-  // Cell ids come right from the base class: a primitive is a particle, the particles go through
-  // the vertex cells in order. For points it would take gl_VertexID, which is of the corners here.
-  vtkShader* fragment = shaders[vtkShader::Fragment];
-  const bool low = this->LastSelectionState == vtkHardwareSelector::POINT_ID_LOW24;
-  const bool high = this->LastSelectionState == vtkHardwareSelector::POINT_ID_HIGH24;
-  if (low || high)
+  // The base class would take gl_VertexID and gl_PrimitiveID, which are not those of particles here.
+  // Its cell ids count through the vertex cells in order, as particles do.
+  const char* code = nullptr;
+  switch (this->LastSelectionState)
   {
-    Replace(fragment, "//VTK::Picking::Dec", "uniform samplerBuffer splatPointIds;\n");
-    Replace(fragment, "//VTK::Picking::Impl",
-      std::string("  vec4 splatId = texelFetchBuffer(splatPointIds, gl_PrimitiveID);\n") +
-        (low ? "  gl_FragData[0] = vec4(splatId.rgb, 1.0);\n"
-             : "  gl_FragData[0] = vec4(splatId.a, 0.0, 0.0, 1.0);\n"));
+    case vtkHardwareSelector::POINT_ID_LOW24:
+      code = "  gl_FragData[0] = vec4(texelFetch(splatPointIds, splatParticle).rgb, 1.0);\n";
+      break;
+    case vtkHardwareSelector::POINT_ID_HIGH24:
+      code =
+        "  gl_FragData[0] = vec4(texelFetch(splatPointIds, splatParticle).a, 0.0, 0.0, 1.0);\n";
+      break;
+    case vtkHardwareSelector::CELL_ID_LOW24:
+      code =
+        "  gl_FragData[0] = vec4(vec3((ivec3(splatParticle) >> ivec3(0, 8, 16)) & 255) / 255.0, "
+        "1.0);\n";
+      break;
+    case vtkHardwareSelector::CELL_ID_HIGH24:
+      code = "  gl_FragData[0] = vec4(float(splatParticle >> 24) / 255.0, 0.0, 0.0, 1.0);\n";
+      break;
+    default:
+      break;
+  }
+  if (code)
+  {
+    Replace(shaders[vtkShader::Fragment], "//VTK::Picking::Dec",
+      "uniform samplerBuffer splatPointIds;\n");
+    Replace(shaders[vtkShader::Fragment], "//VTK::Picking::Impl", code);
     Replace(shaders[vtkShader::Vertex], "//VTK::Picking::Dec", "");
     Replace(shaders[vtkShader::Vertex], "//VTK::Picking::Impl", "");
   }
   this->Superclass::ReplaceShaderPicking(shaders, renderer, actor);
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatMapper::ReplaceShaderValues(
+  ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor)
+{
+  this->Superclass::ReplaceShaderValues(shaders, renderer, actor);
+  if (this->DrawsSplats())
+  {
+    // Offsets and render passes that ask for the depth of the fragment mean that of the surface.
+    Replace(shaders[vtkShader::Fragment], "gl_FragCoord.z", "gl_FragDepth");
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -405,7 +699,21 @@ void vtkSurfaceSplatMapper::SetMapperShaderParameters(
 
   vtkShaderProgram* program = cellBO.Program;
   this->Internal->Buffers.SetSamplers(program);
-  program->SetUniformf("splatRadiusScale", static_cast<float>(this->RadiusScale));
+  this->Internal->View.SetUniforms(program);
+  if (const vtkSurfaceSplatLayer* layer = this->Internal->DrawnLayer)
+  {
+    const bool front = layer == &this->Internal->FrontLayer;
+    const double diameter = 2. * this->GetDrawnRadiusScale() *
+      this->Internal->Buffers.GetMeanRadius() * this->Internal->View.GetScale();
+    layer->SetSamplers(program, this->Internal->FrontLayer);
+    program->SetUniformf("splatLayerDistance", front ? -1.f : static_cast<float>(diameter));
+    // Outlines are mixed with what was drawn before, which makes sense for pictures of opaque things.
+    const bool opaque =
+      !renderer->GetSelector() && !actor->IsRenderingTranslucentPolygonalGeometry();
+    program->SetUniformi("splatSmoothOutline", opaque ? 1 : 0);
+  }
+  program->SetUniformf("splatRadiusScale", static_cast<float>(this->GetDrawnRadiusScale()));
+  program->SetUniformi("splatStride", this->Stride);
   program->SetUniformi(
     "splatFacesViewer", this->CurrentInput->GetPointData()->GetNormals() ? 0 : 1);
   if (this->ColorByNormalDirection)
@@ -413,20 +721,19 @@ void vtkSurfaceSplatMapper::SetMapperShaderParameters(
     program->SetUniform3f("splatOutwardColor", this->OutwardColor);
     program->SetUniform3f("splatInwardColor", this->InwardColor);
   }
-  this->SetShiftedClippingPlanes(cellBO, actor);
+  if (program->IsUniformUsed("clipPlanes"))
+  {
+    float planes[6][4] = {};
+    this->GetShiftedClippingPlanes(actor, planes);
+    program->SetUniform4fv("clipPlanes", 6, planes);
+  }
 }
 
 //------------------------------------------------------------------------------
-void vtkSurfaceSplatMapper::SetShiftedClippingPlanes(vtkOpenGLHelper& cellBO, vtkActor* actor)
+int vtkSurfaceSplatMapper::GetShiftedClippingPlanes(vtkActor* actor, float planes[6][4])
 {
-  vtkShaderProgram* program = cellBO.Program;
-  const int count = std::min(this->GetNumberOfClippingPlanes(), 6); // the base class has said so
-  if (count == 0 || !program->IsUniformUsed("clipPlanes"))
-  {
-    return;
-  }
+  const int count = std::min(this->GetNumberOfClippingPlanes(), 6); // the base class says so
   const std::array<double, 3>& origin = this->Internal->Buffers.GetOrigin();
-  float planes[6][4] = {};
   GetModelToWorld(actor, this->TempMatrix4);
   for (int i = 0; i < count; ++i)
   {
@@ -435,27 +742,7 @@ void vtkSurfaceSplatMapper::SetShiftedClippingPlanes(vtkOpenGLHelper& cellBO, vt
     plane[3] += vtkMath::Dot(plane, origin.data());
     std::copy_n(plane, 4, planes[i]);
   }
-  program->SetUniform4fv("clipPlanes", 6, planes);
-}
-
-namespace
-{
-// Where the eye is in the coordinates that the transposed matrix takes to view coordinates; with
-// w = 0 the direction to it.
-void FindEye(vtkMatrix4x4* toViewTransposed, bool parallel, float eye[4])
-{
-  vtkNew<vtkMatrix4x4> fromView;
-  vtkMatrix4x4::Transpose(toViewTransposed, fromView);
-  fromView->Invert();
-  const double inView[4] = { 0., 0., parallel ? 1. : 0., parallel ? 0. : 1. };
-  double found[4];
-  fromView->MultiplyPoint(inView, found);
-  const double scale = parallel ? 1. : 1. / found[3];
-  for (int i = 0; i < 4; ++i)
-  {
-    eye[i] = static_cast<float>(scale * found[i]);
-  }
-}
+  return count;
 }
 
 //------------------------------------------------------------------------------
@@ -464,40 +751,23 @@ void vtkSurfaceSplatMapper::SetCameraShaderParameters(
 {
   this->Superclass::SetCameraShaderParameters(cellBO, renderer, actor);
 
-  // Again with the shift of the particles. VTK keeps these matrices transposed, so that products
-  // read from left to right.
-  auto* camera = static_cast<vtkOpenGLCamera*>(renderer->GetActiveCamera());
-  vtkMatrix4x4 *wcvc, *vcdc, *wcdc, *mcwc;
-  vtkMatrix3x3 *normalWCVC, *normalMCWC;
-  camera->GetKeyMatrices(renderer, wcvc, normalWCVC, vcdc, wcdc);
-  static_cast<vtkOpenGLActor*>(actor)->GetKeyMatrices(mcwc, normalMCWC);
-
-  vtkNew<vtkMatrix4x4> shift;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    shift->SetElement(3, axis, this->Internal->Buffers.GetOrigin()[axis]);
-  }
-  vtkNew<vtkMatrix4x4> toWorld;
-  vtkNew<vtkMatrix4x4> toView;
-  vtkMatrix4x4::Multiply4x4(shift, mcwc, toWorld);
-  vtkMatrix4x4::Multiply4x4(toWorld, wcvc, toView);
-  vtkMatrix4x4::Multiply4x4(toWorld, wcdc, this->TempMatrix4);
-
+  // Again with the shift of the particles.
   vtkShaderProgram* program = cellBO.Program;
-  program->SetUniformMatrix("MCDCMatrix", this->TempMatrix4);
+  program->SetUniformMatrix("MCDCMatrix", this->Internal->View.MCDC);
   if (program->IsUniformUsed("MCVCMatrix"))
   {
-    program->SetUniformMatrix("MCVCMatrix", toView);
+    program->SetUniformMatrix("MCVCMatrix", this->Internal->View.MCVC);
   }
-  float eye[4];
-  FindEye(toView, camera->GetParallelProjection() != 0, eye);
-  program->SetUniform4f("splatEyeMC", eye);
 }
 
 //------------------------------------------------------------------------------
 void vtkSurfaceSplatMapper::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  const char* modes[] = { "Splats", "Disks", "Points" };
+  os << indent << "Mode: " << modes[this->Mode] << "\n";
+  os << indent << "Sharpness: " << this->Sharpness << "\n";
+  os << indent << "Stride: " << this->Stride << "\n";
   os << indent << "RadiusArrayName: " << (this->RadiusArrayName ? this->RadiusArrayName : "(none)")
      << "\n";
   os << indent << "RadiusScale: " << this->RadiusScale << "\n";

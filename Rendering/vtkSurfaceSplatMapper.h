@@ -1,22 +1,40 @@
 /**
  * @class vtkSurfaceSplatMapper
- * @brief draws oriented particles as disks
+ * @brief draws oriented particles as one closed, shaded surface
  *
- * Each point (each vertex cell, where there are any) is a disk in the plane orthogonal to its point
- * normal, of the radius in the point array `RadiusArrayName`, in world units. Disks that overlap
- * look like a surface. Lights, colour mapping (point, cell and field arrays, direct RGB(A)), opacity,
- * clipping planes, hardware selection and render passes work as for polygons, because the shading is
- * VTK's own; only the vertices come from here (glsl/vtkSurfaceSplatVS.glsl).
+ * Each point (each vertex cell, where there are any) is a particle: a disk in the plane orthogonal to
+ * its point normal, of the radius in the point array `RadiusArrayName`, in world units. There are
+ * three modes:
+ * - Splats: Gaussian surface splatting after M. Zwicker et al., *Surface Splatting*, 2001, and M.
+ *   Botsch et al., *High-Quality Surface Splatting on Today's GPUs*, 2005. Per pixel, what the disks
+ *   of the nearest surface know of depth, normal and scalar is averaged with Gaussian weights, and
+ *   shaded then. The depth is corrected for the curvature between the disks.
+ * - Disks: each disk for itself, in one pass.
+ * - Points: each particle as a point of the vtkProperty's PointSize.
+ *
+ * Lights, materials, colour mapping (point, cell and field arrays, direct RGB(A)), opacity, clipping
+ * planes, hardware selection and render passes work as for polygons, because the shading is VTK's
+ * own. With InterpolateScalarsBeforeMapping (default: on) splats average scalars and look the colour
+ * up per pixel, as long as the lookup table is not categorical; with a categorical one a pixel has
+ * the colour of the particle that counts most there. Translucent splats have two layers, the nearest
+ * and the farthest surface.
+ *
+ * Particles at the rim of a surface, or beside a kink of it, may carry up to two planes that cut
+ * their disks off, so that rims end in a line and kinks stay sharp: point arrays `Clip_Normal` (3
+ * components a plane: unit vector to the side that is cut off; zero: no plane) and `Clip_Distance` (1
+ * component a plane: distance of the plane from the particle along that vector, >= 0, world units).
  *
  * What is missing is borne: without point normals the disks face the viewer, without radii all have
  * the radius `Radius`; both are said in one warning. A particle with a normal, radius or position
- * that is zero, negative or not finite (positions may of course be zero) is skipped.
+ * that is zero, negative or not finite (positions may of course be zero) is skipped. Where the
+ * graphics driver cannot draw into floating-point textures, splats are drawn as disks, with a
+ * warning.
  *
- * Both sides of a disk are visible; backface culling of the vtkProperty leaves the outward one, to
- * which the normal points.
+ * Both sides of the surface are visible; backface culling of the vtkProperty leaves the outward one,
+ * to which the normals point.
  *
- * Cell arrays colour the particles of polydata with vertex cells only. Representation, edges, point
- * size and line width of the vtkProperty and textures have no effect.
+ * Cell arrays colour the particles of polydata with vertex cells only. Representation, edges and line
+ * width of the vtkProperty and textures have no effect. At most 6 clipping planes.
  */
 
 #ifndef vtkSurfaceSplatMapper_h
@@ -27,12 +45,53 @@
 
 #include <memory> // for std::unique_ptr
 
+class vtkSurfaceSplatLayer;
+struct vtkSurfaceSplatDrawing;
+
 class VTKHIGHORDERPARTICLERENDERING_EXPORT vtkSurfaceSplatMapper : public vtkOpenGLPolyDataMapper
 {
 public:
   static vtkSurfaceSplatMapper* New();
   vtkTypeMacro(vtkSurfaceSplatMapper, vtkOpenGLPolyDataMapper);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** How particles are drawn, see above. */
+  enum DrawingMode
+  {
+    Splats,
+    Disks,
+    Points
+  };
+
+  ///@{
+  /**
+   * How particles are drawn. Default: Splats.
+   */
+  vtkSetClampMacro(Mode, int, Splats, Points);
+  vtkGetMacro(Mode, int);
+  void SetModeToSplats() { this->SetMode(Splats); }
+  void SetModeToDisks() { this->SetMode(Disks); }
+  void SetModeToPoints() { this->SetMode(Points); }
+  ///@}
+
+  ///@{
+  /**
+   * How steeply the weight of a splat falls from its middle to its rim: exp(-Sharpness (d / radius)^2)
+   * at the distance d, lowered to be 0 at the rim. Small values smooth, large ones show the particles'
+   * own normals. In [0.1, 20]; default: 2.
+   */
+  vtkSetClampMacro(Sharpness, double, 0.1, 20.0);
+  vtkGetMacro(Sharpness, double);
+  ///@}
+
+  ///@{
+  /**
+   * Level of detail: only every Stride-th particle is drawn, with a radius larger by the square root.
+   * As it may change with every picture, it does not count as a modification. Default: 1, all.
+   */
+  void SetStride(int stride) { this->Stride = stride > 1 ? stride : 1; }
+  vtkGetMacro(Stride, int);
+  ///@}
 
   ///@{
   /**
@@ -62,7 +121,7 @@ public:
 
   ///@{
   /**
-   * Colour the disks by the side that is seen, instead of by scalars or the property's colour:
+   * Colour by the side that is seen, instead of by scalars or the property's colour:
    * OutwardColor where the normal points to the viewer's side, else InwardColor. Default: off.
    */
   vtkSetMacro(ColorByNormalDirection, bool);
@@ -80,12 +139,6 @@ public:
   vtkSetVector3Macro(InwardColor, double);
   vtkGetVector3Macro(InwardColor, double);
   ///@}
-
-  /**
-   * Without effect: a disk has one colour, so there is nothing to interpolate, and the base class
-   * would ask the shader for texture coordinates that disks do not have.
-   */
-  void SetInterpolateScalarsBeforeMapping(vtkTypeBool) override {}
 
   /**
    * Bounds of the disks that an input would be drawn as: of all its points, whether cells use them
@@ -111,7 +164,9 @@ protected:
   void ReplaceShaderColor(ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor) override;
   void ReplaceShaderNormal(ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor) override;
   void ReplaceShaderClip(ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor) override;
+  void ReplaceShaderPositionVC(ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor) override;
   void ReplaceShaderPicking(ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor) override;
+  void ReplaceShaderValues(ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor) override;
   void SetMapperShaderParameters(
     vtkOpenGLHelper& cellBO, vtkRenderer* renderer, vtkActor* actor) override;
   void SetCameraShaderParameters(
@@ -121,6 +176,9 @@ protected:
   bool HaveWideLines(vtkRenderer*, vtkActor*) override { return false; }
   bool DrawingEdges(vtkRenderer*, vtkActor*) override { return false; }
 
+  int Mode = Splats;
+  double Sharpness = 2.0;
+  int Stride = 1;
   char* RadiusArrayName = nullptr;
   double RadiusScale = 1.0;
   double Radius = 0.0;
@@ -134,10 +192,19 @@ private:
 
   vtkDataArray* GetRadiusArray(vtkPolyData* input);
   double GetFallbackRadius(vtkPolyData* input);
+  double GetDrawnRadiusScale() const;
   void WarnOfMissingArrays(vtkPolyData* input);
   void UploadParticles(vtkRenderer* renderer, vtkPolyData* input);
   void UploadColors(vtkRenderer* renderer, vtkPolyData* input);
-  void SetShiftedClippingPlanes(vtkOpenGLHelper& cellBO, vtkActor* actor);
+  void UploadMappedColors(vtkRenderer* renderer, vtkUnsignedCharArray* colors, int source);
+  void UploadLookupCoordinates(vtkRenderer* renderer);
+
+  bool DrawsSplats() const;
+  bool DrawSplats(vtkRenderer* renderer, vtkActor* actor);
+  void DrawResolved(vtkSurfaceSplatLayer& layer, vtkRenderer* renderer, vtkActor* actor);
+  void DrawPrimitives(vtkRenderer* renderer, vtkActor* actor);
+  void DescribeDrawing(vtkRenderer* renderer, vtkActor* actor, vtkSurfaceSplatDrawing& drawing);
+  int GetShiftedClippingPlanes(vtkActor* actor, float planes[6][4]);
 
   struct Internals; // what lives on the GPU
   std::unique_ptr<Internals> Internal;

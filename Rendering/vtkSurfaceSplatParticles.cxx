@@ -7,6 +7,7 @@
 #include "vtkPolyData.h"
 #include "vtkSMPTools.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <numeric>
@@ -79,11 +80,32 @@ bool ReadParticle(vtkPoints* points, vtkIdType id, double radius, vtkDataArray* 
   centreRadius[3] = static_cast<float>(radius);
   return true;
 }
+
+// Reads both planes of a particle; planes that are missing or not finite cut nothing off.
+void ReadClipPlanes(const vtkSurfaceSplatArrays& arrays, vtkIdType id, float planes[8])
+{
+  const int count = std::min(
+    arrays.ClipNormals->GetNumberOfComponents() / 3, arrays.ClipDistances->GetNumberOfComponents());
+  for (int plane = 0; plane < std::min(count, 2); ++plane)
+  {
+    double normal[3];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      normal[axis] = arrays.ClipNormals->GetComponent(id, 3 * plane + axis);
+    }
+    const double distance = arrays.ClipDistances->GetComponent(id, plane);
+    if (IsFinite(normal) && std::isfinite(distance))
+    {
+      std::copy_n(normal, 3, planes + 4 * plane);
+      planes[4 * plane + 3] = static_cast<float>(distance);
+    }
+  }
+}
 }
 
 //------------------------------------------------------------------------------
 vtkSurfaceSplatParticles vtkSurfaceSplatParticles::FromPolyData(
-  vtkPolyData* input, vtkDataArray* radii, double fallbackRadius, vtkDataArray* normals)
+  vtkPolyData* input, const vtkSurfaceSplatArrays& arrays)
 {
   vtkSurfaceSplatParticles particles;
   if (!input || input->GetNumberOfPoints() == 0)
@@ -94,8 +116,10 @@ vtkSurfaceSplatParticles vtkSurfaceSplatParticles::FromPolyData(
   particles.Origin = MiddleOfFinitePoints(input->GetPoints());
 
   const vtkIdType count = particles.GetNumberOfParticles();
+  const bool clipped = arrays.ClipNormals && arrays.ClipDistances;
   particles.CentreRadius.assign(4 * count, 0.f);
   particles.Normal.assign(4 * count, 0.f);
+  particles.Clip.assign(clipped ? 8 * count : 0, 0.f);
   std::atomic<vtkIdType> skipped(0);
   vtkSMPTools::For(0, count,
     [&](vtkIdType begin, vtkIdType end)
@@ -103,12 +127,17 @@ vtkSurfaceSplatParticles vtkSurfaceSplatParticles::FromPolyData(
       for (vtkIdType i = begin; i < end; ++i)
       {
         const vtkIdType id = particles.PointIds[i];
-        const double radius = radii ? radii->GetComponent(id, 0) : fallbackRadius;
-        if (!ReadParticle(input->GetPoints(), id, radius, normals, particles.Origin,
+        const double radius =
+          arrays.Radii ? arrays.Radii->GetComponent(id, 0) : arrays.FallbackRadius;
+        if (!ReadParticle(input->GetPoints(), id, radius, arrays.Normals, particles.Origin,
               &particles.CentreRadius[4 * i], &particles.Normal[4 * i]))
         {
           particles.Normal[4 * i + 2] = 1.f; // any direction: shaders need not mind a zero one
           ++skipped;
+        }
+        if (clipped)
+        {
+          ReadClipPlanes(arrays, id, &particles.Clip[8 * i]);
         }
       }
     });

@@ -21,24 +21,36 @@
 class vtkDataArray;
 class vtkPolyData;
 
+/** The point arrays that particles are made of; those that are nullptr are missing. */
+struct vtkSurfaceSplatArrays
+{
+  vtkDataArray* Radii = nullptr;   ///< one a point, world units
+  double FallbackRadius = 1.;      ///< of all particles without Radii
+  vtkDataArray* Normals = nullptr; ///< any length but 0; without, normals stay (0, 0, 0)
+  /**
+   * Up to two planes a point that cut its splat off: 3 or 6 components of unit vectors to the side
+   * that is cut off, (0, 0, 0) for no plane, and 1 or 2 distances of the planes from the point, along
+   * those vectors, >= 0, world units.
+   */
+  vtkDataArray* ClipNormals = nullptr;
+  vtkDataArray* ClipDistances = nullptr;
+};
+
 struct vtkSurfaceSplatParticles
 {
   std::array<double, 3> Origin = { 0., 0., 0. };
   std::vector<float> CentreRadius; ///< 4 a particle: position - Origin, radius (world units)
   std::vector<float> Normal;       ///< 4 a particle: unit normal, 0
+  std::vector<float> Clip; ///< 8 a particle: normal and distance of two planes; empty without
   std::vector<vtkIdType> PointIds; ///< 1 a particle: the point it was made from
   std::vector<vtkIdType> CellIds;  ///< 1 a particle: its vertex cell; empty without vertex cells
   vtkIdType Skipped = 0;           ///< particles that cannot be drawn
 
   vtkIdType GetNumberOfParticles() const { return static_cast<vtkIdType>(this->PointIds.size()); }
 
-  /**
-   * Reads the particles of a polydata.
-   * @param radii one radius a point, or nullptr: all have `fallbackRadius`.
-   * @param normals one vector a point (any length but 0), or nullptr: normals stay (0, 0, 0).
-   */
+  /** Reads the particles of a polydata. */
   static vtkSurfaceSplatParticles FromPolyData(
-    vtkPolyData* input, vtkDataArray* radii, double fallbackRadius, vtkDataArray* normals);
+    vtkPolyData* input, const vtkSurfaceSplatArrays& arrays);
 };
 
 #endif

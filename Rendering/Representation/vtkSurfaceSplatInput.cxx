@@ -6,15 +6,19 @@
 #include "vtkCellType.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkDataAssembly.h"
+#include "vtkDataAssemblyUtilities.h"
 #include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
 #include "vtkNew.h"
+#include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
 #include "vtkUnsignedIntArray.h"
 
 #include <numeric>
+#include <vector>
 
 namespace
 {
@@ -89,8 +93,38 @@ void EnsureVertexCells(vtkPolyData* particles)
   particles->SetStrips(nullptr);
 }
 
-vtkSmartPointer<vtkPolyData> CompositeAsParticles(vtkCompositeDataSet* input)
+// Flat indices of the blocks with data that selectors name.
+std::set<unsigned int> SelectedBlocks(
+  vtkCompositeDataSet* input, const std::set<std::string>& selectors)
 {
+  vtkNew<vtkDataAssembly> hierarchy;
+  vtkDataAssemblyUtilities::GenerateHierarchy(input, hierarchy);
+  const std::vector<unsigned int> named = vtkDataAssemblyUtilities::GetSelectedCompositeIds(
+    { selectors.begin(), selectors.end() }, hierarchy, nullptr, true);
+  std::set<unsigned int> blocks(named.begin(), named.end());
+  // The leaves of these hierarchies are partitioned data sets, those of the data their partitions.
+  if (auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(input))
+  {
+    for (unsigned int i = 0; i < collection->GetNumberOfPartitionedDataSets(); ++i)
+    {
+      for (unsigned int j = 0; j < collection->GetNumberOfPartitions(i); ++j)
+      {
+        if (blocks.count(collection->GetCompositeIndex(i)))
+        {
+          blocks.insert(collection->GetCompositeIndex(i, j));
+        }
+      }
+    }
+  }
+  return blocks;
+}
+
+vtkSmartPointer<vtkPolyData> CompositeAsParticles(
+  vtkCompositeDataSet* input, const std::set<std::string>& blockSelectors)
+{
+  const bool all = blockSelectors.count("/") != 0;
+  const std::set<unsigned int> selected =
+    all ? std::set<unsigned int>() : SelectedBlocks(input, blockSelectors);
   vtkNew<vtkAppendPolyData> merge;
   vtkSmartPointer<vtkCompositeDataIterator> blocks;
   blocks.TakeReference(input->NewIterator());
@@ -98,7 +132,8 @@ vtkSmartPointer<vtkPolyData> CompositeAsParticles(vtkCompositeDataSet* input)
   {
     vtkSmartPointer<vtkPolyData> particles =
       vtkSurfaceSplatInput::AsParticles(blocks->GetCurrentDataObject());
-    if (particles->GetNumberOfPoints() > 0)
+    const bool visible = all || selected.count(blocks->GetCurrentFlatIndex()) != 0;
+    if (visible && particles->GetNumberOfPoints() > 0)
     {
       EnsureVertexCells(particles);
       RememberBlock(particles, blocks->GetCurrentFlatIndex());
@@ -116,11 +151,12 @@ vtkSmartPointer<vtkPolyData> CompositeAsParticles(vtkCompositeDataSet* input)
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkPolyData> vtkSurfaceSplatInput::AsParticles(vtkDataObject* data)
+vtkSmartPointer<vtkPolyData> vtkSurfaceSplatInput::AsParticles(
+  vtkDataObject* data, const std::set<std::string>& blockSelectors)
 {
   if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
   {
-    return CompositeAsParticles(composite);
+    return CompositeAsParticles(composite, blockSelectors);
   }
   auto particles = vtkSmartPointer<vtkPolyData>::New();
   if (auto* polydata = vtkPolyData::SafeDownCast(data))

@@ -19,6 +19,12 @@
 
 vtkStandardNewMacro(vtkSurfaceSplatRepresentation);
 
+namespace
+{
+// While the camera moves and the view asks for a level of detail, about this many are drawn.
+constexpr vtkIdType InteractiveParticles = 50000;
+}
+
 //------------------------------------------------------------------------------
 vtkSurfaceSplatRepresentation::vtkSurfaceSplatRepresentation()
   : Particles(vtkSmartPointer<vtkPolyData>::New())
@@ -45,8 +51,8 @@ int vtkSurfaceSplatRepresentation::RequestData(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   const bool hasInput = inputs[0]->GetNumberOfInformationObjects() == 1;
-  this->Particles =
-    vtkSurfaceSplatInput::AsParticles(hasInput ? vtkDataObject::GetData(inputs[0], 0) : nullptr);
+  this->Particles = vtkSurfaceSplatInput::AsParticles(
+    hasInput ? vtkDataObject::GetData(inputs[0], 0) : nullptr, this->BlockSelectors);
   this->ArraysToColorBy = vtkSurfaceSplatInput::WithoutBlockIds(this->Particles);
   return this->Superclass::RequestData(request, inputs, outputs);
 }
@@ -63,20 +69,37 @@ int vtkSurfaceSplatRepresentation::ProcessViewRequest(
   {
     this->ProvideParticles(inInfo, outInfo);
   }
+  else if (request == vtkPVView::REQUEST_UPDATE_LOD())
+  {
+    vtkPVView::SetPieceLOD(inInfo, this, this->Particles); // the mapper thins them out
+  }
   else if (request == vtkPVView::REQUEST_RENDER())
   {
-    auto* particles = vtkPolyData::SafeDownCast(vtkPVView::GetDeliveredPiece(inInfo, this));
-    this->Mapper->SetInputDataObject(particles);
-    this->UpdateColoring();
-
-    // Merged blocks say where their particles came from.
-    using namespace vtkSurfaceSplatInput;
-    const bool merged = particles && particles->GetCellData()->HasArray(BlockIndexName);
-    this->Mapper->SetPointIdArrayName(merged ? BlockPointIdName : nullptr);
-    this->Mapper->SetCellIdArrayName(merged ? BlockCellIdName : nullptr);
-    this->Mapper->SetCompositeIdArrayName(merged ? BlockIndexName : nullptr);
+    this->PrepareMapper(inInfo);
   }
   return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatRepresentation::PrepareMapper(vtkInformation* inInfo)
+{
+  const bool lod = inInfo->Has(vtkPVRenderView::USE_LOD()) != 0;
+  auto* particles = vtkPolyData::SafeDownCast(vtkPVView::GetDeliveredPiece(inInfo, this));
+  if (lod && !particles)
+  {
+    particles = vtkPolyData::SafeDownCast(vtkPVView::GetDeliveredPieceLOD(inInfo, this));
+  }
+  const vtkIdType count = particles ? particles->GetNumberOfPoints() : 0;
+  this->Mapper->SetStride(lod ? static_cast<int>(1 + count / InteractiveParticles) : 1);
+  this->Mapper->SetInputDataObject(particles);
+  this->UpdateColoring();
+
+  // Merged blocks say where their particles came from.
+  using namespace vtkSurfaceSplatInput;
+  const bool merged = particles && particles->GetCellData()->HasArray(BlockIndexName);
+  this->Mapper->SetPointIdArrayName(merged ? BlockPointIdName : nullptr);
+  this->Mapper->SetCellIdArrayName(merged ? BlockCellIdName : nullptr);
+  this->Mapper->SetCompositeIdArrayName(merged ? BlockIndexName : nullptr);
 }
 
 //------------------------------------------------------------------------------
@@ -174,6 +197,39 @@ vtkDataObject* vtkSurfaceSplatRepresentation::GetRenderedDataObject(int)
 }
 
 //------------------------------------------------------------------------------
+void vtkSurfaceSplatRepresentation::AddBlockSelector(const char* selector)
+{
+  if (selector && this->BlockSelectors.insert(selector).second)
+  {
+    this->MarkModified();
+  }
+}
+
+void vtkSurfaceSplatRepresentation::RemoveAllBlockSelectors()
+{
+  if (!this->BlockSelectors.empty())
+  {
+    this->BlockSelectors.clear();
+    this->MarkModified();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatRepresentation::SetMode(int mode)
+{
+  this->Mapper->SetMode(mode);
+}
+
+void vtkSurfaceSplatRepresentation::SetSharpness(double sharpness)
+{
+  this->Mapper->SetSharpness(sharpness);
+}
+
+void vtkSurfaceSplatRepresentation::SetInterpolateScalarsBeforeMapping(int interpolate)
+{
+  this->Mapper->SetInterpolateScalarsBeforeMapping(interpolate);
+}
+
 void vtkSurfaceSplatRepresentation::SetRadiusArrayName(const char* name)
 {
   this->Mapper->SetRadiusArrayName(name);
@@ -326,6 +382,17 @@ void vtkSurfaceSplatRepresentation::PrintSelf(ostream& os, vtkIndent indent)
   };
   vtkProperty* property = this->Actor->GetProperty();
   const char* radiusName = this->Mapper->GetRadiusArrayName();
+  os << indent << "BlockSelectors:";
+  for (const std::string& selector : this->BlockSelectors)
+  {
+    os << " " << selector;
+  }
+  os << "\n";
+  os << indent << "Mode: " << this->Mapper->GetMode() << "\n";
+  os << indent << "Sharpness: " << this->Mapper->GetSharpness() << "\n";
+  os << indent
+     << "InterpolateScalarsBeforeMapping: " << this->Mapper->GetInterpolateScalarsBeforeMapping()
+     << "\n";
   os << indent << "RadiusArrayName: " << (radiusName ? radiusName : "(none)") << "\n";
   os << indent << "RadiusScale: " << this->Mapper->GetRadiusScale() << "\n";
   os << indent << "Radius: " << this->Mapper->GetRadius() << "\n";

@@ -1,9 +1,10 @@
 /**
  * @class vtkSurfaceSplatRepresentation
- * @brief ParaView's representation 'Surface Splats': oriented particles drawn by
+ * @brief ParaView's representation 'Surface Splats': oriented particles drawn as a surface by
  * vtkSurfaceSplatMapper
  *
  * Takes polydata and other point sets, or composites of them, whose blocks are drawn as one surface.
+ * While the camera moves, if the view asks for a level of detail, some of the particles stand for all.
  * Particles carry point normals and, in a point array, radii; see the mapper for what happens
  * without.
  */
@@ -15,6 +16,9 @@
 #include "vtkNew.h"                                   // for vtkNew
 #include "vtkPVDataRepresentation.h"
 #include "vtkSmartPointer.h" // for vtkSmartPointer
+
+#include <set>    // for std::set
+#include <string> // for std::string
 
 class vtkActor;
 class vtkPolyData;
@@ -36,6 +40,9 @@ public:
 
   ///@{
   /** Forwarded to vtkSurfaceSplatMapper, which documents them. */
+  void SetMode(int mode);
+  void SetSharpness(double sharpness);
+  void SetInterpolateScalarsBeforeMapping(int interpolate);
   void SetRadiusArrayName(const char* name);
   void SetRadiusScale(double scale);
   void SetRadius(double radius);
@@ -47,6 +54,15 @@ public:
 
   /** 1: colours through the lookup table; 0: arrays of 2 to 4 components are colours. */
   void SetMapScalars(int map);
+
+  ///@{
+  /**
+   * Which blocks of a composite are drawn, in the language of vtkDataAssembly for its hierarchy.
+   * Default: "/", all of them.
+   */
+  void AddBlockSelector(const char* selector);
+  void RemoveAllBlockSelectors();
+  ///@}
 
   /** 400: both sides; 401: only the outward one; 402: only the inward one. */
   void SetBackfaceRepresentation(int sides);
@@ -90,12 +106,14 @@ private:
   vtkSurfaceSplatRepresentation(const vtkSurfaceSplatRepresentation&) = delete;
   void operator=(const vtkSurfaceSplatRepresentation&) = delete;
 
+  void PrepareMapper(vtkInformation* inInfo);
   void ProvideParticles(vtkInformation* inInfo, vtkInformation* outInfo);
   void UpdateColoring();
   bool IsTranslucent();
 
   vtkNew<vtkSurfaceSplatMapper> Mapper;
   vtkNew<vtkActor> Actor;
+  std::set<std::string> BlockSelectors = { "/" };
   vtkSmartPointer<vtkPolyData> Particles;       // of this process; empty where it has no data
   vtkSmartPointer<vtkPolyData> ArraysToColorBy; // the same as far as users care
 };

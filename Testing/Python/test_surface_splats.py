@@ -10,6 +10,7 @@ import pytest
 from paraview import servermanager, simple
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
+from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
 SIZE = 300
 BACKGROUND = (0, 255, 0)  # a colour that no lit surface of these tests has
@@ -160,6 +161,47 @@ def test_blocks_of_a_composite_are_drawn(view, picture):
     assert names == {"Normals", "Radius"}, "arrays to colour by"
     assert np.all(covered[disk_of_sphere(-0.5, 0.49) | disk_of_sphere(0.5, 0.49)])
     assert not np.any(covered[~(disk_of_sphere(-0.5, 0.52) | disk_of_sphere(0.5, 0.52))])
+
+
+def test_blocks_can_be_hidden(view, picture):
+    group = simple.GroupDatasets(Input=[particles((-0.5, 0, 0)), particles((0.5, 0, 0))])
+    group.UpdatePipeline()
+    display = show(group, view)
+    names = [group.GetDataInformation().GetHierarchy().GetNodeName(i) for i in (1, 2)]
+    display.BlockSelectors = [f"/Root/{names[1]}"]
+    covered = drawn(picture())
+    assert np.all(covered[disk_of_sphere(0.5, 0.49)])
+    assert not np.any(covered[:, : SIZE // 2 - 5])
+    display.BlockSelectors = ["/"]
+    assert np.all(drawn(picture())[disk_of_sphere(-0.5, 0.49) | disk_of_sphere(0.5, 0.49)])
+
+
+@pytest.mark.parametrize("mode, share", [("Splats", 1.0), ("Disks", 1.0), ("Points", 0.5)])
+def test_modes(view, picture, mode, share):
+    display = show(particles(), view)
+    assert display.Mode == "Splats"
+    display.Mode = mode
+    covered = drawn(picture())[disk_of_sphere(radius=0.48)].mean()
+    assert covered == 1.0 if share == 1.0 else 0.01 < covered < share
+
+
+def test_level_of_detail_shows_the_surface(view):
+    sphere = simple.Sphere(ThetaResolution=400, PhiResolution=400)
+    source = simple.Calculator(Input=sphere, Function="0.01", ResultArrayName="Radius")
+    show(source, view)
+    view.LODThreshold = 0.0
+    simple.Render(view)
+    view.SMProxy.InteractiveRender()
+    window = view.GetRenderWindow()
+    grabber = vtkWindowToImageFilter()
+    grabber.SetInput(window)
+    grabber.ShouldRerenderOff()
+    grabber.ReadFrontBufferOff()
+    grabber.Update()
+    image = grabber.GetOutput()
+    width, height, _ = image.GetDimensions()
+    pixels = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1)[:, :, :3].astype(int)
+    assert np.all(drawn(pixels)[disk_of_sphere(radius=0.48)])
 
 
 def test_thresholded_particles_are_still_particles(view, picture):

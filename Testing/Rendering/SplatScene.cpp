@@ -78,6 +78,7 @@ SplatScene::SplatScene(vtkPolyData* particles, glm::dvec3 centre)
   , Centre(centre)
 {
   this->Mapper->SetInputDataObject(particles);
+  this->Mapper->SetModeToDisks();
   this->Actor->SetMapper(this->Mapper);
   this->Renderer->AddActor(this->Actor);
   this->Window->SetSize(Size, Size);
@@ -161,7 +162,7 @@ void SplatScene::Render()
 }
 
 //------------------------------------------------------------------------------
-SplatScene::Ray SplatScene::RayOf(int x, int y) const
+SplatScene::Ray SplatScene::RayOf(double x, double y) const
 {
   const double scale = this->HalfHeight / (0.5 * Size);
   const glm::dvec3 across =
@@ -205,7 +206,7 @@ glm::dvec3 SplatScene::ToEye(glm::dvec3 position) const
   return this->Parallel ? this->Back : glm::normalize(this->Eye - position);
 }
 
-std::optional<glm::dvec3> SplatScene::HitSphere(int x, int y, double radius) const
+std::optional<glm::dvec3> SplatScene::HitSphere(double x, double y, double radius) const
 {
   const Ray ray = this->RayOf(x, y);
   const double a = glm::dot(ray.Direction, ray.Direction);

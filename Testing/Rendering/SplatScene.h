@@ -35,7 +35,7 @@ class SplatScene
 public:
   static constexpr int Size = 256; // pixels, both ways
 
-  // All positions that a scene gives or takes are relative to `centre`.
+  // The mode is Disks until a test chooses another one. All positions that a scene gives or takes are relative to `centre`.
   explicit SplatScene(vtkPolyData* particles, glm::dvec3 centre = glm::dvec3(0.));
   ~SplatScene();
 
@@ -56,7 +56,7 @@ public:
 
   // Direction from a point to the eye, and where the ray of a pixel enters a sphere around the centre.
   glm::dvec3 ToEye(glm::dvec3 position) const;
-  std::optional<glm::dvec3> HitSphere(int x, int y, double radius) const;
+  std::optional<glm::dvec3> HitSphere(double x, double y, double radius) const;
 
   // Calls for every pixel whose ray hits the sphere at more than `minimalCosine` to its surface:
   // away from the outline. Returns how many there were.
@@ -74,7 +74,7 @@ private:
     glm::dvec3 Origin;
     glm::dvec3 Direction; // length 1 along the axis of the camera
   };
-  Ray RayOf(int x, int y) const;
+  Ray RayOf(double x, double y) const;
 
   glm::dvec3 Centre;
   glm::dvec3 Eye = { 0., 0., 4. }; // relative to the centre

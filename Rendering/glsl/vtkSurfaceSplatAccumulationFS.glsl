@@ -1,0 +1,24 @@
+//VTK::System::Dec
+
+// Second pass, with additive blending and the first pass's depth to test against: weighted sums of
+// what the splats of the surface that is seen know of it (Botsch et al. 2005).
+
+//VTK::Output::Dec
+
+//Splat::Fragment::Dec
+
+uniform sampler2D splatSeenFrom;
+uniform samplerBuffer splatColor; // RGBA, or lookup coordinates (position in the table, row)
+
+void main()
+{
+  float seenFrom = 2.0 * texelFetch(splatSeenFrom, ivec2(gl_FragCoord.xy), 0).r - 1.0;
+  if (splatOutside() || seenFrom * splatSeenFromSide < 0.5)
+  {
+    discard;
+  }
+  float weight = splatWeight();
+  gl_FragData[0] = weight * vec4(splatNormalVC, 1.0);
+  gl_FragData[1] = weight * vec4(splatOffsetVC, splatDepthVC);
+  //Splat::Color::Impl
+}

@@ -1,0 +1,64 @@
+// One particle as a disk: what every vertex stage needs of it. Inserted into shaders at
+// //Splat::Disk::Dec.
+//
+// No vertex attributes: particles are fetched by gl_VertexID, so that nothing is stored three times.
+//
+// Coordinate spaces by suffix: MC model (shifted to the middle of the particles, see
+// vtkSurfaceSplatParticles), VC view, DC device.
+
+uniform samplerBuffer splatCentreRadius; // xyz: centre (MC), w: radius, 0 = draw nothing
+uniform samplerBuffer splatNormal;       // xyz: outward unit normal (MC)
+uniform samplerBuffer splatClip; // xyz: unit normal of a plane (MC), w: distance; 2 texels a particle
+uniform int splatHasClip;        // 0: there are no such planes
+uniform float splatRadiusScale;
+uniform int splatFacesViewer; // 1: the particles have no normals, their disks face the eye
+uniform int splatStride;      // every how-manieth particle is drawn
+uniform vec4 splatEyeMC;      // position of the eye, or, with w = 0, the direction to it
+
+struct SplatDisk
+{
+  vec3 centreMC;
+  vec3 normalMC;    // outward
+  vec3 tangentMC;   // as long as the radius, as is the next
+  vec3 bitangentMC;
+  float seenFrom;   // 1: from outward (the normal points at the eye), -1: from inward
+};
+
+vec3 splatTangent(vec3 normal)
+{
+  // Either axis is at least 37 degrees away from the normal when it is taken.
+  vec3 axis = abs(normal.x) < 0.6 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
+  return normalize(cross(axis, normal));
+}
+
+SplatDisk splatDiskOf(int particle)
+{
+  SplatDisk disk;
+  vec4 centreRadius = texelFetch(splatCentreRadius, particle);
+  disk.centreMC = centreRadius.xyz;
+  vec3 toEyeMC = splatEyeMC.xyz - splatEyeMC.w * disk.centreMC;
+  disk.normalMC =
+    splatFacesViewer == 1 ? normalize(toEyeMC) : texelFetch(splatNormal, particle).xyz;
+  // The eye lies on one side of the whole disk, so the centre decides for all its fragments.
+  disk.seenFrom = dot(disk.normalMC, toEyeMC) < 0.0 ? -1.0 : 1.0;
+  float radius = centreRadius.w * splatRadiusScale;
+  disk.tangentMC = radius * splatTangent(disk.normalMC);
+  disk.bitangentMC = cross(disk.normalMC, disk.tangentMC);
+  return disk;
+}
+
+// Where a particle's clip plane crosses its disk: of the disk coordinates (u, v), those with
+// x u + y v > z are cut off.
+vec3 splatClipLine(int particle, int plane, SplatDisk disk)
+{
+  if (splatHasClip == 0)
+  {
+    return vec3(0.0);
+  }
+  vec4 clip = texelFetch(splatClip, 2 * particle + plane);
+  return vec3(dot(clip.xyz, disk.tangentMC), dot(clip.xyz, disk.bitangentMC), clip.w);
+}
+
+// Corners of the equilateral triangle around the unit circle, counter-clockwise.
+const vec2 splatCorner[3] =
+  vec2[3](vec2(0.0, 2.0), vec2(-1.7320508, -1.0), vec2(1.7320508, -1.0));

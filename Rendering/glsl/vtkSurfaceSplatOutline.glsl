@@ -1,0 +1,108 @@
+// Smooth outlines. Inserted at //Splat::Outline::Dec.
+//
+// Near the outline of a smooth surface the cosine between normal and view ray falls with the square
+// root of the distance d to the outline in the picture: cos^2 = 2 d / R with the radius of curvature
+// R. So cos^2 over its gradient is that distance in pixels, which says how much of a pixel is covered;
+// before the outline and, extrapolated, beyond it.
+
+uniform int splatSmoothOutline; // 1: outlines are smooth, 0: pixels are covered or not
+
+// Pixels with a larger cos^2 are no neighbours of an outline.
+const float splatOutlineLimit = 0.3;
+
+// cos^2, or -1 where there is no surface.
+float splatFacing(ivec2 texel, vec3 toEye)
+{
+  vec4 normalWeight = texelFetch(splatNormalWeight, texel, 0);
+  float cosine = dot(normalize(normalWeight.xyz), toEye);
+  return normalWeight.w > splatLeastWeight ? cosine * cosine : -1.0;
+}
+
+// Derivative between two neighbours of a pixel, as far as there is surface.
+float splatDerivative(float before, float here, float after)
+{
+  return before < 0.0 ? (after < 0.0 ? 0.0 : after - here)
+                      : (after < 0.0 ? here - before : 0.5 * (after - before));
+}
+
+bool splatHasSurface(ivec2 texel)
+{
+  return abs(texelFetch(splatSeenFrom, texel, 0).r - 0.5) > 0.25;
+}
+
+// Whether a pixel with surface has a neighbour without, or the other way round.
+bool splatIsAtEdge(ivec2 texel, bool covered)
+{
+  return splatHasSurface(texel + ivec2(1, 0)) != covered ||
+    splatHasSurface(texel - ivec2(1, 0)) != covered ||
+    splatHasSurface(texel + ivec2(0, 1)) != covered ||
+    splatHasSurface(texel - ivec2(0, 1)) != covered;
+}
+
+// How much of a pixel with surface, at an edge of it, lies inside of the outline.
+float splatInnerCoverage(ivec2 texel, vec3 toEye)
+{
+  float here = splatFacing(texel, toEye);
+  vec2 gradient =
+    vec2(splatDerivative(
+           splatFacing(texel - ivec2(1, 0), toEye), here, splatFacing(texel + ivec2(1, 0), toEye)),
+      splatDerivative(
+        splatFacing(texel - ivec2(0, 1), toEye), here, splatFacing(texel + ivec2(0, 1), toEye)));
+  float coverage = clamp(here / max(length(gradient), 1e-6) + 0.5, 0.5, 1.0);
+  return here > splatOutlineLimit ? 1.0 : coverage;
+}
+
+// How much of a pixel without surface does, seen from a neighbour with surface; 0 if that is none, or
+// none at an outline.
+float splatOuterCoverage(ivec2 texel, ivec2 step, vec3 toEye)
+{
+  float near = splatFacing(texel + step, toEye);
+  float far = splatFacing(texel + 2 * step, toEye);
+  if (near < 0.0 || far < near || near > splatOutlineLimit)
+  {
+    return 0.0;
+  }
+  ivec2 side = step.yx;
+  float along = splatDerivative(
+    splatFacing(texel + step - side, toEye), near, splatFacing(texel + step + side, toEye));
+  float here = 2.0 * near - far;
+  return here > 0.0 ? 0.0 : max(0.5 + here / max(length(vec2(far - near, along)), 1e-6), 0.0);
+}
+
+// The neighbour that knows most of the outline at a pixel without surface, and the coverage.
+ivec2 splatOutlineNeighbor(ivec2 texel, vec3 toEye, out float coverage)
+{
+  ivec2 best = texel;
+  coverage = 0.0;
+  for (int i = 0; i < 4; ++i)
+  {
+    ivec2 step = ivec2(i == 0 ? 1 : (i == 1 ? -1 : 0), i == 2 ? 1 : (i == 3 ? -1 : 0));
+    float found = splatOuterCoverage(texel, step, toEye);
+    if (found > coverage)
+    {
+      coverage = found;
+      best = texel + step;
+    }
+  }
+  return best;
+}
+
+// Coverage of a pixel. Beyond the outline `texel` becomes the neighbour to take the surface from.
+float splatCoverage(inout ivec2 texel, bool covered, vec3 toEye)
+{
+  float coverage = covered ? 1.0 : 0.0;
+  // A loop, because software rasterizers skip loops, but not branches, that no pixel needs.
+  int looks = splatIsAtEdge(texel, covered) ? splatSmoothOutline : 0;
+  for (int look = 0; look < looks; ++look)
+  {
+    if (covered)
+    {
+      coverage = splatInnerCoverage(texel, toEye);
+    }
+    else
+    {
+      texel = splatOutlineNeighbor(texel, toEye, coverage);
+    }
+  }
+  return coverage;
+}

@@ -1,0 +1,90 @@
+//VTK::System::Dec
+
+// Vertex stage of the splat passes (visibility, accumulation, strongest), behind definitions of
+// SPLAT_POINTS and SPLAT_LEAST_PIXELS. A splat is a triangle in the plane of its disk, so that depth
+// and disk coordinates are interpolated by the rasterizer, right for every projection, and the near
+// plane clips it. Where all splats cover a few pixels only (SPLAT_POINTS 1), each is a point instead,
+// of the depth of its middle: a third of the vertices.
+
+//Splat::Disk::Dec
+
+uniform mat4 splatMCVC;
+uniform mat4 splatVCDC;
+uniform mat3 splatNormalMatrix; // normals from MC to VC
+uniform int splatParallel;      // 1: parallel projection
+uniform float splatPixel; // size of a pixel (VC) at distance 1, or everywhere if parallel
+uniform float splatPush;  // by how many radii the disk is moved along the view ray, away from the eye
+uniform float splatHiddenSide; // 1 or -1: splats seen from that side are left out; 0: none
+
+#if SPLAT_POINTS
+flat out vec3 splatCentreVC;
+flat out vec3 splatTangentDual; // these two take an offset in the disk's plane (VC) to disk coordinates
+flat out vec3 splatBitangentDual;
+#else
+out vec2 splatDiskCoord; // inside the unit circle = inside the splat
+out vec3 splatOffsetVC;  // from the centre of the disk
+out float splatDepthVC;  // z
+#endif
+flat out vec3 splatClipLines[2]; // see splatClipLine()
+out vec3 splatPointMC;           // for clipping planes
+flat out vec3 splatNormalVC;     // outward, unit
+flat out float splatSeenFromSide;
+flat out int splatParticle;
+
+void main()
+{
+  splatParticle = gl_VertexID / (SPLAT_POINTS == 1 ? 1 : 3) * splatStride;
+  SplatDisk disk = splatDiskOf(splatParticle);
+  splatSeenFromSide = disk.seenFrom;
+  splatNormalVC = normalize(splatNormalMatrix * disk.normalMC);
+  splatClipLines[0] = splatClipLine(splatParticle, 0, disk);
+  splatClipLines[1] = splatClipLine(splatParticle, 1, disk);
+
+  vec3 centreVC = (splatMCVC * vec4(disk.centreMC, 1.0)).xyz;
+  mat3 rotateScale = mat3(splatMCVC);
+  vec3 tangentVC = rotateScale * disk.tangentMC;
+  vec3 bitangentVC = rotateScale * disk.bitangentMC;
+  float radiusVC = sqrt(max(dot(tangentVC, tangentVC), dot(bitangentVC, bitangentVC)));
+  bool nothing = radiusVC == 0.0 || splatSeenFromSide == splatHiddenSide;
+
+  // A splat covers at least SPLAT_LEAST_PIXELS from its middle to its rim: smaller ones would fall
+  // between the pixels, and of those that do not only one or two would make a pixel.
+  float pixel = splatPixel * (splatParallel == 1 ? 1.0 : abs(centreVC.z));
+  float enlarge = max(1.0, SPLAT_LEAST_PIXELS * pixel / max(radiusVC, 1e-30));
+  splatClipLines[0].xy *= enlarge;
+  splatClipLines[1].xy *= enlarge;
+  tangentVC *= enlarge;
+  bitangentVC *= enlarge;
+  radiusVC *= enlarge;
+
+#if SPLAT_POINTS
+  splatCentreVC = centreVC;
+  splatPointMC = disk.centreMC;
+  vec3 scaledNormal = cross(tangentVC, bitangentVC);
+  float area = max(dot(scaledNormal, scaledNormal), 1e-30);
+  splatTangentDual = cross(bitangentVC, scaledNormal) / area;
+  splatBitangentDual = cross(scaledNormal, tangentVC) / area;
+  gl_PointSize = max(2.0 * radiusVC / pixel, 1.0);
+  vec3 vertexVC = centreVC;
+  // The depths of middles differ by as much more than those of neighbouring planes as they tilt.
+  vec3 toEye = splatParallel == 1 ? vec3(0.0, 0.0, 1.0) : normalize(-centreVC);
+  radiusVC /= max(abs(dot(splatNormalVC, toEye)), 0.2);
+#else
+  splatDiskCoord = splatCorner[gl_VertexID % 3];
+  splatOffsetVC = splatDiskCoord.x * tangentVC + splatDiskCoord.y * bitangentVC;
+  splatPointMC = disk.centreMC +
+    enlarge * (splatDiskCoord.x * disk.tangentMC + splatDiskCoord.y * disk.bitangentMC);
+  vec3 vertexVC = centreVC + splatOffsetVC;
+  splatDepthVC = vertexVC.z;
+#endif
+  // Every point of the disk moves along its own view ray: the picture of the disk stays the same.
+  if (splatParallel == 1)
+  {
+    vertexVC.z -= splatPush * radiusVC;
+  }
+  else
+  {
+    vertexVC *= 1.0 + splatPush * radiusVC / max(length(centreVC), 2.0 * radiusVC);
+  }
+  gl_Position = nothing ? vec4(2.0, 2.0, 2.0, 1.0) : splatVCDC * vec4(vertexVC, 1.0);
+}

@@ -1,0 +1,367 @@
+#include "vtkSurfaceSplatGL.h" // before everything that may include an OpenGL header
+
+#include "vtkSurfaceSplatLayer.h"
+
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLShaderCache.h"
+#include "vtkOpenGLState.h"
+#include "vtkOpenGLVertexArrayObject.h"
+#include "vtkShaderProgram.h"
+#include "vtkSurfaceSplatAccumulationFS.h"
+#include "vtkSurfaceSplatBuffers.h"
+#include "vtkSurfaceSplatDisk.h"
+#include "vtkSurfaceSplatFragment.h"
+#include "vtkSurfaceSplatPassState.h"
+#include "vtkSurfaceSplatPassVS.h"
+#include "vtkSurfaceSplatRay.h"
+#include "vtkSurfaceSplatStrongestFS.h"
+#include "vtkSurfaceSplatView.h"
+#include "vtkSurfaceSplatVisibilityFS.h"
+#include "vtkTextureObject.h"
+
+#include <cmath>
+#include <string>
+
+namespace
+{
+// Splats whose depths along the view ray differ by less than this many radii are of one surface.
+constexpr double Thickness = 1.;
+
+// Up to this many pixels from middle to rim, splats are drawn as points. The depth of a point is that
+// of its middle, which is no great error then.
+constexpr double LargestPoint = 2.;
+constexpr double LeastPixels = 0.75;
+
+struct Format
+{
+  unsigned int Internal, External, Type;
+  int Components, VtkType;
+};
+constexpr Format FloatSums = { GL_RGBA32F, GL_RGBA, GL_FLOAT, 4, VTK_FLOAT };
+constexpr Format Byte = { GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1, VTK_UNSIGNED_CHAR };
+constexpr Format Count = { GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 1, VTK_UNSIGNED_INT };
+
+void PrepareTexture(
+  vtkTextureObject* texture, vtkOpenGLRenderWindow* window, const Format* format, int size[2])
+{
+  texture->SetContext(window);
+  const unsigned int width = static_cast<unsigned int>(size[0]);
+  const unsigned int height = static_cast<unsigned int>(size[1]);
+  if (texture->GetHandle() != 0)
+  {
+    if (texture->GetWidth() != width || texture->GetHeight() != height)
+    {
+      texture->Resize(width, height);
+    }
+  }
+  else if (format)
+  {
+    texture->SetInternalFormat(format->Internal);
+    texture->SetFormat(format->External);
+    texture->SetDataType(format->Type);
+    texture->Allocate2D(width, height, format->Components, format->VtkType);
+  }
+  else
+  {
+    texture->AllocateDepth(width, height, vtkTextureObject::Float32);
+  }
+}
+
+bool DrawsPoints(const vtkSurfaceSplatDrawing& drawing)
+{
+  const double radius = drawing.RadiusScale * drawing.Buffers->GetLargestRadius();
+  return drawing.View->GetLargestPixels(radius) <= LargestPoint;
+}
+
+void SetSampler(vtkShaderProgram* program, const char* name, vtkTextureObject* texture)
+{
+  if (program->IsUniformUsed(name))
+  {
+    program->SetUniformi(name, texture->GetTextureUnit());
+  }
+}
+}
+
+//------------------------------------------------------------------------------
+vtkSurfaceSplatLayer::vtkSurfaceSplatLayer(Side side)
+  : WhichSide(side)
+{
+}
+
+vtkSurfaceSplatLayer::~vtkSurfaceSplatLayer() = default;
+
+//------------------------------------------------------------------------------
+bool vtkSurfaceSplatLayer::Update(const vtkSurfaceSplatDrawing& drawing)
+{
+  if (!this->NeedsUpdate(drawing))
+  {
+    return true;
+  }
+  vtkSurfaceSplatPassState state(drawing.Window->GetState(), drawing.View->GetRectangle());
+  if (!this->PrepareTextures(drawing))
+  {
+    this->Key.clear();
+    return false;
+  }
+  this->VertexArray->Bind();
+  this->FindVisible(drawing);
+  this->Accumulate(drawing);
+  if (drawing.Strongest)
+  {
+    this->FindStrongest(drawing);
+  }
+  this->VertexArray->Release();
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool vtkSurfaceSplatLayer::NeedsUpdate(const vtkSurfaceSplatDrawing& drawing)
+{
+  std::vector<double> key = drawing.Key;
+  drawing.View->AppendTo(key);
+  for (double value : { drawing.RadiusScale, drawing.Sharpness, double(drawing.Stride),
+         double(drawing.FacesViewer), double(drawing.HiddenSide), double(drawing.Colors),
+         double(drawing.Strongest), double(drawing.NumberOfClippingPlanes) })
+  {
+    key.push_back(value);
+  }
+  for (int plane = 0; plane < drawing.NumberOfClippingPlanes; ++plane)
+  {
+    key.insert(key.end(), drawing.ClippingPlanes[plane], drawing.ClippingPlanes[plane] + 4);
+  }
+  if (key == this->Key)
+  {
+    return false;
+  }
+  this->Key = std::move(key);
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool vtkSurfaceSplatLayer::PrepareTextures(const vtkSurfaceSplatDrawing& drawing)
+{
+  int size[2] = { drawing.View->GetWidth(), drawing.View->GetHeight() };
+  PrepareTexture(this->VisibleDepth, drawing.Window, nullptr, size);
+  PrepareTexture(this->SeenFrom, drawing.Window, &Byte, size);
+  PrepareTexture(this->NormalWeight, drawing.Window, &FloatSums, size);
+  PrepareTexture(this->OffsetDepth, drawing.Window, &FloatSums, size);
+  std::vector<vtkTextureObject*> sums = { this->NormalWeight, this->OffsetDepth };
+  if (drawing.Colors)
+  {
+    PrepareTexture(this->ColorSum, drawing.Window, &FloatSums, size);
+    sums.push_back(this->ColorSum);
+  }
+  this->PrepareFramebuffer(drawing, this->Visibility, { this->SeenFrom }, this->VisibleDepth);
+  this->PrepareFramebuffer(drawing, this->Accumulation, sums, this->VisibleDepth);
+  bool complete = this->Visibility.Complete && this->Accumulation.Complete;
+  if (drawing.Strongest)
+  {
+    PrepareTexture(this->Number, drawing.Window, &Count, size);
+    PrepareTexture(this->WeightDepth, drawing.Window, nullptr, size);
+    this->PrepareFramebuffer(drawing, this->Strongest, { this->Number }, this->WeightDepth);
+    complete = complete && this->Strongest.Complete;
+  }
+  return complete;
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatLayer::PrepareFramebuffer(const vtkSurfaceSplatDrawing& drawing,
+  Framebuffer& framebuffer, const std::vector<vtkTextureObject*>& colors, vtkTextureObject* depth)
+{
+  if (framebuffer.Handle == 0)
+  {
+    glGenFramebuffers(1, &framebuffer.Handle);
+  }
+  drawing.Window->GetState()->vtkglBindFramebuffer(GL_FRAMEBUFFER, framebuffer.Handle);
+  std::vector<GLenum> buffers;
+  for (vtkTextureObject* color : colors)
+  {
+    buffers.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(buffers.size()));
+    glFramebufferTexture2D(GL_FRAMEBUFFER, buffers.back(), GL_TEXTURE_2D, color->GetHandle(), 0);
+  }
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth->GetHandle(), 0);
+  // Not through vtkOpenGLState: it caches draw buffers for one framebuffer only.
+  glDrawBuffers(static_cast<GLsizei>(buffers.size()), buffers.data());
+  framebuffer.Complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatLayer::FindVisible(const vtkSurfaceSplatDrawing& drawing)
+{
+  const bool front = this->WhichSide == Front;
+  vtkOpenGLState* state = drawing.Window->GetState();
+  state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Visibility.Handle);
+  state->vtkglDisable(GL_BLEND);
+  state->vtkglDepthMask(GL_TRUE);
+  state->vtkglDepthFunc(front ? GL_LESS : GL_GREATER);
+  const float depth = front ? 1.f : 0.f;
+  const float nothing[4] = { 0.5f, 0.5f, 0.5f, 0.5f }; // between the sides
+  glClearBufferfv(GL_DEPTH, 0, &depth);
+  glClearBufferfv(GL_COLOR, 0, nothing);
+  if (this->ReadyProgram(drawing, vtkSurfaceSplatVisibilityFS, front ? Thickness : -Thickness))
+  {
+    this->DrawSplats(drawing);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatLayer::Accumulate(const vtkSurfaceSplatDrawing& drawing)
+{
+  vtkOpenGLState* state = drawing.Window->GetState();
+  state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Accumulation.Handle);
+  state->vtkglEnable(GL_BLEND);
+  state->vtkglBlendEquation(GL_FUNC_ADD);
+  state->vtkglBlendFunc(GL_ONE, GL_ONE);
+  state->vtkglDepthMask(GL_FALSE);
+  state->vtkglDepthFunc(this->WhichSide == Front ? GL_LEQUAL : GL_GEQUAL);
+  const float nothing[4] = { 0.f, 0.f, 0.f, 0.f };
+  for (int buffer = 0; buffer < (drawing.Colors ? 3 : 2); ++buffer)
+  {
+    glClearBufferfv(GL_COLOR, buffer, nothing);
+  }
+  std::string source = vtkSurfaceSplatAccumulationFS;
+  vtkShaderProgram::Substitute(source, "//Splat::Color::Impl",
+    drawing.Colors ? "gl_FragData[2] = weight * texelFetch(splatColor, splatParticle);" : "");
+  this->SeenFrom->Activate();
+  if (vtkShaderProgram* program = this->ReadyProgram(drawing, source.c_str(), 0.))
+  {
+    SetSampler(program, "splatSeenFrom", this->SeenFrom);
+    this->DrawSplats(drawing);
+  }
+  this->SeenFrom->Deactivate();
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatLayer::FindStrongest(const vtkSurfaceSplatDrawing& drawing)
+{
+  vtkOpenGLState* state = drawing.Window->GetState();
+  state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Strongest.Handle);
+  state->vtkglDisable(GL_BLEND);
+  state->vtkglDepthMask(GL_TRUE);
+  state->vtkglDepthFunc(GL_LESS);
+  const float far = 1.f;
+  const GLuint nothing[4] = { 0, 0, 0, 0 };
+  glClearBufferfv(GL_DEPTH, 0, &far);
+  glClearBufferuiv(GL_COLOR, 0, nothing);
+  this->SeenFrom->Activate();
+  this->VisibleDepth->Activate();
+  if (vtkShaderProgram* program = this->ReadyProgram(drawing, vtkSurfaceSplatStrongestFS, 0.))
+  {
+    SetSampler(program, "splatSeenFrom", this->SeenFrom);
+    SetSampler(program, "splatVisibleDepth", this->VisibleDepth);
+    program->SetUniformf("splatNearer", this->WhichSide == Front ? 1.f : -1.f);
+    this->DrawSplats(drawing);
+  }
+  this->VisibleDepth->Deactivate();
+  this->SeenFrom->Deactivate();
+}
+
+//------------------------------------------------------------------------------
+vtkShaderProgram* vtkSurfaceSplatLayer::ReadyProgram(
+  const vtkSurfaceSplatDrawing& drawing, const char* fragmentSource, double push)
+{
+  const std::string definitions = "#define SPLAT_POINTS " + std::to_string(DrawsPoints(drawing)) +
+    "\n#define SPLAT_LEAST_PIXELS " + std::to_string(LeastPixels) + "\n#define SPLAT_HAS_CLIP " +
+    std::to_string(drawing.Buffers->GetHasClip()) + "\n#define SPLAT_CLIPPING_PLANES " +
+    std::to_string(drawing.NumberOfClippingPlanes) + "\n";
+  std::string vertex = vtkSurfaceSplatPassVS;
+  std::string fragment = fragmentSource;
+  vtkShaderProgram::Substitute(vertex, "//Splat::Disk::Dec", definitions + vtkSurfaceSplatDisk);
+  vtkShaderProgram::Substitute(
+    fragment, "//Splat::Fragment::Dec", definitions + vtkSurfaceSplatFragment);
+  vtkShaderProgram::Substitute(fragment, "//Splat::Ray::Dec", vtkSurfaceSplatRay);
+  vtkShaderProgram* program =
+    drawing.Window->GetShaderCache()->ReadyShaderProgram(vertex.c_str(), fragment.c_str(), "");
+  if (!program)
+  {
+    return nullptr; // the shader cache has said why
+  }
+  drawing.Buffers->SetSamplers(program);
+  drawing.View->SetUniforms(program);
+  program->SetUniformf("splatRadiusScale", static_cast<float>(drawing.RadiusScale));
+  const double rim = std::exp(-drawing.Sharpness);
+  const double least = -std::log(LeastWeight * (1. - rim) + rim) / drawing.Sharpness;
+  const float falloff[3] = { static_cast<float>(drawing.Sharpness), static_cast<float>(rim),
+    static_cast<float>(least) };
+  program->SetUniform3f("splatFalloff", falloff);
+  program->SetUniformf("splatPush", static_cast<float>(push));
+  program->SetUniformf("splatHiddenSide", static_cast<float>(drawing.HiddenSide));
+  program->SetUniformi("splatFacesViewer", drawing.FacesViewer ? 1 : 0);
+  program->SetUniformi("splatStride", drawing.Stride);
+  program->SetUniform4fv("splatClippingPlane", 6, drawing.ClippingPlanes);
+  return program;
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatLayer::DrawSplats(const vtkSurfaceSplatDrawing& drawing)
+{
+  const vtkIdType count =
+    (drawing.Buffers->GetNumberOfParticles() + drawing.Stride - 1) / drawing.Stride;
+  if (DrawsPoints(drawing))
+  {
+    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(count));
+  }
+  else
+  {
+    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * count));
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatLayer::Activate()
+{
+  for (vtkTextureObject* texture : { this->SeenFrom.Get(), this->NormalWeight.Get(),
+         this->OffsetDepth.Get(), this->ColorSum.Get(), this->Number.Get() })
+  {
+    if (texture->GetHandle() != 0)
+    {
+      texture->Activate();
+    }
+  }
+}
+
+void vtkSurfaceSplatLayer::Deactivate()
+{
+  for (vtkTextureObject* texture : { this->SeenFrom.Get(), this->NormalWeight.Get(),
+         this->OffsetDepth.Get(), this->ColorSum.Get(), this->Number.Get() })
+  {
+    if (texture->GetHandle() != 0)
+    {
+      texture->Deactivate();
+    }
+  }
+}
+
+void vtkSurfaceSplatLayer::SetSamplers(
+  vtkShaderProgram* program, const vtkSurfaceSplatLayer& front) const
+{
+  SetSampler(program, "splatSeenFrom", this->SeenFrom);
+  SetSampler(program, "splatNormalWeight", this->NormalWeight);
+  SetSampler(program, "splatOffsetDepth", this->OffsetDepth);
+  SetSampler(program, "splatColorSum", this->ColorSum);
+  SetSampler(program, "splatStrongest", this->Number);
+  SetSampler(program, "splatFrontNormalWeight", front.NormalWeight);
+  SetSampler(program, "splatFrontOffsetDepth", front.OffsetDepth);
+  SetSampler(program, "splatFrontSeenFrom", front.SeenFrom);
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatLayer::ReleaseGraphicsResources(vtkWindow* window)
+{
+  for (Framebuffer* framebuffer : { &this->Visibility, &this->Accumulation, &this->Strongest })
+  {
+    if (framebuffer->Handle != 0)
+    {
+      glDeleteFramebuffers(1, &framebuffer->Handle);
+    }
+    *framebuffer = Framebuffer();
+  }
+  for (vtkTextureObject* texture :
+    { this->VisibleDepth.Get(), this->SeenFrom.Get(), this->NormalWeight.Get(),
+      this->OffsetDepth.Get(), this->ColorSum.Get(), this->Number.Get(), this->WeightDepth.Get() })
+  {
+    texture->ReleaseGraphicsResources(window);
+  }
+  this->VertexArray->ReleaseGraphicsResources();
+  this->Key.clear();
+}

@@ -1,0 +1,106 @@
+/**
+ * @class vtkSurfaceSplatLayer
+ * @brief one layer of the splatted surface, as sums in textures: the first passes of the splatting
+ *
+ * The front layer is what is seen first from the eye, the back layer what is seen last (the far side
+ * of a closed surface); together they make translucent surfaces. The passes are those of M. Botsch,
+ * A. Hornung, M. Zwicker, L. Kobbelt, *High-Quality Surface Splatting on Today's GPUs*, 2005:
+ * visibility and accumulation, here into floating-point textures of the size of the viewport; the
+ * resolve pass is the mapper's. Passes run only if something that they depend on has changed.
+ */
+
+#ifndef vtkSurfaceSplatLayer_h
+#define vtkSurfaceSplatLayer_h
+
+#include "vtkNew.h"
+
+#include <vector>
+
+class vtkOpenGLRenderWindow;
+class vtkOpenGLVertexArrayObject;
+class vtkShaderProgram;
+class vtkSurfaceSplatBuffers;
+class vtkSurfaceSplatView;
+class vtkTextureObject;
+class vtkWindow;
+
+/** What the passes draw, and how. */
+struct vtkSurfaceSplatDrawing
+{
+  vtkOpenGLRenderWindow* Window = nullptr;
+  vtkSurfaceSplatBuffers* Buffers = nullptr;
+  const vtkSurfaceSplatView* View = nullptr;
+  double RadiusScale = 1.;
+  double Sharpness = 2.;
+  int Stride = 1;           // every how-manieth particle is drawn
+  bool FacesViewer = false; // there are no normals
+  int HiddenSide = 0;       // 1: splats seen from outward are left out; -1: from inward; 0: none
+  bool Colors = false;      // colours or lookup coordinates are accumulated
+  bool Strongest = false;   // the strongest particle of every pixel is found
+  int NumberOfClippingPlanes = 0;
+  float ClippingPlanes[6][4] = {}; // shifted model coordinates
+  std::vector<double> Key;         // whatever else the picture depends on
+};
+
+class vtkSurfaceSplatLayer
+{
+public:
+  enum Side
+  {
+    Front,
+    Back
+  };
+
+  /** Of the weights that a splat has, 1 in its middle, the smallest that makes a surface. */
+  static constexpr double LeastWeight = 0.05;
+
+  explicit vtkSurfaceSplatLayer(Side side);
+  ~vtkSurfaceSplatLayer();
+
+  /** Brings the textures up to date. False if the driver cannot draw into them. */
+  bool Update(const vtkSurfaceSplatDrawing& drawing);
+
+  /** Between these two, programs can read the textures. */
+  void Activate();
+  void Deactivate();
+  /** Tells a program where the textures of this layer and of the front layer are; both active. */
+  void SetSamplers(vtkShaderProgram* program, const vtkSurfaceSplatLayer& front) const;
+
+  void ReleaseGraphicsResources(vtkWindow* window);
+
+private:
+  vtkSurfaceSplatLayer(const vtkSurfaceSplatLayer&) = delete;
+  void operator=(const vtkSurfaceSplatLayer&) = delete;
+
+  /** A framebuffer object over some of the textures. */
+  struct Framebuffer
+  {
+    unsigned int Handle = 0;
+    bool Complete = false;
+  };
+
+  bool PrepareTextures(const vtkSurfaceSplatDrawing& drawing);
+  void PrepareFramebuffer(const vtkSurfaceSplatDrawing& drawing, Framebuffer& framebuffer,
+    const std::vector<vtkTextureObject*>& colors, vtkTextureObject* depth);
+  void FindVisible(const vtkSurfaceSplatDrawing& drawing);
+  void Accumulate(const vtkSurfaceSplatDrawing& drawing);
+  void FindStrongest(const vtkSurfaceSplatDrawing& drawing);
+  vtkShaderProgram* ReadyProgram(
+    const vtkSurfaceSplatDrawing& drawing, const char* fragmentSource, double push);
+  void DrawSplats(const vtkSurfaceSplatDrawing& drawing);
+  bool NeedsUpdate(const vtkSurfaceSplatDrawing& drawing);
+
+  const Side WhichSide;
+  vtkNew<vtkTextureObject> VisibleDepth;
+  vtkNew<vtkTextureObject> SeenFrom;
+  vtkNew<vtkTextureObject> NormalWeight;
+  vtkNew<vtkTextureObject> OffsetDepth;
+  vtkNew<vtkTextureObject> ColorSum;
+  vtkNew<vtkTextureObject> Number;
+  vtkNew<vtkTextureObject> WeightDepth;
+  Framebuffer Visibility, Accumulation, Strongest;
+  vtkNew<vtkOpenGLVertexArrayObject> VertexArray;
+  std::vector<double> Key; // what the textures were drawn from
+};
+
+#endif

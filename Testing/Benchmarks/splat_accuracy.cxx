@@ -1,0 +1,125 @@
+// How exactly Surface Splats show a surface, beside stock Contour's triangles of the same file.
+//
+//   splat_accuracy [--size PIXELS] [--pictures FOLDER] [CASE...]
+//
+// Five views of every case (SurfaceCases.h) in both projections, held against a ray caster that finds
+// the true polynomial surface (RayCaster.h). Prints the worst view of each. Wants a display.
+
+#include "SurfaceCases.h"
+#include "SurfacePicture.h"
+
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkSurfaceSplatMapper.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace
+{
+struct Worst
+{
+  PictureFigures Figures;
+
+  Worst()
+  {
+    this->Figures.IntersectionOverUnion = 1.;
+    this->Figures.DepthShare = 1.;
+    this->Figures.NormalShare = 1.;
+    this->Figures.PeakSignalToNoise = std::numeric_limits<double>::infinity();
+  }
+
+  void Add(const PictureFigures& view)
+  {
+    PictureFigures& f = this->Figures;
+    f.IntersectionOverUnion = std::min(f.IntersectionOverUnion, view.IntersectionOverUnion);
+    f.DepthShare = std::min(f.DepthShare, view.DepthShare);
+    f.Depth99 = std::max(f.Depth99, view.Depth99);
+    f.NormalShare = std::min(f.NormalShare, view.NormalShare);
+    f.Normal99 = std::max(f.Normal99, view.Normal99);
+    f.PeakSignalToNoise = std::min(f.PeakSignalToNoise, view.PeakSignalToNoise);
+    f.Holes += view.Holes;
+  }
+};
+
+void Print(const std::string& name, const char* what, long long points, const PictureFigures& f)
+{
+  std::printf("| %s | %s | %lld | %.4f | %.2f%% | %.4f | %.2f%% | %.2f | %.1f | %d |\n",
+    name.c_str(), what, points, f.IntersectionOverUnion, 100. * f.DepthShare, f.Depth99,
+    100. * f.NormalShare, f.Normal99, f.PeakSignalToNoise, f.Holes);
+  std::fflush(stdout);
+}
+
+void Measure(const std::string& name, int size, const std::string& pictures)
+{
+  const SurfaceCase surface = MakeSurfaceCase(name);
+  const vtkSmartPointer<vtkPolyData> contour = ContourOf(surface);
+  for (bool parallel : { false, true })
+  {
+    Worst ofSplats;
+    Worst ofContour;
+    int view = 0;
+    for (const auto& camera : CamerasAround(surface, parallel, size))
+    {
+      vtkNew<vtkSurfaceSplatMapper> splats;
+      splats->SetInputData(surface.Particles);
+      splats->ScalarVisibilityOff();
+      vtkNew<vtkPolyDataMapper> triangles;
+      triangles->SetInputData(contour);
+      triangles->ScalarVisibilityOff();
+      const SurfacePicture reference = CastSurface(surface, camera);
+      const SurfacePicture bySplats = DrawSurface(splats, camera);
+      const SurfacePicture byContour = DrawSurface(triangles, camera);
+      ofSplats.Add(Compare(bySplats, reference, camera, surface.Spacing));
+      ofContour.Add(Compare(byContour, reference, camera, surface.Spacing));
+      if (!pictures.empty())
+      {
+        const std::string path = pictures + "/" + name +
+          (parallel ? "_parallel_" : "_perspective_") + std::to_string(++view);
+        WriteShade(reference, camera, path + "_rays.png");
+        WriteShade(bySplats, camera, path + "_splats.png");
+        WriteShade(byContour, camera, path + "_contour.png");
+      }
+    }
+    const std::string label = name + (parallel ? ", parallel" : ", perspective");
+    Print(label, "splats", surface.Particles->GetNumberOfPoints(), ofSplats.Figures);
+    Print(label, "Contour", contour->GetNumberOfPoints(), ofContour.Figures);
+  }
+}
+}
+
+int main(int argc, char* argv[])
+{
+  int size = 512;
+  std::string pictures;
+  std::vector<std::string> names;
+  for (int i = 1; i < argc; ++i)
+  {
+    const std::string argument = argv[i];
+    if (argument == "--size" && i + 1 < argc)
+    {
+      size = std::atoi(argv[++i]);
+    }
+    else if (argument == "--pictures" && i + 1 < argc)
+    {
+      pictures = argv[++i];
+    }
+    else
+    {
+      names.push_back(argument);
+    }
+  }
+  std::printf(
+    "| case | drawn | points | silhouette IoU | depth <= 0.02 h | depth 99%% (h) | normal <= 2 "
+    "deg | normal 99%% (deg) | PSNR (dB) | holes |\n|---|---|---|---|---|---|---|---|---|---|\n");
+  for (const std::string& name : names.empty() ? SurfaceCaseNames() : names)
+  {
+    Measure(name, size, pictures);
+  }
+  return EXIT_SUCCESS;
+}

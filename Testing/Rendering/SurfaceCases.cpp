@@ -1,0 +1,198 @@
+#include "SurfaceCases.h"
+
+#include "AnalyticFields.h"
+
+#include "vtkContourFilter.h"
+#include "vtkDoubleArray.h"
+#include "vtkHighOrderParticleIsosurface.h"
+#include "vtkLagrangeHexahedron.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataNormals.h"
+#include "vtkUnstructuredGrid.h"
+#include "vtkXMLUnstructuredGridReader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+
+namespace
+{
+constexpr const char* FieldName = "f";
+
+// The cube [-1,1]^3 as cells^3 Lagrange hexahedra of an order, each with nodes of its own.
+vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(
+  int cells, int order, const hop::testing::Field& field)
+{
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkDoubleArray> values;
+  values->SetName(FieldName);
+  const int orders[3] = { order, order, order };
+  const int nodes = (order + 1) * (order + 1) * (order + 1);
+  std::vector<vtkIdType> ids(nodes);
+  for (int cell = 0; cell < cells * cells * cells; ++cell)
+  {
+    const glm::ivec3 at(cell % cells, cell / cells % cells, cell / (cells * cells));
+    for (int node = 0; node < nodes; ++node)
+    {
+      const glm::ivec3 ijk(
+        node % (order + 1), node / (order + 1) % (order + 1), node / ((order + 1) * (order + 1)));
+      const glm::dvec3 x =
+        2. / cells * (glm::dvec3(at) + glm::dvec3(ijk) / double(order)) - glm::dvec3(1.);
+      ids[vtkLagrangeHexahedron::PointIndexFromIJK(ijk.x, ijk.y, ijk.z, orders)] =
+        points->InsertNextPoint(x.x, x.y, x.z);
+      values->InsertNextValue(field(x));
+    }
+    grid->InsertNextCell(VTK_LAGRANGE_HEXAHEDRON, nodes, ids.data());
+  }
+  grid->SetPoints(points);
+  grid->GetPointData()->AddArray(values);
+  return grid;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> ReadGrid(const std::string& name)
+{
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  reader->SetFileName((std::string(HOP_DATA) + "/" + name).c_str());
+  reader->Update();
+  return reader->GetOutput();
+}
+
+void MakeParticles(SurfaceCase& surface)
+{
+  double bounds[6];
+  surface.Grid->GetBounds(bounds);
+  surface.Spacing =
+    0.01 * std::max({ bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4] });
+  vtkNew<vtkHighOrderParticleIsosurface> filter;
+  filter->SetInputData(surface.Grid);
+  filter->SetInputArrayToProcess(
+    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, surface.Array.c_str());
+  filter->SetValue(0, surface.Isovalue);
+  filter->SetSpacing(surface.Spacing);
+  filter->Update();
+  surface.Particles = filter->GetOutput();
+}
+
+// Gives particles that reach over a plane the plane as theirs; `normalAt` is the unit vector to the
+// side of the plane that a particle does not belong to, `distanceTo` its distance.
+void AddClipPlanes(vtkPolyData* particles, const std::function<glm::dvec3(glm::dvec3)>& normalAt,
+  const std::function<double(glm::dvec3)>& distanceTo)
+{
+  vtkDataArray* radii = particles->GetPointData()->GetArray("Radius");
+  vtkNew<vtkDoubleArray> normals;
+  normals->SetName("Clip_Normal");
+  normals->SetNumberOfComponents(3);
+  vtkNew<vtkDoubleArray> distances;
+  distances->SetName("Clip_Distance");
+  for (vtkIdType i = 0; i < particles->GetNumberOfPoints(); ++i)
+  {
+    glm::dvec3 position;
+    particles->GetPoint(i, &position.x);
+    const double distance = distanceTo(position);
+    const glm::dvec3 normal = distance < radii->GetTuple1(i) ? normalAt(position) : glm::dvec3(0.);
+    normals->InsertNextTuple(&normal.x);
+    distances->InsertNextValue(std::max(distance, 0.));
+  }
+  particles->GetPointData()->AddArray(normals);
+  particles->GetPointData()->AddArray(distances);
+}
+
+SurfaceCase AnalyticCase(
+  const std::string& name, int cells, int order, const hop::testing::Field& field)
+{
+  SurfaceCase surface;
+  surface.Name = name;
+  surface.Grid = MakeGrid(cells, order, field);
+  surface.Array = FieldName;
+  MakeParticles(surface);
+  return surface;
+}
+
+SurfaceCase FileCase(
+  const std::string& name, const std::string& file, const std::string& array, double isovalue)
+{
+  SurfaceCase surface;
+  surface.Name = name;
+  surface.Grid = ReadGrid(file);
+  surface.Array = array;
+  surface.Isovalue = isovalue;
+  MakeParticles(surface);
+  return surface;
+}
+
+SurfaceCase RimCase()
+{
+  SurfaceCase surface = AnalyticCase("rim", 4, 2, hop::testing::sphere({ 0., 0., 0.7 }, 0.8).field);
+  AddClipPlanes(
+    surface.Particles, [](glm::dvec3) { return glm::dvec3(0., 0., 1.); },
+    [](glm::dvec3 x) { return 1. - x.z; });
+  return surface;
+}
+
+SurfaceCase KinkCase()
+{
+  const hop::testing::Field half = hop::testing::sphere({ 0.35, 0., 0. }, 0.6).field;
+  SurfaceCase surface = AnalyticCase("kink", 4, 2,
+    [&half](const glm::dvec3& x) {
+      return half({ std::abs(x.x), x.y, x.z });
+    });
+  AddClipPlanes(
+    surface.Particles, [](glm::dvec3 x) { return glm::dvec3(x.x < 0. ? 1. : -1., 0., 0.); },
+    [](glm::dvec3 x) { return std::abs(x.x); });
+  return surface;
+}
+}
+
+SurfaceCase MakeSurfaceCase(const std::string& name)
+{
+  if (name == "sphere")
+  {
+    return AnalyticCase(name, 4, 2, hop::testing::sphere({ 0., 0., 0. }, 0.8).field);
+  }
+  if (name == "torus")
+  {
+    return AnalyticCase(name, 4, 4, hop::testing::torus(0.6, 0.25).field);
+  }
+  if (name == "rim")
+  {
+    return RimCase();
+  }
+  if (name == "kink")
+  {
+    return KinkCase();
+  }
+  if (name == "hexahedron")
+  {
+    return FileCase(name, "mfem_hex1_p8.vtu", "u", 0.2);
+  }
+  if (name == "cylinder")
+  {
+    return FileCase(name, "mfem_cylinder_hex_prism_p3.vtu", "pressure", -0.5);
+  }
+  throw std::invalid_argument("no case '" + name + "'");
+}
+
+const std::vector<std::string>& SurfaceCaseNames()
+{
+  static const std::vector<std::string> names = { "sphere", "torus", "rim", "kink", "hexahedron",
+    "cylinder" };
+  return names;
+}
+
+vtkSmartPointer<vtkPolyData> ContourOf(const SurfaceCase& surface)
+{
+  vtkNew<vtkContourFilter> contour;
+  contour->SetInputData(surface.Grid);
+  contour->SetInputArrayToProcess(
+    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, surface.Array.c_str());
+  contour->SetValue(0, surface.Isovalue);
+  vtkNew<vtkPolyDataNormals> normals;
+  normals->SetInputConnection(contour->GetOutputPort());
+  normals->SplittingOff();
+  normals->Update();
+  return normals->GetOutput();
+}

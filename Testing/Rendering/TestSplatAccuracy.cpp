@@ -1,0 +1,53 @@
+// How exactly splats show surfaces that are no sphere, held against rays through the true polynomials.
+// Testing/Benchmarks/splat_accuracy prints the same figures at full size for all views and cases.
+#include "SurfaceCases.h"
+#include "SurfacePicture.h"
+
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkSurfaceSplatMapper.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+struct Bounds
+{
+  std::string Name;
+  double IntersectionOverUnion;
+  double DepthShare;
+  double NormalShare;
+  double PeakSignalToNoise;
+};
+
+class SplatAccuracy : public testing::TestWithParam<Bounds>
+{
+};
+}
+
+TEST_P(SplatAccuracy, IsWithinItsBounds)
+{
+  const Bounds& bounds = GetParam();
+  const SurfaceCase surface = MakeSurfaceCase(bounds.Name);
+  for (bool parallel : { false, true })
+  {
+    const hop::testing::PictureCamera camera = CamerasAround(surface, parallel, 256)[2];
+    vtkNew<vtkSurfaceSplatMapper> mapper;
+    mapper->SetInputData(surface.Particles);
+    mapper->ScalarVisibilityOff();
+    const SurfacePicture reference = CastSurface(surface, camera);
+    const PictureFigures figures =
+      Compare(DrawSurface(mapper, camera), reference, camera, surface.Spacing);
+    EXPECT_GT(figures.IntersectionOverUnion, bounds.IntersectionOverUnion);
+    EXPECT_GT(figures.DepthShare, bounds.DepthShare);
+    EXPECT_GT(figures.NormalShare, bounds.NormalShare);
+    EXPECT_GT(figures.PeakSignalToNoise, bounds.PeakSignalToNoise);
+    EXPECT_EQ(figures.Holes, 0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, SplatAccuracy,
+  testing::Values(Bounds{ "sphere", 0.995, 0.99, 0.99, 40. },
+    Bounds{ "torus", 0.995, 0.98, 0.99, 40. }, Bounds{ "rim", 0.995, 0.99, 0.99, 40. },
+    Bounds{ "kink", 0.995, 0.98, 0.99, 40. }),
+  [](const testing::TestParamInfo<Bounds>& which) { return which.param.Name; });

@@ -1,0 +1,376 @@
+// Where splats draw the surface: depth and normals against the analytic sphere, clipping, extremes.
+#include "SplatScene.h"
+
+#include "vtkActor.h"
+#include "vtkDoubleArray.h"
+#include "vtkPlane.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkProperty.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderer.h"
+#include "vtkShaderProperty.h"
+#include "vtkSurfaceSplatMapper.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+namespace
+{
+constexpr int Count = 5000;
+constexpr double Spacing = 0.0539; // of 5,000 particles on the unit sphere; the filter's radius
+constexpr double Inside = 0.3;     // cosine: away from the outline
+
+struct View
+{
+  glm::dvec3 Direction;
+  bool Parallel;
+
+  friend std::ostream& operator<<(std::ostream& os, const View& view)
+  {
+    return os << (view.Parallel ? "parallel" : "perspective") << " from " << view.Direction.x << " "
+              << view.Direction.y << " " << view.Direction.z;
+  }
+};
+
+class SplatsOnSphere : public testing::TestWithParam<View>
+{
+};
+
+void UseSplats(SplatScene& scene, View view)
+{
+  scene.Mapper->SetModeToSplats();
+  scene.LookFrom(view.Direction, view.Parallel);
+}
+
+// The pixels of a sphere are on it to 0.02 spacings along the view ray, and none is missing.
+void ExpectSphere(const SplatScene& scene, int atLeast = 15000)
+{
+  const int pixels = scene.ForEachPixelOnSphere(1., Inside,
+    [&](int x, int y, glm::dvec3 onSphere)
+    {
+      const auto position = scene.PositionAt(x, y);
+      ASSERT_TRUE(position) << "hole at pixel " << x << ", " << y;
+      ASSERT_LT(glm::distance(*position, onSphere), 0.02 * Spacing)
+        << "at pixel " << x << ", " << y;
+    });
+  ASSERT_GT(pixels, atLeast);
+}
+}
+
+TEST_P(SplatsOnSphere, DepthIsTheSphereWithoutHoles)
+{
+  SplatScene scene(FibonacciSphere(Count, 1., Spacing));
+  UseSplats(scene, GetParam());
+  scene.Render();
+  ExpectSphere(scene);
+}
+
+TEST_P(SplatsOnSphere, DepthIsRightAtCoordinatesOfAMillion)
+{
+  const glm::dvec3 centre(1e6, -2e6, 3e6);
+  SplatScene scene(FibonacciSphere(Count, 1., Spacing, centre), centre);
+  UseSplats(scene, GetParam());
+  scene.Render();
+  ExpectSphere(scene);
+}
+
+TEST_P(SplatsOnSphere, TheOutlineIsTheSpheres)
+{
+  SplatScene scene(FibonacciSphere(Count, 1., Spacing));
+  UseSplats(scene, GetParam());
+  scene.Render();
+  int expected = 0;
+  int different = 0;
+  for (int y = 0; y < SplatScene::Size; ++y)
+  {
+    for (int x = 0; x < SplatScene::Size; ++x)
+    {
+      const bool hit = scene.HitSphere(x, y, 1.).has_value();
+      expected += hit;
+      different += hit != scene.PositionAt(x, y).has_value();
+    }
+  }
+  EXPECT_LT(different, 0.005 * expected) << "of " << expected;
+}
+
+TEST_P(SplatsOnSphere, NormalsAreTheSpheres)
+{
+  SplatScene scene(FibonacciSphere(Count, 1., Spacing));
+  UseSplats(scene, GetParam());
+  // The normal that VTK's lighting uses, as a colour.
+  scene.Actor->GetShaderProperty()->AddFragmentShaderReplacement("//VTK::Light::Impl", false,
+    "//VTK::Light::Impl\n  gl_FragData[0] = vec4(0.5 * normalVCVSOutput + 0.5, 1.0);\n", false);
+  scene.Render();
+
+  const glm::dvec3 back = glm::normalize(GetParam().Direction);
+  const glm::dvec3 right = glm::normalize(
+    glm::cross(std::abs(back.y) < 0.9 ? glm::dvec3(0., 1., 0.) : glm::dvec3(1., 0., 0.), back));
+  const glm::dvec3 up = glm::cross(back, right);
+  scene.ForEachPixelOnSphere(1., Inside,
+    [&](int x, int y, glm::dvec3 expected)
+    {
+      const glm::dvec3 seen = scene.ColorAt(x, y) / 127.5 - 1.;
+      const glm::dvec3 normal = glm::normalize(seen.x * right + seen.y * up + seen.z * back);
+      const double angle = std::acos(std::clamp(glm::dot(normal, expected), -1., 1.));
+      ASSERT_LT(glm::degrees(angle), 1.2) << "at pixel " << x << ", " << y;
+    });
+}
+
+TEST_P(SplatsOnSphere, ClippingPlanesCutThroughSplats)
+{
+  for (const glm::dvec3& centre : { glm::dvec3(0.), glm::dvec3(1e6, -2e6, 3e6) })
+  {
+    SplatScene scene(FibonacciSphere(Count, 1., Spacing, centre), centre);
+    UseSplats(scene, GetParam());
+    const glm::dvec3 axis =
+      glm::normalize(glm::cross(GetParam().Direction, glm::dvec3(0.3, 0.9, 0.31)));
+    const glm::dvec3 origin = centre + 0.2 * axis;
+    vtkNew<vtkPlane> plane;
+    plane->SetNormal(axis.x, axis.y, axis.z);
+    plane->SetOrigin(origin.x, origin.y, origin.z);
+    scene.Mapper->AddClippingPlane(plane);
+    scene.Render();
+    int kept = 0;
+    int cut = 0;
+    scene.ForEachPixelOnSphere(1., Inside,
+      [&](int x, int y, glm::dvec3 onSphere)
+      {
+        const double side = glm::dot(onSphere, axis) - 0.2;
+        const auto position = scene.PositionAt(x, y);
+        if (side > 0.005)
+        {
+          ASSERT_TRUE(position);
+          ASSERT_LT(glm::distance(*position, onSphere), 0.02 * Spacing);
+          ++kept;
+        }
+        else if (side < -0.005)
+        {
+          ASSERT_FALSE(position && glm::distance(*position, onSphere) < 0.01);
+          ++cut;
+        }
+      });
+    EXPECT_GT(kept, 3000);
+    EXPECT_GT(cut, 3000);
+
+    // The plane moves, the camera does not.
+    scene.Mapper->RemoveAllClippingPlanes();
+    scene.Render();
+    ExpectSphere(scene);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Views, SplatsOnSphere,
+  testing::Values(View{ { 0., 0., 1. }, false }, View{ { 0., 0., 1. }, true },
+    View{ { -1., 2., 0.5 }, false }, View{ { 0.3, -1., -2. }, true }));
+
+TEST(SplatGeometry, FollowsTheActorsTransformEvenIfItStretches)
+{
+  for (double mirror : { 1., -1. })
+  {
+    SplatScene scene(FibonacciSphere(Count, 1., Spacing));
+    UseSplats(scene, { { 1., 1., 2. }, false });
+    scene.Actor->SetScale(0.3 * mirror, 1., 0.8);
+    scene.Actor->SetPosition(0.1, 0., -0.1);
+    scene.Render();
+    int pixels = 0;
+    for (int y = 0; y < SplatScene::Size; ++y)
+    {
+      for (int x = 0; x < SplatScene::Size; ++x)
+      {
+        if (const auto position = scene.PositionAt(x, y))
+        {
+          const glm::dvec3 model =
+            (*position - glm::dvec3(0.1, 0., -0.1)) / glm::dvec3(0.3, 1., 0.8);
+          ASSERT_NEAR(glm::length(model), 1., 0.1 * Spacing) << "at pixel " << x << ", " << y;
+          ++pixels;
+        }
+      }
+    }
+    EXPECT_GT(pixels, 5000);
+  }
+}
+
+TEST(SplatGeometry, OneSplatMayFillTheWindow)
+{
+  // From 0.05 above the surface the window shows half a splat; others lie across the near plane and
+  // behind the eye.
+  for (bool parallel : { false, true })
+  {
+    SplatScene scene(FibonacciSphere(Count, 1., Spacing));
+    scene.Mapper->SetModeToSplats();
+    scene.LookFrom({ 0.2, 0.3, 1. }, parallel, 1.05, parallel ? 0.025 : 1.05 * 0.5);
+    scene.Render();
+    int covered = 0;
+    for (int y = 0; y < SplatScene::Size; ++y)
+    {
+      for (int x = 0; x < SplatScene::Size; ++x)
+      {
+        const auto onSphere = scene.HitSphere(x, y, 1.);
+        const auto position = scene.PositionAt(x, y);
+        if (onSphere && position && glm::length(*onSphere) > 0.)
+        {
+          ASSERT_LT(glm::distance(*position, *onSphere), 0.03 * Spacing);
+          ++covered;
+        }
+      }
+    }
+    EXPECT_GT(covered, 0.95 * SplatScene::Size * SplatScene::Size);
+  }
+}
+
+TEST(SplatGeometry, AHundredSplatsMayShareAPixel)
+{
+  SplatScene scene(FibonacciSphere(200000, 1., 0.0085));
+  scene.Mapper->SetModeToSplats();
+  scene.LookFrom({ 0.2, 0.3, 1. }, true, 4., 8.); // 32 pixels across: 250 particles a pixel
+  scene.Render();
+  ExpectSphere(scene, 500);
+  EXPECT_NEAR(scene.CountDrawnPixels(), M_PI * 16. * 16., 30.);
+}
+
+TEST(SplatGeometry, BothSidesAreVisibleUnlessCulled)
+{
+  SplatScene scene(Disks({ { 0., 0., 0. } }, { { 0., 0., 1. } }, 0.5));
+  for (bool parallel : { false, true })
+  {
+    UseSplats(scene, { { 0., 0., -1. }, parallel });
+    scene.Actor->GetProperty()->BackfaceCullingOff();
+    scene.Render();
+    EXPECT_GT(scene.CountDrawnPixels(), 5000);
+    scene.Actor->GetProperty()->BackfaceCullingOn();
+    scene.Render();
+    EXPECT_EQ(scene.CountDrawnPixels(), 0);
+    UseSplats(scene, { { 0., 0., 1. }, parallel });
+    scene.Render();
+    EXPECT_GT(scene.CountDrawnPixels(), 5000);
+  }
+}
+
+TEST(SplatGeometry, EveryFourthParticleStillShowsTheSurface)
+{
+  SplatScene scene(FibonacciSphere(Count, 1., Spacing));
+  UseSplats(scene, { { 1., 1., 2. }, false });
+  scene.Mapper->SetStride(4);
+  scene.Render();
+  scene.ForEachPixelOnSphere(1., Inside,
+    [&](int x, int y, glm::dvec3 onSphere)
+    {
+      const auto position = scene.PositionAt(x, y);
+      ASSERT_TRUE(position);
+      ASSERT_LT(glm::distance(*position, onSphere), 0.2 * Spacing);
+    });
+  scene.Mapper->SetStride(1);
+  scene.Render();
+  ExpectSphere(scene);
+}
+
+TEST(SplatGeometry, OutlinesAreSmooth)
+{
+  for (bool parallel : { false, true })
+  {
+    SplatScene scene(FibonacciSphere(Count, 1., Spacing));
+    UseSplats(scene, { { 0.3, 0.5, 1. }, parallel });
+    scene.ShowPlainColors();
+    scene.Render();
+    int partly = 0;
+    double sum = 0.;
+    for (int y = 0; y < SplatScene::Size; ++y)
+    {
+      for (int x = 0; x < SplatScene::Size; ++x)
+      {
+        // The share of the pixel inside of the true outline.
+        constexpr int samples = 8;
+        int inside = 0;
+        for (int i = 0; i < samples * samples; ++i)
+        {
+          const glm::dvec2 offset(
+            (i % samples + 0.5) / samples - 0.5, (i / samples + 0.5) / samples - 0.5);
+          inside += scene.HitSphere(x + offset.x, y + offset.y, 1.).has_value();
+        }
+        const double expected = static_cast<double>(inside) / (samples * samples);
+        const double error = std::abs(scene.ColorAt(x, y).r / 255. - expected);
+        ASSERT_LT(error, 0.5) << "at pixel " << x << ", " << y;
+        const bool atOutline = expected > 0.02 && expected < 0.98;
+        partly += atOutline;
+        sum += atOutline ? error : 0.;
+      }
+    }
+    ASSERT_GT(partly, 300);
+    EXPECT_LT(sum / partly, 0.14); // 0.25 with pixels that are covered or not
+  }
+}
+
+namespace
+{
+void AddClipPlane(
+  vtkPolyData* particle, const std::vector<double>& normals, const std::vector<double>& distances)
+{
+  vtkNew<vtkDoubleArray> normalArray;
+  normalArray->SetName("Clip_Normal");
+  normalArray->SetNumberOfComponents(static_cast<int>(normals.size()));
+  normalArray->InsertNextTuple(normals.data());
+  vtkNew<vtkDoubleArray> distanceArray;
+  distanceArray->SetName("Clip_Distance");
+  distanceArray->SetNumberOfComponents(static_cast<int>(distances.size()));
+  distanceArray->InsertNextTuple(distances.data());
+  particle->GetPointData()->AddArray(normalArray);
+  particle->GetPointData()->AddArray(distanceArray);
+}
+
+// Of the pixels that a whole splat would draw, those are left for which `isKept` holds.
+void ExpectCut(const std::vector<double>& normals, const std::vector<double>& distances,
+  const std::function<bool(glm::dvec3)>& isKept)
+{
+  for (int mode : { vtkSurfaceSplatMapper::Splats, vtkSurfaceSplatMapper::Disks })
+  {
+    vtkSmartPointer<vtkPolyData> particle = Disks({ { 0., 0., 0. } }, { { 0., 0., 1. } }, 0.8);
+    SplatScene scene(particle);
+    scene.Mapper->SetMode(mode);
+    scene.LookFrom({ 0., 0., 1. }, true);
+    scene.Render();
+    std::vector<glm::ivec3> whole;
+    for (int i = 0; i < SplatScene::Size * SplatScene::Size; ++i)
+    {
+      if (scene.PositionAt(i % SplatScene::Size, i / SplatScene::Size))
+      {
+        whole.emplace_back(i % SplatScene::Size, i / SplatScene::Size, 0);
+      }
+    }
+    ASSERT_GT(whole.size(), 10000u);
+    AddClipPlane(particle, normals, distances);
+    scene.Render();
+    for (const glm::ivec3& pixel : whole)
+    {
+      const double scale = 1.3 / (SplatScene::Size / 2);
+      const glm::dvec3 place =
+        scale * (glm::dvec3(pixel) + glm::dvec3(0.5, 0.5, 0.) - glm::dvec3(128., 128., 0.));
+      ASSERT_EQ(scene.PositionAt(pixel.x, pixel.y).has_value(), isKept(place))
+        << "mode " << mode << ", at " << place.x << " " << place.y;
+    }
+  }
+}
+}
+
+TEST(SplatGeometry, AParticlesClipPlaneCutsItsSplatInALine)
+{
+  ExpectCut({ 1., 0., 0. }, { 0.2 }, [](glm::dvec3 p) { return p.x < 0.2; });
+  ExpectCut({ 0.6, 0.8, 0. }, { 0. }, [](glm::dvec3 p) { return 0.6 * p.x + 0.8 * p.y < 0.; });
+}
+
+TEST(SplatGeometry, ASplatCanBeCutByTwoPlanes)
+{
+  ExpectCut({ 1., 0., 0., 0., -1., 0. }, { 0.2, 0.1 },
+    [](glm::dvec3 p) { return p.x < 0.2 && p.y > -0.1; });
+}
+
+TEST(SplatGeometry, PlanesWithoutDirectionOrNumberCutNothing)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  ExpectCut({ 0., 0., 0. }, { 0. }, [](glm::dvec3) { return true; });
+  ExpectCut({ nan, 0., 1. }, { 0. }, [](glm::dvec3) { return true; });
+  ExpectCut({ 1., 0., 0. }, { nan }, [](glm::dvec3) { return true; });
+}

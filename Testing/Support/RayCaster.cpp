@@ -1,0 +1,178 @@
+#include "RayCaster.h"
+
+#include "SurfaceBoxes.h"
+#include "SurfaceGeometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hop::testing
+{
+
+glm::dvec3 PictureCamera::right() const
+{
+  const glm::dvec3 other =
+    std::abs(this->back.y) < 0.9 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0);
+  return glm::normalize(glm::cross(other, this->back));
+}
+
+glm::dvec3 PictureCamera::up() const
+{
+  return glm::cross(this->back, this->right());
+}
+
+PictureCamera::Ray PictureCamera::ray(double x, double y) const
+{
+  const glm::dvec2 offset = this->pixel() * (glm::dvec2(x, y) - 0.5 * this->size);
+  const glm::dvec3 across = offset.x * this->right() + offset.y * this->up();
+  return this->parallel ? Ray{ this->eye() + across, -this->back }
+                        : Ray{ this->eye(), across / this->distance - this->back };
+}
+
+glm::dvec2 PictureCamera::project(const glm::dvec3& point) const
+{
+  const glm::dvec3 offset = point - this->centre;
+  const double depth = this->distance - glm::dot(offset, this->back);
+  const double scale = this->parallel ? 1.0 : this->distance / depth;
+  const glm::dvec2 across(glm::dot(offset, this->right()), glm::dot(offset, this->up()));
+  return scale / this->pixel() * across + 0.5 * this->size;
+}
+
+glm::dvec3 PictureCamera::toEye(const glm::dvec3& point) const
+{
+  return this->parallel ? this->back : glm::normalize(this->eye() - point);
+}
+
+namespace
+{
+
+constexpr double BoxPixels = 3.0;
+constexpr int MaximumSteps = 20;
+
+bool isInBall(const SurfaceBox& box, const ReferencePoint& u, double scale)
+{
+  return glm::distance(u.xyz, box.middle.u.xyz) <= 1.000001 * scale * box.referenceRadius;
+}
+
+/// Newton's method for x(u) = origin + t direction, F(u) = isovalue. The tangent plane of F at u
+/// gives the next t, the Jacobian then the next u. Only roots in the box's ball and in its element
+/// count; the balls of all boxes hold the whole surface.
+bool meet(const ElementMesh& mesh, double isovalue, const PictureCamera::Ray& ray,
+  const SurfaceBox& box, ReferencePoint u, SeenPoint& seen)
+{
+  const BernsteinForm form = mesh.form(box.middle.element);
+  for (int step = 0; step < MaximumSteps; ++step)
+  {
+    const FieldPoint at = fieldPoint(evaluateGradient(form, u), isovalue);
+    const double slope = glm::dot(at.gradient.xyz, ray.direction);
+    if (at.map.singular || slope == 0.0)
+    {
+      return false;
+    }
+    const glm::dvec3 fromOrigin = at.map.position.xyz - ray.origin;
+    const double t = (glm::dot(at.gradient.xyz, fromOrigin) - at.value) / slope;
+    const WorldVector move{ t * ray.direction - fromOrigin };
+    if (length(move) < 1e-9 * box.size)
+    {
+      seen = { t, surfaceNormal(at.gradient).xyz };
+      return t > 0.0 && isInBall(box, u, 1.0) && insideMargin(form.domain, u) > -1e-9;
+    }
+    u = u + at.map.pull(move);
+    if (!isInBall(box, u, 4.0))
+    {
+      return false;
+    }
+  }
+  return false;
+}
+
+/// Keeps the nearest root that any of the starts leads to.
+void look(const ElementMesh& mesh, double isovalue, const PictureCamera::Ray& ray,
+  const SurfaceBox& box, const std::vector<ReferencePoint>& starts, SeenPoint& nearest)
+{
+  for (const ReferencePoint& start : starts)
+  {
+    SeenPoint seen;
+    if (meet(mesh, isovalue, ray, box, start, seen) && seen.depth < nearest.depth)
+    {
+      nearest = seen;
+    }
+  }
+}
+
+/// The middle of a box, and places before and behind it as the camera sees them.
+std::vector<ReferencePoint> startsIn(
+  const ElementMesh& mesh, const SurfaceBox& box, const glm::dvec3& toEye)
+{
+  const LocalMap map =
+    fieldPoint(evaluateGradient(mesh.form(box.middle.element), box.middle.u), 0.0).map;
+  const ReferenceVector half = map.pull({ 0.4 * box.size * toEye });
+  return { box.middle.u, box.middle.u + half, box.middle.u + -half };
+}
+
+struct PixelRange
+{
+  int left, right, bottom, top;
+};
+
+PixelRange pixelsOf(const PictureCamera& camera, const glm::dvec3& middle, double radius)
+{
+  const glm::dvec2 at = camera.project(middle);
+  const double depth = camera.distance - glm::dot(middle - camera.centre, camera.back);
+  const double scale =
+    camera.parallel ? 1.0 : camera.distance / std::max(depth - radius, 1e-3 * camera.distance);
+  const double reach = scale * radius / camera.pixel();
+  const auto clamp = [&camera](double x)
+  { return static_cast<int>(std::clamp(x, 0.0, static_cast<double>(camera.size))); };
+  return { clamp(std::floor(at.x - reach)), clamp(std::ceil(at.x + reach)),
+    clamp(std::floor(at.y - reach)), clamp(std::ceil(at.y + reach)) };
+}
+
+} // namespace
+
+std::vector<SeenPoint> castRays(const ElementMesh& mesh, double isovalue,
+  const PictureCamera& camera, const ParallelFor& parallelFor)
+{
+  const std::vector<SurfaceBox> boxes =
+    findSurfaceBoxes(mesh, isovalue, BoxPixels * camera.pixel(), parallelFor);
+  std::vector<SeenPoint> picture(camera.size * camera.size);
+  // Bands of the picture, so that no two threads write to one pixel.
+  constexpr int bandHeight = 16;
+  const int bands = (camera.size + bandHeight - 1) / bandHeight;
+  const auto castBand = [&](int band)
+  {
+    const int first = band * bandHeight;
+    const int last = std::min(first + bandHeight, camera.size);
+    for (const SurfaceBox& box : boxes)
+    {
+      const LocalMap map =
+        fieldPoint(evaluateGradient(mesh.form(box.middle.element), box.middle.u), 0.0).map;
+      const PixelRange range = pixelsOf(camera, map.position.xyz, 0.6 * box.size);
+      if (range.top <= first || range.bottom >= last)
+      {
+        continue;
+      }
+      const std::vector<ReferencePoint> starts =
+        startsIn(mesh, box, camera.toEye(map.position.xyz));
+      for (int y = std::max(range.bottom, first); y < std::min(range.top, last); ++y)
+      {
+        for (int x = range.left; x < range.right; ++x)
+        {
+          look(mesh, isovalue, camera.ray(x + 0.5, y + 0.5), box, starts,
+            picture[y * camera.size + x]);
+        }
+      }
+    }
+  };
+  runParallel(parallelFor, bands,
+    [&castBand](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      for (std::ptrdiff_t band = begin; band < end; ++band)
+      {
+        castBand(static_cast<int>(band));
+      }
+    });
+  return picture;
+}
+
+} // namespace hop::testing

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "ElementMesh.h"
+#include "Monitor.h"
+
+#include <vector>
+
+namespace hop::testing
+{
+
+/// A camera that looks at a centre: what one pixel of a square picture sees.
+struct PictureCamera
+{
+  glm::dvec3 centre{ 0.0 };
+  /// Unit vector from the centre to the eye.
+  glm::dvec3 back{ 0.0, 0.0, 1.0 };
+  bool parallel = false;
+  /// From the eye to the centre.
+  double distance = 4.0;
+  /// What half the picture shows, at the centre.
+  double halfHeight = 1.3;
+  /// Pixels, both ways.
+  int size = 512;
+
+  glm::dvec3 right() const;
+  glm::dvec3 up() const;
+  glm::dvec3 eye() const { return this->centre + this->distance * this->back; }
+  /// World units a pixel, at the centre.
+  double pixel() const { return 2.0 * this->halfHeight / this->size; }
+
+  struct Ray
+  {
+    glm::dvec3 origin;
+    /// Length 1 along the camera's axis, so that a ray's parameter is the depth before the eye.
+    glm::dvec3 direction;
+  };
+  /// Through a place of the picture, in pixels from its lower left corner; middles of pixels lie at
+  /// halves.
+  Ray ray(double x, double y) const;
+  /// Where in the picture a point is seen.
+  glm::dvec2 project(const glm::dvec3& point) const;
+  /// Unit vector from a point to the eye.
+  glm::dvec3 toEye(const glm::dvec3& point) const;
+};
+
+/// What is seen at a pixel.
+struct SeenPoint
+{
+  /// Along the camera's axis; infinite where nothing is seen.
+  double depth = std::numeric_limits<double>::infinity();
+  /// Unit normal -grad F/|grad F|.
+  glm::dvec3 normal{ 0.0 };
+
+  bool covered() const { return this->depth < std::numeric_limits<double>::infinity(); }
+};
+
+/// The isosurface of the elements' own polynomials as the camera sees it, a ray a pixel: slow and
+/// exact, without any triangle. A ray meets the surface where Newton's method in reference
+/// coordinates and depth finds F = isovalue, from starts in every surface box (SurfaceBoxes.h), of
+/// some pixels' size, that the ray may pass.
+/// \return size * size pixels, lower left first
+std::vector<SeenPoint> castRays(const ElementMesh& mesh, double isovalue,
+  const PictureCamera& camera, const ParallelFor& parallelFor);
+
+} // namespace hop::testing
