@@ -188,10 +188,18 @@ void Packer::addOwnArrays()
   this->addArray("Gauss_Curvature", 1,
     [](const Row& row, double* out) { *out = row.particle->curvature.gauss; });
   this->addArray("Residual", 1, [](const Row& row, double* out) { *out = row.particle->residual; });
-  this->addArray("Clip_Normal", 3,
-    [&](const Row& row, double* out) { writeVector(row.particle->clipNormal.xyz, out); });
-  this->addArray(
-    "Clip_Distance", 1, [](const Row& row, double* out) { *out = row.particle->clipDistance; });
+  this->addArray("Clip_Normal", 6,
+    [&](const Row& row, double* out)
+    {
+      writeVector(row.particle->clips[0].normal.xyz, out);
+      writeVector(row.particle->clips[1].normal.xyz, out + 3);
+    });
+  this->addArray("Clip_Distance", 2,
+    [](const Row& row, double* out)
+    {
+      out[0] = row.particle->clips[0].distance;
+      out[1] = row.particle->clips[1].distance;
+    });
   this->addArray("Jump", 1, [](const Row& row, double* out) { *out = row.particle->jump; });
   this->addArray("Isovalue", 1, [](const Row& row, double* out) { *out = row.isovalue; });
   // Places on a face may have left the domain by a rounding error.

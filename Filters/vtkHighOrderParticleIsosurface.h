@@ -20,9 +20,9 @@
  * Point data of the output: `Normals` (unit, towards lower values, as Contour orients them),
  * `Radius` (the particle's own spacing, world units), `Mean_Curvature` (with respect to Normals;
  * 1/r on a sphere with high values inside), `Gauss_Curvature`, `Residual` (|F - c|/|grad F|, world
- * units), `Clip_Normal` and `Clip_Distance` (from method FAST: unit normal and distance, in world units,
- * of the plane near the particle at which the surface ends or turns sharply: a rim, or a face between
- * elements; splats are to be cut there; normal zero: none), `Jump` (on rims where the field jumps from
+ * units), `Clip_Normal` and `Clip_Distance` (from method FAST: unit normals and distances, in world
+ * units, of up to two planes near the particle at which the surface ends or turns sharply: rims, or faces
+ * between elements; splats are to be cut there; normal zero: none), `Jump` (on rims where the field jumps from
  * element to element: F - c on the other side; else 0), `Isovalue`, `vtkOriginalCellIds`, `ParametricCoordinates` (of VTK's cell), and every
  * numeric point array of the input evaluated by the element's own polynomials, in double precision
  * (the contoured one holds the isovalue); an input array of one of these names gives way. Cell arrays are copied to the vertex cells.

@@ -654,8 +654,7 @@ bool ClassicSystem::settle(const Mover& mover, SurfaceWalker& walker, Particle& 
   at = walker.evaluateCurved(at.location);
   const Curvature bend = curvature(at.point.gradient, at.hessian);
   particle = { at.location, at.point.map.position, surfaceNormal(at.point.gradient), bend,
-    std::abs(at.point.value) / length(at.point.gradient), this->Law.at(bend.magnitude), {}, 0.0,
-    0.0 };
+    std::abs(at.point.value) / length(at.point.gradient), this->Law.at(bend.magnitude), {}, 0.0 };
   return true;
 }
 

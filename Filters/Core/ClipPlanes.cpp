@@ -11,37 +11,69 @@ namespace hop
 namespace
 {
 
-/// Keeps the nearer of two planes.
-void offer(Particle& particle, const glm::dvec3& normal, double distance)
+/// Two planes whose normals are nearer than that are the same edge.
+constexpr double sameEdge = 0.8;
+
+/// Keeps the nearest plane, and the nearest that belongs to another edge.
+void offer(Particle& particle, const ClipPlane& plane)
 {
-  const bool first = glm::dot(particle.clipNormal.xyz, particle.clipNormal.xyz) == 0.0;
-  if (distance <= ClipReach * particle.spacing && (first || distance < particle.clipDistance))
+  if (plane.distance > ClipReach * particle.spacing)
   {
-    particle.clipNormal = { normal };
-    particle.clipDistance = std::max(0.0, distance);
+    return;
+  }
+  auto& [first, second] = particle.clips;
+  const auto isNearer = [&](const ClipPlane& other)
+  { return !other.exists() || plane.distance < other.distance; };
+  const bool isFirstEdge = first.exists() && dot(first.normal, plane.normal) > sameEdge;
+  if (isNearer(first))
+  {
+    second = isFirstEdge ? second : first;
+    first = plane;
+  }
+  else if (!isFirstEdge && isNearer(second))
+  {
+    second = plane;
   }
 }
 
+/// Planes through particles on rims around, each through the nearest that looks its way.
 void offerRims(const SpacingGrid& grid, const std::vector<RimParticle>& rims, Particle& particle)
 {
-  double nearest = ClipReach * particle.spacing;
-  int rim = -1;
+  struct Edge
+  {
+    int rim = -1;
+    double distance = 0.0;
+  };
+  std::array<Edge, 2> edges;
+  const auto looksLike = [&](const Edge& edge, int j)
+  { return edge.rim >= 0 && dot(rims[edge.rim].outward, rims[j].outward) > sameEdge; };
   grid.visit(particle.position.xyz, particle.spacing,
     [&](int j)
     {
-      const double distance = length(rims[j].particle.position - particle.position);
-      if (distance < nearest && dot(rims[j].particle.normal, particle.normal) > 0.0)
+      const Edge edge{ j, length(rims[j].particle.position - particle.position) };
+      if (edge.distance > ClipReach * particle.spacing || length(rims[j].outward) == 0.0 ||
+        dot(rims[j].particle.normal, particle.normal) <= 0.0)
       {
-        nearest = distance;
-        rim = j;
+        return;
+      }
+      auto& [first, second] = edges;
+      if (first.rim < 0 || edge.distance < first.distance)
+      {
+        second = looksLike(first, j) ? second : first;
+        first = edge;
+      }
+      else if (!looksLike(first, j) && (second.rim < 0 || edge.distance < second.distance))
+      {
+        second = edge;
       }
     });
-  if (rim >= 0)
+  for (const Edge& edge : edges)
   {
-    const WorldVector& outward = rims[rim].outward;
-    if (dot(outward, outward) > 0.0)
+    if (edge.rim >= 0)
     {
-      offer(particle, outward.xyz, dot(rims[rim].particle.position - particle.position, outward));
+      const WorldVector& outward = rims[edge.rim].outward;
+      const double distance = dot(rims[edge.rim].particle.position - particle.position, outward);
+      offer(particle, { outward, std::max(0.0, distance) });
     }
   }
 }
@@ -69,7 +101,8 @@ int offerKinks(const ElementMesh& mesh, const std::vector<char>& kinks, Particle
     const double slope = glm::length(inward);
     if (slope > 0.0)
     {
-      offer(particle, inward / -slope, faceMargin(faces[f], location.u) / slope);
+      offer(
+        particle, { { inward / -slope }, std::max(0.0, faceMargin(faces[f], location.u) / slope) });
     }
   }
   return std::min(evaluations, 1);
@@ -78,8 +111,7 @@ int offerKinks(const ElementMesh& mesh, const std::vector<char>& kinks, Particle
 } // namespace
 
 std::int64_t markClipPlanes(const ElementMesh& mesh, const FaceJumps& jumps,
-  const std::vector<RimParticle>& rims, std::vector<Particle>& particles,
-  const ParallelFor& parallelFor)
+  std::vector<RimParticle>& rims, std::vector<Particle>& particles, const ParallelFor& parallelFor)
 {
   std::vector<glm::dvec3> positions;
   std::vector<float> spacings;
@@ -101,6 +133,11 @@ std::int64_t markClipPlanes(const ElementMesh& mesh, const FaceJumps& jumps,
       }
       evaluations += cost;
     });
+  for (RimParticle& rim : rims)
+  {
+    offerRims(grid, rims, rim.particle);
+    evaluations += offerKinks(mesh, jumps.kinks, rim.particle);
+  }
   return evaluations;
 }
 

@@ -9,11 +9,11 @@ namespace hop
 /// Tells particles near an edge of the surface where it ends: near a rim the plane through the nearest
 /// particle of the rim, normal to the surface's way out of the domain; near a face at which the normal
 /// turns, that face. A splat that reaches beyond that plane is to be cut off there.
-/// \param particles those that are not on rims; particles on rims bring their plane with them
+/// In corners two planes meet.
+/// \param particles those that are not on rims; particles on rims are marked with them
 /// \return evaluations
 std::int64_t markClipPlanes(const ElementMesh& mesh, const FaceJumps& jumps,
-  const std::vector<RimParticle>& rims, std::vector<Particle>& particles,
-  const ParallelFor& parallelFor);
+  std::vector<RimParticle>& rims, std::vector<Particle>& particles, const ParallelFor& parallelFor);
 
 /// How far from a particle, in units of its spacing, an edge is of interest: splats overlap that far.
 constexpr double ClipReach = 1.5;

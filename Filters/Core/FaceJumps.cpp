@@ -127,9 +127,11 @@ FaceJumps findFaceJumps(
   };
   const auto checkElement = [&](int element, SurfaceWalker& walker)
   {
-    // One look is enough to see a kink; jumps differ from place to place.
+    // A few looks are enough to see a kink: at the first, second, fourth ... box. Jumps are looked for at
+    // all of them.
     std::array<bool, MaximumFaces> jumps{};
     std::array<bool, MaximumFaces> wanted{};
+    std::array<unsigned, MaximumFaces> boxesSeen{};
     const auto faceCount = static_cast<int>(facts(mesh.elements[element].domain).faces.size());
     for (int f = 0; f < faceCount; ++f)
     {
@@ -147,7 +149,11 @@ FaceJumps findFaceJumps(
           if (!seen[crossing.face])
           {
             seen[crossing.face] = true;
-            wanted[crossing.face] = jumps[crossing.face];
+            const unsigned before = boxesSeen[crossing.face]++;
+            if (!jumps[crossing.face] && (before & (before + 1)) != 0)
+            {
+              return;
+            }
             ofElement[element].push_back(
               { crossing.face, check(crossing, proxy.samples()[b].patch.spacing, walker) });
           }

@@ -22,7 +22,7 @@ constexpr double LargestJumpPerSpacing = 0.4;
 /// Cosine of the angle between normals that makes a kink: 10 degrees.
 constexpr double KinkCosine = 0.98480775;
 
-/// Looks at the inner faces that the surface passes: for kinks at one place a face, for jumps at one
+/// Looks at the inner faces that the surface passes: for kinks at a few places, for jumps at one
 /// place for every box that shows it. Two elements whose corners on the face have the same values, and
 /// whose degrees are the same, are taken to agree on all of it.
 FaceJumps findFaceJumps(

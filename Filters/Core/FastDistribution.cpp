@@ -643,7 +643,7 @@ bool FastSystem::settle(
   }
   particle = { place, point.map.position, surfaceNormal(point.gradient),
     curvature(point.gradient, worldHessian(jet, point)), residual,
-    this->Law.angularDensity == 0.0 ? this->Law.spacing : patch.spacing, {}, 0.0, 0.0 };
+    this->Law.angularDensity == 0.0 ? this->Law.spacing : patch.spacing, {}, 0.0 };
   patch.position = particle.position.xyz;
   return true;
 }

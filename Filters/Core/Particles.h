@@ -2,11 +2,23 @@
 
 #include "SurfaceWalker.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
 namespace hop
 {
+
+/// A plane near a particle at which the surface ends or turns.
+struct ClipPlane
+{
+  /// Unit normal, pointing to the far side; zero if there is no plane.
+  WorldVector normal;
+  /// World units, >= 0.
+  double distance = 0.0;
+
+  bool exists() const { return dot(this->normal, this->normal) > 0.0; }
+};
 
 /// One particle of a finished distribution.
 struct Particle
@@ -20,11 +32,8 @@ struct Particle
   double residual = 0.0;
   /// h, the distance to neighbours that this particle wants, world units.
   double spacing = 0.0;
-  /// Unit normal of the plane at which the surface ends or turns near this particle, pointing to the
-  /// far side; zero if there is none.
-  WorldVector clipNormal;
-  /// Distance of that plane, world units, >= 0.
-  double clipDistance = 0.0;
+  /// The nearer first; in corners there are two.
+  std::array<ClipPlane, 2> clips;
   /// On a rim where the field jumps between elements: F - c on the other side. Zero elsewhere.
   double jump = 0.0;
 };

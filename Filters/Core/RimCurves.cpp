@@ -170,12 +170,11 @@ void RimSampler::addParticle(const Location& place, int face, double nearby)
   rim.particle = { location, field.map.position, normal,
     curvature(field.gradient, worldHessian(jet, field)),
     std::abs(field.value) / length(field.gradient),
-    this->Law.angularDensity == 0.0 ? this->Law.spacing : rim.patch.spacing, {}, 0.0, 0.0 };
+    this->Law.angularDensity == 0.0 ? this->Law.spacing : rim.patch.spacing, {}, 0.0 };
   const auto& faces = facts(mesh.elements[location.element].domain).faces;
   const glm::dvec3 inward = glm::transpose(field.map.inverse) * faces[point->face].inward.xyz;
   const glm::dvec3 along = inward - glm::dot(inward, normal.xyz) * normal.xyz;
   rim.outward = { glm::length(along) > 0.0 ? -glm::normalize(along) : glm::dvec3(0.0) };
-  rim.particle.clipNormal = rim.outward;
   rim.curve = this->Curves;
   for (int f = 0; f < static_cast<int>(faces.size()); ++f)
   {
@@ -229,7 +228,6 @@ void RimSampler::mergeCurves()
       if (seam[i])
       {
         rims[i].outward = {};
-        rims[i].particle.clipNormal = {};
       }
       rims[next++] = rims[i];
     }

@@ -115,11 +115,11 @@ TEST_P(FastOpenCover, RimsAreClosedLinesOfParticles)
     if (onCube(p.position.xyz))
     {
       rim.push_back(p);
-      EXPECT_NEAR(length(p.clipNormal), 1.0, 1e-12);
-      EXPECT_NEAR(dot(p.clipNormal, p.normal), 0.0, 1e-9);
-      EXPECT_EQ(p.clipDistance, 0.0);
+      EXPECT_NEAR(length(p.clips[0].normal), 1.0, 1e-12);
+      EXPECT_NEAR(dot(p.clips[0].normal, p.normal), 0.0, 1e-9);
+      EXPECT_EQ(p.clips[0].distance, 0.0);
       const glm::dvec3 wall = glm::trunc(p.position.xyz * (1.0 + 1e-10));
-      EXPECT_GT(glm::dot(p.clipNormal.xyz, wall), 0.3) << "points into the cube";
+      EXPECT_GT(glm::dot(p.clips[0].normal.xyz, wall), 0.3) << "points into the cube";
     }
   }
   EXPECT_NEAR(rim.size() * spacing, open.rim, 0.02 * open.rim);
@@ -143,16 +143,16 @@ TEST_P(FastOpenCover, ClipsWhereTheSurfaceEnds)
   {
     const glm::dvec3 x = glm::abs(p.position.xyz);
     const double toWall = 1.0 - std::max({ x.x, x.y, x.z });
-    if (length(p.clipNormal) == 0.0)
+    if (length(p.clips[0].normal) == 0.0)
     {
       EXPECT_GT(toWall, 0.4 * spacing);
       continue;
     }
     ++clipped;
-    EXPECT_GE(p.clipDistance, 0.0);
-    EXPECT_LE(p.clipDistance, 1.5 * spacing);
+    EXPECT_GE(p.clips[0].distance, 0.0);
+    EXPECT_LE(p.clips[0].distance, 1.5 * spacing);
     // Down to the wall along the surface, which may meet it at an angle.
-    EXPECT_GE(p.clipDistance, toWall - 0.2 * spacing);
+    EXPECT_GE(p.clips[0].distance, toWall - 0.2 * spacing);
   }
   EXPECT_GT(clipped * spacing, open.rim);
 }
@@ -210,7 +210,7 @@ void expectSame(const Distribution& a, const Distribution& b)
     ASSERT_EQ(a.particles[i].location.element, b.particles[i].location.element);
     ASSERT_EQ(a.particles[i].position.xyz, b.particles[i].position.xyz);
     ASSERT_EQ(a.particles[i].normal.xyz, b.particles[i].normal.xyz);
-    ASSERT_EQ(a.particles[i].clipNormal.xyz, b.particles[i].clipNormal.xyz);
+    ASSERT_EQ(a.particles[i].clips[0].normal.xyz, b.particles[i].clips[0].normal.xyz);
   }
 }
 
@@ -324,7 +324,7 @@ TEST(FastDistribution, EndsWhereTheFieldJumps)
       const bool left = std::abs(x.z - 0.1) < 1e-6;
       ++rims[left];
       EXPECT_NEAR(p.jump, left ? -0.2 : 0.2, 1e-6);
-      EXPECT_TRUE(onCube(x) || std::abs(p.clipNormal.xyz.x) > 1.0 - 1e-6);
+      EXPECT_TRUE(onCube(x) || std::abs(p.clips[0].normal.xyz.x) > 1.0 - 1e-6);
     }
     else if (!onCube(x))
     {
@@ -367,8 +367,8 @@ TEST(FastDistribution, ClipsAtKinks)
       continue;
     }
     ++atRidge;
-    EXPECT_NEAR(std::abs(p.clipNormal.xyz.x), 1.0, 1e-9);
-    EXPECT_NEAR(p.clipDistance, std::abs(x.x), 1e-9);
+    EXPECT_NEAR(std::abs(p.clips[0].normal.xyz.x), 1.0, 1e-9);
+    EXPECT_NEAR(p.clips[0].distance, std::abs(x.x), 1e-9);
     EXPECT_EQ(p.jump, 0.0);
   }
   EXPECT_GT(atRidge, 30);
