@@ -20,11 +20,11 @@ import sys
 from paraview import simple
 sys.path.insert(0, {folder!r})
 import test_client_server as here
-simple.Connect("localhost", {port})
+simple.Connect("127.0.0.1", {port})
 simple.LoadPlugin({plugin!r}, remote=True, ns=vars(simple))
 simple.LoadPlugin({plugin!r}, remote=False, ns=vars(simple))
 surface, view = here.make_session({data!r})
-simple.SaveData({folder_out!r} + "/remote.vtp", surface)
+simple.SaveData({folder_out!r} + "/remote.vtp", surface, DataMode="Binary")
 for name, threshold in [("server", 0.0), ("client", 1e6)]:
     view.RemoteRenderThreshold = threshold
     here.shoot({folder_out!r} + f"/{{name}}.png", view)
@@ -61,7 +61,7 @@ def server():
     if not PVSERVER.is_file():
         pytest.skip("this ParaView has no pvserver")
     with socket.socket() as probe:
-        probe.bind(("localhost", 0))
+        probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
     process = subprocess.Popen(
         [str(PVSERVER), f"--server-port={port}"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)

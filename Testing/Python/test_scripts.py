@@ -17,7 +17,7 @@ EPILOGUE = """
 from paraview import simple
 surface = simple.FindSource("surface")
 view = simple.GetActiveViewOrCreate("RenderView")
-simple.SaveData({data!r}, surface)
+simple.SaveData({data!r}, surface, DataMode="Binary")  # not raw: see the README about expat
 display = simple.GetDisplayProperties(surface, view)
 assert display.Representation == "Surface Splats", display.Representation
 assert display.ColorArrayName[1] == "Mean_Curvature", display.ColorArrayName

@@ -57,6 +57,7 @@ def write_in_pieces(grid, owner, folder, ghosts):
         writer = vtkXMLUnstructuredGridWriter()
         names.append(f"piece_{piece}.vtu")
         writer.SetFileName(str(folder / names[-1]))
+        writer.SetDataModeToBinary()  # not appended: see the README about expat
         writer.SetInputData(part)
         writer.Write()
     listing = folder / "pieces.pvtu"
