@@ -3,8 +3,9 @@
 #include "ActiveFaces.h"
 #include "SpacingGrid.h"
 
+#include <algorithm>
 #include <atomic>
-#include <cmath>
+#include <memory>
 
 namespace hop
 {
@@ -78,35 +79,92 @@ void offerRims(const SpacingGrid& grid, const std::vector<RimParticle>& rims, Pa
   }
 }
 
-/// \return evaluations
-int offerKinks(const ElementMesh& mesh, const std::vector<char>& kinks, Particle& particle)
+/// Planes of faces at which the normal turns.
+class KinkPlanes
 {
-  const Location& location = particle.location;
-  const auto& faces = facts(mesh.elements[location.element].domain).faces;
-  const auto kinked = [&](std::size_t face)
-  { return kinks[static_cast<std::size_t>(location.element) * MaximumFaces + face] != 0; };
-  LocalMap map;
-  int evaluations = 0;
-  for (std::size_t f = 0; f < faces.size(); ++f)
+public:
+  KinkPlanes(const ElementMesh& mesh, const std::vector<char>& kinks,
+    const std::vector<Particle>& particles, const std::vector<RimParticle>& rims)
+    : Mesh(mesh)
+    , Kinks(kinks)
   {
-    if (!kinked(f))
+    if (std::find(kinks.begin(), kinks.end(), 1) == kinks.end())
     {
-      continue;
+      return;
     }
-    if (evaluations++ == 0)
+    for (const Particle& particle : particles)
     {
-      map = fieldPoint(evaluateGradient(mesh.form(location.element), location.u), 0.0).map;
+      this->add(particle);
     }
-    const glm::dvec3 inward = glm::transpose(map.inverse) * faces[f].inward.xyz;
-    const double slope = glm::length(inward);
-    if (slope > 0.0)
+    for (const RimParticle& rim : rims)
     {
-      offer(
-        particle, { { inward / -slope }, std::max(0.0, faceMargin(faces[f], location.u) / slope) });
+      this->add(rim.particle);
     }
+    this->Grid = std::make_unique<SpacingGrid>(this->Positions, this->Spacings, ClipReach, 0.5);
   }
-  return std::min(evaluations, 1);
-}
+
+  /// \return evaluations
+  int offerTo(Particle& particle) const
+  {
+    const Location& location = particle.location;
+    const auto& faces = facts(this->Mesh.elements[location.element].domain).faces;
+    LocalMap map;
+    int evaluations = 0;
+    for (int f = 0; this->Grid && f < static_cast<int>(faces.size()); ++f)
+    {
+      if (!this->Kinks[static_cast<std::size_t>(location.element) * MaximumFaces + f])
+      {
+        continue;
+      }
+      if (evaluations == 0)
+      {
+        map = fieldPoint(evaluateGradient(this->Mesh.form(location.element), location.u), 0.0).map;
+        evaluations = 1;
+      }
+      const glm::dvec3 inward = glm::transpose(map.inverse) * faces[f].inward.xyz;
+      const double slope = glm::length(inward);
+      const double distance = std::max(0.0, faceMargin(faces[f], location.u) / slope);
+      const WorldVector outward{ inward / -slope };
+      if (slope > 0.0 && distance <= ClipReach * particle.spacing &&
+        this->goesOnBehind(particle, f, particle.position + distance * outward))
+      {
+        offer(particle, { outward, distance });
+      }
+    }
+    return evaluations;
+  }
+
+private:
+  void add(const Particle& particle)
+  {
+    this->Positions.push_back(particle.position.xyz);
+    this->Spacings.push_back(static_cast<float>(particle.spacing));
+    this->Elements.push_back(particle.location.element);
+  }
+
+  /// Whether a particle behind the face is near enough to cover what is cut off: slivers of elements hold
+  /// none.
+  bool goesOnBehind(const Particle& particle, int face, const WorldPoint& foot) const
+  {
+    const int behind = this->Mesh.neighbor(particle.location.element, face).element;
+    bool found = false;
+    this->Grid->visit(foot.xyz, particle.spacing,
+      [&](int j)
+      {
+        found = found ||
+          (this->Elements[j] == behind &&
+            glm::distance(this->Positions[j], foot.xyz) <= particle.spacing);
+      });
+    return found;
+  }
+
+  const ElementMesh& Mesh;
+  const std::vector<char>& Kinks;
+  std::vector<glm::dvec3> Positions;
+  std::vector<float> Spacings;
+  std::vector<int> Elements;
+  std::unique_ptr<SpacingGrid> Grid;
+};
 
 } // namespace
 
@@ -121,6 +179,7 @@ std::int64_t markClipPlanes(const ElementMesh& mesh, const FaceJumps& jumps,
     spacings.push_back(rim.patch.spacing);
   }
   const SpacingGrid grid(positions, spacings, ClipReach, 0.5);
+  const KinkPlanes kinks(mesh, jumps.kinks, particles, rims);
   std::atomic<std::int64_t> evaluations{ 0 };
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(particles.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
@@ -129,14 +188,14 @@ std::int64_t markClipPlanes(const ElementMesh& mesh, const FaceJumps& jumps,
       for (std::ptrdiff_t i = begin; i < end; ++i)
       {
         offerRims(grid, rims, particles[i]);
-        cost += offerKinks(mesh, jumps.kinks, particles[i]);
+        cost += kinks.offerTo(particles[i]);
       }
       evaluations += cost;
     });
   for (RimParticle& rim : rims)
   {
     offerRims(grid, rims, rim.particle);
-    evaluations += offerKinks(mesh, jumps.kinks, rim.particle);
+    evaluations += kinks.offerTo(rim.particle);
   }
   return evaluations;
 }

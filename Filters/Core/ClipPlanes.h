@@ -8,7 +8,8 @@ namespace hop
 
 /// Tells particles near an edge of the surface where it ends: near a rim the plane through the nearest
 /// particle of the rim, normal to the surface's way out of the domain; near a face at which the normal
-/// turns, that face. A splat that reaches beyond that plane is to be cut off there.
+/// turns, that face, if there are particles behind it to cover what is cut off. A splat that reaches
+/// beyond that plane is to be cut off there.
 /// In corners two planes meet.
 /// \param particles those that are not on rims; particles on rims are marked with them
 /// \return evaluations
