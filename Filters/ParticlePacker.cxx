@@ -163,10 +163,15 @@ vtkSmartPointer<vtkDoubleArray> Packer::addArray(
   array->SetName(name.c_str());
   array->SetNumberOfComponents(components);
   array->SetNumberOfTuples(static_cast<vtkIdType>(this->Rows.size()));
-  for (std::size_t i = 0; i < this->Rows.size(); ++i)
-  {
-    write(this->Rows[i], array->GetPointer(static_cast<vtkIdType>(i) * components));
-  }
+  double* values = array->GetPointer(0);
+  hop::runParallel(this->Parallel, static_cast<std::ptrdiff_t>(this->Rows.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      for (std::ptrdiff_t i = begin; i < end; ++i)
+      {
+        write(this->Rows[i], values + i * components);
+      }
+    });
   this->Output->GetPointData()->AddArray(array);
   return array;
 }

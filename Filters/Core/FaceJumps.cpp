@@ -154,8 +154,10 @@ FaceJumps findFaceJumps(
             {
               return;
             }
-            ofElement[element].push_back(
-              { crossing.face, check(crossing, proxy.samples()[b].patch.spacing, walker) });
+            const Finding finding = check(crossing, proxy.samples()[b].patch.spacing, walker);
+            ofElement[element].push_back({ crossing.face, finding });
+            // One jump is enough to cut a face.
+            wanted[crossing.face] = finding != Jumps;
           }
         });
     }

@@ -325,7 +325,7 @@ std::vector<char> FastSystem::farFromRims(double nearest)
     positions.push_back(rim.patch.position);
     spacings.push_back(rim.patch.spacing);
   }
-  const SpacingGrid grid(positions, spacings, nearest, 0.5);
+  const SpacingGrid grid(positions, spacings, nearest, 0.5, this->Parallel);
   runParallel(this->Parallel, static_cast<std::ptrdiff_t>(far.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
@@ -357,7 +357,7 @@ std::vector<char> FastSystem::standApart(double nearest)
     positions.push_back(patch.position);
     spacings.push_back(patch.spacing);
   }
-  const SpacingGrid grid(positions, spacings, nearest, 0.5);
+  const SpacingGrid grid(positions, spacings, nearest, 0.5, this->Parallel);
   const auto visitNear = [&](std::size_t i, const auto& use)
   {
     grid.visit(positions[i], spacings[i],
@@ -597,7 +597,7 @@ void FastSystem::coverBoxes()
   const auto& samples = this->Proxy->samples();
   std::vector<char> lonely(samples.size(), 0);
   {
-    const SpacingGrid grid(positions, spacings, 1.0, 0.5);
+    const SpacingGrid grid(positions, spacings, 1.0, 0.5, this->Parallel);
     runParallel(this->Parallel, static_cast<std::ptrdiff_t>(samples.size()),
       [&](std::ptrdiff_t begin, std::ptrdiff_t end)
       {
@@ -731,8 +731,6 @@ void FastSystem::finish()
   {
     particles.push_back(rim.particle);
   }
-  std::stable_sort(particles.begin(), particles.end(),
-    [](const Particle& a, const Particle& b) { return a.location.element < b.location.element; });
   report.particlesUndersampled = std::count_if(particles.begin(), particles.end(),
     [](const Particle& p) { return p.curvature.magnitude * p.spacing > 2.0; });
   this->Result.particles = std::move(particles);

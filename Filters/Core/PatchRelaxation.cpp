@@ -20,6 +20,8 @@ using kernel::SweepLanes;
 constexpr double listSlack = 0.35;
 /// Energy, in units of that of hexagonal packing, from which on a particle is one too many.
 constexpr double crowdedEnergy = 2.5;
+/// Blocks that one thread moves before another has started.
+constexpr std::ptrdiff_t fewBlocks = 64;
 /// Over-relaxation of Newton's steps where the surface is flat, and where it bends.
 constexpr float flatRelaxation = 1.5f;
 constexpr float bentRelaxation = 0.7f;
@@ -103,12 +105,21 @@ public:
     for (std::size_t color = 0; color + 1 < this->ColorStart.size(); ++color)
     {
       const std::ptrdiff_t first = this->ColorStart[color];
-      runParallel(this->Parallel, this->ColorStart[color + 1] - first,
-        [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-        {
-          sweepBlocks(this->Blocks.data() + first + begin, end - begin, this->Neighbors.data(),
-            this->SeenParticles.data());
-        });
+      const std::ptrdiff_t count = this->ColorStart[color + 1] - first;
+      const auto sweepRange = [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+      {
+        sweepBlocks(this->Blocks.data() + first + begin, end - begin, this->Neighbors.data(),
+          this->SeenParticles.data());
+      };
+      // The last colours have few particles: not worth waking threads for.
+      if (count < fewBlocks)
+      {
+        sweepRange(0, count);
+      }
+      else
+      {
+        runParallel(this->Parallel, count, sweepRange);
+      }
     }
   }
 

@@ -23,7 +23,8 @@ std::size_t slotOf(std::uint64_t key, std::size_t mask)
 } // namespace
 
 SpacingGrid::SpacingGrid(const std::vector<glm::dvec3>& positions,
-  const std::vector<float>& spacings, double reach, double cellsPerReach)
+  const std::vector<float>& spacings, double reach, double cellsPerReach,
+  const ParallelFor& parallelFor)
   : Positions(positions)
   , Spacings(spacings)
   , Reach(reach)
@@ -64,11 +65,21 @@ SpacingGrid::SpacingGrid(const std::vector<glm::dvec3>& positions,
     slots *= 2;
   }
   this->Slots.assign(slots, { 0, -1 });
+  std::vector<std::uint64_t> keys(positions.size());
+  runParallel(parallelFor, static_cast<std::ptrdiff_t>(positions.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      for (std::ptrdiff_t i = begin; i < end; ++i)
+      {
+        const int level = this->levelOf(spacings[i]);
+        keys[i] = keyOf(this->cellOf(positions[i], level), level);
+      }
+    });
   std::vector<int> cells(positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i)
   {
-    const int level = this->levelOf(spacings[i]);
-    cells[i] = this->findOrAdd(keyOf(this->cellOf(positions[i], level), level));
+    // Neighbours in memory often share a cell.
+    cells[i] = i > 0 && keys[i] == keys[i - 1] ? cells[i - 1] : this->findOrAdd(keys[i]);
     ++this->CellStart[cells[i] + 1];
   }
   std::partial_sum(this->CellStart.begin(), this->CellStart.end(), this->CellStart.begin());
@@ -152,7 +163,7 @@ void SpacingGrid::place(std::uint64_t key, int cell)
 SeenLists::SeenLists(const std::vector<glm::dvec3>& positions, const std::vector<float>& spacings,
   double reach, const ParallelFor& parallelFor)
 {
-  const SpacingGrid grid(positions, spacings, reach);
+  const SpacingGrid grid(positions, spacings, reach, 1.0, parallelFor);
   const auto& cellStart = grid.cellStart();
   const auto& order = grid.order();
   constexpr std::ptrdiff_t cellsPerChunk = 64;
