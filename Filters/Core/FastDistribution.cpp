@@ -25,8 +25,9 @@ namespace
 constexpr double hexahedronPerSpacing = 6.0;
 constexpr double wedgePerSpacing = 7.0;
 constexpr double tetrahedronPerSpacing = 9.0;
-/// Spacing of the first look, in units of the mesh's diagonal.
-constexpr double coarseSpacingPerExtent = 0.005;
+/// Spacing of the first look, in units of the mesh's diagonal. Where more is asked for, the number of
+/// particles cannot get out of hand.
+constexpr double coarseSpacingPerExtent = 0.001;
 /// A step of relaxation is taken back by half while it ends farther from the surface than this, in
 /// units of the spacing, or on a sheet that is turned away.
 constexpr float largestOffset = 0.5f;
@@ -231,7 +232,7 @@ void FastSystem::matchCount()
 void FastSystem::makeSeeds(std::int64_t count)
 {
   const std::vector<Location> seeds =
-    this->Proxy->seeds(count, Random(this->Parameters.seed).uniform());
+    this->Proxy->seeds(count, Random(this->Parameters.seed).uniform(), this->Parallel);
   this->Anchors.resize(seeds.size());
   for (std::size_t i = 0; i < seeds.size(); ++i)
   {

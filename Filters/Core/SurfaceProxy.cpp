@@ -259,36 +259,53 @@ double SurfaceProxy::weigh(std::size_t which, std::vector<WeighedTriangle>& weig
   return sum;
 }
 
-std::vector<Location> SurfaceProxy::seeds(std::int64_t count, double phase) const
+/// The seeds first to last - 1 in the triangles of a box, at the sums of weights that are theirs.
+void SurfaceProxy::seedBox(std::size_t box, std::int64_t first, std::int64_t last, double phase,
+  double stride, std::vector<Location>& seeds) const
 {
   constexpr double goldenRatio = 0.61803398874989485;
-  std::vector<Location> result;
-  result.reserve(count);
   std::vector<WeighedTriangle> triangles;
-  const double stride = this->particleCount() / static_cast<double>(count);
-  const auto wanted = [&]() { return (static_cast<double>(result.size()) + phase) * stride; };
-  for (std::size_t b = 0; b < this->Boxes.size(); ++b)
+  double sum = this->Sums[box] - this->weigh(box, triangles);
+  std::size_t t = 0;
+  for (std::int64_t k = first; k < last; ++k)
   {
-    if (this->Sums[b] <= wanted())
+    const double wanted = (static_cast<double>(k) + phase) * stride;
+    while (t + 1 < triangles.size() && wanted >= sum + triangles[t].weight)
     {
-      continue;
+      sum += triangles[t++].weight;
     }
-    double sum = this->Sums[b] - this->weigh(b, triangles);
-    for (const WeighedTriangle& t : triangles)
-    {
-      while (wanted() < sum + t.weight && static_cast<std::int64_t>(result.size()) < count)
-      {
-        // (root, across) to barycentric coordinates keeps equal areas equal.
-        const double root = std::sqrt(std::clamp((wanted() - sum) / t.weight, 0.0, 1.0));
-        const double across = std::fmod(goldenRatio * static_cast<double>(result.size()), 1.0);
-        const glm::dvec3 u = (1.0 - root) * glm::dvec3(t.corners[0]) +
-          root * (1.0 - across) * glm::dvec3(t.corners[1]) +
-          root * across * glm::dvec3(t.corners[2]);
-        result.push_back({ this->Boxes[b].middle.element, { u } });
-      }
-      sum += t.weight;
-    }
+    // (root, across) to barycentric coordinates keeps equal areas equal.
+    const auto& corners = triangles[t].corners;
+    const double root = std::sqrt(std::clamp((wanted - sum) / triangles[t].weight, 0.0, 1.0));
+    const double across = std::fmod(goldenRatio * static_cast<double>(k), 1.0);
+    seeds[k] = { this->Boxes[box].middle.element,
+      { (1.0 - root) * glm::dvec3(corners[0]) + root * (1.0 - across) * glm::dvec3(corners[1]) +
+        root * across * glm::dvec3(corners[2]) } };
   }
+}
+
+std::vector<Location> SurfaceProxy::seeds(
+  std::int64_t count, double phase, const ParallelFor& parallelFor) const
+{
+  std::vector<Location> result(count);
+  const double stride = this->particleCount() / static_cast<double>(count);
+  // The first seed whose sum is not below a given one.
+  const auto firstFrom = [&](double sum)
+  { return std::clamp<std::int64_t>(std::llround(std::ceil(sum / stride - phase)), 0, count); };
+  runParallel(parallelFor, static_cast<std::ptrdiff_t>(this->Boxes.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      for (std::ptrdiff_t b = begin; b < end; ++b)
+      {
+        const std::int64_t first = b > 0 ? firstFrom(this->Sums[b - 1]) : 0;
+        const bool isLast = this->Sums[b] == this->Sums.back();
+        const std::int64_t last = isLast ? count : firstFrom(this->Sums[b]);
+        if (first < last && (b == 0 || this->Sums[b] > this->Sums[b - 1]))
+        {
+          this->seedBox(b, first, last, phase, stride, result);
+        }
+      }
+    });
   return result;
 }
 

@@ -40,7 +40,8 @@ public:
   /// `count` places on the triangles, by systematic sampling of the density of particles: the k-th
   /// stands where the sum of the weights reaches (k + phase) particleCount()/count.
   /// \param phase in [0, 1)
-  std::vector<Location> seeds(std::int64_t count, double phase) const;
+  std::vector<Location> seeds(
+    std::int64_t count, double phase, const ParallelFor& parallelFor) const;
 
   /// The spacing that a particle wants: that of the law at its own curvature, or less near places
   /// that want less. Graded like the samples.
@@ -69,6 +70,8 @@ private:
   bool sampleAt(std::size_t box, const Location& place, const Jet& jet);
   void gradeSpacings();
   void sumWeights(const ParallelFor& parallelFor);
+  void seedBox(std::size_t box, std::int64_t first, std::int64_t last, double phase, double stride,
+    std::vector<Location>& seeds) const;
   double weigh(std::size_t box, std::vector<WeighedTriangle>& triangles) const;
 
   Isosurface Surface;
