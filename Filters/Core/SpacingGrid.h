@@ -27,8 +27,7 @@ public:
   ///   look into fewer cells
   /// \pre as many spacings as points, all > 0; positions and spacings outlive the grid
   SpacingGrid(const std::vector<glm::dvec3>& positions, const std::vector<float>& spacings,
-    double reach, double cellsPerReach = 1.0,
-    const ParallelFor& parallelFor = {});
+    double reach, double cellsPerReach = 1.0, const ParallelFor& parallelFor = {});
 
   /// Calls use(j) for every point that may be within reach of a point at `position` with that
   /// spacing, and for some farther off, in a fixed order. The caller tests.

@@ -130,7 +130,7 @@ def gyroid_table(quick):
     print("| cells | filter | time | points | max error | mean error |\n|---|---|---|---|---|---|")
     for n in (4, 16) if quick else (4, 16, 24):
         grid = gyroid_grid(n)
-        rows = [("Contour", contour), ("this plugin, Classic, Spacing 0.04", particles(0.04))]
+        rows = [("Contour", contour), ("this plugin, spacing 0.04", particles(0.04))]
         if n == 4 and not quick:
             rows.insert(1, ("Tessellate (1e-2), Contour", tessellate(1e-2)))
         for name, make in rows:
