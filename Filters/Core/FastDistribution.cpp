@@ -1,6 +1,5 @@
 #include "FastDistribution.h"
 
-#include "ActiveFaces.h"
 #include "ClipPlanes.h"
 #include "FaceJumps.h"
 #include "Interruptible.h"
@@ -95,7 +94,6 @@ private:
   bool isCovered(const SurfaceProxy::Sample& sample, const SpacingGrid& grid) const;
   void relax(int sweeps);
   void commit(const std::vector<glm::vec2>& displacements);
-  bool isOnWall(const Location& location) const;
   Location target(std::size_t i, const glm::dvec3& step, std::int64_t& cost) const;
   glm::dvec3 stepTo(std::size_t i, const glm::vec2& displacement) const;
   std::vector<Location> targets(const std::vector<glm::vec2>& displacements);
@@ -118,6 +116,7 @@ private:
   /// Those of the particles that move, then those on rims.
   std::vector<Patch> Patches;
   RimCurves Rims;
+  std::vector<Patch> RimPatches;
   FaceJumps Jumps;
   std::atomic<std::int64_t> Evaluations{ 0 };
   Distribution Result;
@@ -127,9 +126,7 @@ private:
 glm::dvec3 worldStep(const Patch& patch, const glm::vec2& t)
 {
   const auto tangents = tangentsOf(patch.normal);
-  const auto& s = patch.shape;
-  const float sink = 0.5f * (s[0] * t.x * t.x + 2.0f * s[1] * t.x * t.y + s[2] * t.y * t.y);
-  return glm::dvec3(t.x * tangents[0] + t.y * tangents[1] - sink * patch.normal);
+  return glm::dvec3(t.x * tangents[0] + t.y * tangents[1] - patch.sink(t) * patch.normal);
 }
 
 template <class T>
@@ -312,6 +309,10 @@ void FastSystem::makeRims()
 {
   this->Rims = findRimCurves(this->Surface, *this->Proxy, this->Law);
   this->Evaluations += this->Rims.evaluations;
+  for (const RimParticle& rim : this->Rims.particles)
+  {
+    this->RimPatches.push_back(rim.patch);
+  }
 }
 
 /// For each particle that moves, whether it keeps that distance, in units of its spacing, from all
@@ -319,13 +320,8 @@ void FastSystem::makeRims()
 std::vector<char> FastSystem::farFromRims(double nearest)
 {
   std::vector<char> far(this->Anchors.size(), 1);
-  std::vector<glm::dvec3> positions;
-  std::vector<float> spacings;
-  for (const RimParticle& rim : this->Rims.particles)
-  {
-    positions.push_back(rim.patch.position);
-    spacings.push_back(rim.patch.spacing);
-  }
+  const std::vector<glm::dvec3> positions = positionsOf(this->RimPatches);
+  const std::vector<float> spacings = spacingsOf(this->RimPatches);
   const SpacingGrid grid(positions, spacings, nearest, 0.5, this->Parallel);
   runParallel(this->Parallel, static_cast<std::ptrdiff_t>(far.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
@@ -336,7 +332,7 @@ std::vector<char> FastSystem::farFromRims(double nearest)
         grid.visit(patch.position, patch.spacing,
           [&](int j)
           {
-            const Patch& rim = this->Rims.particles[j].patch;
+            const Patch& rim = this->RimPatches[j];
             const bool near =
               glm::distance(patch.position, rim.position) < nearest * patch.spacing &&
               glm::dot(patch.normal, rim.normal) > 0.0f;
@@ -351,13 +347,8 @@ std::vector<char> FastSystem::farFromRims(double nearest)
 /// spacings: the first of two stays, and those on rims do.
 std::vector<char> FastSystem::standApart(double nearest)
 {
-  std::vector<glm::dvec3> positions;
-  std::vector<float> spacings;
-  for (const Patch& patch : this->Patches)
-  {
-    positions.push_back(patch.position);
-    spacings.push_back(patch.spacing);
-  }
+  const std::vector<glm::dvec3> positions = positionsOf(this->Patches);
+  const std::vector<float> spacings = spacingsOf(this->Patches);
   const SpacingGrid grid(positions, spacings, nearest, 0.5, this->Parallel);
   const auto visitNear = [&](std::size_t i, const auto& use)
   {
@@ -403,10 +394,7 @@ void FastSystem::dropNearRims(double nearest)
   const std::vector<char> far = this->farFromRims(nearest);
   keep(this->Anchors, far);
   keep(this->Patches, far);
-  for (const RimParticle& rim : this->Rims.particles)
-  {
-    this->Patches.push_back(rim.patch);
-  }
+  this->Patches.insert(this->Patches.end(), this->RimPatches.begin(), this->RimPatches.end());
 }
 
 /// Where a step in world space takes particle i: in its own element by its own map, else by walking.
@@ -427,27 +415,13 @@ Location FastSystem::target(std::size_t i, const glm::dvec3& step, std::int64_t&
   map.jacobian = glm::inverse(map.inverse);
   // Onto a wall only particles on rims may go.
   Location reached = walker.move(start, { step });
-  const auto onWall = [&]() { return this->isOnWall(reached); };
+  const auto onWall = [&]() { return boundaryFaceCount(this->Surface, reached) > 0; };
   if (onWall())
   {
     reached = walker.move(start, { 0.5 * step });
   }
   cost += walker.evaluations();
   return onWall() ? anchor.place : reached;
-}
-
-bool FastSystem::isOnWall(const Location& location) const
-{
-  const auto& faces = facts(this->Mesh.elements[location.element].domain).faces;
-  for (int f = 0; f < static_cast<int>(faces.size()); ++f)
-  {
-    if (faceMargin(faces[f], location.u) < OnFace &&
-      this->Surface.neighbor(location.element, f).element < 0)
-    {
-      return true;
-    }
-  }
-  return false;
 }
 
 bool FastSystem::accepts(const Patch& before, const Anchor& anchor, const Patch& after) const
@@ -577,24 +551,17 @@ bool FastSystem::isCovered(const SurfaceProxy::Sample& sample, const SpacingGrid
       }
       const auto tangents = tangentsOf(patch.normal);
       const glm::vec2 t(glm::dot(d, tangents[0]), glm::dot(d, tangents[1]));
-      const auto& s = patch.shape;
-      const float sink = 0.5f * (s[0] * t.x * t.x + 2.0f * s[1] * t.x * t.y + s[2] * t.y * t.y);
       const float bend = patch.curvatureMagnitude() * distance;
-      covered =
-        std::abs(glm::dot(d, patch.normal) + sink) <= (coverOffset + bend * bend) * patch.spacing;
+      covered = std::abs(glm::dot(d, patch.normal) + patch.sink(t)) <=
+        (coverOffset + bend * bend) * patch.spacing;
     });
   return covered;
 }
 
 void FastSystem::coverBoxes()
 {
-  std::vector<glm::dvec3> positions;
-  std::vector<float> spacings;
-  for (const Patch& patch : this->Patches)
-  {
-    positions.push_back(patch.position);
-    spacings.push_back(patch.spacing);
-  }
+  const std::vector<glm::dvec3> positions = positionsOf(this->Patches);
+  const std::vector<float> spacings = spacingsOf(this->Patches);
   const auto& samples = this->Proxy->samples();
   std::vector<char> lonely(samples.size(), 0);
   {

@@ -30,22 +30,6 @@ constexpr float flatUpTo = 0.3f;
 constexpr float farthestPerSpacing = 0.5f;
 constexpr float farthestPerRadius = 0.5f;
 
-std::vector<glm::dvec3> positionsOf(const std::vector<Patch>& patches)
-{
-  std::vector<glm::dvec3> positions(patches.size());
-  std::transform(patches.begin(), patches.end(), positions.begin(),
-    [](const Patch& patch) { return patch.position; });
-  return positions;
-}
-
-std::vector<float> spacingsOf(const std::vector<Patch>& patches)
-{
-  std::vector<float> spacings(patches.size());
-  std::transform(patches.begin(), patches.end(), spacings.begin(),
-    [](const Patch& patch) { return patch.spacing; });
-  return spacings;
-}
-
 /// Gives each particle that moves the lowest colour that none of those it sees has yet; -1 for fixed.
 /// \return lists of particles by colour
 std::vector<std::vector<int>> colorParticles(
@@ -278,6 +262,28 @@ float Patch::curvatureMagnitude() const
 {
   const auto& s = this->shape;
   return std::sqrt(s[0] * s[0] + 2.0f * s[1] * s[1] + s[2] * s[2]);
+}
+
+float Patch::sink(const glm::vec2& t) const
+{
+  const auto& s = this->shape;
+  return 0.5f * (s[0] * t.x * t.x + 2.0f * s[1] * t.x * t.y + s[2] * t.y * t.y);
+}
+
+std::vector<glm::dvec3> positionsOf(const std::vector<Patch>& patches)
+{
+  std::vector<glm::dvec3> positions(patches.size());
+  std::transform(patches.begin(), patches.end(), positions.begin(),
+    [](const Patch& patch) { return patch.position; });
+  return positions;
+}
+
+std::vector<float> spacingsOf(const std::vector<Patch>& patches)
+{
+  std::vector<float> spacings(patches.size());
+  std::transform(patches.begin(), patches.end(), spacings.begin(),
+    [](const Patch& patch) { return patch.spacing; });
+  return spacings;
 }
 
 std::array<glm::vec3, 2> tangentsOf(const glm::vec3& normal)

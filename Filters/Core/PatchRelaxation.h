@@ -27,10 +27,17 @@ struct Patch
 
   /// The paper's D = sqrt(k1^2 + k2^2).
   float curvatureMagnitude() const;
+
+  /// How far the surface has fallen below the tangent plane at t: t.S t / 2.
+  float sink(const glm::vec2& t) const;
 };
 
 /// Two unit vectors that span the plane normal to a unit vector, right-handed with it.
 std::array<glm::vec3, 2> tangentsOf(const glm::vec3& normal);
+
+/// As SpacingGrid wants them.
+std::vector<glm::dvec3> positionsOf(const std::vector<Patch>& patches);
+std::vector<float> spacingsOf(const std::vector<Patch>& patches);
 
 /// Where relaxation takes particles.
 struct Relaxed

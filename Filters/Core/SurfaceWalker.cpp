@@ -18,17 +18,6 @@ bool onBoundary(const Isosurface& surface, const Location& location, int face)
     faceMargin(facts(domain).faces[face], location.u) < OnFace;
 }
 
-int boundaryFaces(const Isosurface& surface, const Location& location)
-{
-  const auto& faces = facts(surface.mesh->elements[location.element].domain).faces;
-  int count = 0;
-  for (int f = 0; f < static_cast<int>(faces.size()); ++f)
-  {
-    count += onBoundary(surface, location, f);
-  }
-  return count;
-}
-
 /// \pre the place lies on one
 int firstBoundaryFace(const Isosurface& surface, const Location& location)
 {
@@ -123,7 +112,7 @@ WorldVector SurfaceWalker::newtonStep(const Evaluated& at, bool& alongWall) cons
     // Where the surface all but touches the boundary there is no curve to find.
     step = rate > 1e-6 * slope2 ? (-at.point.value / rate) * along : WorldVector{};
   };
-  if (alongWall && boundaryFaces(this->Surface, at.location) == 1)
+  if (alongWall && boundaryFaceCount(this->Surface, at.location) == 1)
   {
     hold(firstBoundaryFace(this->Surface, at.location));
   }
@@ -176,9 +165,20 @@ bool SurfaceWalker::project(
   return false;
 }
 
+int boundaryFaceCount(const Isosurface& surface, const Location& location)
+{
+  const auto& faces = facts(surface.mesh->elements[location.element].domain).faces;
+  int count = 0;
+  for (int f = 0; f < static_cast<int>(faces.size()); ++f)
+  {
+    count += onBoundary(surface, location, f);
+  }
+  return count;
+}
+
 int boundaryFaceCount(const ElementMesh& mesh, const Location& location)
 {
-  return boundaryFaces({ &mesh }, location);
+  return boundaryFaceCount(Isosurface{ &mesh }, location);
 }
 
 } // namespace hop

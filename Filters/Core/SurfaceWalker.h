@@ -79,7 +79,9 @@ private:
   std::int64_t Evaluations = 0;
 };
 
-/// How many boundary faces (faces without neighbour) of its element a place lies on.
+/// How many boundary faces (faces behind which the surface does not go on) of its element a place lies on.
+int boundaryFaceCount(const Isosurface& surface, const Location& location);
+/// The same for faces without neighbour.
 int boundaryFaceCount(const ElementMesh& mesh, const Location& location);
 
 } // namespace hop
