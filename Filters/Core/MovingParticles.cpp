@@ -2,7 +2,9 @@
 
 #include "KeepMarked.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace hop
 {
@@ -14,6 +16,10 @@ namespace
 constexpr float largestOffset = 0.5f;
 constexpr float smallestTurn = 0.3f;
 constexpr int maximumHalvings = 3;
+/// Steps from farther off have to shorten the way by this factor.
+constexpr float smallestProgress = 0.7f;
+/// A patch is good if it was evaluated nearer to the surface than this, in units of its spacing.
+constexpr float nearEnough = 0.1f;
 
 /// World vector of a displacement on a patch.
 glm::dvec3 worldStep(const Patch& patch, const glm::vec2& t)
@@ -22,10 +28,12 @@ glm::dvec3 worldStep(const Patch& patch, const glm::vec2& t)
   return glm::dvec3(t.x * tangents[0] + t.y * tangents[1] - patch.sink(t) * patch.normal);
 }
 
-bool accepts(const Patch& before, const Anchor& anchor, const Patch& after)
+/// Whether a step leads to the surface, or nearer to it at least, and not astray.
+bool accepts(const Anchor& from, const Patch& before, const Anchor& to, const Patch& after)
 {
-  return std::abs(anchor.offset) <= largestOffset * before.spacing &&
-    glm::dot(before.normal, after.normal) > smallestTurn &&
+  const float farthest =
+    std::max(largestOffset * before.spacing, smallestProgress * std::abs(from.offset));
+  return std::abs(to.offset) <= farthest && glm::dot(before.normal, after.normal) > smallestTurn &&
     glm::distance(before.position, after.position) <= 2.0 * before.spacing;
 }
 
@@ -43,8 +51,28 @@ MovingParticles::MovingParticles(const Isosurface& surface, const SurfaceProxy& 
 void MovingParticles::add(const std::vector<Location>& places)
 {
   MovingParticles added(this->Surface, this->Proxy, {}, this->Parallel);
-  added.Anchors.resize(places.size());
-  added.Patches.resize(places.size());
+  added.anchorAt(places);
+  std::vector<char> near(added.count());
+  std::transform(added.Anchors.begin(), added.Anchors.end(), added.Patches.begin(), near.begin(),
+    [](const Anchor& anchor, const Patch& patch)
+    { return std::abs(anchor.offset) <= nearEnough * patch.spacing; });
+  std::vector<Anchor> anchors = added.Anchors;
+  std::vector<Patch> patches = added.Patches;
+  keepMarked(anchors, near);
+  keepMarked(patches, near);
+  std::transform(near.begin(), near.end(), near.begin(), std::logical_not<>());
+  added.keep(near);
+  added.commit(std::vector<glm::vec2>(added.count(), glm::vec2(0.0f)));
+  this->Evaluations += added.Evaluations;
+  this->add(anchors, patches);
+  this->add(added.Anchors, added.Patches);
+}
+
+/// A particle for each place where a patch can be had.
+void MovingParticles::anchorAt(const std::vector<Location>& places)
+{
+  this->Anchors.resize(places.size());
+  this->Patches.resize(places.size());
   const std::vector<int> order = orderByElement(places, this->Surface.mesh->elements.size());
   std::vector<char> found(places.size(), 0);
   runParallel(this->Parallel, static_cast<std::ptrdiff_t>(places.size()),
@@ -53,15 +81,13 @@ void MovingParticles::add(const std::vector<Location>& places)
       evaluateInOrder(*this->Surface.mesh, places, order, begin, end,
         [&](int i, const Jet& jet)
         {
-          Patch& patch = added.Patches[i];
-          found[i] = anchorPatch(places[i], jet, this->Surface.isovalue, added.Anchors[i], patch);
-          patch.spacing = static_cast<float>(this->Proxy.law().spacing);
+          Patch& patch = this->Patches[i];
+          found[i] = anchorPatch(places[i], jet, this->Surface.isovalue, this->Anchors[i], patch);
+          patch.spacing = this->Proxy.spacingAt(patch.position, patch.curvatureMagnitude());
         });
     });
-  added.keep(found);
-  added.commit(std::vector<glm::vec2>(added.count(), glm::vec2(0.0f)));
-  this->Evaluations += static_cast<std::int64_t>(places.size()) + added.Evaluations;
-  this->add(added.Anchors, added.Patches);
+  this->Evaluations += static_cast<std::int64_t>(places.size());
+  this->keep(found);
 }
 
 void MovingParticles::add(const std::vector<Anchor>& anchors, const std::vector<Patch>& patches)
@@ -140,7 +166,7 @@ bool MovingParticles::retry(
     const Jet jet = evaluateHessian(this->Surface.mesh->form(place.element), place.u);
     ++cost;
     if (anchorPatch(place, jet, this->Surface.isovalue, anchor, patch) &&
-      accepts(this->Patches[i], anchor, patch))
+      accepts(this->Anchors[i], this->Patches[i], anchor, patch))
     {
       return true;
     }
@@ -171,7 +197,7 @@ void MovingParticles::commit(const std::vector<glm::vec2>& displacements)
           Patch& patch = patches[rank[i]];
           const Patch& before = this->Patches[i];
           const bool moved = (anchorPatch(places[i], jet, this->Surface.isovalue, anchor, patch) &&
-                               accepts(before, anchor, patch)) ||
+                               accepts(this->Anchors[i], before, anchor, patch)) ||
             this->retry(i, this->stepTo(i, displacements[i]), anchor, patch, cost);
           if (!moved)
           {
@@ -197,7 +223,7 @@ void MovingParticles::renew(std::size_t i, const Location& place, const Jet& jet
   Anchor anchor;
   Patch patch = this->Patches[i];
   if (anchorPatch(place, jet, this->Surface.isovalue, anchor, patch) &&
-    accepts(this->Patches[i], anchor, patch))
+    accepts(this->Anchors[i], this->Patches[i], anchor, patch))
   {
     this->Anchors[i] = anchor;
     this->Patches[i] = patch;

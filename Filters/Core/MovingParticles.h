@@ -27,8 +27,8 @@ public:
   const std::vector<Patch>& patches() const { return this->Patches; }
   std::int64_t evaluations() const { return this->Evaluations; }
 
-  /// Adds a particle for each place from which one Newton step leads to the surface; two evaluations
-  /// each.
+  /// Adds a particle for each place from which one Newton step leads to the surface; one evaluation each,
+  /// and another where that step is not small.
   void add(const std::vector<Location>& places);
   /// Adds particles whose patches are known.
   void add(const std::vector<Anchor>& anchors, const std::vector<Patch>& patches);
@@ -52,6 +52,7 @@ public:
   const Isosurface& surface() const { return this->Surface; }
 
 private:
+  void anchorAt(const std::vector<Location>& places);
   Location target(std::size_t i, const glm::dvec3& step, std::int64_t& cost) const;
   glm::dvec3 stepTo(std::size_t i, const glm::vec2& displacement) const;
   std::vector<Location> targets(const std::vector<glm::vec2>& displacements);

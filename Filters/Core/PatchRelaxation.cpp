@@ -106,7 +106,7 @@ public:
     }
   }
 
-  Relaxed result(Balance balance) const;
+  Relaxed result(const Balance& balance) const;
 
 private:
   void makeSeen();
@@ -208,7 +208,7 @@ void SweepSystem::fillBlocks(const std::vector<std::vector<int>>& byColor)
   }
 }
 
-Relaxed SweepSystem::result(Balance balance) const
+Relaxed SweepSystem::result(const Balance& balance) const
 {
   const std::size_t count = this->Patches.size();
   Relaxed result{ std::vector<glm::vec2>(count, glm::vec2(0.0f)), std::vector<char>(count, 1), {} };
@@ -283,8 +283,8 @@ std::array<glm::vec3, 2> tangentsOf(const glm::vec3& normal)
   return { first, glm::cross(normal, first) };
 }
 
-Relaxed relaxOnPatches(
-  const std::vector<Patch>& patches, int sweeps, Balance balance, const ParallelFor& parallelFor)
+Relaxed relaxOnPatches(const std::vector<Patch>& patches, int sweeps, const Balance& balance,
+  const ParallelFor& parallelFor)
 {
   if (patches.empty())
   {
