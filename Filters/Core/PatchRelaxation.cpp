@@ -4,6 +4,8 @@
 #include "InstructionSet.h"
 #include "SpacingGrid.h"
 
+#include <glm/integer.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -30,35 +32,40 @@ constexpr float flatUpTo = 0.3f;
 constexpr float farthestPerSpacing = 0.5f;
 constexpr float farthestPerRadius = 0.5f;
 
-/// Gives each particle that moves the lowest colour that none of those it sees has yet; -1 for fixed.
+/// The lowest colour that none of those a particle sees has; some 20 are in use, as a rule.
+int lowestFreeColor(const std::vector<int>& colors, const int* begin, const int* end)
+{
+  constexpr int colorsAtOnce = 64;
+  for (int base = 0;; base += colorsAtOnce)
+  {
+    std::uint64_t taken = 0;
+    for (const int* j = begin; j != end; ++j)
+    {
+      const auto color = static_cast<unsigned>(colors[*j] - base);
+      taken |= color < colorsAtOnce ? std::uint64_t{ 1 } << color : 0;
+    }
+    if (~taken != 0)
+    {
+      return base + glm::findLSB(~taken);
+    }
+  }
+}
+
+/// Gives each particle that moves the lowest colour that none of those it sees has yet.
 /// \return lists of particles by colour
 std::vector<std::vector<int>> colorParticles(
   const std::vector<Patch>& patches, const SeenLists& lists)
 {
   std::vector<std::vector<int>> byColor;
   std::vector<int> colors(patches.size(), -1);
-  std::vector<int> takenBy;
   for (std::size_t i = 0; i < patches.size(); ++i)
   {
     if (patches[i].fixed)
     {
       continue;
     }
-    for (const int* j = lists.begin(i); j != lists.end(i); ++j)
-    {
-      if (colors[*j] >= 0)
-      {
-        takenBy[colors[*j]] = static_cast<int>(i);
-      }
-    }
-    const auto free = std::find_if(
-      takenBy.begin(), takenBy.end(), [i](int taker) { return taker != static_cast<int>(i); });
-    colors[i] = static_cast<int>(free - takenBy.begin());
-    if (free == takenBy.end())
-    {
-      takenBy.push_back(-1);
-      byColor.emplace_back();
-    }
+    colors[i] = lowestFreeColor(colors, lists.begin(i), lists.end(i));
+    byColor.resize(std::max<std::size_t>(byColor.size(), colors[i] + 1));
     byColor[colors[i]].push_back(static_cast<int>(i));
   }
   return byColor;
