@@ -1,6 +1,9 @@
 #include "SpacingGrid.h"
 
+#include "InstructionSet.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -163,6 +166,62 @@ std::size_t SpacingGrid::findOrAdd(std::uint64_t key)
   }
 }
 
+namespace
+{
+
+/// Points to choose neighbours from, as the kernel wants them. To be reused: memory only grows.
+class CandidateRows
+{
+public:
+  void clear() { this->Count = 0; }
+
+  void add(const glm::dvec3& position, double inverseSpacing, int index)
+  {
+    if (this->Count + kernel::MaximumLanes > this->Index.size())
+    {
+      this->grow();
+    }
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->Rows[axis][this->Count] = position[axis];
+    }
+    this->Rows[3][this->Count] = inverseSpacing;
+    this->Index[this->Count++] = index;
+  }
+
+  kernel::Candidates filledUp()
+  {
+    constexpr double outOfReach = 1e150;
+    const std::size_t count = this->Count;
+    while (this->Count % kernel::MaximumLanes != 0)
+    {
+      this->add(glm::dvec3(outOfReach), 1.0, 0);
+    }
+    const kernel::Candidates result{ this->Rows[0].data(), this->Rows[1].data(),
+      this->Rows[2].data(), this->Rows[3].data(), this->Index.data(),
+      static_cast<std::ptrdiff_t>(this->Count) };
+    this->Count = count;
+    return result;
+  }
+
+private:
+  void grow()
+  {
+    const std::size_t size = 2 * this->Index.size() + 64;
+    for (auto& row : this->Rows)
+    {
+      row.resize(size);
+    }
+    this->Index.resize(size);
+  }
+
+  std::array<std::vector<double>, 4> Rows;
+  std::vector<std::int32_t> Index;
+  std::size_t Count = 0;
+};
+
+} // namespace
+
 SeenLists::SeenLists(const std::vector<glm::dvec3>& positions, const std::vector<float>& spacings,
   double reach, const ParallelFor& parallelFor)
 {
@@ -171,15 +230,10 @@ SeenLists::SeenLists(const std::vector<glm::dvec3>& positions, const std::vector
   this->Places.resize(positions.size());
   this->Chunks.resize((positions.size() + pointsPerChunk - 1) / pointsPerChunk);
 
-  // Two points see each other if d <= 2 reach/(1/h_i + 1/h_j): the same sum for both, so that either
-  // both see each other or neither.
-  struct Candidate
-  {
-    glm::dvec3 position;
-    double inverseSpacing;
-    int index;
-  };
-  const auto fillChunk = [&](std::size_t chunk, std::vector<Candidate>& candidates)
+  // Two points see each other if d <= 2 reach/(1/h_i + 1/h_j).
+  const double limit = 4.0 * reach * reach;
+  const auto findNear = kernel::current().near;
+  const auto fillChunk = [&](std::size_t chunk, CandidateRows& candidates)
   {
     std::vector<int>& lists = this->Chunks[chunk];
     std::size_t used = 0;
@@ -193,27 +247,18 @@ SeenLists::SeenLists(const std::vector<glm::dvec3>& positions, const std::vector
         continue;
       }
       candidates.clear();
-      grid.visitAround(points,
-        [&](int j) {
-          candidates.push_back({ positions[j], 1.0 / spacings[j], j });
-        });
+      grid.visitAround(points, [&](int j) { candidates.add(positions[j], 1.0 / spacings[j], j); });
+      const kernel::Candidates rows = candidates.filledUp();
       for (const int i : points)
       {
-        const glm::dvec3 position = positions[i];
-        const double inverseSpacing = 1.0 / spacings[i];
-        const std::size_t start = used;
-        lists.resize(std::max(lists.size(), used + candidates.size()));
-        int* list = lists.data();
-        for (const Candidate& c : candidates)
-        {
-          const glm::dvec3 d = c.position - position;
-          const double sum = c.inverseSpacing + inverseSpacing;
-          // Without a branch: nearly half of the candidates are neighbours.
-          list[used] = c.index;
-          used += (glm::dot(d, d) * (sum * sum) <= 4.0 * reach * reach) & (c.index != i);
-        }
-        this->Places[i] = { static_cast<int>(chunk), static_cast<int>(start),
-          static_cast<int>(used - start) };
+        lists.resize(std::max(lists.size(), used + rows.count));
+        const glm::dvec3& x = positions[i];
+        int* list = lists.data() + used;
+        int* listEnd = findNear(rows, { x.x, x.y, x.z }, 1.0 / spacings[i], limit, list);
+        listEnd = std::remove(list, listEnd, i);
+        this->Places[i] = { static_cast<int>(chunk), static_cast<int>(used),
+          static_cast<int>(listEnd - list) };
+        used += listEnd - list;
       }
     }
     lists.resize(used);
@@ -221,7 +266,7 @@ SeenLists::SeenLists(const std::vector<glm::dvec3>& positions, const std::vector
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(this->Chunks.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
-      std::vector<Candidate> candidates;
+      CandidateRows candidates;
       for (std::ptrdiff_t chunk = begin; chunk < end; ++chunk)
       {
         fillChunk(chunk, candidates);
