@@ -188,7 +188,7 @@ void FastSystem::matchCount()
 void FastSystem::makeSeeds(std::int64_t count)
 {
   this->startMoving();
-  this->Moving->add(
+  this->Moving->start(
     this->Proxy->seeds(count, Random(this->Parameters.seed).uniform(), this->Parallel));
   this->dropNearRims(seedToRim);
   this->coverBoxes();

@@ -40,11 +40,10 @@ MovingParticles::MovingParticles(const Isosurface& surface, const SurfaceProxy& 
 {
 }
 
-void MovingParticles::add(const std::vector<Location>& places)
+void MovingParticles::start(const std::vector<Location>& places)
 {
-  MovingParticles added(this->Surface, this->Proxy, {}, this->Parallel);
-  added.Anchors.resize(places.size());
-  added.Patches.resize(places.size());
+  this->Anchors.resize(places.size());
+  this->Patches.insert(this->Patches.begin(), places.size(), Patch());
   const std::vector<int> order = orderByElement(places, this->Surface.mesh->elements.size());
   std::vector<char> found(places.size(), 0);
   runParallel(this->Parallel, static_cast<std::ptrdiff_t>(places.size()),
@@ -53,15 +52,14 @@ void MovingParticles::add(const std::vector<Location>& places)
       evaluateInOrder(*this->Surface.mesh, places, order, begin, end,
         [&](int i, const Jet& jet)
         {
-          Patch& patch = added.Patches[i];
-          found[i] = anchorPatch(places[i], jet, this->Surface.isovalue, added.Anchors[i], patch);
+          Patch& patch = this->Patches[i];
+          found[i] = anchorPatch(places[i], jet, this->Surface.isovalue, this->Anchors[i], patch);
           patch.spacing = static_cast<float>(this->Proxy.law().spacing);
         });
+      this->Evaluations += end - begin;
     });
-  added.keep(found);
-  added.commit(std::vector<glm::vec2>(added.count(), glm::vec2(0.0f)));
-  this->Evaluations += static_cast<std::int64_t>(places.size()) + added.Evaluations;
-  this->add(added.Anchors, added.Patches);
+  this->keep(std::move(found));
+  this->commit(std::vector<glm::vec2>(this->count(), glm::vec2(0.0f)));
 }
 
 void MovingParticles::add(const std::vector<Anchor>& anchors, const std::vector<Patch>& patches)
@@ -150,41 +148,30 @@ bool MovingParticles::retry(
 
 void MovingParticles::commit(const std::vector<glm::vec2>& displacements)
 {
-  const std::size_t count = this->Anchors.size();
   const std::vector<Location> places = this->targets(displacements);
   const std::vector<int> order = orderByElement(places, this->Surface.mesh->elements.size());
-  std::vector<int> rank(count);
-  for (std::size_t n = 0; n < count; ++n)
-  {
-    rank[order[n]] = static_cast<int>(n);
-  }
-  std::vector<Anchor> anchors(count);
-  std::vector<Patch> patches(count);
-  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(count),
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(places.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       std::int64_t cost = end - begin;
       evaluateInOrder(*this->Surface.mesh, places, order, begin, end,
         [&](int i, const Jet& jet)
         {
-          Anchor& anchor = anchors[rank[i]];
-          Patch& patch = patches[rank[i]];
+          Anchor anchor;
+          Patch patch;
           const Patch& before = this->Patches[i];
-          const bool moved = (anchorPatch(places[i], jet, this->Surface.isovalue, anchor, patch) &&
-                               accepts(before, anchor, patch)) ||
-            this->retry(i, this->stepTo(i, displacements[i]), anchor, patch, cost);
-          if (!moved)
+          if ((anchorPatch(places[i], jet, this->Surface.isovalue, anchor, patch) &&
+                accepts(before, anchor, patch)) ||
+            this->retry(i, this->stepTo(i, displacements[i]), anchor, patch, cost))
           {
-            anchor = this->Anchors[i];
-            patch = before;
+            patch.spacing =
+              this->Proxy.spacingAt(patch.position, patch.curvatureMagnitude(), before.spacing);
+            this->Anchors[i] = anchor;
+            this->Patches[i] = patch;
           }
-          patch.spacing =
-            this->Proxy.spacingAt(patch.position, patch.curvatureMagnitude(), before.spacing);
         });
       this->Evaluations += cost;
     });
-  this->Anchors = std::move(anchors);
-  std::copy(patches.begin(), patches.end(), this->Patches.begin());
 }
 
 Location MovingParticles::onSurface(std::size_t i, std::int64_t& cost) const

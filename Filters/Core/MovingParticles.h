@@ -27,16 +27,16 @@ public:
   const std::vector<Patch>& patches() const { return this->Patches; }
   std::int64_t evaluations() const { return this->Evaluations; }
 
-  /// Adds a particle for each place from which one Newton step leads to the surface; two evaluations
-  /// each.
-  void add(const std::vector<Location>& places);
+  /// The first particles that move: one for each place from which one Newton step leads to the surface; two
+  /// evaluations each.
+  void start(const std::vector<Location>& places);
   /// Adds particles whose patches are known.
   void add(const std::vector<Anchor>& anchors, const std::vector<Patch>& patches);
   /// Keeps those marked; all that move, and no others, have a mark.
   void keep(std::vector<char> kept);
 
   /// Takes particles to where relaxation wants them, and to the surface; one evaluation each gives them
-  /// new patches there, more where half a step has to do. Afterwards they are sorted by element.
+  /// new patches there, more where half a step has to do.
   /// \param displacements in the tangent planes of the patches, one for each that moves at least
   void commit(const std::vector<glm::vec2>& displacements);
 

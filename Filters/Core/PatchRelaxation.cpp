@@ -228,7 +228,7 @@ Relaxed SweepSystem::result(Balance balance) const
       energies[block.particle[lane]] = block.energy[lane];
     }
   }
-  balancePopulation(this->Patches, this->Lists, energies, balance, result);
+  balancePopulation(this->Patches, this->Lists, energies, balance, this->Parallel, result);
   return result;
 }
 

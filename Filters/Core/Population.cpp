@@ -58,19 +58,23 @@ public:
   }
 
   /// Removes particles that have far too much energy, and more than all around them.
-  void removeCrowded()
+  void removeCrowded(const ParallelFor& parallelFor)
   {
+    std::vector<char> crowded(this->Patches.size());
+    this->forAll(parallelFor, [&](std::size_t i) { crowded[i] = this->isCrowded(i); });
     for (std::size_t i = 0; i < this->Patches.size(); ++i)
     {
-      if (this->isCrowded(i))
+      if (crowded[i])
       {
         this->remove(static_cast<int>(i));
       }
     }
   }
 
-  void balance()
+  void balance(const ParallelFor& parallelFor)
   {
+    std::vector<double> shares(this->Patches.size());
+    this->forAll(parallelFor, [&](std::size_t i) { shares[i] = this->shareMissing(i); });
     double sum = 0.0;
     for (std::size_t i = 0; i < this->Patches.size(); ++i)
     {
@@ -78,7 +82,7 @@ public:
       {
         continue;
       }
-      const double share = this->shareMissing(i);
+      const double share = shares[i];
       sum += std::abs(share) > smallestShare ? share : 0.0;
       if (sum >= 0.5 && share > 0.0)
       {
@@ -94,6 +98,19 @@ public:
   }
 
 private:
+  template <class Work>
+  void forAll(const ParallelFor& parallelFor, const Work& work) const
+  {
+    runParallel(parallelFor, static_cast<std::ptrdiff_t>(this->Patches.size()),
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+      {
+        for (std::ptrdiff_t i = begin; i < end; ++i)
+        {
+          work(static_cast<std::size_t>(i));
+        }
+      });
+  }
+
   void remove(int i)
   {
     this->Result.kept[i] = 0;
@@ -199,16 +216,17 @@ private:
 } // namespace
 
 void balancePopulation(const std::vector<Patch>& patches, const SeenLists& lists,
-  const std::vector<float>& energies, Balance balance, Relaxed& relaxed)
+  const std::vector<float>& energies, Balance balance, const ParallelFor& parallelFor,
+  Relaxed& relaxed)
 {
   Population population(patches, lists, energies, relaxed);
   if (balance != Balance::None)
   {
-    population.removeCrowded();
+    population.removeCrowded(parallelFor);
   }
   if (balance == Balance::All)
   {
-    population.balance();
+    population.balance(parallelFor);
   }
 }
 
