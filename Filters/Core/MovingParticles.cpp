@@ -2,9 +2,8 @@
 
 #include "KeepMarked.h"
 
-#include <algorithm>
 #include <cmath>
-#include <functional>
+#include <numeric>
 
 namespace hop
 {
@@ -50,44 +49,34 @@ MovingParticles::MovingParticles(const Isosurface& surface, const SurfaceProxy& 
 
 void MovingParticles::add(const std::vector<Location>& places)
 {
-  MovingParticles added(this->Surface, this->Proxy, {}, this->Parallel);
-  added.anchorAt(places);
-  std::vector<char> near(added.count());
-  std::transform(added.Anchors.begin(), added.Anchors.end(), added.Patches.begin(), near.begin(),
-    [](const Anchor& anchor, const Patch& patch)
-    { return std::abs(anchor.offset) <= nearEnough * patch.spacing; });
-  std::vector<Anchor> anchors = added.Anchors;
-  std::vector<Patch> patches = added.Patches;
-  keepMarked(anchors, near);
-  keepMarked(patches, near);
-  std::transform(near.begin(), near.end(), near.begin(), std::logical_not<>());
-  added.keep(near);
-  added.commit(std::vector<glm::vec2>(added.count(), glm::vec2(0.0f)));
-  this->Evaluations += added.Evaluations;
-  this->add(anchors, patches);
-  this->add(added.Anchors, added.Patches);
-}
-
-/// A particle for each place where a patch can be had.
-void MovingParticles::anchorAt(const std::vector<Location>& places)
-{
-  this->Anchors.resize(places.size());
-  this->Patches.resize(places.size());
+  const auto first = static_cast<std::ptrdiff_t>(this->count());
+  const auto count = static_cast<std::ptrdiff_t>(places.size());
+  this->add(std::vector<Anchor>(places.size()), std::vector<Patch>(places.size()));
   const std::vector<int> order = orderByElement(places, this->Surface.mesh->elements.size());
-  std::vector<char> found(places.size(), 0);
-  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(places.size()),
+  std::vector<char> found(this->count(), 1);
+  runParallel(this->Parallel, count,
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       evaluateInOrder(*this->Surface.mesh, places, order, begin, end,
         [&](int i, const Jet& jet)
         {
-          Patch& patch = this->Patches[i];
-          found[i] = anchorPatch(places[i], jet, this->Surface.isovalue, this->Anchors[i], patch);
+          Patch& patch = this->Patches[first + i];
+          found[first + i] =
+            anchorPatch(places[i], jet, this->Surface.isovalue, this->Anchors[first + i], patch);
           patch.spacing = this->Proxy.spacingAt(patch.position, patch.curvatureMagnitude());
         });
+      this->Evaluations += end - begin;
     });
-  this->Evaluations += static_cast<std::int64_t>(places.size());
-  this->keep(found);
+  this->keep(std::move(found));
+  std::vector<int> far;
+  for (auto i = static_cast<int>(first); i < static_cast<int>(this->count()); ++i)
+  {
+    if (std::abs(this->Anchors[i].offset) > nearEnough * this->Patches[i].spacing)
+    {
+      far.push_back(i);
+    }
+  }
+  this->commitThose(far, std::vector<glm::vec2>(far.size(), glm::vec2(0.0f)));
 }
 
 void MovingParticles::add(const std::vector<Anchor>& anchors, const std::vector<Patch>& patches)
@@ -139,22 +128,6 @@ glm::dvec3 MovingParticles::stepTo(std::size_t i, const glm::vec2& displacement)
     static_cast<double>(this->Anchors[i].offset) * glm::dvec3(patch.normal);
 }
 
-std::vector<Location> MovingParticles::targets(const std::vector<glm::vec2>& displacements)
-{
-  std::vector<Location> places(this->Anchors.size());
-  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(places.size()),
-    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-    {
-      std::int64_t cost = 0;
-      for (std::ptrdiff_t i = begin; i < end; ++i)
-      {
-        places[i] = this->target(i, this->stepTo(i, displacements[i]), cost);
-      }
-      this->Evaluations += cost;
-    });
-  return places;
-}
-
 /// Half the step, a quarter of it, ...
 bool MovingParticles::retry(
   std::size_t i, glm::dvec3 step, Anchor& anchor, Patch& patch, std::int64_t& cost) const
@@ -176,41 +149,51 @@ bool MovingParticles::retry(
 
 void MovingParticles::commit(const std::vector<glm::vec2>& displacements)
 {
-  const std::size_t count = this->Anchors.size();
-  const std::vector<Location> places = this->targets(displacements);
+  std::vector<int> all(this->count());
+  std::iota(all.begin(), all.end(), 0);
+  this->commitThose(all, displacements);
+}
+
+/// \param displacements one for each of those
+void MovingParticles::commitThose(
+  const std::vector<int>& which, const std::vector<glm::vec2>& displacements)
+{
+  const auto count = static_cast<std::ptrdiff_t>(which.size());
+  std::vector<Location> places(which.size());
+  runParallel(this->Parallel, count,
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      std::int64_t cost = 0;
+      for (std::ptrdiff_t n = begin; n < end; ++n)
+      {
+        places[n] = this->target(which[n], this->stepTo(which[n], displacements[n]), cost);
+      }
+      this->Evaluations += cost;
+    });
   const std::vector<int> order = orderByElement(places, this->Surface.mesh->elements.size());
-  std::vector<int> rank(count);
-  for (std::size_t n = 0; n < count; ++n)
-  {
-    rank[order[n]] = static_cast<int>(n);
-  }
-  std::vector<Anchor> anchors(count);
-  std::vector<Patch> patches(count);
-  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(count),
+  runParallel(this->Parallel, count,
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       std::int64_t cost = end - begin;
       evaluateInOrder(*this->Surface.mesh, places, order, begin, end,
-        [&](int i, const Jet& jet)
+        [&](int n, const Jet& jet)
         {
-          Anchor& anchor = anchors[rank[i]];
-          Patch& patch = patches[rank[i]];
+          const int i = which[n];
+          Anchor anchor;
+          Patch patch;
           const Patch& before = this->Patches[i];
-          const bool moved = (anchorPatch(places[i], jet, this->Surface.isovalue, anchor, patch) &&
-                               accepts(this->Anchors[i], before, anchor, patch)) ||
-            this->retry(i, this->stepTo(i, displacements[i]), anchor, patch, cost);
-          if (!moved)
+          if ((anchorPatch(places[n], jet, this->Surface.isovalue, anchor, patch) &&
+                accepts(this->Anchors[i], before, anchor, patch)) ||
+            this->retry(i, this->stepTo(i, displacements[n]), anchor, patch, cost))
           {
-            anchor = this->Anchors[i];
-            patch = before;
+            patch.spacing =
+              this->Proxy.spacingAt(patch.position, patch.curvatureMagnitude(), before.spacing);
+            this->Anchors[i] = anchor;
+            this->Patches[i] = patch;
           }
-          patch.spacing =
-            this->Proxy.spacingAt(patch.position, patch.curvatureMagnitude(), before.spacing);
         });
       this->Evaluations += cost;
     });
-  this->Anchors = std::move(anchors);
-  std::copy(patches.begin(), patches.end(), this->Patches.begin());
 }
 
 Location MovingParticles::onSurface(std::size_t i, std::int64_t& cost) const

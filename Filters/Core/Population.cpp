@@ -61,11 +61,13 @@ public:
   }
 
   /// Removes particles that have far too much energy, and more than all around them.
-  void removeCrowded()
+  void removeCrowded(const ParallelFor& parallelFor)
   {
+    std::vector<char> crowded(this->Patches.size());
+    this->forAll(parallelFor, [&](std::size_t i) { crowded[i] = this->isCrowded(i); });
     for (std::size_t i = 0; i < this->Patches.size(); ++i)
     {
-      if (this->isCrowded(i))
+      if (crowded[i])
       {
         this->remove(static_cast<int>(i));
       }
@@ -73,13 +75,10 @@ public:
   }
 
   /// Doubles and removes particles; energies say where and, unless `missing` does, how many.
-  void balance(const std::optional<double>& missing)
+  void balance(const std::optional<double>& missing, const ParallelFor& parallelFor)
   {
-    std::vector<double> shares(this->Patches.size(), 0.0);
-    for (std::size_t i = 0; i < shares.size(); ++i)
-    {
-      shares[i] = this->shareMissing(i);
-    }
+    std::vector<double> shares(this->Patches.size());
+    this->forAll(parallelFor, [&](std::size_t i) { shares[i] = this->shareMissing(i); });
     const double total = std::accumulate(shares.begin(), shares.end(), 0.0);
     const auto counted = static_cast<double>(
       std::count_if(shares.begin(), shares.end(), [](double share) { return share != 0.0; }));
@@ -105,6 +104,19 @@ public:
   }
 
 private:
+  template <class Work>
+  void forAll(const ParallelFor& parallelFor, const Work& work) const
+  {
+    runParallel(parallelFor, static_cast<std::ptrdiff_t>(this->Patches.size()),
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+      {
+        for (std::ptrdiff_t i = begin; i < end; ++i)
+        {
+          work(static_cast<std::size_t>(i));
+        }
+      });
+  }
+
   void remove(int i)
   {
     this->Result.kept[i] = 0;
@@ -213,16 +225,17 @@ private:
 } // namespace
 
 void balancePopulation(const std::vector<Patch>& patches, const SeenLists& lists,
-  const std::vector<float>& energies, const Balance& balance, Relaxed& relaxed)
+  const std::vector<float>& energies, const Balance& balance, const ParallelFor& parallelFor,
+  Relaxed& relaxed)
 {
   Population population(patches, lists, energies, relaxed);
   if (balance.removesCrowded)
   {
-    population.removeCrowded();
+    population.removeCrowded(parallelFor);
   }
   if (balance.everywhere)
   {
-    population.balance(balance.missing);
+    population.balance(balance.missing, parallelFor);
   }
 }
 
