@@ -77,8 +77,7 @@ public:
   ///@{
   /**
    * Distance of neighbouring particles where the surface is flat, world units. Values <= 0 stand
-   * for 1/100 of the longest side of the input's bounds, without a warning: ParaView's default is
-   * negative where the input was not yet read. Default 0.
+   * for 1/100 of the longest side of the input's bounds. Default 0.
    */
   vtkSetMacro(Spacing, double);
   vtkGetMacro(Spacing, double);

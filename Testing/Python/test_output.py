@@ -178,12 +178,17 @@ def test_automatic_spacing_is_one_hundredth_of_the_longest_side(cylinder):
 
 
 def test_automatic_spacing_where_the_input_was_not_read_before(data):
-    """ParaView then fills in a hundredth of empty bounds, a negative number."""
+    """ParaView's own domain of bounds would fill in a number that comes from empty bounds."""
     reader = simple.XMLUnstructuredGridReader(FileName=[data("mfem_cylinder_hex_prism_p3.vtu")])
     proxy = simple.HighOrderParticleIsosurface(Input=reader, ContourBy=["POINTS", "pressure"], Isosurfaces=[-0.5])
+    assert proxy.Spacing == 0
     messages = support.Messages(proxy.GetClientSideObject())
     assert np.all(support.array_of(support.output_of(proxy), "Radius") == pytest.approx(13 / 100))
     assert messages.errors + messages.warnings == []
+
+
+def test_the_panel_shows_the_automatic_spacing_of_an_input_that_was_read(cylinder):
+    assert simple.HighOrderParticleIsosurface(Input=cylinder).Spacing == pytest.approx(13 / 100)
 
 
 def test_half_the_spacing_means_four_times_the_particles(channel):
