@@ -49,29 +49,60 @@ void applyRationalWeights(const std::vector<double>& weights, std::vector<double
     basis.begin(), basis.end(), basis.begin(), [sum](double value) { return value / sum; });
 }
 
+/// The rows of each block, by isovalue, then by element, so that neighbours in memory share an
+/// element.
+std::vector<std::vector<Row>> rowsOfBlocks(const InputBlocks& blocks, const hop::ElementMesh& mesh,
+  const std::vector<IsovalueParticles>& isovalues)
+{
+  std::vector<std::vector<Row>> rows(blocks.size());
+  for (const IsovalueParticles& some : isovalues)
+  {
+    std::vector<Row> all;
+    all.reserve(some.distribution.particles.size());
+    for (const hop::Particle& particle : some.distribution.particles)
+    {
+      all.push_back({ &particle, some.isovalue });
+    }
+    std::stable_sort(all.begin(), all.end(),
+      [](const Row& a, const Row& b)
+      { return a.particle->location.element < b.particle->location.element; });
+    for (const Row& row : all)
+    {
+      const auto [block, cell] = blocks.locate(mesh.elements[row.particle->location.element].cell);
+      vtkUnsignedCharArray* ghosts = blocks[block].grid->GetCellGhostArray();
+      if (!ghosts || ghosts->GetValue(cell) == 0)
+      {
+        rows[block].push_back(row);
+      }
+    }
+  }
+  return rows;
+}
+
 class Packer
 {
 public:
-  Packer(vtkUnstructuredGrid* grid, const ScalarChoice& scalars, const GridElements& elements,
-    const hop::ParallelFor& parallelFor, vtkPolyData* output)
-    : Grid(grid)
-    , Scalars(scalars)
+  Packer(const InputBlock& block, std::int64_t firstCell, std::vector<Row> rows,
+    const GridElements& elements, const hop::ParallelFor& parallelFor)
+    : Grid(block.grid)
+    , Scalars(block.scalars)
+    , FirstCell(firstCell)
     , Elements(elements)
     , Parallel(parallelFor)
-    , Output(output)
+    , Output(block.particles)
+    , Rows(std::move(rows))
   {
   }
 
-  void pack(const std::vector<IsovalueParticles>& isovalues);
+  void pack(const std::vector<IsovalueParticles>& isovalues, const CellCensus& census);
 
 private:
-  void collectRows(const std::vector<IsovalueParticles>& isovalues);
   void addPoints();
   void addVertices();
   void addOwnArrays();
   void addPointArrays();
   void addCellArrays();
-  void addReport(const std::vector<IsovalueParticles>& isovalues);
+  void addReport(const std::vector<IsovalueParticles>& isovalues, const CellCensus& census);
   std::vector<double> rationalWeights(int element, vtkIdList* ids) const;
   void evaluate(vtkDataArray* source, vtkDoubleArray* target);
   void evaluateRun(vtkDataArray* source, vtkDoubleArray* target, std::size_t begin, std::size_t end,
@@ -79,49 +110,29 @@ private:
   template <class Write>
   vtkSmartPointer<vtkDoubleArray> addArray(
     const std::string& name, int components, const Write& write);
-  vtkIdType cellOf(const Row& row) const
+  vtkIdType cellOf(int element) const
   {
-    return this->Elements.mesh.elements[row.particle->location.element].cell;
+    return this->Elements.mesh.elements[element].cell - this->FirstCell;
   }
+  vtkIdType cellOf(const Row& row) const { return this->cellOf(row.particle->location.element); }
 
   vtkUnstructuredGrid* Grid;
-  ScalarChoice Scalars;
+  vtkDataArray* Scalars;
+  std::int64_t FirstCell;
   const GridElements& Elements;
   const hop::ParallelFor& Parallel;
   vtkPolyData* Output;
   std::vector<Row> Rows;
 };
 
-void Packer::pack(const std::vector<IsovalueParticles>& isovalues)
+void Packer::pack(const std::vector<IsovalueParticles>& isovalues, const CellCensus& census)
 {
-  this->collectRows(isovalues);
   this->addPoints();
   this->addVertices();
   this->addPointArrays();
   this->addOwnArrays();
   this->addCellArrays();
-  this->addReport(isovalues);
-}
-
-/// Rows by isovalue, then by element, so that neighbours in memory share an element.
-void Packer::collectRows(const std::vector<IsovalueParticles>& isovalues)
-{
-  vtkUnsignedCharArray* ghosts = this->Grid->GetCellGhostArray();
-  for (const IsovalueParticles& some : isovalues)
-  {
-    const auto begin = static_cast<std::ptrdiff_t>(this->Rows.size());
-    for (const hop::Particle& particle : some.distribution.particles)
-    {
-      const Row row{ &particle, some.isovalue };
-      if (!ghosts || ghosts->GetValue(this->cellOf(row)) == 0)
-      {
-        this->Rows.push_back(row);
-      }
-    }
-    std::stable_sort(this->Rows.begin() + begin, this->Rows.end(),
-      [](const Row& a, const Row& b)
-      { return a.particle->location.element < b.particle->location.element; });
-  }
+  this->addReport(isovalues, census);
 }
 
 void Packer::addPoints()
@@ -249,7 +260,7 @@ void Packer::addPointArrays()
       values->SetComponentName(c, array->GetComponentName(c));
     }
     this->Output->GetPointData()->AddArray(values);
-    if (array == this->Scalars.array && array->GetNumberOfComponents() == 1)
+    if (array == this->Scalars && array->GetNumberOfComponents() == 1)
     {
       // As Contour: this array is the isovalue, not the isovalue with noise of the tolerance's size.
       for (std::size_t i = 0; i < this->Rows.size(); ++i)
@@ -294,7 +305,7 @@ void Packer::evaluateRun(vtkDataArray* source, vtkDoubleArray* target, std::size
   const CellBasis& cell = *this->Elements.bases[element];
   const hop::NodalBasis& basis = cell.basis;
   const int components = source->GetNumberOfComponents();
-  this->Grid->GetCells()->GetCellAtId(this->Elements.mesh.elements[element].cell, ids);
+  this->Grid->GetCells()->GetCellAtId(this->cellOf(element), ids);
   std::vector<double> nodal(static_cast<std::size_t>(basis.nodeCount()) * components);
   for (int node = 0; node < basis.nodeCount(); ++node)
   {
@@ -337,7 +348,8 @@ std::vector<double> Packer::rationalWeights(int element, vtkIdList* ids) const
   std::vector<double> nodal;
   for (int node = 0; node < basis.nodeCount(); ++node)
   {
-    nodal.push_back(this->Elements.rationalWeights->GetComponent(ids->GetId(node), 0));
+    nodal.push_back(
+      this->Grid->GetPointData()->GetRationalWeights()->GetComponent(ids->GetId(node), 0));
   }
   std::vector<double> weights(nodal.size());
   basis.toBernstein(nodal.data(), 1, weights.data());
@@ -358,7 +370,7 @@ void Packer::addCellArrays()
   }
 }
 
-void Packer::addReport(const std::vector<IsovalueParticles>& isovalues)
+void Packer::addReport(const std::vector<IsovalueParticles>& isovalues, const CellCensus& census)
 {
   this->Output->GetFieldData()->PassData(this->Grid->GetFieldData());
   hop::DistributionReport sum;
@@ -383,8 +395,8 @@ void Packer::addReport(const std::vector<IsovalueParticles>& isovalues)
   };
   addCount("Evaluations", sum.evaluations);
   addCount("Iterations", sum.iterations);
-  addCount("ElementsDropped", this->Elements.census.dropped);
-  addCount("CellsSkipped", this->Elements.census.skipped());
+  addCount("ElementsDropped", census.dropped);
+  addCount("CellsSkipped", census.skipped());
   addCount("BoxesUnresolved", sum.boxesUnresolved);
   addCount("SingularPoints", sum.singularPoints);
   addCount("ParticlesRejected", sum.particlesRejected);
@@ -392,18 +404,23 @@ void Packer::addReport(const std::vector<IsovalueParticles>& isovalues)
 
   vtkNew<vtkIdTypeArray> cells;
   cells->SetName("UnresolvedCellIds");
-  for (const std::int64_t cell : unresolved)
+  const auto end = unresolved.lower_bound(this->FirstCell + this->Grid->GetNumberOfCells());
+  for (auto cell = unresolved.lower_bound(this->FirstCell); cell != end; ++cell)
   {
-    cells->InsertNextValue(cell);
+    cells->InsertNextValue(*cell - this->FirstCell);
   }
   this->Output->GetFieldData()->AddArray(cells);
 }
 
 } // namespace
 
-void packParticles(vtkUnstructuredGrid* grid, const ScalarChoice& scalars,
-  const GridElements& elements, const std::vector<IsovalueParticles>& isovalues,
-  const hop::ParallelFor& parallelFor, vtkPolyData* output)
+void packParticles(const InputBlocks& blocks, const GridElements& elements,
+  const std::vector<IsovalueParticles>& isovalues, const hop::ParallelFor& parallelFor)
 {
-  Packer(grid, scalars, elements, parallelFor, output).pack(isovalues);
+  std::vector<std::vector<Row>> rows = rowsOfBlocks(blocks, elements.mesh, isovalues);
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+  {
+    Packer(blocks[b], blocks.firstCell(b), std::move(rows[b]), elements, parallelFor)
+      .pack(isovalues, elements.census[b]);
+  }
 }
