@@ -35,6 +35,7 @@ enum class Verdict : char
   BrokenConnectivity,
   NotFinite,
   BadWeights,
+  Level,
   Unsupported,
   Hidden
 };
@@ -101,6 +102,7 @@ private:
   void dropDoubledGhosts();
   void dropCollapsed();
   bool canHoldSurface(const CellBasis& basis, const CellValues& values) const;
+  bool isConstant(const CellValues& values) const;
   bool straddles(double lower, double upper) const;
   bool isGhost(const hop::Element& element) const;
   hop::Degrees elementDegrees(const hop::NodalBasis& basis) const;
@@ -168,8 +170,22 @@ Verdict Builder::judge(const BlockCell& where, const CellBasis* basis, CellValue
     return Verdict::Unsupported;
   }
   const Verdict verdict = this->read(where, *basis, values);
-  return verdict == Verdict::Keep && !this->canHoldSurface(*basis, values) ? Verdict::Drop
-                                                                           : verdict;
+  if (verdict != Verdict::Keep)
+  {
+    return verdict;
+  }
+  if (!this->canHoldSurface(*basis, values))
+  {
+    return Verdict::Drop;
+  }
+  return this->isConstant(values) ? Verdict::Level : Verdict::Keep;
+}
+
+/// Whether all nodes have the same values.
+bool Builder::isConstant(const CellValues& values) const
+{
+  return std::equal(
+    values.field.begin() + this->Components, values.field.end(), values.field.begin());
 }
 
 /// Elements of the cells to keep, with room for their coefficients.
@@ -295,6 +311,9 @@ void Builder::count(const std::vector<Verdict>& verdicts)
           break;
         case Verdict::BadWeights:
           census.badWeights.add(where.cell);
+          break;
+        case Verdict::Level:
+          census.level.add(where.cell);
           break;
         default:
           break;
@@ -547,7 +566,7 @@ void describeCells(std::ostream& text, const SkippedCells& cells, const std::str
 vtkIdType CellCensus::skipped() const
 {
   vtkIdType sum = this->brokenConnectivity.count + this->notFinite.count + this->badWeights.count +
-    this->collapsed.count;
+    this->level.count + this->collapsed.count;
   for (const auto& [type, cells] : this->unsupported)
   {
     sum += cells.count;
@@ -569,6 +588,8 @@ std::string CellCensus::describe() const
   describeCells(text, this->brokenConnectivity, "skipped: point ids outside the grid");
   describeCells(text, this->notFinite, "skipped: coordinates or values that are NaN or infinite");
   describeCells(text, this->badWeights, "skipped: RationalWeights that are not positive");
+  describeCells(
+    text, this->level, "skipped: the field is the isovalue throughout, which is no surface");
   describeCells(text, this->collapsed, "skipped: without volume");
   describeCells(text, this->folded, "kept, but partly inverted: the Jacobian changes its sign");
   return text.str();

@@ -31,6 +31,8 @@ struct CellCensus
   SkippedCells notFinite;
   /// Rational Bezier cells with weights that are not positive.
   SkippedCells badWeights;
+  /// The field is the same in the whole cell, and one of the isovalues: no surface.
+  SkippedCells level;
   /// Jacobian determinant zero wherever it was looked at.
   SkippedCells collapsed;
   /// Kept, but the Jacobian determinant changes its sign: partly inverted.
