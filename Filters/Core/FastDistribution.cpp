@@ -15,7 +15,6 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
-#include <iterator>
 
 namespace hop
 {
@@ -44,7 +43,7 @@ std::vector<int> sweepsOfRounds(Quality quality)
     case Quality::High:
       return { 5, 8, 8, 10 };
     default:
-      return { 6, 10 };
+      return { 6, 14 };
   }
 }
 
@@ -263,20 +262,30 @@ void FastSystem::relax(int sweeps, bool isLast)
                                                : Balance::All;
   Relaxed relaxed = relaxOnPatches(this->Moving->patches(), sweeps, balance, this->Parallel);
   std::vector<glm::vec2>& displacements = relaxed.displacements;
-  std::vector<Anchor> anchors;
-  std::vector<Patch> patches;
+  std::vector<char> splits(this->Moving->count(), 0);
   for (const Split& split : relaxed.splits)
   {
-    anchors.push_back(this->Moving->anchors()[split.particle]);
-    patches.push_back(this->Moving->patches()[split.particle]);
+    splits[split.particle] = 1;
   }
   displacements.resize(this->Moving->count());
   keepMarked(displacements, relaxed.kept);
+  keepMarked(splits, relaxed.kept);
   this->Moving->keep(relaxed.kept);
-  this->Moving->add(anchors, patches);
-  std::transform(relaxed.splits.begin(), relaxed.splits.end(), std::back_inserter(displacements),
-    [](const Split& split) { return split.displacement; });
+  doubleMarked(displacements, splits);
+  this->Moving->split(splits);
+  // A new particle comes after the one that was doubled.
+  std::size_t next = 0;
+  auto split = relaxed.splits.begin();
+  for (const char isSplit : splits)
+  {
+    ++next;
+    if (isSplit)
+    {
+      displacements[next++] = (split++)->displacement;
+    }
+  }
   this->Moving->commit(displacements);
+
   if (!this->countIsGiven())
   {
     this->dropNearRims(squeezed);
@@ -318,7 +327,7 @@ void FastSystem::finish()
   if (!this->countIsGiven())
   {
     const std::vector<char> apart =
-      standApart(this->Moving->patches(), this->Moving->count(), squeezed, this->Parallel);
+      standApart(this->Moving->patches(), this->Moving->count(), this->Parallel);
     std::transform(kept.begin(), kept.end(), apart.begin(), kept.begin(), std::logical_and<>());
   }
   std::vector<Particle>& particles = this->Result.particles;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -19,6 +20,23 @@ void keepMarked(std::vector<T>& items, const std::vector<char>& marks)
     }
   }
   items.resize(next);
+}
+
+/// Follows each marked item by a copy of it.
+template <class T>
+void doubleMarked(std::vector<T>& items, const std::vector<char>& marks)
+{
+  const std::size_t count = items.size();
+  items.resize(count + std::count_if(marks.begin(), marks.end(), [](char mark) { return mark; }));
+  std::size_t next = items.size();
+  for (std::size_t i = count; i-- > 0;)
+  {
+    items[--next] = items[i];
+    if (marks[i])
+    {
+      items[--next] = items[i];
+    }
+  }
 }
 
 } // namespace hop

@@ -76,6 +76,13 @@ void MovingParticles::keep(std::vector<char> kept)
   keepMarked(this->Patches, kept);
 }
 
+void MovingParticles::split(std::vector<char> marks)
+{
+  doubleMarked(this->Anchors, marks);
+  marks.resize(this->Patches.size(), 0);
+  doubleMarked(this->Patches, marks);
+}
+
 /// Where a step in world space takes particle i: in its own element by its own map, else by walking.
 Location MovingParticles::target(std::size_t i, const glm::dvec3& step, std::int64_t& cost) const
 {

@@ -35,6 +35,9 @@ public:
   /// Keeps those marked; all that move, and no others, have a mark.
   void keep(std::vector<char> kept);
 
+  /// Follows each that is marked by another one on the same patch; all that move have a mark.
+  void split(std::vector<char> marks);
+
   /// Takes particles to where relaxation wants them, and to the surface; one evaluation each gives them
   /// new patches there, more where half a step has to do.
   /// \param displacements in the tangent planes of the patches, one for each that moves at least

@@ -16,6 +16,12 @@ constexpr float coverOffset = 0.1f;
 /// Cells that suit visits around single points.
 constexpr double cellsPerReach = 0.5;
 
+/// Particles nearer than this, in units of the smaller of their spacings, are too near each other: where the
+/// surface bends little, and where it turns, as at a kink.
+constexpr double tooNear = 0.76;
+constexpr double tooNearAcrossTurn = 0.6;
+constexpr float turn = 0.7f;
+
 bool isNear(const Patch& a, const Patch& b, double distance)
 {
   return glm::distance(a.position, b.position) < distance && glm::dot(a.normal, b.normal) > 0.0f;
@@ -72,19 +78,21 @@ std::vector<char> keepDistance(const std::vector<Patch>& patches, std::size_t co
     });
 }
 
-std::vector<char> standApart(const std::vector<Patch>& patches, std::size_t count, double distance,
-  const ParallelFor& parallelFor)
+std::vector<char> standApart(
+  const std::vector<Patch>& patches, std::size_t count, const ParallelFor& parallelFor)
 {
   const std::vector<glm::dvec3> positions = positionsOf(patches);
   const std::vector<float> spacings = spacingsOf(patches);
-  const SpacingGrid grid(positions, spacings, distance, cellsPerReach, parallelFor);
+  const SpacingGrid grid(positions, spacings, tooNear, cellsPerReach, parallelFor);
   const auto visitNear = [&](std::size_t i, const auto& use)
   {
     grid.visit(positions[i], spacings[i],
       [&](int j)
       {
-        if (static_cast<std::size_t>(j) != i &&
-          isNear(patches[i], patches[j], distance * std::min(spacings[i], spacings[j])))
+        const bool turns = glm::dot(patches[i].normal, patches[j].normal) < turn;
+        const double distance =
+          (turns ? tooNearAcrossTurn : tooNear) * std::min(spacings[i], spacings[j]);
+        if (static_cast<std::size_t>(j) != i && isNear(patches[i], patches[j], distance))
         {
           use(j);
         }
