@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -22,20 +21,23 @@ void keepMarked(std::vector<T>& items, const std::vector<char>& marks)
   items.resize(next);
 }
 
-/// Follows each marked item by a copy of it.
+/// Puts items order[0], order[1], ... first, in this order, and leaves the rest; without a second array.
+/// \param order a permutation
 template <class T>
-void doubleMarked(std::vector<T>& items, const std::vector<char>& marks)
+void permute(std::vector<T>& items, std::vector<int> order)
 {
-  const std::size_t count = items.size();
-  items.resize(count + std::count_if(marks.begin(), marks.end(), [](char mark) { return mark; }));
-  std::size_t next = items.size();
-  for (std::size_t i = count; i-- > 0;)
+  for (std::size_t start = 0; start < order.size(); ++start)
   {
-    items[--next] = items[i];
-    if (marks[i])
+    const T first = items[start];
+    std::size_t place = start;
+    for (std::size_t from = order[place]; from != start; from = order[place])
     {
-      items[--next] = items[i];
+      items[place] = items[from];
+      order[place] = static_cast<int>(place);
+      place = from;
     }
+    items[place] = first;
+    order[place] = static_cast<int>(place);
   }
 }
 

@@ -2,7 +2,9 @@
 
 #include "KeepMarked.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace hop
 {
@@ -14,6 +16,10 @@ namespace
 constexpr float largestOffset = 0.5f;
 constexpr float smallestTurn = 0.3f;
 constexpr int maximumHalvings = 3;
+/// Steps from farther off have to shorten the way by this factor.
+constexpr float smallestProgress = 0.7f;
+/// A patch is good if it was evaluated nearer to the surface than this, in units of its spacing.
+constexpr float nearEnough = 0.1f;
 
 /// World vector of a displacement on a patch.
 glm::dvec3 worldStep(const Patch& patch, const glm::vec2& t)
@@ -22,10 +28,12 @@ glm::dvec3 worldStep(const Patch& patch, const glm::vec2& t)
   return glm::dvec3(t.x * tangents[0] + t.y * tangents[1] - patch.sink(t) * patch.normal);
 }
 
-bool accepts(const Patch& before, const Anchor& anchor, const Patch& after)
+/// Whether a step leads to the surface, or nearer to it at least, and not astray.
+bool accepts(const Anchor& from, const Patch& before, const Anchor& to, const Patch& after)
 {
-  return std::abs(anchor.offset) <= largestOffset * before.spacing &&
-    glm::dot(before.normal, after.normal) > smallestTurn &&
+  const float farthest =
+    std::max(largestOffset * before.spacing, smallestProgress * std::abs(from.offset));
+  return std::abs(to.offset) <= farthest && glm::dot(before.normal, after.normal) > smallestTurn &&
     glm::distance(before.position, after.position) <= 2.0 * before.spacing;
 }
 
@@ -40,26 +48,44 @@ MovingParticles::MovingParticles(const Isosurface& surface, const SurfaceProxy& 
 {
 }
 
-void MovingParticles::start(const std::vector<Location>& places)
+void MovingParticles::add(const std::vector<Location>& places)
 {
-  this->Anchors.resize(places.size());
-  this->Patches.insert(this->Patches.begin(), places.size(), Patch());
+  const std::size_t first = this->count();
+  this->Anchors.resize(first + places.size());
+  this->Patches.insert(
+    this->Patches.begin() + static_cast<std::ptrdiff_t>(first), places.size(), Patch());
+  this->keep(this->anchorAt(places, first));
+  std::vector<int> far;
+  for (std::size_t i = first; i < this->count(); ++i)
+  {
+    if (std::abs(this->Anchors[i].offset) > nearEnough * this->Patches[i].spacing)
+    {
+      far.push_back(static_cast<int>(i));
+    }
+  }
+  this->step(far, std::vector<glm::vec2>(far.size(), glm::vec2(0.0f)));
+}
+
+/// Gives particles from `first` on the patches that belong to places.
+/// \return marks of those that have one
+std::vector<char> MovingParticles::anchorAt(const std::vector<Location>& places, std::size_t first)
+{
+  std::vector<char> found(this->count(), 1);
   const std::vector<int> order = orderByElement(places, this->Surface.mesh->elements.size());
-  std::vector<char> found(places.size(), 0);
   runParallel(this->Parallel, static_cast<std::ptrdiff_t>(places.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       evaluateInOrder(*this->Surface.mesh, places, order, begin, end,
-        [&](int i, const Jet& jet)
+        [&](int n, const Jet& jet)
         {
+          const std::size_t i = first + n;
           Patch& patch = this->Patches[i];
-          found[i] = anchorPatch(places[i], jet, this->Surface.isovalue, this->Anchors[i], patch);
-          patch.spacing = static_cast<float>(this->Proxy.law().spacing);
+          found[i] = anchorPatch(places[n], jet, this->Surface.isovalue, this->Anchors[i], patch);
+          patch.spacing = this->Proxy.spacingAt(patch.position, patch.curvatureMagnitude());
         });
-      this->Evaluations += end - begin;
     });
-  this->keep(std::move(found));
-  this->commit(std::vector<glm::vec2>(this->count(), glm::vec2(0.0f)));
+  this->Evaluations += static_cast<std::int64_t>(places.size());
+  return found;
 }
 
 void MovingParticles::add(const std::vector<Anchor>& anchors, const std::vector<Patch>& patches)
@@ -74,13 +100,6 @@ void MovingParticles::keep(std::vector<char> kept)
   keepMarked(this->Anchors, kept);
   kept.resize(this->Patches.size(), 1);
   keepMarked(this->Patches, kept);
-}
-
-void MovingParticles::split(std::vector<char> marks)
-{
-  doubleMarked(this->Anchors, marks);
-  marks.resize(this->Patches.size(), 0);
-  doubleMarked(this->Patches, marks);
 }
 
 /// Where a step in world space takes particle i: in its own element by its own map, else by walking.
@@ -118,16 +137,18 @@ glm::dvec3 MovingParticles::stepTo(std::size_t i, const glm::vec2& displacement)
     static_cast<double>(this->Anchors[i].offset) * glm::dvec3(patch.normal);
 }
 
-std::vector<Location> MovingParticles::targets(const std::vector<glm::vec2>& displacements)
+/// Where displacements, one for each of some particles, take them.
+std::vector<Location> MovingParticles::targets(
+  const std::vector<int>& which, const std::vector<glm::vec2>& displacements)
 {
-  std::vector<Location> places(this->Anchors.size());
-  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(places.size()),
+  std::vector<Location> places(which.size());
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(which.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       std::int64_t cost = 0;
-      for (std::ptrdiff_t i = begin; i < end; ++i)
+      for (std::ptrdiff_t n = begin; n < end; ++n)
       {
-        places[i] = this->target(i, this->stepTo(i, displacements[i]), cost);
+        places[n] = this->target(which[n], this->stepTo(which[n], displacements[n]), cost);
       }
       this->Evaluations += cost;
     });
@@ -145,7 +166,7 @@ bool MovingParticles::retry(
     const Jet jet = evaluateHessian(this->Surface.mesh->form(place.element), place.u);
     ++cost;
     if (anchorPatch(place, jet, this->Surface.isovalue, anchor, patch) &&
-      accepts(this->Patches[i], anchor, patch))
+      accepts(this->Anchors[i], this->Patches[i], anchor, patch))
     {
       return true;
     }
@@ -153,23 +174,26 @@ bool MovingParticles::retry(
   return false;
 }
 
-void MovingParticles::commit(const std::vector<glm::vec2>& displacements)
+/// Takes some particles where displacements, one for each, and Newton's method lead them.
+void MovingParticles::step(
+  const std::vector<int>& which, const std::vector<glm::vec2>& displacements)
 {
-  const std::vector<Location> places = this->targets(displacements);
+  const std::vector<Location> places = this->targets(which, displacements);
   const std::vector<int> order = orderByElement(places, this->Surface.mesh->elements.size());
-  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(places.size()),
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(which.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       std::int64_t cost = end - begin;
       evaluateInOrder(*this->Surface.mesh, places, order, begin, end,
-        [&](int i, const Jet& jet)
+        [&](int n, const Jet& jet)
         {
+          const int i = which[n];
           Anchor anchor;
           Patch patch;
           const Patch& before = this->Patches[i];
-          if ((anchorPatch(places[i], jet, this->Surface.isovalue, anchor, patch) &&
-                accepts(before, anchor, patch)) ||
-            this->retry(i, this->stepTo(i, displacements[i]), anchor, patch, cost))
+          if ((anchorPatch(places[n], jet, this->Surface.isovalue, anchor, patch) &&
+                accepts(this->Anchors[i], before, anchor, patch)) ||
+            this->retry(i, this->stepTo(i, displacements[n]), anchor, patch, cost))
           {
             patch.spacing =
               this->Proxy.spacingAt(patch.position, patch.curvatureMagnitude(), before.spacing);
@@ -179,6 +203,16 @@ void MovingParticles::commit(const std::vector<glm::vec2>& displacements)
         });
       this->Evaluations += cost;
     });
+}
+
+void MovingParticles::commit(const std::vector<glm::vec2>& displacements)
+{
+  std::vector<int> all(this->count());
+  std::iota(all.begin(), all.end(), 0);
+  this->step(all, displacements);
+  const std::vector<int> order = orderByElement(this->Anchors, this->Surface.mesh->elements.size());
+  permute(this->Anchors, order);
+  permute(this->Patches, order);
 }
 
 Location MovingParticles::onSurface(std::size_t i, std::int64_t& cost) const
@@ -191,7 +225,7 @@ void MovingParticles::renew(std::size_t i, const Location& place, const Jet& jet
   Anchor anchor;
   Patch patch = this->Patches[i];
   if (anchorPatch(place, jet, this->Surface.isovalue, anchor, patch) &&
-    accepts(this->Patches[i], anchor, patch))
+    accepts(this->Anchors[i], this->Patches[i], anchor, patch))
   {
     this->Anchors[i] = anchor;
     this->Patches[i] = patch;

@@ -27,19 +27,16 @@ public:
   const std::vector<Patch>& patches() const { return this->Patches; }
   std::int64_t evaluations() const { return this->Evaluations; }
 
-  /// The first particles that move: one for each place from which one Newton step leads to the surface; two
-  /// evaluations each.
-  void start(const std::vector<Location>& places);
+  /// Adds a particle for each place from which one Newton step leads to the surface; one evaluation each,
+  /// and another where that step is not small.
+  void add(const std::vector<Location>& places);
   /// Adds particles whose patches are known.
   void add(const std::vector<Anchor>& anchors, const std::vector<Patch>& patches);
   /// Keeps those marked; all that move, and no others, have a mark.
   void keep(std::vector<char> kept);
 
-  /// Follows each that is marked by another one on the same patch; all that move have a mark.
-  void split(std::vector<char> marks);
-
   /// Takes particles to where relaxation wants them, and to the surface; one evaluation each gives them
-  /// new patches there, more where half a step has to do.
+  /// new patches there, more where half a step has to do. Afterwards they are sorted by element.
   /// \param displacements in the tangent planes of the patches, one for each that moves at least
   void commit(const std::vector<glm::vec2>& displacements);
 
@@ -55,9 +52,12 @@ public:
   const Isosurface& surface() const { return this->Surface; }
 
 private:
+  std::vector<char> anchorAt(const std::vector<Location>& places, std::size_t first);
   Location target(std::size_t i, const glm::dvec3& step, std::int64_t& cost) const;
   glm::dvec3 stepTo(std::size_t i, const glm::vec2& displacement) const;
-  std::vector<Location> targets(const std::vector<glm::vec2>& displacements);
+  std::vector<Location> targets(
+    const std::vector<int>& which, const std::vector<glm::vec2>& displacements);
+  void step(const std::vector<int>& which, const std::vector<glm::vec2>& displacements);
   bool retry(
     std::size_t i, glm::dvec3 step, Anchor& anchor, Patch& patch, std::int64_t& cost) const;
 

@@ -16,12 +16,6 @@ constexpr float coverOffset = 0.1f;
 /// Cells that suit visits around single points.
 constexpr double cellsPerReach = 0.5;
 
-/// Particles nearer than this, in units of the smaller of their spacings, are too near each other: where the
-/// surface bends little, and where it turns, as at a kink.
-constexpr double tooNear = 0.76;
-constexpr double tooNearAcrossTurn = 0.6;
-constexpr float turn = 0.7f;
-
 bool isNear(const Patch& a, const Patch& b, double distance)
 {
   return glm::distance(a.position, b.position) < distance && glm::dot(a.normal, b.normal) > 0.0f;
@@ -59,6 +53,48 @@ std::vector<char> testAll(std::size_t count, const ParallelFor& parallelFor, con
   return results;
 }
 
+/// Patches that look for others nearer than a distance, in units of the smaller of their spacings.
+class Crowd
+{
+public:
+  Crowd(const std::vector<Patch>& patches, double distance, const ParallelFor& parallelFor)
+    : Patches(patches)
+    , Distance(distance)
+    , Positions(positionsOf(patches))
+    , Spacings(spacingsOf(patches))
+    , Grid(Positions, Spacings, distance, cellsPerReach, parallelFor)
+  {
+  }
+
+  template <class Use>
+  void visitNear(std::size_t i, const Use& use) const
+  {
+    this->Grid.visit(this->Positions[i], this->Spacings[i],
+      [&](int j)
+      {
+        const double nearest = this->Distance * std::min(this->Spacings[i], this->Spacings[j]);
+        if (static_cast<std::size_t>(j) != i && isNear(this->Patches[i], this->Patches[j], nearest))
+        {
+          use(j);
+        }
+      });
+  }
+
+  bool isAlone(std::size_t i) const
+  {
+    bool alone = true;
+    this->visitNear(i, [&](int) { alone = false; });
+    return alone;
+  }
+
+private:
+  const std::vector<Patch>& Patches;
+  double Distance;
+  std::vector<glm::dvec3> Positions;
+  std::vector<float> Spacings;
+  SpacingGrid Grid;
+};
+
 } // namespace
 
 std::vector<char> keepDistance(const std::vector<Patch>& patches, std::size_t count,
@@ -78,33 +114,19 @@ std::vector<char> keepDistance(const std::vector<Patch>& patches, std::size_t co
     });
 }
 
-std::vector<char> standApart(
-  const std::vector<Patch>& patches, std::size_t count, const ParallelFor& parallelFor)
+std::vector<char> haveDistance(const std::vector<Patch>& patches, std::size_t count,
+  double distance, const ParallelFor& parallelFor)
 {
-  const std::vector<glm::dvec3> positions = positionsOf(patches);
-  const std::vector<float> spacings = spacingsOf(patches);
-  const SpacingGrid grid(positions, spacings, tooNear, cellsPerReach, parallelFor);
-  const auto visitNear = [&](std::size_t i, const auto& use)
-  {
-    grid.visit(positions[i], spacings[i],
-      [&](int j)
-      {
-        const bool turns = glm::dot(patches[i].normal, patches[j].normal) < turn;
-        const double distance =
-          (turns ? tooNearAcrossTurn : tooNear) * std::min(spacings[i], spacings[j]);
-        if (static_cast<std::size_t>(j) != i && isNear(patches[i], patches[j], distance))
-        {
-          use(j);
-        }
-      });
-  };
-  std::vector<char> kept = testAll(count, parallelFor,
-    [&](std::size_t i)
-    {
-      bool alone = true;
-      visitNear(i, [&](int) { alone = false; });
-      return alone;
-    });
+  const Crowd crowd(patches, distance, parallelFor);
+  return testAll(count, parallelFor, [&](std::size_t i) { return crowd.isAlone(i); });
+}
+
+std::vector<char> standApart(const std::vector<Patch>& patches, std::size_t count, double distance,
+  const ParallelFor& parallelFor)
+{
+  const Crowd crowd(patches, distance, parallelFor);
+  std::vector<char> kept =
+    testAll(count, parallelFor, [&](std::size_t i) { return crowd.isAlone(i); });
   kept.resize(patches.size(), 1);
   // The few that have a neighbour too near, one by one.
   for (std::size_t i = 0; i < count; ++i)
@@ -112,7 +134,7 @@ std::vector<char> standApart(
     if (!kept[i])
     {
       bool alone = true;
-      visitNear(i, [&](int j) { alone = alone && !kept[j]; });
+      crowd.visitNear(i, [&](int j) { alone = alone && !kept[j]; });
       kept[i] = alone;
     }
   }

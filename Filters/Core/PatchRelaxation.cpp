@@ -105,7 +105,7 @@ public:
     }
   }
 
-  Relaxed result(Balance balance) const;
+  Relaxed result(const Balance& balance) const;
 
 private:
   void makeSeen();
@@ -257,7 +257,7 @@ void SweepSystem::fillNeighbors(const SweepBlock& block)
   }
 }
 
-Relaxed SweepSystem::result(Balance balance) const
+Relaxed SweepSystem::result(const Balance& balance) const
 {
   const std::size_t count = this->Patches.size();
   Relaxed result{ std::vector<glm::vec2>(count, glm::vec2(0.0f)), std::vector<char>(count, 1), {} };
@@ -332,8 +332,8 @@ std::array<glm::vec3, 2> tangentsOf(const glm::vec3& normal)
   return { first, glm::cross(normal, first) };
 }
 
-Relaxed relaxOnPatches(
-  const std::vector<Patch>& patches, int sweeps, Balance balance, const ParallelFor& parallelFor)
+Relaxed relaxOnPatches(const std::vector<Patch>& patches, int sweeps, const Balance& balance,
+  const ParallelFor& parallelFor)
 {
   if (patches.empty())
   {
