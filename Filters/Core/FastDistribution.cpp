@@ -64,7 +64,9 @@ public:
     , Law(parameters.law)
     , Work(monitor, parallelFor)
     , Parallel([this](std::ptrdiff_t count, const auto& body) { this->Work(count, body); })
+    , Locator(this->Mesh, surface.isovalue, parallelFor)
   {
+    this->Surface.locator = &this->Locator;
   }
 
   Distribution run();
@@ -111,6 +113,7 @@ private:
   SpacingLaw Law;
   Interruptible Work;
   ParallelFor Parallel;
+  FaceLocator Locator;
   std::unique_ptr<SurfaceProxy> Proxy;
   std::vector<Anchor> Anchors;
   /// Those of the particles that move, then those on rims.
@@ -302,7 +305,7 @@ void FastSystem::findJumps()
 {
   this->Jumps = findFaceJumps(this->Surface, *this->Proxy, this->Parallel);
   this->Evaluations += this->Jumps.evaluations;
-  this->Surface.cuts = &this->Jumps.cuts;
+  this->Surface.gaps = &this->Jumps.gaps;
 }
 
 void FastSystem::makeRims()
@@ -415,13 +418,14 @@ Location FastSystem::target(std::size_t i, const glm::dvec3& step, std::int64_t&
   map.jacobian = glm::inverse(map.inverse);
   // Onto a wall only particles on rims may go.
   Location reached = walker.move(start, { step });
-  const auto onWall = [&]() { return boundaryFaceCount(this->Surface, reached) > 0; };
+  const auto onWall = [&]() { return walker.endCount(reached) > 0; };
   if (onWall())
   {
     reached = walker.move(start, { 0.5 * step });
   }
+  const bool ends = onWall();
   cost += walker.evaluations();
-  return onWall() ? anchor.place : reached;
+  return ends ? anchor.place : reached;
 }
 
 bool FastSystem::accepts(const Patch& before, const Anchor& anchor, const Patch& after) const
@@ -747,7 +751,7 @@ Distribution FastSystem::run()
     this->Result.particles.clear();
     this->Result.report.aborted = true;
   }
-  this->Result.report.evaluations = this->Evaluations;
+  this->Result.report.evaluations = this->Evaluations + this->Locator.evaluations();
   return this->Result;
 }
 

@@ -24,6 +24,18 @@ Isosurface roughly(Isosurface surface, double spacing)
   return surface;
 }
 
+Isosurface walled(Isosurface surface)
+{
+  surface.walled = true;
+  return surface;
+}
+
+Isosurface seamless(Isosurface surface)
+{
+  surface.gaps = nullptr;
+  return surface;
+}
+
 class RimSampler
 {
 public:
@@ -33,7 +45,8 @@ public:
     , Law(law)
     , Tracer(roughly(surface, proxy.smallestSpacing()))
     , Exact(surface)
-    , Walker(surface)
+    , Walker(walled(surface))
+    , Passer(seamless(surface))
   {
   }
 
@@ -45,6 +58,7 @@ private:
   void sampleStretch(const std::vector<RimVertex>& vertices, bool withEnd, double nearby);
   double spacingAt(const RimPoint& point, double nearby);
   void addParticle(const Location& place, int face, double nearby);
+  double jumpAt(const Location& location);
   void mergeCurves();
 
   Isosurface Surface;
@@ -54,6 +68,8 @@ private:
   /// For the particles, when the way is known.
   RimTracer Exact;
   SurfaceWalker Walker;
+  /// Goes on wherever there is something to go on in.
+  SurfaceWalker Passer;
   std::int64_t Curves = 0;
   RimCurves Result;
 };
@@ -176,17 +192,24 @@ void RimSampler::addParticle(const Location& place, int face, double nearby)
   const glm::dvec3 along = inward - glm::dot(inward, normal.xyz) * normal.xyz;
   rim.outward = { glm::length(along) > 0.0 ? -glm::normalize(along) : glm::dvec3(0.0) };
   rim.curve = this->Curves;
+  rim.particle.jump = this->jumpAt(location);
+  this->Result.particles.push_back(rim);
+}
+
+/// F - c on the other side of the face on which a place lies; zero where there is no other side.
+double RimSampler::jumpAt(const Location& location)
+{
+  double jump = 0.0;
+  const auto& faces = facts(this->Surface.mesh->elements[location.element].domain).faces;
   for (int f = 0; f < static_cast<int>(faces.size()); ++f)
   {
-    const bool cut = this->Surface.neighbor(location.element, f).element < 0 &&
-      mesh.neighbor(location.element, f).element >= 0;
-    if (cut && faceMargin(faces[f], location.u) < OnFace)
+    if (faceMargin(faces[f], location.u) < OnFace && this->Surface.mayEnd(location.element, f))
     {
-      rim.particle.jump = valueBehind(this->Surface, location, f);
-      ++this->Result.evaluations;
+      const auto behind = this->Passer.behind(location, f);
+      jump = behind ? behind->at.point.value : jump;
     }
   }
-  this->Result.particles.push_back(rim);
+  return jump;
 }
 
 /// Of particles on different curves that are as near as particles of one surface never are, the first
@@ -244,12 +267,12 @@ RimCurves RimSampler::run()
     const double nearby = sample.found ? sample.patch.spacing : this->Law.spacing;
     visitFaceCrossings(
       *this->Surface.mesh, box,
-      [&](int face) { return this->Surface.neighbor(box.middle.element, face).element < 0; },
+      [&](int face) { return this->Surface.mayEnd(box.middle.element, face); },
       [&](const FaceCrossing& crossing) { this->follow(crossing, nearby); });
   }
   this->mergeCurves();
-  this->Result.evaluations +=
-    this->Tracer.evaluations() + this->Exact.evaluations() + this->Walker.evaluations();
+  this->Result.evaluations += this->Tracer.evaluations() + this->Exact.evaluations() +
+    this->Walker.evaluations() + this->Passer.evaluations();
   return std::move(this->Result);
 }
 

@@ -56,12 +56,13 @@ std::int64_t RimChords::keyOf(const RimPoint& point)
   return std::int64_t{ MaximumFaces } * point.at.location.element + point.face;
 }
 
-/// The boundary face on which a place lies, the preferred one if it is among them; -1 if none.
+/// The face at which the surface may end on which a place lies, the preferred one if it is among them; -1
+/// if none.
 int RimTracer::wallOf(const Location& location, int preferred) const
 {
   const auto onWall = [&](int f)
   {
-    return this->Surface.neighbor(location.element, f).element < 0 &&
+    return this->Surface.mayEnd(location.element, f) &&
       faceMargin(faceOf(*this->Surface.mesh, location, f), location.u) < OnFace;
   };
   if (preferred >= 0 && onWall(preferred))
@@ -88,7 +89,8 @@ std::optional<RimPoint> RimTracer::project(const Location& start, int face, doub
     return std::nullopt;
   }
   const int wall = this->wallOf(at.location, at.location.element == start.element ? face : -1);
-  return wall < 0 ? std::nullopt : std::optional<RimPoint>({ at, wall });
+  const bool ends = wall >= 0 && this->Passer.endsAt(at.location, wall);
+  return ends ? std::optional<RimPoint>({ at, wall }) : std::nullopt;
 }
 
 WorldVector RimTracer::tangent(const RimPoint& point) const
@@ -139,51 +141,90 @@ std::optional<Evaluated> RimTracer::projectAlongEdge(
   return std::nullopt;
 }
 
+std::vector<std::int64_t> RimTracer::cornersOf(const Location& location, int face) const
+{
+  const ElementMesh& mesh = *this->Surface.mesh;
+  const Face& which = faceOf(mesh, location, face);
+  std::vector<std::int64_t> numbers;
+  for (int c = 0; c < which.cornerCount; ++c)
+  {
+    numbers.push_back(mesh.elements[location.element].corners[which.corners[c]]);
+  }
+  std::sort(numbers.begin(), numbers.end());
+  return numbers;
+}
+
+/// The other face of an element that has the corners of an edge; -1 if there is none.
+int RimTracer::faceAtEdge(
+  const Location& location, int entry, const std::vector<std::int64_t>& edge) const
+{
+  const auto count =
+    static_cast<int>(facts(this->Surface.mesh->elements[location.element].domain).faces.size());
+  for (int f = 0; f < count; ++f)
+  {
+    const auto corners = this->cornersOf(location, f);
+    if (f != entry && std::includes(corners.begin(), corners.end(), edge.begin(), edge.end()))
+    {
+      return f;
+    }
+  }
+  return -1;
+}
+
+/// The other face of an element on which a place lies, to what rounding leaves of places that were
+/// located; -1 if there is none.
+int RimTracer::faceAtPlace(const Location& location, int entry) const
+{
+  constexpr double rounding = 1e-6;
+  const auto count =
+    static_cast<int>(facts(this->Surface.mesh->elements[location.element].domain).faces.size());
+  for (int f = 0; f < count; ++f)
+  {
+    if (f != entry && faceMargin(faceOf(*this->Surface.mesh, location, f), location.u) < rounding)
+    {
+      return f;
+    }
+  }
+  return -1;
+}
+
 /// From a wall across an edge to the wall behind it: that of the same element, or that to which the
 /// elements around the edge lead, one through the next.
 std::optional<RimPoint> RimTracer::turnAroundEdge(const Evaluated& at, int wall, int face)
 {
   constexpr int maximumElements = 64;
-  const ElementMesh& mesh = *this->Surface.mesh;
-  const auto cornersOf = [&](const Location& location, int f)
+  const auto edgeBetween = [&](const Location& location, int a, int b)
   {
-    const Face& which = faceOf(mesh, location, f);
-    std::vector<std::int64_t> numbers;
-    for (int c = 0; c < which.cornerCount; ++c)
-    {
-      numbers.push_back(mesh.elements[location.element].corners[which.corners[c]]);
-    }
-    std::sort(numbers.begin(), numbers.end());
-    return numbers;
+    const auto first = this->cornersOf(location, a);
+    const auto second = this->cornersOf(location, b);
+    std::vector<std::int64_t> edge;
+    std::set_intersection(
+      first.begin(), first.end(), second.begin(), second.end(), std::back_inserter(edge));
+    return edge;
   };
-  const auto first = cornersOf(at.location, wall);
-  const auto second = cornersOf(at.location, face);
-  std::vector<std::int64_t> edge;
-  std::set_intersection(
-    first.begin(), first.end(), second.begin(), second.end(), std::back_inserter(edge));
-
-  Location location = at.location;
+  std::vector<std::int64_t> edge = edgeBetween(at.location, wall, face);
+  Evaluated here = at;
   for (int n = 0; n < maximumElements; ++n)
   {
-    const FaceNeighbor neighbor = this->Surface.neighbor(location.element, face);
-    if (neighbor.element < 0)
+    const bool joined = this->Surface.mesh->neighbor(here.location.element, face).element >= 0;
+    const auto next = this->Passer.behind(here.location, face);
+    if (!next)
     {
-      return RimPoint{ n == 0 ? at : this->Walker.evaluate(location), face };
+      return RimPoint{ here, face };
     }
-    location = crossFace(mesh, location, face);
-    const auto faceCount =
-      static_cast<int>(facts(mesh.elements[location.element].domain).faces.size());
-    const int entry = neighbor.face;
-    face = -1;
-    for (int f = 0; f < faceCount && face < 0; ++f)
-    {
-      const auto corners = cornersOf(location, f);
-      const bool hasEdge = std::includes(corners.begin(), corners.end(), edge.begin(), edge.end());
-      face = f != entry && hasEdge ? f : -1;
-    }
+    here = next->at;
+    face = joined ? this->faceAtEdge(here.location, next->face, edge)
+                  : this->faceAtPlace(here.location, next->face);
     if (face < 0)
     {
       return std::nullopt;
+    }
+    if (!joined)
+    {
+      const Face& side = faceOf(*this->Surface.mesh, here.location, face);
+      const double margin = faceMargin(side, here.location.u);
+      here.location.u.xyz -= margin / glm::dot(side.inward.xyz, side.inward.xyz) * side.inward.xyz;
+      edge = edgeBetween(here.location, next->face, face);
     }
   }
   return std::nullopt;
@@ -194,7 +235,11 @@ std::optional<RimVertex> RimTracer::passEdge(
 {
   const auto at =
     this->projectAlongEdge({ from.at.location.element, u }, from.face, otherFace, step);
-  const auto beyond = at ? this->turnAroundEdge(*at, from.face, otherFace) : std::nullopt;
+  if (!at || !this->Passer.endsAt(at->location, from.face))
+  {
+    return std::nullopt;
+  }
+  const auto beyond = this->turnAroundEdge(*at, from.face, otherFace);
   if (!beyond)
   {
     return std::nullopt;

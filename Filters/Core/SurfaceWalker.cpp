@@ -11,22 +11,15 @@ namespace hop
 namespace
 {
 
-bool onBoundary(const Isosurface& surface, const Location& location, int face)
+bool isOnFace(const ElementMesh& mesh, const Location& location, int face)
 {
-  const Domain domain = surface.mesh->elements[location.element].domain;
-  return surface.neighbor(location.element, face).element < 0 &&
-    faceMargin(facts(domain).faces[face], location.u) < OnFace;
+  const Domain domain = mesh.elements[location.element].domain;
+  return faceMargin(facts(domain).faces[face], location.u) < OnFace;
 }
 
-/// \pre the place lies on one
-int firstBoundaryFace(const Isosurface& surface, const Location& location)
+int faceCountOf(const ElementMesh& mesh, const Location& location)
 {
-  int face = 0;
-  while (!onBoundary(surface, location, face))
-  {
-    ++face;
-  }
-  return face;
+  return static_cast<int>(facts(mesh.elements[location.element].domain).faces.size());
 }
 
 } // namespace
@@ -45,6 +38,71 @@ Evaluated SurfaceWalker::evaluateCurved(const Location& location)
   Evaluated result{ location, fieldPoint(jet, this->Surface.isovalue) };
   result.hessian = worldHessian(jet, result.point);
   return result;
+}
+
+std::optional<SurfaceWalker::Behind> SurfaceWalker::behind(const Location& location, int face)
+{
+  const Isosurface& surface = this->Surface;
+  const int element = location.element;
+  const FaceNeighbor& neighbor = surface.mesh->neighbor(element, face);
+  const double gap = surface.gap(element, face);
+  if (neighbor.element >= 0 && !surface.mayEnd(element, face))
+  {
+    return Behind{ this->evaluate(crossFace(*surface.mesh, location, face)), neighbor.face };
+  }
+  const bool located =
+    neighbor.element < 0 && surface.locator && surface.locator->mayGoOn(element, face);
+  if (surface.walled || (neighbor.element < 0 && !located))
+  {
+    return std::nullopt;
+  }
+  const Evaluated here = this->evaluate(location);
+  LocatedPlace there{ {}, neighbor.face, 0.0 };
+  if (located)
+  {
+    const auto found =
+      surface.locator->locate(here.point.map.position, element, face, gap, this->Evaluations);
+    if (!found)
+    {
+      return std::nullopt;
+    }
+    there = *found;
+  }
+  else
+  {
+    there.location = crossFace(*surface.mesh, location, face);
+  }
+  const Behind result{ this->evaluate(there.location), there.face };
+  const double jump = std::abs(result.at.point.value - here.point.value);
+  const bool agrees = jump <= gap * length(result.at.point.gradient);
+  return agrees ? std::optional<Behind>(result) : std::nullopt;
+}
+
+bool SurfaceWalker::endsAt(const Location& location, int face)
+{
+  return isOnFace(*this->Surface.mesh, location, face) &&
+    this->Surface.mayEnd(location.element, face) && !this->behind(location, face);
+}
+
+int SurfaceWalker::endCount(const Location& location)
+{
+  int count = 0;
+  for (int f = 0; f < faceCountOf(*this->Surface.mesh, location); ++f)
+  {
+    count += this->endsAt(location, f);
+  }
+  return count;
+}
+
+/// \pre there is one
+int SurfaceWalker::firstEnd(const Location& location)
+{
+  int face = 0;
+  while (!this->endsAt(location, face))
+  {
+    ++face;
+  }
+  return face;
 }
 
 Location SurfaceWalker::move(const Evaluated& start, const WorldVector& step)
@@ -69,14 +127,14 @@ Location SurfaceWalker::move(const Evaluated& start, const WorldVector& step)
     {
       break;
     }
-    const FaceNeighbor neighbor = this->Surface.neighbor(at.location.element, exit.face);
     // Where the walls of two elements meet, each sends the step into the other: straight back
     // through the face it came by. Then it can only follow that face.
     const bool comesBack = exit.face == entry && exit.fraction == 0.0 && active.count > 0;
-    if (neighbor.element >= 0 && !comesBack)
+    const auto next = comesBack ? std::nullopt : this->behind(at.location, exit.face);
+    if (next)
     {
-      entry = neighbor.face;
-      at.location = crossFace(mesh, at.location, exit.face);
+      entry = next->face;
+      at = next->at;
       active = {};
     }
     else if (active.count == 2)
@@ -86,8 +144,8 @@ Location SurfaceWalker::move(const Evaluated& start, const WorldVector& step)
     else
     {
       active.add(exit.face);
+      at = this->evaluate(at.location);
     }
-    at = this->evaluate(at.location);
   }
   return at.location;
 }
@@ -95,7 +153,7 @@ Location SurfaceWalker::move(const Evaluated& start, const WorldVector& step)
 /// The step of Newton's method. One that would leave through the boundary looks for the surface along
 /// the boundary instead, and so do those that follow (`alongWall`): an overshoot would otherwise send
 /// the next one back inside, past the rim.
-WorldVector SurfaceWalker::newtonStep(const Evaluated& at, bool& alongWall) const
+WorldVector SurfaceWalker::newtonStep(const Evaluated& at, bool& alongWall)
 {
   const WorldVector& gradient = at.point.gradient;
   const double slope2 = dot(gradient, gradient);
@@ -112,14 +170,14 @@ WorldVector SurfaceWalker::newtonStep(const Evaluated& at, bool& alongWall) cons
     // Where the surface all but touches the boundary there is no curve to find.
     step = rate > 1e-6 * slope2 ? (-at.point.value / rate) * along : WorldVector{};
   };
-  if (alongWall && boundaryFaceCount(this->Surface, at.location) == 1)
+  if (alongWall && this->endCount(at.location) == 1)
   {
-    hold(firstBoundaryFace(this->Surface, at.location));
+    hold(this->firstEnd(at.location));
   }
   while (active.count < 2)
   {
     const Exit exit = findExit(domain, at.location.u, at.point.map.pull(step), active);
-    if (exit.face < 0 || !onBoundary(this->Surface, at.location, exit.face))
+    if (exit.face < 0 || !this->endsAt(at.location, exit.face))
     {
       break;
     }
@@ -165,20 +223,14 @@ bool SurfaceWalker::project(
   return false;
 }
 
-int boundaryFaceCount(const Isosurface& surface, const Location& location)
-{
-  const auto& faces = facts(surface.mesh->elements[location.element].domain).faces;
-  int count = 0;
-  for (int f = 0; f < static_cast<int>(faces.size()); ++f)
-  {
-    count += onBoundary(surface, location, f);
-  }
-  return count;
-}
-
 int boundaryFaceCount(const ElementMesh& mesh, const Location& location)
 {
-  return boundaryFaceCount(Isosurface{ &mesh }, location);
+  int count = 0;
+  for (int f = 0; f < faceCountOf(mesh, location); ++f)
+  {
+    count += mesh.neighbor(location.element, f).element < 0 && isOnFace(mesh, location, f);
+  }
+  return count;
 }
 
 } // namespace hop

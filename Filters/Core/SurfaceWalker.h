@@ -1,8 +1,10 @@
 #pragma once
 
-#include "SurfaceGeometry.h"
+#include "FaceLocator.h"
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace hop
 {
@@ -14,16 +16,26 @@ struct Isosurface
   double isovalue = 0.0;
   /// Largest distance |F - c|/|grad F| of a particle from the surface, world units.
   double tolerance = 0.0;
-  /// MaximumFaces entries an element; nonzero: the surface ends at that face on both sides, as the
-  /// field jumps there. nullptr: it ends at no inner face.
-  const std::vector<char>* cuts = nullptr;
+  /// Finds what lies behind faces that the mesh does not join; nullptr: nothing does.
+  const FaceLocator* locator = nullptr;
+  /// MaximumFaces entries an element: by how much the two sides of the surface may miss each other at
+  /// that face and still count as one, world units; infinite where they are known to agree. nullptr:
+  /// infinite everywhere.
+  const std::vector<float>* gaps = nullptr;
+  /// As if the surface ended at every face at which it might.
+  bool walled = false;
 
-  /// What lies behind a face, as far as the surface goes on there.
-  FaceNeighbor neighbor(int element, int face) const
+  double gap(int element, int face) const
   {
-    const bool cut =
-      this->cuts && (*this->cuts)[static_cast<std::size_t>(element) * MaximumFaces + face];
-    return cut ? FaceNeighbor() : this->mesh->neighbor(element, face);
+    return this->gaps ? (*this->gaps)[static_cast<std::size_t>(element) * MaximumFaces + face]
+                      : std::numeric_limits<double>::infinity();
+  }
+
+  /// Whether there are places on the face at which the surface may end.
+  bool mayEnd(int element, int face) const
+  {
+    return this->mesh->neighbor(element, face).element < 0 ||
+      std::isfinite(this->gap(element, face));
   }
 };
 
@@ -51,6 +63,23 @@ public:
   /// Value, gradient and Hessian at a place.
   Evaluated evaluateCurved(const Location& location);
 
+  /// What lies behind a face, on which `location` lies, where the surface goes on there: joined by the
+  /// mesh or found by the locator, and no farther off than the face's gap. Faces without a gap of their
+  /// own cost one evaluation.
+  struct Behind
+  {
+    Evaluated at;
+    /// The face of that element by which one enters it.
+    int face = -1;
+  };
+  std::optional<Behind> behind(const Location& location, int face);
+
+  /// Whether a place lies on that face of its element, and the surface ends there.
+  bool endsAt(const Location& location, int face);
+
+  /// How many faces of its element there are for which it does.
+  int endCount(const Location& location);
+
   /// Follows a world vector from a place, through as many elements as it takes: at each face the
   /// rest of the vector, towards the same world target, is continued with the Jacobian of the next
   /// element. At a boundary the rest slides along it. Within an element the step is first order
@@ -73,15 +102,14 @@ public:
   static constexpr int MaximumNewtonSteps = 25;
 
 private:
-  WorldVector newtonStep(const Evaluated& at, bool& alongWall) const;
+  WorldVector newtonStep(const Evaluated& at, bool& alongWall);
+  int firstEnd(const Location& location);
 
   Isosurface Surface;
   std::int64_t Evaluations = 0;
 };
 
-/// How many boundary faces (faces behind which the surface does not go on) of its element a place lies on.
-int boundaryFaceCount(const Isosurface& surface, const Location& location);
-/// The same for faces without neighbour.
+/// On how many faces without neighbour of its element a place lies.
 int boundaryFaceCount(const ElementMesh& mesh, const Location& location);
 
 } // namespace hop
