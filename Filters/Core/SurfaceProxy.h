@@ -48,6 +48,8 @@ public:
   /// \param nearby a spacing found near the position before
   float spacingAt(const glm::dvec3& position, float curvatureMagnitude, float nearby) const;
 
+  const SpacingLaw& law() const { return this->Law; }
+
   /// Of all samples.
   double smallestSpacing() const { return this->SmallestSpacing; }
 

@@ -17,6 +17,10 @@ bool isOnFace(const ElementMesh& mesh, const Location& location, int face)
   return faceMargin(facts(domain).faces[face], location.u) < OnFace;
 }
 
+/// Cosine of the largest turn at a face at which the field jumps: particles on sheets that turn more do
+/// not keep each other off.
+constexpr double sameSheet = 0.5;
+
 int faceCountOf(const ElementMesh& mesh, const Location& location)
 {
   return static_cast<int>(facts(mesh.elements[location.element].domain).faces.size());
@@ -73,8 +77,12 @@ std::optional<SurfaceWalker::Behind> SurfaceWalker::behind(const Location& locat
     there.location = crossFace(*surface.mesh, location, face);
   }
   const Behind result{ this->evaluate(there.location), there.face };
+  const WorldVector& before = here.point.gradient;
+  const WorldVector& after = result.at.point.gradient;
+  const double slope = length(after);
   const double jump = std::abs(result.at.point.value - here.point.value);
-  const bool agrees = jump <= gap * length(result.at.point.gradient);
+  const bool turned = dot(before, after) < sameSheet * slope * length(before);
+  const bool agrees = jump <= gap * slope && !(std::isfinite(gap) && turned);
   return agrees ? std::optional<Behind>(result) : std::nullopt;
 }
 

@@ -1,0 +1,208 @@
+#include "MovingParticles.h"
+
+#include "KeepMarked.h"
+
+#include <cmath>
+
+namespace hop
+{
+namespace
+{
+
+/// A step of relaxation is taken back by half while it ends farther from the surface than this, in
+/// units of the spacing, or on a sheet that is turned away.
+constexpr float largestOffset = 0.5f;
+constexpr float smallestTurn = 0.3f;
+constexpr int maximumHalvings = 3;
+
+/// World vector of a displacement on a patch.
+glm::dvec3 worldStep(const Patch& patch, const glm::vec2& t)
+{
+  const auto tangents = tangentsOf(patch.normal);
+  return glm::dvec3(t.x * tangents[0] + t.y * tangents[1] - patch.sink(t) * patch.normal);
+}
+
+bool accepts(const Patch& before, const Anchor& anchor, const Patch& after)
+{
+  return std::abs(anchor.offset) <= largestOffset * before.spacing &&
+    glm::dot(before.normal, after.normal) > smallestTurn &&
+    glm::distance(before.position, after.position) <= 2.0 * before.spacing;
+}
+
+} // namespace
+
+MovingParticles::MovingParticles(const Isosurface& surface, const SurfaceProxy& proxy,
+  std::vector<Patch> rims, ParallelFor parallelFor)
+  : Surface(surface)
+  , Proxy(proxy)
+  , Parallel(std::move(parallelFor))
+  , Patches(std::move(rims))
+{
+}
+
+void MovingParticles::add(const std::vector<Location>& places)
+{
+  MovingParticles added(this->Surface, this->Proxy, {}, this->Parallel);
+  added.Anchors.resize(places.size());
+  added.Patches.resize(places.size());
+  const std::vector<int> order = orderByElement(places, this->Surface.mesh->elements.size());
+  std::vector<char> found(places.size(), 0);
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(places.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      evaluateInOrder(*this->Surface.mesh, places, order, begin, end,
+        [&](int i, const Jet& jet)
+        {
+          Patch& patch = added.Patches[i];
+          found[i] = anchorPatch(places[i], jet, this->Surface.isovalue, added.Anchors[i], patch);
+          patch.spacing = static_cast<float>(this->Proxy.law().spacing);
+        });
+    });
+  added.keep(found);
+  added.commit(std::vector<glm::vec2>(added.count(), glm::vec2(0.0f)));
+  this->Evaluations += static_cast<std::int64_t>(places.size()) + added.Evaluations;
+  this->add(added.Anchors, added.Patches);
+}
+
+void MovingParticles::add(const std::vector<Anchor>& anchors, const std::vector<Patch>& patches)
+{
+  this->Patches.insert(this->Patches.begin() + static_cast<std::ptrdiff_t>(this->count()),
+    patches.begin(), patches.end());
+  this->Anchors.insert(this->Anchors.end(), anchors.begin(), anchors.end());
+}
+
+void MovingParticles::keep(std::vector<char> kept)
+{
+  keepMarked(this->Anchors, kept);
+  kept.resize(this->Patches.size(), 1);
+  keepMarked(this->Patches, kept);
+}
+
+/// Where a step in world space takes particle i: in its own element by its own map, else by walking.
+Location MovingParticles::target(std::size_t i, const glm::dvec3& step, std::int64_t& cost) const
+{
+  const Anchor& anchor = this->Anchors[i];
+  const glm::dvec3 u = anchor.place.u.xyz + glm::dmat3(anchor.pull) * step;
+  if (insideMargin(this->Surface.mesh->elements[anchor.place.element].domain, { u }) >= 0.0)
+  {
+    return { anchor.place.element, { u } };
+  }
+  SurfaceWalker walker(this->Surface);
+  Evaluated start{ anchor.place, {} };
+  LocalMap& map = start.point.map;
+  map.position = { this->Patches[i].position -
+    static_cast<double>(anchor.offset) * glm::dvec3(this->Patches[i].normal) };
+  map.inverse = glm::dmat3(anchor.pull);
+  map.jacobian = glm::inverse(map.inverse);
+  // Onto a wall only particles on rims may go.
+  Location reached = walker.move(start, { step });
+  const auto onWall = [&]() { return walker.endCount(reached) > 0; };
+  if (onWall())
+  {
+    reached = walker.move(start, { 0.5 * step });
+  }
+  const bool ends = onWall();
+  cost += walker.evaluations();
+  return ends ? anchor.place : reached;
+}
+
+/// World vector from where particle i was evaluated to a displacement on its patch.
+glm::dvec3 MovingParticles::stepTo(std::size_t i, const glm::vec2& displacement) const
+{
+  const Patch& patch = this->Patches[i];
+  return worldStep(patch, displacement) +
+    static_cast<double>(this->Anchors[i].offset) * glm::dvec3(patch.normal);
+}
+
+std::vector<Location> MovingParticles::targets(const std::vector<glm::vec2>& displacements)
+{
+  std::vector<Location> places(this->Anchors.size());
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(places.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      std::int64_t cost = 0;
+      for (std::ptrdiff_t i = begin; i < end; ++i)
+      {
+        places[i] = this->target(i, this->stepTo(i, displacements[i]), cost);
+      }
+      this->Evaluations += cost;
+    });
+  return places;
+}
+
+/// Half the step, a quarter of it, ...
+bool MovingParticles::retry(
+  std::size_t i, glm::dvec3 step, Anchor& anchor, Patch& patch, std::int64_t& cost) const
+{
+  for (int n = 0; n < maximumHalvings; ++n)
+  {
+    step *= 0.5;
+    const Location place = this->target(i, step, cost);
+    const Jet jet = evaluateHessian(this->Surface.mesh->form(place.element), place.u);
+    ++cost;
+    if (anchorPatch(place, jet, this->Surface.isovalue, anchor, patch) &&
+      accepts(this->Patches[i], anchor, patch))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+void MovingParticles::commit(const std::vector<glm::vec2>& displacements)
+{
+  const std::size_t count = this->Anchors.size();
+  const std::vector<Location> places = this->targets(displacements);
+  const std::vector<int> order = orderByElement(places, this->Surface.mesh->elements.size());
+  std::vector<int> rank(count);
+  for (std::size_t n = 0; n < count; ++n)
+  {
+    rank[order[n]] = static_cast<int>(n);
+  }
+  std::vector<Anchor> anchors(count);
+  std::vector<Patch> patches(count);
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(count),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      std::int64_t cost = end - begin;
+      evaluateInOrder(*this->Surface.mesh, places, order, begin, end,
+        [&](int i, const Jet& jet)
+        {
+          Anchor& anchor = anchors[rank[i]];
+          Patch& patch = patches[rank[i]];
+          const Patch& before = this->Patches[i];
+          const bool moved = (anchorPatch(places[i], jet, this->Surface.isovalue, anchor, patch) &&
+                               accepts(before, anchor, patch)) ||
+            this->retry(i, this->stepTo(i, displacements[i]), anchor, patch, cost);
+          if (!moved)
+          {
+            anchor = this->Anchors[i];
+            patch = before;
+          }
+          patch.spacing =
+            this->Proxy.spacingAt(patch.position, patch.curvatureMagnitude(), before.spacing);
+        });
+      this->Evaluations += cost;
+    });
+  this->Anchors = std::move(anchors);
+  std::copy(patches.begin(), patches.end(), this->Patches.begin());
+}
+
+Location MovingParticles::onSurface(std::size_t i, std::int64_t& cost) const
+{
+  return this->target(i, this->stepTo(i, glm::vec2(0.0f)), cost);
+}
+
+void MovingParticles::renew(std::size_t i, const Location& place, const Jet& jet)
+{
+  Anchor anchor;
+  Patch patch = this->Patches[i];
+  if (anchorPatch(place, jet, this->Surface.isovalue, anchor, patch) &&
+    accepts(this->Patches[i], anchor, patch))
+  {
+    this->Anchors[i] = anchor;
+    this->Patches[i] = patch;
+  }
+}
+
+} // namespace hop
