@@ -370,8 +370,8 @@ Distribution FastSystem::run()
     this->Result.particles.clear();
     this->Result.report.aborted = true;
   }
-  this->Result.report.evaluations =
-    this->Evaluations + (this->Moving ? this->Moving->evaluations() : 0) + this->Locator.evaluations();
+  this->Result.report.evaluations = this->Evaluations +
+    (this->Moving ? this->Moving->evaluations() : 0) + this->Locator.evaluations();
   return this->Result;
 }
 

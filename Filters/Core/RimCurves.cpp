@@ -212,11 +212,13 @@ double RimSampler::jumpAt(const Location& location)
   return jump;
 }
 
-/// Of particles on different curves that are as near as particles of one surface never are, the first
-/// stays. If they look at each other, the surface goes on there.
+/// Of particles that are as near as particles of one surface never are, the first stays: on one curve, or
+/// where two sheets meet at a sharp edge, they have to be nearer than on two curves of one sheet. If they
+/// look at each other, the surface goes on there.
 void RimSampler::mergeCurves()
 {
   constexpr double sameSurface = 0.6;
+  constexpr double sameSheet = 0.5;
   std::vector<glm::dvec3> positions;
   std::vector<float> spacings;
   for (const RimParticle& rim : this->Result.particles)
@@ -234,9 +236,10 @@ void RimSampler::mergeCurves()
       [&](int j)
       {
         const bool earlier = j < static_cast<int>(i) && kept[j];
-        const double near = rims[i].curve == rims[j].curve ? 0.5 * sameSurface : sameSurface;
-        if (earlier && glm::distance(positions[i], positions[j]) < near * spacings[i] &&
-          dot(rims[i].particle.normal, rims[j].particle.normal) > 0.5)
+        const double turn = dot(rims[i].particle.normal, rims[j].particle.normal);
+        const bool apart = rims[i].curve == rims[j].curve || turn <= sameSheet;
+        const double near = apart ? 0.5 * sameSurface : sameSurface;
+        if (earlier && turn > 0.0 && glm::distance(positions[i], positions[j]) < near * spacings[i])
         {
           kept[i] = 0;
           seam[j] = seam[j] || dot(rims[i].outward, rims[j].outward) < -0.5;
