@@ -59,7 +59,7 @@ private:
   double spacingAt(const RimPoint& point, double nearby);
   void addParticle(const Location& place, int face, double nearby);
   double jumpAt(const Location& location);
-  void mergeCurves();
+  void thinOut();
 
   Isosurface Surface;
   const SurfaceProxy& Proxy;
@@ -70,7 +70,6 @@ private:
   SurfaceWalker Walker;
   /// Goes on wherever there is something to go on in.
   SurfaceWalker Passer;
-  std::int64_t Curves = 0;
   RimCurves Result;
 };
 
@@ -95,7 +94,6 @@ void RimSampler::follow(const FaceCrossing& hint, double nearby)
   }
   const RimTrace trace = this->Tracer.trace(*start, chordPerSpacing * nearby);
   this->Result.open += !trace.closed;
-  ++this->Curves;
   this->sample(trace, nearby);
 }
 
@@ -191,7 +189,6 @@ void RimSampler::addParticle(const Location& place, int face, double nearby)
   const glm::dvec3 inward = glm::transpose(field.map.inverse) * faces[point->face].inward.xyz;
   const glm::dvec3 along = inward - glm::dot(inward, normal.xyz) * normal.xyz;
   rim.outward = { glm::length(along) > 0.0 ? -glm::normalize(along) : glm::dvec3(0.0) };
-  rim.curve = this->Curves;
   rim.particle.jump = this->jumpAt(location);
   this->Result.particles.push_back(rim);
 }
@@ -212,12 +209,12 @@ double RimSampler::jumpAt(const Location& location)
   return jump;
 }
 
-/// Of particles that are as near as particles of one surface never are, the first stays: on one curve, or
-/// where two sheets meet at a sharp edge, they have to be nearer than on two curves of one sheet. If they
-/// look at each other, the surface goes on there.
-void RimSampler::mergeCurves()
+/// Of particles that are as near as particles of one surface never are, the first stays. Where two sheets
+/// meet at a sharp edge they may be nearer. If they look at each other, the surface goes on there.
+void RimSampler::thinOut()
 {
   constexpr double sameSurface = 0.6;
+  constexpr double sharpEdge = 0.3;
   constexpr double sameSheet = 0.5;
   std::vector<glm::dvec3> positions;
   std::vector<float> spacings;
@@ -237,8 +234,7 @@ void RimSampler::mergeCurves()
       {
         const bool earlier = j < static_cast<int>(i) && kept[j];
         const double turn = dot(rims[i].particle.normal, rims[j].particle.normal);
-        const bool apart = rims[i].curve == rims[j].curve || turn <= sameSheet;
-        const double near = apart ? 0.5 * sameSurface : sameSurface;
+        const double near = turn > sameSheet ? sameSurface : sharpEdge;
         if (earlier && turn > 0.0 && glm::distance(positions[i], positions[j]) < near * spacings[i])
         {
           kept[i] = 0;
@@ -273,7 +269,7 @@ RimCurves RimSampler::run()
       [&](int face) { return this->Surface.mayEnd(box.middle.element, face); },
       [&](const FaceCrossing& crossing) { this->follow(crossing, nearby); });
   }
-  this->mergeCurves();
+  this->thinOut();
   this->Result.evaluations += this->Tracer.evaluations() + this->Exact.evaluations() +
     this->Walker.evaluations() + this->Passer.evaluations();
   return std::move(this->Result);
