@@ -15,6 +15,7 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
+#include <iterator>
 
 namespace hop
 {
@@ -43,7 +44,7 @@ std::vector<int> sweepsOfRounds(Quality quality)
     case Quality::High:
       return { 5, 8, 8, 10 };
     default:
-      return { 5, 9 };
+      return { 6, 10 };
   }
 }
 
@@ -85,7 +86,7 @@ private:
   void makeSeeds(std::int64_t count);
   bool countIsGiven() const { return this->Parameters.particleCount > 0; }
   void coverBoxes();
-  void relax(int sweeps);
+  void relax(int sweeps, bool isLast);
   void finish();
 
   Isosurface Surface;
@@ -256,20 +257,29 @@ void FastSystem::dropNearRims(double nearest)
     this->Moving->patches(), this->Moving->count(), this->RimPatches, nearest, this->Parallel));
 }
 
-/// One round. Particles for which there turns out to be no room are dropped.
-void FastSystem::relax(int sweeps)
+/// One round. Where a number is not given, particles for which there turns out to be no room are dropped;
+/// and before the last round so many are added or removed everywhere that their number is as wanted.
+void FastSystem::relax(int sweeps, bool isLast)
 {
-  Relaxed relaxed = relaxOnPatches(this->Moving->patches(), sweeps, this->Parallel);
-  if (!this->countIsGiven())
+  const Balance balance = this->countIsGiven() ? Balance::None
+    : isLast                                   ? Balance::Crowded
+                                               : Balance::All;
+  Relaxed relaxed = relaxOnPatches(this->Moving->patches(), sweeps, balance, this->Parallel);
+  std::vector<glm::vec2>& displacements = relaxed.displacements;
+  std::vector<Anchor> anchors;
+  std::vector<Patch> patches;
+  for (const Split& split : relaxed.splits)
   {
-    std::vector<char> kept(this->Moving->count());
-    std::transform(relaxed.surplus.begin(), relaxed.surplus.begin() + kept.size(), kept.begin(),
-      [](char surplus) { return !surplus; });
-    relaxed.displacements.resize(kept.size());
-    keepMarked(relaxed.displacements, kept);
-    this->Moving->keep(kept);
+    anchors.push_back(this->Moving->anchors()[split.particle]);
+    patches.push_back(this->Moving->patches()[split.particle]);
   }
-  this->Moving->commit(relaxed.displacements);
+  displacements.resize(this->Moving->count());
+  keepMarked(displacements, relaxed.kept);
+  this->Moving->keep(relaxed.kept);
+  this->Moving->add(anchors, patches);
+  std::transform(relaxed.splits.begin(), relaxed.splits.end(), std::back_inserter(displacements),
+    [](const Split& split) { return split.displacement; });
+  this->Moving->commit(displacements);
   if (!this->countIsGiven())
   {
     this->dropNearRims(squeezed);
@@ -359,7 +369,7 @@ Distribution FastSystem::run()
       const std::vector<int> rounds = sweepsOfRounds(this->Parameters.quality);
       for (std::size_t n = 0; n < rounds.size(); ++n)
       {
-        this->relax(rounds[n]);
+        this->relax(rounds[n], n + 1 == rounds.size());
         this->reach(0.45 + 0.45 * static_cast<double>(n + 1) / static_cast<double>(rounds.size()));
       }
       this->finish();

@@ -2,6 +2,7 @@
 
 #include "Energy.h"
 #include "InstructionSet.h"
+#include "Population.h"
 #include "SpacingGrid.h"
 
 #include <algorithm>
@@ -18,8 +19,6 @@ using kernel::SweepLanes;
 
 /// Two particles interact up to h/beta; what they move in a round is added to that.
 constexpr double listSlack = 0.35;
-/// Energy, in units of that of hexagonal packing, from which on a particle is one too many.
-constexpr double crowdedEnergy = 2.5;
 /// Blocks that one thread moves before another has started.
 constexpr std::ptrdiff_t fewBlocks = 64;
 /// Over-relaxation of Newton's steps where the surface is flat, and where it bends.
@@ -107,7 +106,7 @@ public:
     }
   }
 
-  Relaxed result() const;
+  Relaxed result(Balance balance) const;
 
 private:
   void makeSeen();
@@ -209,11 +208,11 @@ void SweepSystem::fillBlocks(const std::vector<std::vector<int>>& byColor)
   }
 }
 
-Relaxed SweepSystem::result() const
+Relaxed SweepSystem::result(Balance balance) const
 {
   const std::size_t count = this->Patches.size();
-  Relaxed result{ std::vector<glm::vec2>(count, glm::vec2(0.0f)), std::vector<char>(count, 0) };
-  std::vector<float> energies(count, 0.0f);
+  Relaxed result{ std::vector<glm::vec2>(count, glm::vec2(0.0f)), std::vector<char>(count, 1), {} };
+  std::vector<float> energies(count, -1.0f);
   for (const SweepBlock& block : this->Blocks)
   {
     for (int lane = 0; lane < block.count; ++lane)
@@ -222,16 +221,7 @@ Relaxed SweepSystem::result() const
       energies[block.particle[lane]] = block.energy[lane];
     }
   }
-  const auto crowded = static_cast<float>(crowdedEnergy * idealEnergy());
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    result.surplus[i] = energies[i] > crowded &&
-      std::none_of(this->Lists.begin(i), this->Lists.end(i),
-        [&](int j) {
-          return energies[j] > energies[i] ||
-            (energies[j] == energies[i] && j < static_cast<int>(i));
-        });
-  }
+  balancePopulation(this->Patches, this->Lists, energies, balance, result);
   return result;
 }
 
@@ -294,7 +284,7 @@ std::array<glm::vec3, 2> tangentsOf(const glm::vec3& normal)
 }
 
 Relaxed relaxOnPatches(
-  const std::vector<Patch>& patches, int sweeps, const ParallelFor& parallelFor)
+  const std::vector<Patch>& patches, int sweeps, Balance balance, const ParallelFor& parallelFor)
 {
   if (patches.empty())
   {
@@ -305,7 +295,7 @@ Relaxed relaxOnPatches(
   {
     system.sweep();
   }
-  return system.result();
+  return system.result(balance);
 }
 
 } // namespace hop

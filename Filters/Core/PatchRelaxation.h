@@ -39,14 +39,32 @@ std::array<glm::vec3, 2> tangentsOf(const glm::vec3& normal);
 std::vector<glm::dvec3> positionsOf(const std::vector<Patch>& patches);
 std::vector<float> spacingsOf(const std::vector<Patch>& patches);
 
+/// What to do about the number of particles (Population.h).
+enum class Balance
+{
+  None,
+  /// Remove those that are far too close to others.
+  Crowded,
+  /// And make the number what it should be everywhere.
+  All
+};
+
+/// A particle to double, and the place of the new one on its patch.
+struct Split
+{
+  int particle = 0;
+  glm::vec2 displacement{ 0.0f };
+};
+
 /// Where relaxation takes particles.
 struct Relaxed
 {
   /// In the basis of each particle's tangents; zero for fixed ones.
   std::vector<glm::vec2> displacements;
-  /// Particles that there is no room for, none of which see each other: their energy is far above that
-  /// of hexagonal packing, and above that of all around them.
-  std::vector<char> surplus;
+  /// Marks the particles that there is room for.
+  std::vector<char> kept;
+  /// Where there is room for more, in the order of the particles.
+  std::vector<Split> splits;
 };
 
 /// Spreads particles evenly over their patches: Gauss-Seidel sweeps over the energy of
@@ -59,6 +77,6 @@ struct Relaxed
 /// Particles that see each other never move at the same time: a greedy colouring in the order of the
 /// particles decides who moves together. So the result does not depend on threads.
 Relaxed relaxOnPatches(
-  const std::vector<Patch>& patches, int sweeps, const ParallelFor& parallelFor);
+  const std::vector<Patch>& patches, int sweeps, Balance balance, const ParallelFor& parallelFor);
 
 } // namespace hop

@@ -126,10 +126,11 @@ TEST_P(FastQuality, IsAsPromised)
   ASSERT_TRUE(result.report.error.empty()) << result.report.error;
   const double count = static_cast<double>(result.particles.size());
   // The dense cases are missed targets: with some thousand particles on strongly bent surfaces, whose
-  // boxes are as large as the radius, 0.89 to 0.96 of the number come out, at up to 12 evaluations.
+  // boxes are as large as the radius, 0.96 to 0.99 of the number come out, at up to 12 evaluations, and
+  // one pair may stand as near as 0.75.
   const bool even = which.law.angularDensity == 0.0;
-  EXPECT_NEAR(count / wantedCount(which), 1.0, even ? 0.03 : 0.12);
-  EXPECT_LE(static_cast<double>(result.report.evaluations) / count, even ? 8.0 : 13.0);
+  EXPECT_NEAR(count / wantedCount(which), 1.0, even ? 0.02 : 0.05);
+  EXPECT_LE(static_cast<double>(result.report.evaluations) / count, even ? 8.0 : 12.5);
   double smallest = which.law.spacing;
   for (const Particle& p : result.particles)
   {
@@ -137,7 +138,7 @@ TEST_P(FastQuality, IsAsPromised)
     smallest = std::min(smallest, p.spacing);
   }
   const Evenness evenness = measureEvenness(result.particles);
-  EXPECT_GE(evenness.minSpacing, 0.80);
+  EXPECT_GE(evenness.minSpacing, even ? 0.80 : 0.75);
   EXPECT_LE(evenness.variation, 0.035);
   EXPECT_GE(evenness.sixValentShare, 0.72);
   EXPECT_GE(evenness.meanMinAngle, 50.5);
@@ -189,9 +190,9 @@ TEST_P(FastQualityAtRims, IsAsPromised)
   const double count = static_cast<double>(result.particles.size());
   EXPECT_LE(static_cast<double>(result.report.evaluations) / count, 8.0);
   const Evenness evenness = measureEvenness(result.particles);
-  // The targets, 0.80 and 0.035, are missed by that much at rims.
+  // At rims 0.80 is missed by that much.
   EXPECT_GE(evenness.minSpacing, 0.77);
-  EXPECT_LE(evenness.variation, 0.037);
+  EXPECT_LE(evenness.variation, 0.035);
   EXPECT_GE(evenness.sixValentShare, 0.72);
   EXPECT_GE(evenness.meanMinAngle, 50.5);
   EXPECT_GE(evenness.worstMinAngle, 30.0);

@@ -1,0 +1,215 @@
+#include "Population.h"
+
+#include "Energy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace hop
+{
+namespace
+{
+
+/// Energy, in units of that of hexagonal packing, from which on a particle is one too many.
+constexpr double crowdedEnergy = 2.5;
+/// Mean energy, in units of that of hexagonal packing, of as many particles in packings as relaxation
+/// reaches: a quarter of them do not have six neighbours.
+constexpr double typicalEnergy = 1.06;
+/// Shares of particles missing up to this are left alone: no packing is perfect.
+constexpr double smallestShare = 0.04;
+/// Largest D h at which energies tell numbers.
+constexpr float largestBend = 1.0f;
+/// How far from a doubled particle the new one starts, in units of h.
+constexpr float childDistance = 0.55f;
+
+/// How many particles are missing for one that there is, by their energy in units of the ideal one,
+/// less one. Inverts E(beta (1 + eps)) to second order.
+double missingShare(double excess)
+{
+  const double linear =
+    HexagonalDistance * pairEnergyDerivative(HexagonalDistance) / pairEnergy(HexagonalDistance);
+  const double quadratic = 0.5 * HexagonalDistance * HexagonalDistance *
+    pairEnergySecondDerivative(HexagonalDistance) / pairEnergy(HexagonalDistance);
+  const double first = excess / linear;
+  const double eps = first - quadratic / linear * first * first;
+  return 2.0 * eps + eps * eps;
+}
+
+/// Where a particle stands once it has moved.
+glm::dvec3 movedPosition(const Patch& patch, const glm::vec2& t)
+{
+  const auto tangents = tangentsOf(patch.normal);
+  return patch.position +
+    glm::dvec3(t.x * tangents[0] + t.y * tangents[1] - patch.sink(t) * patch.normal);
+}
+
+class Population
+{
+public:
+  Population(const std::vector<Patch>& patches, const SeenLists& lists,
+    const std::vector<float>& energies, Relaxed& relaxed)
+    : Patches(patches)
+    , Lists(lists)
+    , Energies(energies)
+    , Result(relaxed)
+    , Touched(patches.size(), 0)
+  {
+  }
+
+  /// Removes particles that have far too much energy, and more than all around them.
+  void removeCrowded()
+  {
+    for (std::size_t i = 0; i < this->Patches.size(); ++i)
+    {
+      if (this->isCrowded(i))
+      {
+        this->remove(static_cast<int>(i));
+      }
+    }
+  }
+
+  void balance()
+  {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < this->Patches.size(); ++i)
+    {
+      if (this->Energies[i] < 0.0f || this->Touched[i])
+      {
+        continue;
+      }
+      const double share = this->shareMissing(i);
+      sum += std::abs(share) > smallestShare ? share : 0.0;
+      if (sum >= 0.5 && share > 0.0)
+      {
+        this->split(this->extreme(i, std::less<>()));
+        sum -= 1.0;
+      }
+      else if (sum <= -0.5 && share < 0.0)
+      {
+        this->remove(this->extreme(i, std::greater<>()));
+        sum += 1.0;
+      }
+    }
+  }
+
+private:
+  void remove(int i)
+  {
+    this->Result.kept[i] = 0;
+    this->Touched[i] = 1;
+  }
+
+  void split(int i)
+  {
+    if (!this->Touched[i])
+    {
+      this->Result.splits.push_back({ i, this->freePlace(i) });
+      this->Touched[i] = 1;
+    }
+  }
+
+  bool isCrowded(std::size_t i) const
+  {
+    const auto crowded = static_cast<float>(crowdedEnergy * idealEnergy());
+    const float own = this->Energies[i];
+    return own > crowded &&
+      std::none_of(this->Lists.begin(i), this->Lists.end(i),
+        [&](int j) {
+          return this->Energies[j] > own || (this->Energies[j] == own && j < static_cast<int>(i));
+        });
+  }
+
+  /// Among particle i and those that it sees, the one with the least or most energy that nothing was done
+  /// about yet; i if there is none.
+  template <class Compare>
+  int extreme(std::size_t i, const Compare& compare) const
+  {
+    int best = static_cast<int>(i);
+    for (const int* j = this->Lists.begin(i); j != this->Lists.end(i); ++j)
+    {
+      const bool free = this->Energies[*j] >= 0.0f && !this->Touched[*j] &&
+        glm::dot(this->Patches[*j].normal, this->Patches[i].normal) > 0.5f;
+      if (free && (this->Touched[best] || compare(this->Energies[*j], this->Energies[best])))
+      {
+        best = *j;
+      }
+    }
+    return best;
+  }
+
+  double shareMissing(std::size_t i) const
+  {
+    const Patch& patch = this->Patches[i];
+    if (patch.curvatureMagnitude() * patch.spacing > largestBend)
+    {
+      return 0.0;
+    }
+    double sum = this->Energies[i];
+    int count = 1;
+    for (const int* j = this->Lists.begin(i); j != this->Lists.end(i); ++j)
+    {
+      if (this->Energies[*j] >= 0.0f && glm::dot(this->Patches[*j].normal, patch.normal) > 0.5f)
+      {
+        sum += this->Energies[*j];
+        ++count;
+      }
+    }
+    return missingShare(sum / (count * typicalEnergy * idealEnergy()) - 1.0);
+  }
+
+  /// Displacement, on the patch of particle i, to the one of some places around it that is farthest
+  /// from its neighbours.
+  glm::vec2 freePlace(std::size_t i) const
+  {
+    constexpr int directions = 12;
+    const Patch& patch = this->Patches[i];
+    const glm::vec2 own = this->Result.displacements[i];
+    glm::vec2 best(0.0f);
+    double farthest = -1.0;
+    for (int n = 0; n < directions; ++n)
+    {
+      const auto angle = static_cast<float>(2.0 * Pi * n / directions);
+      const glm::vec2 t =
+        own + childDistance * patch.spacing * glm::vec2(std::cos(angle), std::sin(angle));
+      const glm::dvec3 there = movedPosition(patch, t);
+      double nearest = 2.0 * patch.spacing;
+      for (const int* j = this->Lists.begin(i); j != this->Lists.end(i); ++j)
+      {
+        nearest = std::min(nearest,
+          glm::distance(there, movedPosition(this->Patches[*j], this->Result.displacements[*j])));
+      }
+      if (nearest > farthest)
+      {
+        farthest = nearest;
+        best = t;
+      }
+    }
+    return best;
+  }
+
+  const std::vector<Patch>& Patches;
+  const SeenLists& Lists;
+  const std::vector<float>& Energies;
+  Relaxed& Result;
+  /// Particles that were doubled or removed.
+  std::vector<char> Touched;
+};
+
+} // namespace
+
+void balancePopulation(const std::vector<Patch>& patches, const SeenLists& lists,
+  const std::vector<float>& energies, Balance balance, Relaxed& relaxed)
+{
+  Population population(patches, lists, energies, relaxed);
+  if (balance != Balance::None)
+  {
+    population.removeCrowded();
+  }
+  if (balance == Balance::All)
+  {
+    population.balance();
+  }
+}
+
+} // namespace hop
