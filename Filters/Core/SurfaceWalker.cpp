@@ -82,7 +82,7 @@ std::optional<SurfaceWalker::Behind> SurfaceWalker::behind(const Location& locat
   const double slope = length(after);
   const double jump = std::abs(result.at.point.value - here.point.value);
   const bool turned = dot(before, after) < sameSheet * slope * length(before);
-  const bool agrees = jump <= gap * slope && !(std::isfinite(gap) && turned);
+  const bool agrees = !std::isfinite(gap) || (jump <= gap * slope && !turned);
   return agrees ? std::optional<Behind>(result) : std::nullopt;
 }
 
