@@ -35,7 +35,17 @@ constexpr double coarseSpacingPerExtent = 0.001;
 /// are dropped after it.
 constexpr double seedToRim = 0.433;
 constexpr double squeezed = 0.6;
-std::vector<int> sweepsOfRounds(Quality quality)
+/// Pairs nearer than this, in units of their spacing, are defects of the packing. Particles within some
+/// spacings of them are relaxed further.
+constexpr double smallestSpacing = 0.8;
+constexpr double repairReach = 3.0;
+constexpr int repairRounds = 2;
+constexpr int repairSweeps = 8;
+/// A particle of a run before has arrived if it is nearer to the surface than this, in units of its
+/// spacing.
+constexpr float arrivedOffset = 0.1f;
+
+std::vector<int> sweepsOfRounds(Quality quality, bool isWarm)
 {
   switch (quality)
   {
@@ -44,7 +54,8 @@ std::vector<int> sweepsOfRounds(Quality quality)
     case Quality::High:
       return { 5, 8, 8, 10 };
     default:
-      return { 6, 10 };
+      // Where particles of a run before crowd or thin out there is more to do.
+      return isWarm ? std::vector<int>{ 8, 14 } : std::vector<int>{ 6, 10 };
   }
 }
 
@@ -84,9 +95,12 @@ private:
   void dropNearRims(double nearest);
   void startMoving();
   void makeSeeds(std::int64_t count);
+  void continueFrom(const std::vector<Location>& places);
   bool countIsGiven() const { return this->Parameters.particleCount > 0; }
   void coverBoxes();
-  void relax(int sweeps, bool isLast);
+  void relax(MovingParticles& moving, int sweeps, const Balance& balance);
+  void relaxAll(int sweeps, bool isLast);
+  void repair();
   void finish();
 
   Isosurface Surface;
@@ -187,14 +201,39 @@ void FastSystem::matchCount()
   }
 }
 
-/// Draws that many first places.
+/// Draws that many first places, or as many of them as lie in boxes that the places to start from leave
+/// alone.
 void FastSystem::makeSeeds(std::int64_t count)
 {
   this->startMoving();
-  this->Moving->add(
-    this->Proxy->seeds(count, Random(this->Parameters.seed).uniform(), this->Parallel));
+  const double phase = Random(this->Parameters.seed).uniform();
+  if (this->Parameters.start.empty())
+  {
+    this->Moving->add(this->Proxy->seeds(count, phase, this->Parallel));
+  }
+  else
+  {
+    this->continueFrom(this->Parameters.start);
+    const std::vector<char> lonely =
+      findLonely(this->Proxy->samples(), this->Moving->patches(), this->Parallel);
+    this->Moving->add(this->Proxy->seeds(count, phase, this->Parallel, lonely));
+    this->Moving->keep(
+      standApart(this->Moving->patches(), this->Moving->count(), squeezed, this->Parallel));
+  }
   this->dropNearRims(seedToRim);
   this->coverBoxes();
+}
+
+/// Takes particles from places near the surface to it; those that do not arrive are dropped.
+void FastSystem::continueFrom(const std::vector<Location>& places)
+{
+  this->Moving->add(places);
+  std::vector<char> arrived(this->Moving->count());
+  std::transform(this->Moving->anchors().begin(), this->Moving->anchors().end(),
+    this->Moving->patches().begin(), arrived.begin(),
+    [](const Anchor& anchor, const Patch& patch)
+    { return std::abs(anchor.offset) <= arrivedOffset * patch.spacing; });
+  this->Moving->keep(arrived);
 }
 
 /// The first places of a given number of particles: more are drawn until those that rims push aside are
@@ -257,34 +296,94 @@ void FastSystem::dropNearRims(double nearest)
     this->Moving->patches(), this->Moving->count(), this->RimPatches, nearest, this->Parallel));
 }
 
-/// One round. Where a number is not given, particles for which there turns out to be no room are dropped;
-/// and before the last round so many are added or removed everywhere that their number is as wanted.
-void FastSystem::relax(int sweeps, bool isLast)
+/// Sweeps, what they tell about the number of particles, and one evaluation each.
+void FastSystem::relax(MovingParticles& moving, int sweeps, const Balance& balance)
 {
-  const Balance balance = this->countIsGiven() ? Balance::None
-    : isLast                                   ? Balance::Crowded
-                                               : Balance::All;
-  Relaxed relaxed = relaxOnPatches(this->Moving->patches(), sweeps, balance, this->Parallel);
+  Relaxed relaxed = relaxOnPatches(moving.patches(), sweeps, balance, this->Parallel);
   std::vector<glm::vec2>& displacements = relaxed.displacements;
   std::vector<Anchor> anchors;
   std::vector<Patch> patches;
   for (const Split& split : relaxed.splits)
   {
-    anchors.push_back(this->Moving->anchors()[split.particle]);
-    patches.push_back(this->Moving->patches()[split.particle]);
+    anchors.push_back(moving.anchors()[split.particle]);
+    patches.push_back(moving.patches()[split.particle]);
   }
-  displacements.resize(this->Moving->count());
+  displacements.resize(moving.count());
   keepMarked(displacements, relaxed.kept);
-  this->Moving->keep(relaxed.kept);
-  this->Moving->add(anchors, patches);
+  moving.keep(relaxed.kept);
+  moving.add(anchors, patches);
   std::transform(relaxed.splits.begin(), relaxed.splits.end(), std::back_inserter(displacements),
     [](const Split& split) { return split.displacement; });
-  this->Moving->commit(displacements);
+  moving.commit(displacements);
+  this->Result.report.iterations += sweeps;
+}
+
+/// One round. Where a number is not given, particles for which there turns out to be no room are dropped;
+/// and before the last round so many are added or removed everywhere that their number is as wanted.
+void FastSystem::relaxAll(int sweeps, bool isLast)
+{
+  Balance balance;
+  balance.removesCrowded = !this->countIsGiven();
+  balance.everywhere = !this->countIsGiven() && !isLast;
+  if (this->Law.angularDensity == 0.0)
+  {
+    // Particles on rims stand for half as much area as others.
+    balance.missing = this->Proxy->particleCount() - static_cast<double>(this->Moving->count()) -
+      0.5 * static_cast<double>(this->RimPatches.size());
+  }
+  this->relax(*this->Moving, sweeps, balance);
   if (!this->countIsGiven())
   {
     this->dropNearRims(squeezed);
   }
-  this->Result.report.iterations += sweeps;
+}
+
+/// Particles around pairs that stand too near to each other go on alone, those farther off stay.
+void FastSystem::repair()
+{
+  const std::vector<Patch>& patches = this->Moving->patches();
+  const std::size_t count = this->Moving->count();
+  std::vector<char> apart = haveDistance(patches, count, smallestSpacing, this->Parallel);
+  std::vector<Patch> tooNear = patches;
+  tooNear.resize(count);
+  std::transform(apart.begin(), apart.end(), apart.begin(), std::logical_not<>());
+  keepMarked(tooNear, apart);
+  if (tooNear.empty())
+  {
+    return;
+  }
+  std::vector<char> staying = keepDistance(patches, count, tooNear, repairReach, this->Parallel);
+  std::vector<char> outOfSight =
+    keepDistance(patches, patches.size(), tooNear, 2.0 * repairReach, this->Parallel);
+  std::vector<Anchor> anchors = this->Moving->anchors();
+  std::vector<Patch> moved = patches;
+  std::vector<Patch> around;
+  moved.resize(count);
+  for (std::size_t i = 0; i < patches.size(); ++i)
+  {
+    if (!outOfSight[i] && (i >= count || staying[i]))
+    {
+      around.push_back(patches[i]);
+      around.back().fixed = true;
+    }
+  }
+  std::vector<char> moving(count);
+  std::transform(staying.begin(), staying.end(), moving.begin(), std::logical_not<>());
+  keepMarked(anchors, moving);
+  keepMarked(moved, moving);
+  MovingParticles part(this->Surface, *this->Proxy, std::move(around), this->Parallel);
+  part.add(anchors, moved);
+  for (int n = 0; n < repairRounds; ++n)
+  {
+    Balance balance;
+    balance.removesCrowded = !this->countIsGiven();
+    this->relax(part, repairSweeps, balance);
+  }
+  moved = part.patches();
+  moved.resize(part.count());
+  this->Moving->keep(staying);
+  this->Moving->add(part.anchors(), moved);
+  this->Evaluations += part.evaluations();
 }
 
 /// Boxes on whose piece of surface no particle stands get one. Those added cover others in turn.
@@ -366,12 +465,14 @@ Distribution FastSystem::run()
         this->makeSeeds(std::llround(wanted));
       }
       this->reach(0.45);
-      const std::vector<int> rounds = sweepsOfRounds(this->Parameters.quality);
+      const std::vector<int> rounds =
+        sweepsOfRounds(this->Parameters.quality, !this->Parameters.start.empty());
       for (std::size_t n = 0; n < rounds.size(); ++n)
       {
-        this->relax(rounds[n], n + 1 == rounds.size());
+        this->relaxAll(rounds[n], n + 1 == rounds.size());
         this->reach(0.45 + 0.45 * static_cast<double>(n + 1) / static_cast<double>(rounds.size()));
       }
+      this->repair();
       this->finish();
     }
   }

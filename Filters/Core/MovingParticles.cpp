@@ -3,6 +3,7 @@
 #include "KeepMarked.h"
 
 #include <cmath>
+#include <numeric>
 
 namespace hop
 {
@@ -14,6 +15,10 @@ namespace
 constexpr float largestOffset = 0.5f;
 constexpr float smallestTurn = 0.3f;
 constexpr int maximumHalvings = 3;
+/// Steps from farther off have to shorten the way by this factor.
+constexpr float smallestProgress = 0.7f;
+/// A patch is good if it was evaluated nearer to the surface than this, in units of its spacing.
+constexpr float nearEnough = 0.1f;
 
 /// World vector of a displacement on a patch.
 glm::dvec3 worldStep(const Patch& patch, const glm::vec2& t)
@@ -22,10 +27,12 @@ glm::dvec3 worldStep(const Patch& patch, const glm::vec2& t)
   return glm::dvec3(t.x * tangents[0] + t.y * tangents[1] - patch.sink(t) * patch.normal);
 }
 
-bool accepts(const Patch& before, const Anchor& anchor, const Patch& after)
+/// Whether a step leads to the surface, or nearer to it at least, and not astray.
+bool accepts(const Anchor& from, const Patch& before, const Anchor& to, const Patch& after)
 {
-  return std::abs(anchor.offset) <= largestOffset * before.spacing &&
-    glm::dot(before.normal, after.normal) > smallestTurn &&
+  const float farthest =
+    std::max(largestOffset * before.spacing, smallestProgress * std::abs(from.offset));
+  return std::abs(to.offset) <= farthest && glm::dot(before.normal, after.normal) > smallestTurn &&
     glm::distance(before.position, after.position) <= 2.0 * before.spacing;
 }
 
@@ -42,26 +49,34 @@ MovingParticles::MovingParticles(const Isosurface& surface, const SurfaceProxy& 
 
 void MovingParticles::add(const std::vector<Location>& places)
 {
-  MovingParticles added(this->Surface, this->Proxy, {}, this->Parallel);
-  added.Anchors.resize(places.size());
-  added.Patches.resize(places.size());
+  const auto first = static_cast<std::ptrdiff_t>(this->count());
+  const auto count = static_cast<std::ptrdiff_t>(places.size());
+  this->add(std::vector<Anchor>(places.size()), std::vector<Patch>(places.size()));
   const std::vector<int> order = orderByElement(places, this->Surface.mesh->elements.size());
-  std::vector<char> found(places.size(), 0);
-  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(places.size()),
+  std::vector<char> found(this->count(), 1);
+  runParallel(this->Parallel, count,
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       evaluateInOrder(*this->Surface.mesh, places, order, begin, end,
         [&](int i, const Jet& jet)
         {
-          Patch& patch = added.Patches[i];
-          found[i] = anchorPatch(places[i], jet, this->Surface.isovalue, added.Anchors[i], patch);
-          patch.spacing = static_cast<float>(this->Proxy.law().spacing);
+          Patch& patch = this->Patches[first + i];
+          found[first + i] =
+            anchorPatch(places[i], jet, this->Surface.isovalue, this->Anchors[first + i], patch);
+          patch.spacing = this->Proxy.spacingAt(patch.position, patch.curvatureMagnitude());
         });
+      this->Evaluations += end - begin;
     });
-  added.keep(found);
-  added.commit(std::vector<glm::vec2>(added.count(), glm::vec2(0.0f)));
-  this->Evaluations += static_cast<std::int64_t>(places.size()) + added.Evaluations;
-  this->add(added.Anchors, added.Patches);
+  this->keep(std::move(found));
+  std::vector<int> far;
+  for (auto i = static_cast<int>(first); i < static_cast<int>(this->count()); ++i)
+  {
+    if (std::abs(this->Anchors[i].offset) > nearEnough * this->Patches[i].spacing)
+    {
+      far.push_back(i);
+    }
+  }
+  this->commitThose(far, std::vector<glm::vec2>(far.size(), glm::vec2(0.0f)));
 }
 
 void MovingParticles::add(const std::vector<Anchor>& anchors, const std::vector<Patch>& patches)
@@ -114,22 +129,6 @@ glm::dvec3 MovingParticles::stepTo(std::size_t i, const glm::vec2& displacement)
     static_cast<double>(this->Anchors[i].offset) * glm::dvec3(patch.normal);
 }
 
-std::vector<Location> MovingParticles::targets(const std::vector<glm::vec2>& displacements)
-{
-  std::vector<Location> places(this->Anchors.size());
-  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(places.size()),
-    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-    {
-      std::int64_t cost = 0;
-      for (std::ptrdiff_t i = begin; i < end; ++i)
-      {
-        places[i] = this->target(i, this->stepTo(i, displacements[i]), cost);
-      }
-      this->Evaluations += cost;
-    });
-  return places;
-}
-
 /// Half the step, a quarter of it, ...
 bool MovingParticles::retry(
   std::size_t i, glm::dvec3 step, Anchor& anchor, Patch& patch, std::int64_t& cost) const
@@ -141,7 +140,7 @@ bool MovingParticles::retry(
     const Jet jet = evaluateHessian(this->Surface.mesh->form(place.element), place.u);
     ++cost;
     if (anchorPatch(place, jet, this->Surface.isovalue, anchor, patch) &&
-      accepts(this->Patches[i], anchor, patch))
+      accepts(this->Anchors[i], this->Patches[i], anchor, patch))
     {
       return true;
     }
@@ -151,41 +150,51 @@ bool MovingParticles::retry(
 
 void MovingParticles::commit(const std::vector<glm::vec2>& displacements)
 {
-  const std::size_t count = this->Anchors.size();
-  const std::vector<Location> places = this->targets(displacements);
+  std::vector<int> all(this->count());
+  std::iota(all.begin(), all.end(), 0);
+  this->commitThose(all, displacements);
+}
+
+/// \param displacements one for each of those
+void MovingParticles::commitThose(
+  const std::vector<int>& which, const std::vector<glm::vec2>& displacements)
+{
+  const auto count = static_cast<std::ptrdiff_t>(which.size());
+  std::vector<Location> places(which.size());
+  runParallel(this->Parallel, count,
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      std::int64_t cost = 0;
+      for (std::ptrdiff_t n = begin; n < end; ++n)
+      {
+        places[n] = this->target(which[n], this->stepTo(which[n], displacements[n]), cost);
+      }
+      this->Evaluations += cost;
+    });
   const std::vector<int> order = orderByElement(places, this->Surface.mesh->elements.size());
-  std::vector<int> rank(count);
-  for (std::size_t n = 0; n < count; ++n)
-  {
-    rank[order[n]] = static_cast<int>(n);
-  }
-  std::vector<Anchor> anchors(count);
-  std::vector<Patch> patches(count);
-  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(count),
+  runParallel(this->Parallel, count,
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       std::int64_t cost = end - begin;
       evaluateInOrder(*this->Surface.mesh, places, order, begin, end,
-        [&](int i, const Jet& jet)
+        [&](int n, const Jet& jet)
         {
-          Anchor& anchor = anchors[rank[i]];
-          Patch& patch = patches[rank[i]];
+          const int i = which[n];
+          Anchor anchor;
+          Patch patch;
           const Patch& before = this->Patches[i];
-          const bool moved = (anchorPatch(places[i], jet, this->Surface.isovalue, anchor, patch) &&
-                               accepts(before, anchor, patch)) ||
-            this->retry(i, this->stepTo(i, displacements[i]), anchor, patch, cost);
-          if (!moved)
+          if ((anchorPatch(places[n], jet, this->Surface.isovalue, anchor, patch) &&
+                accepts(this->Anchors[i], before, anchor, patch)) ||
+            this->retry(i, this->stepTo(i, displacements[n]), anchor, patch, cost))
           {
-            anchor = this->Anchors[i];
-            patch = before;
+            patch.spacing =
+              this->Proxy.spacingAt(patch.position, patch.curvatureMagnitude(), before.spacing);
+            this->Anchors[i] = anchor;
+            this->Patches[i] = patch;
           }
-          patch.spacing =
-            this->Proxy.spacingAt(patch.position, patch.curvatureMagnitude(), before.spacing);
         });
       this->Evaluations += cost;
     });
-  this->Anchors = std::move(anchors);
-  std::copy(patches.begin(), patches.end(), this->Patches.begin());
 }
 
 Location MovingParticles::onSurface(std::size_t i, std::int64_t& cost) const
@@ -198,7 +207,7 @@ void MovingParticles::renew(std::size_t i, const Location& place, const Jet& jet
   Anchor anchor;
   Patch patch = this->Patches[i];
   if (anchorPatch(place, jet, this->Surface.isovalue, anchor, patch) &&
-    accepts(this->Patches[i], anchor, patch))
+    accepts(this->Anchors[i], this->Patches[i], anchor, patch))
   {
     this->Anchors[i] = anchor;
     this->Patches[i] = patch;

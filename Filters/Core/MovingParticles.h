@@ -27,8 +27,8 @@ public:
   const std::vector<Patch>& patches() const { return this->Patches; }
   std::int64_t evaluations() const { return this->Evaluations; }
 
-  /// Adds a particle for each place from which one Newton step leads to the surface; two evaluations
-  /// each.
+  /// Adds a particle for each place from which one Newton step leads to the surface; one evaluation each,
+  /// and another where that step is not small.
   void add(const std::vector<Location>& places);
   /// Adds particles whose patches are known.
   void add(const std::vector<Anchor>& anchors, const std::vector<Patch>& patches);
@@ -36,7 +36,7 @@ public:
   void keep(std::vector<char> kept);
 
   /// Takes particles to where relaxation wants them, and to the surface; one evaluation each gives them
-  /// new patches there, more where half a step has to do. Afterwards they are sorted by element.
+  /// new patches there, more where half a step has to do.
   /// \param displacements in the tangent planes of the patches, one for each that moves at least
   void commit(const std::vector<glm::vec2>& displacements);
 
@@ -55,7 +55,7 @@ public:
 private:
   Location target(std::size_t i, const glm::dvec3& step, std::int64_t& cost) const;
   glm::dvec3 stepTo(std::size_t i, const glm::vec2& displacement) const;
-  std::vector<Location> targets(const std::vector<glm::vec2>& displacements);
+  void commitThose(const std::vector<int>& which, const std::vector<glm::vec2>& displacements);
   bool retry(
     std::size_t i, glm::dvec3 step, Anchor& anchor, Patch& patch, std::int64_t& cost) const;
 

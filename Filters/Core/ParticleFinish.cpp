@@ -17,8 +17,10 @@ public:
     , Law(law)
     , Parallel(parallelFor)
     , Pending(moving.count())
-    , Result{ std::vector<Particle>(moving.count()), std::vector<char>(moving.count(), 0) }
   {
+    this->Result.particles.reserve(moving.size());
+    this->Result.particles.resize(moving.count());
+    this->Result.settled.resize(moving.count(), 0);
     std::iota(this->Pending.begin(), this->Pending.end(), 0);
   }
 

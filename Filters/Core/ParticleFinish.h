@@ -10,7 +10,7 @@ namespace hop
 /// Particles taken to the surface.
 struct FinishedParticles
 {
-  /// One for each that moved.
+  /// One for each that moved; with room for those on rims.
   std::vector<Particle> particles;
   /// Which of them lie on the surface to its tolerance. The others are lost.
   std::vector<char> settled;

@@ -53,6 +53,48 @@ std::vector<char> testAll(std::size_t count, const ParallelFor& parallelFor, con
   return results;
 }
 
+/// Patches that look for others nearer than a distance, in units of the smaller of their spacings.
+class Crowd
+{
+public:
+  Crowd(const std::vector<Patch>& patches, double distance, const ParallelFor& parallelFor)
+    : Patches(patches)
+    , Distance(distance)
+    , Positions(positionsOf(patches))
+    , Spacings(spacingsOf(patches))
+    , Grid(Positions, Spacings, distance, cellsPerReach, parallelFor)
+  {
+  }
+
+  template <class Use>
+  void visitNear(std::size_t i, const Use& use) const
+  {
+    this->Grid.visit(this->Positions[i], this->Spacings[i],
+      [&](int j)
+      {
+        const double nearest = this->Distance * std::min(this->Spacings[i], this->Spacings[j]);
+        if (static_cast<std::size_t>(j) != i && isNear(this->Patches[i], this->Patches[j], nearest))
+        {
+          use(j);
+        }
+      });
+  }
+
+  bool isAlone(std::size_t i) const
+  {
+    bool alone = true;
+    this->visitNear(i, [&](int) { alone = false; });
+    return alone;
+  }
+
+private:
+  const std::vector<Patch>& Patches;
+  double Distance;
+  std::vector<glm::dvec3> Positions;
+  std::vector<float> Spacings;
+  SpacingGrid Grid;
+};
+
 } // namespace
 
 std::vector<char> keepDistance(const std::vector<Patch>& patches, std::size_t count,
@@ -72,31 +114,19 @@ std::vector<char> keepDistance(const std::vector<Patch>& patches, std::size_t co
     });
 }
 
+std::vector<char> haveDistance(const std::vector<Patch>& patches, std::size_t count,
+  double distance, const ParallelFor& parallelFor)
+{
+  const Crowd crowd(patches, distance, parallelFor);
+  return testAll(count, parallelFor, [&](std::size_t i) { return crowd.isAlone(i); });
+}
+
 std::vector<char> standApart(const std::vector<Patch>& patches, std::size_t count, double distance,
   const ParallelFor& parallelFor)
 {
-  const std::vector<glm::dvec3> positions = positionsOf(patches);
-  const std::vector<float> spacings = spacingsOf(patches);
-  const SpacingGrid grid(positions, spacings, distance, cellsPerReach, parallelFor);
-  const auto visitNear = [&](std::size_t i, const auto& use)
-  {
-    grid.visit(positions[i], spacings[i],
-      [&](int j)
-      {
-        if (static_cast<std::size_t>(j) != i &&
-          isNear(patches[i], patches[j], distance * std::min(spacings[i], spacings[j])))
-        {
-          use(j);
-        }
-      });
-  };
-  std::vector<char> kept = testAll(count, parallelFor,
-    [&](std::size_t i)
-    {
-      bool alone = true;
-      visitNear(i, [&](int) { alone = false; });
-      return alone;
-    });
+  const Crowd crowd(patches, distance, parallelFor);
+  std::vector<char> kept =
+    testAll(count, parallelFor, [&](std::size_t i) { return crowd.isAlone(i); });
   kept.resize(patches.size(), 1);
   // The few that have a neighbour too near, one by one.
   for (std::size_t i = 0; i < count; ++i)
@@ -104,7 +134,7 @@ std::vector<char> standApart(const std::vector<Patch>& patches, std::size_t coun
     if (!kept[i])
     {
       bool alone = true;
-      visitNear(i, [&](int j) { alone = alone && !kept[j]; });
+      crowd.visitNear(i, [&](int j) { alone = alone && !kept[j]; });
       kept[i] = alone;
     }
   }

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace hop
@@ -40,13 +41,14 @@ std::vector<glm::dvec3> positionsOf(const std::vector<Patch>& patches);
 std::vector<float> spacingsOf(const std::vector<Patch>& patches);
 
 /// What to do about the number of particles (Population.h).
-enum class Balance
+struct Balance
 {
-  None,
   /// Remove those that are far too close to others.
-  Crowded,
-  /// And make the number what it should be everywhere.
-  All
+  bool removesCrowded = false;
+  /// Make the number what it should be everywhere.
+  bool everywhere = false;
+  /// How many are missing in all, as far as that is known; else energies tell.
+  std::optional<double> missing;
 };
 
 /// A particle to double, and the place of the new one on its patch.
@@ -76,7 +78,7 @@ struct Relaxed
 ///
 /// Particles that see each other never move at the same time: a greedy colouring in the order of the
 /// particles decides who moves together. So the result does not depend on threads.
-Relaxed relaxOnPatches(
-  const std::vector<Patch>& patches, int sweeps, Balance balance, const ParallelFor& parallelFor);
+Relaxed relaxOnPatches(const std::vector<Patch>& patches, int sweeps, const Balance& balance,
+  const ParallelFor& parallelFor);
 
 } // namespace hop

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 
 namespace hop
 {
@@ -13,11 +14,13 @@ namespace
 
 /// Energy, in units of that of hexagonal packing, from which on a particle is one too many.
 constexpr double crowdedEnergy = 2.5;
-/// Mean energy, in units of that of hexagonal packing, of as many particles in packings as relaxation
-/// reaches: a quarter of them do not have six neighbours.
+/// Mean energy, in units of that of hexagonal packing, of as many particles in packings as a first round of
+/// relaxation reaches: a quarter of them do not have six neighbours.
 constexpr double typicalEnergy = 1.06;
-/// Shares of particles missing up to this are left alone: no packing is perfect.
-constexpr double smallestShare = 0.04;
+/// How far energies are corrected where the number wanted is known, in shares of particles.
+constexpr double largestCorrection = 0.05;
+/// Shares up to this are left alone: what is missing here is too much there.
+constexpr double smallestShare = 0.02;
 /// Largest D h at which energies tell numbers.
 constexpr float largestBend = 1.0f;
 /// How far from a doubled particle the new one starts, in units of h.
@@ -58,27 +61,34 @@ public:
   }
 
   /// Removes particles that have far too much energy, and more than all around them.
-  void removeCrowded()
+  void removeCrowded(const ParallelFor& parallelFor)
   {
+    std::vector<char> crowded(this->Patches.size());
+    this->forAll(parallelFor, [&](std::size_t i) { crowded[i] = this->isCrowded(i); });
     for (std::size_t i = 0; i < this->Patches.size(); ++i)
     {
-      if (this->isCrowded(i))
+      if (crowded[i])
       {
         this->remove(static_cast<int>(i));
       }
     }
   }
 
-  void balance()
+  /// Doubles and removes particles; energies say where and, unless `missing` does, how many.
+  void balance(const std::optional<double>& missing, const ParallelFor& parallelFor)
   {
+    std::vector<double> shares(this->Patches.size());
+    this->forAll(parallelFor, [&](std::size_t i) { shares[i] = this->shareMissing(i); });
+    const double total = std::accumulate(shares.begin(), shares.end(), 0.0);
+    const auto counted = static_cast<double>(
+      std::count_if(shares.begin(), shares.end(), [](double share) { return share != 0.0; }));
+    const double correction = missing ? std::clamp((*missing - total) / std::max(counted, 1.0),
+                                          -largestCorrection, largestCorrection)
+                                      : 0.0;
     double sum = 0.0;
-    for (std::size_t i = 0; i < this->Patches.size(); ++i)
+    for (std::size_t i = 0; i < shares.size(); ++i)
     {
-      if (this->Energies[i] < 0.0f || this->Touched[i])
-      {
-        continue;
-      }
-      const double share = this->shareMissing(i);
+      const double share = shares[i] != 0.0 ? shares[i] + correction : 0.0;
       sum += std::abs(share) > smallestShare ? share : 0.0;
       if (sum >= 0.5 && share > 0.0)
       {
@@ -94,6 +104,19 @@ public:
   }
 
 private:
+  template <class Work>
+  void forAll(const ParallelFor& parallelFor, const Work& work) const
+  {
+    runParallel(parallelFor, static_cast<std::ptrdiff_t>(this->Patches.size()),
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+      {
+        for (std::ptrdiff_t i = begin; i < end; ++i)
+        {
+          work(static_cast<std::size_t>(i));
+        }
+      });
+  }
+
   void remove(int i)
   {
     this->Result.kept[i] = 0;
@@ -138,10 +161,13 @@ private:
     return best;
   }
 
+  /// How many particles are missing around particle i, for one that there is; zero where that cannot be
+  /// told.
   double shareMissing(std::size_t i) const
   {
     const Patch& patch = this->Patches[i];
-    if (patch.curvatureMagnitude() * patch.spacing > largestBend)
+    const bool bent = patch.curvatureMagnitude() * patch.spacing > largestBend;
+    if (this->Energies[i] < 0.0f || this->Touched[i] || bent)
     {
       return 0.0;
     }
@@ -199,16 +225,17 @@ private:
 } // namespace
 
 void balancePopulation(const std::vector<Patch>& patches, const SeenLists& lists,
-  const std::vector<float>& energies, Balance balance, Relaxed& relaxed)
+  const std::vector<float>& energies, const Balance& balance, const ParallelFor& parallelFor,
+  Relaxed& relaxed)
 {
   Population population(patches, lists, energies, relaxed);
-  if (balance != Balance::None)
+  if (balance.removesCrowded)
   {
-    population.removeCrowded();
+    population.removeCrowded(parallelFor);
   }
-  if (balance == Balance::All)
+  if (balance.everywhere)
   {
-    population.balance();
+    population.balance(balance.missing, parallelFor);
   }
 }
 

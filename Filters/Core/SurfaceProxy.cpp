@@ -193,6 +193,18 @@ float SurfaceProxy::spacingAt(
   return spacing;
 }
 
+float SurfaceProxy::spacingAt(const glm::dvec3& position, float curvatureMagnitude) const
+{
+  // Coarser samples lead to finer ones: those that are looked at have up to a factor of two less.
+  auto spacing = static_cast<float>(this->Law.at(curvatureMagnitude));
+  for (float coarser = 0.0f; this->Grid && spacing != coarser;)
+  {
+    coarser = spacing;
+    spacing = this->spacingAt(position, curvatureMagnitude, coarser);
+  }
+  return spacing;
+}
+
 void SurfaceProxy::sumWeights(const ParallelFor& parallelFor)
 {
   this->Sums.resize(this->Boxes.size());
@@ -284,8 +296,8 @@ void SurfaceProxy::seedBox(std::size_t box, std::int64_t first, std::int64_t las
   }
 }
 
-std::vector<Location> SurfaceProxy::seeds(
-  std::int64_t count, double phase, const ParallelFor& parallelFor) const
+std::vector<Location> SurfaceProxy::seeds(std::int64_t count, double phase,
+  const ParallelFor& parallelFor, const std::vector<char>& only) const
 {
   std::vector<Location> result(count);
   const double stride = this->particleCount() / static_cast<double>(count);
@@ -300,12 +312,16 @@ std::vector<Location> SurfaceProxy::seeds(
         const std::int64_t first = b > 0 ? firstFrom(this->Sums[b - 1]) : 0;
         const bool isLast = this->Sums[b] == this->Sums.back();
         const std::int64_t last = isLast ? count : firstFrom(this->Sums[b]);
-        if (first < last && (b == 0 || this->Sums[b] > this->Sums[b - 1]))
+        const bool wanted = only.empty() || only[b];
+        if (wanted && first < last && (b == 0 || this->Sums[b] > this->Sums[b - 1]))
         {
           this->seedBox(b, first, last, phase, stride, result);
         }
       }
     });
+  result.erase(std::remove_if(result.begin(), result.end(),
+                 [](const Location& seed) { return seed.element < 0; }),
+    result.end());
   return result;
 }
 

@@ -40,13 +40,16 @@ public:
   /// `count` places on the triangles, by systematic sampling of the density of particles: the k-th
   /// stands where the sum of the weights reaches (k + phase) particleCount()/count.
   /// \param phase in [0, 1)
-  std::vector<Location> seeds(
-    std::int64_t count, double phase, const ParallelFor& parallelFor) const;
+  /// \param only if not empty, a mark for each box: of all places those in boxes that have one
+  std::vector<Location> seeds(std::int64_t count, double phase, const ParallelFor& parallelFor,
+    const std::vector<char>& only = {}) const;
 
   /// The spacing that a particle wants: that of the law at its own curvature, or less near places
   /// that want less. Graded like the samples.
   /// \param nearby a spacing found near the position before
   float spacingAt(const glm::dvec3& position, float curvatureMagnitude, float nearby) const;
+  /// The same where nothing is known nearby.
+  float spacingAt(const glm::dvec3& position, float curvatureMagnitude) const;
 
   const SpacingLaw& law() const { return this->Law; }
 
