@@ -88,7 +88,7 @@ double RimSampler::spacingAt(const RimPoint& point, double nearby)
 void RimSampler::follow(const FaceCrossing& hint, double nearby)
 {
   const auto start = this->Tracer.project(hint.location, hint.face, 4.0 * nearby);
-  if (!start || this->Tracer.hasPassed(*start))
+  if (!start || this->Tracer.hasPassed(*start) || !this->Tracer.isOnRim(*start))
   {
     return;
   }
@@ -162,7 +162,7 @@ void RimSampler::sampleStretch(const std::vector<RimVertex>& vertices, bool with
 void RimSampler::addParticle(const Location& place, int face, double nearby)
 {
   const auto point = this->Exact.project(place, face, nearby);
-  if (!point)
+  if (!point || !this->Exact.isOnRim(*point))
   {
     return;
   }

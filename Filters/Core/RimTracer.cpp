@@ -89,8 +89,7 @@ std::optional<RimPoint> RimTracer::project(const Location& start, int face, doub
     return std::nullopt;
   }
   const int wall = this->wallOf(at.location, at.location.element == start.element ? face : -1);
-  const bool ends = wall >= 0 && this->Passer.endsAt(at.location, wall);
-  return ends ? std::optional<RimPoint>({ at, wall }) : std::nullopt;
+  return wall < 0 ? std::nullopt : std::optional<RimPoint>({ at, wall });
 }
 
 WorldVector RimTracer::tangent(const RimPoint& point) const
@@ -188,6 +187,14 @@ int RimTracer::faceAtPlace(const Location& location, int entry) const
   return -1;
 }
 
+Location RimTracer::ontoFace(const Location& location, int face) const
+{
+  const Face& which = faceOf(*this->Surface.mesh, location, face);
+  const glm::dvec3& inward = which.inward.xyz;
+  return { location.element,
+    { location.u.xyz - faceMargin(which, location.u) / glm::dot(inward, inward) * inward } };
+}
+
 /// From a wall across an edge to the wall behind it: that of the same element, or that to which the
 /// elements around the edge lead, one through the next.
 std::optional<RimPoint> RimTracer::turnAroundEdge(const Evaluated& at, int wall, int face)
@@ -203,28 +210,35 @@ std::optional<RimPoint> RimTracer::turnAroundEdge(const Evaluated& at, int wall,
     return edge;
   };
   std::vector<std::int64_t> edge = edgeBetween(at.location, wall, face);
-  Evaluated here = at;
+  Location location = at.location;
   for (int n = 0; n < maximumElements; ++n)
   {
-    const bool joined = this->Surface.mesh->neighbor(here.location.element, face).element >= 0;
-    const auto next = this->Passer.behind(here.location, face);
-    if (!next)
+    const FaceNeighbor& neighbor = this->Surface.mesh->neighbor(location.element, face);
+    int entry = neighbor.face;
+    if (this->Surface.mayEnd(location.element, face))
     {
-      return RimPoint{ here, face };
+      const auto next = this->Passer.behind(location, face);
+      if (!next)
+      {
+        return RimPoint{ n == 0 ? at : this->Walker.evaluate(location), face };
+      }
+      location = next->at.location;
+      entry = next->face;
     }
-    here = next->at;
-    face = joined ? this->faceAtEdge(here.location, next->face, edge)
-                  : this->faceAtPlace(here.location, next->face);
+    else
+    {
+      location = crossFace(*this->Surface.mesh, location, face);
+    }
+    const bool joined = neighbor.element >= 0;
+    face = joined ? this->faceAtEdge(location, entry, edge) : this->faceAtPlace(location, entry);
     if (face < 0)
     {
       return std::nullopt;
     }
     if (!joined)
     {
-      const Face& side = faceOf(*this->Surface.mesh, here.location, face);
-      const double margin = faceMargin(side, here.location.u);
-      here.location.u.xyz -= margin / glm::dot(side.inward.xyz, side.inward.xyz) * side.inward.xyz;
-      edge = edgeBetween(here.location, next->face, face);
+      location = this->ontoFace(location, face);
+      edge = edgeBetween(location, entry, face);
     }
   }
   return std::nullopt;
@@ -235,7 +249,7 @@ std::optional<RimVertex> RimTracer::passEdge(
 {
   const auto at =
     this->projectAlongEdge({ from.at.location.element, u }, from.face, otherFace, step);
-  if (!at || !this->Passer.endsAt(at->location, from.face))
+  if (!at || !this->isOnRim({ *at, from.face }))
   {
     return std::nullopt;
   }
@@ -264,7 +278,8 @@ std::optional<RimVertex> RimTracer::advance(const RimPoint& from, double step, d
     return this->passEdge(from, u, exit.face, step);
   }
   const auto next = this->project({ from.at.location.element, u }, from.face, step);
-  if (!next || dot(this->tangent(*next), this->tangent(from)) < smallestTurn)
+  if (!next || dot(this->tangent(*next), this->tangent(from)) < smallestTurn ||
+    !this->isOnRim(*next))
   {
     return std::nullopt;
   }

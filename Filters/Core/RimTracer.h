@@ -59,9 +59,11 @@ public:
   {
   }
 
-  /// Puts a place on a face at which the surface may end onto the rim, along the face; nothing where it
-  /// goes on behind the face.
+  /// Puts a place on a face at which the surface may end onto the surface, along the face.
   std::optional<RimPoint> project(const Location& start, int face, double maximumTravel);
+
+  /// Whether the surface ends there.
+  bool isOnRim(const RimPoint& point) { return this->Passer.endsAt(point.at, point.face); }
 
   /// Follows the rim in direction n x w, n the surface's normal and w the inward normal of the
   /// boundary, and from a dead end also the other way.
@@ -90,6 +92,7 @@ private:
   std::vector<std::int64_t> cornersOf(const Location& location, int face) const;
   int faceAtEdge(const Location& location, int entry, const std::vector<std::int64_t>& edge) const;
   int faceAtPlace(const Location& location, int entry) const;
+  Location ontoFace(const Location& location, int face) const;
   int wallOf(const Location& location, int preferred) const;
   WorldVector tangent(const RimPoint& point) const;
 

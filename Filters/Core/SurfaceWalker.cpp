@@ -44,52 +44,57 @@ Evaluated SurfaceWalker::evaluateCurved(const Location& location)
   return result;
 }
 
-std::optional<SurfaceWalker::Behind> SurfaceWalker::behind(const Location& location, int face)
+std::optional<LocatedPlace> SurfaceWalker::placeBehind(const Evaluated& here, int face)
 {
   const Isosurface& surface = this->Surface;
-  const int element = location.element;
+  const int element = here.location.element;
   const FaceNeighbor& neighbor = surface.mesh->neighbor(element, face);
-  const double gap = surface.gap(element, face);
-  if (neighbor.element >= 0 && !surface.mayEnd(element, face))
+  if (neighbor.element >= 0)
   {
-    return Behind{ this->evaluate(crossFace(*surface.mesh, location, face)), neighbor.face };
+    return LocatedPlace{ crossFace(*surface.mesh, here.location, face), neighbor.face, 0.0 };
   }
-  const bool located =
-    neighbor.element < 0 && surface.locator && surface.locator->mayGoOn(element, face);
-  if (surface.walled || (neighbor.element < 0 && !located))
+  return surface.locator->locate(
+    here.point.map.position, element, face, surface.gap(element, face), this->Evaluations);
+}
+
+std::optional<SurfaceWalker::Behind> SurfaceWalker::behind(const Evaluated& here, int face)
+{
+  const Isosurface& surface = this->Surface;
+  const int element = here.location.element;
+  const bool mayEnd = surface.mayEnd(element, face);
+  if (mayEnd && !surface.mayGoOnAndEnd(element, face))
   {
     return std::nullopt;
   }
-  const Evaluated here = this->evaluate(location);
-  LocatedPlace there{ {}, neighbor.face, 0.0 };
-  if (located)
+  const auto place = this->placeBehind(here, face);
+  if (!place)
   {
-    const auto found =
-      surface.locator->locate(here.point.map.position, element, face, gap, this->Evaluations);
-    if (!found)
-    {
-      return std::nullopt;
-    }
-    there = *found;
+    return std::nullopt;
   }
-  else
+  const Behind there{ this->evaluate(place->location), place->face };
+  const double gap = surface.gap(element, face);
+  if (!std::isfinite(gap))
   {
-    there.location = crossFace(*surface.mesh, location, face);
+    return there;
   }
-  const Behind result{ this->evaluate(there.location), there.face };
   const WorldVector& before = here.point.gradient;
-  const WorldVector& after = result.at.point.gradient;
+  const WorldVector& after = there.at.point.gradient;
   const double slope = length(after);
-  const double jump = std::abs(result.at.point.value - here.point.value);
-  const bool turned = dot(before, after) < sameSheet * slope * length(before);
-  const bool agrees = !std::isfinite(gap) || (jump <= gap * slope && !turned);
-  return agrees ? std::optional<Behind>(result) : std::nullopt;
+  const bool agrees = std::abs(there.at.point.value - here.point.value) <= gap * slope &&
+    dot(before, after) >= sameSheet * slope * length(before);
+  return agrees ? std::optional<Behind>(there) : std::nullopt;
 }
 
-bool SurfaceWalker::endsAt(const Location& location, int face)
+std::optional<SurfaceWalker::Behind> SurfaceWalker::behind(const Location& here, int face)
 {
-  return isOnFace(*this->Surface.mesh, location, face) &&
-    this->Surface.mayEnd(location.element, face) && !this->behind(location, face);
+  const bool matters = this->Surface.mayGoOnAndEnd(here.element, face);
+  return this->behind(matters ? this->evaluate(here) : Evaluated{ here, {} }, face);
+}
+
+bool SurfaceWalker::endsAt(const Evaluated& here, int face)
+{
+  return isOnFace(*this->Surface.mesh, here.location, face) &&
+    this->Surface.mayEnd(here.location.element, face) && !this->behind(here, face);
 }
 
 int SurfaceWalker::endCount(const Location& location)
@@ -97,20 +102,28 @@ int SurfaceWalker::endCount(const Location& location)
   int count = 0;
   for (int f = 0; f < faceCountOf(*this->Surface.mesh, location); ++f)
   {
-    count += this->endsAt(location, f);
+    count += isOnFace(*this->Surface.mesh, location, f) &&
+      this->Surface.mayEnd(location.element, f) && !this->behind(location, f);
   }
   return count;
 }
 
-/// \pre there is one
-int SurfaceWalker::firstEnd(const Location& location)
+/// The face at which the surface ends at a place; -1 if there is none or more than one.
+int SurfaceWalker::onlyEnd(const Evaluated& here)
 {
-  int face = 0;
-  while (!this->endsAt(location, face))
+  int end = -1;
+  for (int f = 0; f < faceCountOf(*this->Surface.mesh, here.location); ++f)
   {
-    ++face;
+    if (this->endsAt(here, f))
+    {
+      if (end >= 0)
+      {
+        return -1;
+      }
+      end = f;
+    }
   }
-  return face;
+  return end;
 }
 
 Location SurfaceWalker::move(const Evaluated& start, const WorldVector& step)
@@ -138,7 +151,9 @@ Location SurfaceWalker::move(const Evaluated& start, const WorldVector& step)
     // Where the walls of two elements meet, each sends the step into the other: straight back
     // through the face it came by. Then it can only follow that face.
     const bool comesBack = exit.face == entry && exit.fraction == 0.0 && active.count > 0;
-    const auto next = comesBack ? std::nullopt : this->behind(at.location, exit.face);
+    const bool looked = this->Surface.mayEnd(at.location.element, exit.face);
+    at = looked ? this->evaluate(at.location) : at;
+    const auto next = comesBack ? std::nullopt : this->behind(at, exit.face);
     if (next)
     {
       entry = next->face;
@@ -152,7 +167,7 @@ Location SurfaceWalker::move(const Evaluated& start, const WorldVector& step)
     else
     {
       active.add(exit.face);
-      at = this->evaluate(at.location);
+      at = looked ? at : this->evaluate(at.location);
     }
   }
   return at.location;
@@ -178,14 +193,14 @@ WorldVector SurfaceWalker::newtonStep(const Evaluated& at, bool& alongWall)
     // Where the surface all but touches the boundary there is no curve to find.
     step = rate > 1e-6 * slope2 ? (-at.point.value / rate) * along : WorldVector{};
   };
-  if (alongWall && this->endCount(at.location) == 1)
+  if (const int wall = alongWall ? this->onlyEnd(at) : -1; wall >= 0)
   {
-    hold(this->firstEnd(at.location));
+    hold(wall);
   }
   while (active.count < 2)
   {
     const Exit exit = findExit(domain, at.location.u, at.point.map.pull(step), active);
-    if (exit.face < 0 || !this->endsAt(at.location, exit.face))
+    if (exit.face < 0 || !this->endsAt(at, exit.face))
     {
       break;
     }

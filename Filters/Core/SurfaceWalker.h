@@ -31,6 +31,14 @@ struct Isosurface
                       : std::numeric_limits<double>::infinity();
   }
 
+  /// Whether it is to be looked at whether the surface goes on behind a place on the face.
+  bool mayGoOnAndEnd(int element, int face) const
+  {
+    const bool joined = this->mesh->neighbor(element, face).element >= 0;
+    const bool open = joined || (this->locator && this->locator->mayGoOn(element, face));
+    return open && !this->walled && this->mayEnd(element, face);
+  }
+
   /// Whether there are places on the face at which the surface may end.
   bool mayEnd(int element, int face) const
   {
@@ -63,19 +71,20 @@ public:
   /// Value, gradient and Hessian at a place.
   Evaluated evaluateCurved(const Location& location);
 
-  /// What lies behind a face, on which `location` lies, where the surface goes on there: joined by the
-  /// mesh or found by the locator, and no farther off than the face's gap. Faces without a gap of their
-  /// own cost one evaluation.
+  /// What lies behind a face, on which a place lies, where the surface goes on there: joined by the mesh or
+  /// found by the locator, and no farther off than the face's gap.
   struct Behind
   {
     Evaluated at;
     /// The face of that element by which one enters it.
     int face = -1;
   };
-  std::optional<Behind> behind(const Location& location, int face);
+  std::optional<Behind> behind(const Evaluated& here, int face);
+  /// The same; the place is evaluated only if that matters.
+  std::optional<Behind> behind(const Location& here, int face);
 
   /// Whether a place lies on that face of its element, and the surface ends there.
-  bool endsAt(const Location& location, int face);
+  bool endsAt(const Evaluated& here, int face);
 
   /// How many faces of its element there are for which it does.
   int endCount(const Location& location);
@@ -103,7 +112,8 @@ public:
 
 private:
   WorldVector newtonStep(const Evaluated& at, bool& alongWall);
-  int firstEnd(const Location& location);
+  int onlyEnd(const Evaluated& here);
+  std::optional<LocatedPlace> placeBehind(const Evaluated& here, int face);
 
   Isosurface Surface;
   std::int64_t Evaluations = 0;

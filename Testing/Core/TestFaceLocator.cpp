@@ -255,8 +255,8 @@ TEST(FaceLocator, FindsNothingBesideASmallerFace)
   EXPECT_FALSE(found(-0.5, -0.5));
 
   SurfaceWalker walker({ &mesh, 0.0, 0.0, &locator });
-  EXPECT_FALSE(walker.endsAt({ 0, { { 1, 0.75, 0.75 } } }, 1));
-  EXPECT_TRUE(walker.endsAt({ 0, { { 1, 0.25, 0.75 } } }, 1));
+  EXPECT_FALSE(walker.endsAt(walker.evaluate({ 0, { { 1, 0.75, 0.75 } } }), 1));
+  EXPECT_TRUE(walker.endsAt(walker.evaluate({ 0, { { 1, 0.25, 0.75 } } }), 1));
   EXPECT_EQ(walker.endCount({ 0, { { 1, 0.75, 0.75 } } }), 0);
   EXPECT_EQ(walker.endCount({ 0, { { 1, 0.25, 1.0 } } }), 2);
 }
