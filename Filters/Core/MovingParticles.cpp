@@ -120,13 +120,14 @@ Location MovingParticles::target(std::size_t i, const glm::dvec3& step, std::int
   map.jacobian = glm::inverse(map.inverse);
   // Onto a wall only particles on rims may go.
   Location reached = walker.move(start, { step });
-  const auto onWall = [&]() { return boundaryFaceCount(this->Surface, reached) > 0; };
+  const auto onWall = [&]() { return walker.endCount(reached) > 0; };
   if (onWall())
   {
     reached = walker.move(start, { 0.5 * step });
   }
+  const bool ends = onWall();
   cost += walker.evaluations();
-  return onWall() ? anchor.place : reached;
+  return ends ? anchor.place : reached;
 }
 
 /// World vector from where particle i was evaluated to a displacement on its patch.

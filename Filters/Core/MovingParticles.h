@@ -45,9 +45,10 @@ public:
   /// Gives particle i a new anchor and patch, unless they are too far from those before.
   void renew(std::size_t i, const Location& place, const Jet& jet);
   /// Puts particle i where it was found to lie.
-  void settle(std::size_t i, const WorldPoint& position)
+  void settle(std::size_t i, const WorldPoint& position, const WorldVector& normal)
   {
     this->Patches[i].position = position.xyz;
+    this->Patches[i].normal = glm::vec3(normal.xyz);
   }
   const Isosurface& surface() const { return this->Surface; }
 
