@@ -37,7 +37,7 @@ constexpr double seedToRim = 0.433;
 constexpr double squeezed = 0.6;
 /// Pairs nearer than this, in units of their spacing, are defects of the packing. Particles within some
 /// spacings of them are relaxed further.
-constexpr double smallestSpacing = 0.8;
+constexpr double smallestSpacing = 0.82;
 constexpr double repairReach = 3.0;
 constexpr int repairRounds = 2;
 constexpr int repairSweeps = 8;
