@@ -440,7 +440,7 @@ void FastSystem::finish()
   particles = std::move(finished.particles);
   keepMarked(particles, kept);
   this->Evaluations +=
-    markClipPlanes(this->Mesh, this->Jumps, this->Rims.particles, particles, this->Parallel);
+    markClipPlanes(this->Surface, this->Jumps, this->Rims.particles, particles, this->Parallel);
   for (const RimParticle& rim : this->Rims.particles)
   {
     particles.push_back(rim.particle);
