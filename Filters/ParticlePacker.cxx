@@ -21,6 +21,7 @@
 #include <functional>
 #include <set>
 #include <string>
+#include <utility>
 
 namespace
 {
@@ -32,20 +33,23 @@ const std::set<std::string> ownArrays{ "Normals", "Radius", "Mean_Curvature", "G
 class Packer
 {
 public:
-  Packer(vtkUnstructuredGrid* grid, const ScalarChoice& scalars, const GridElements& elements,
-    const hop::ParallelFor& parallelFor, vtkPolyData* output)
-    : Grid(grid)
-    , Scalars(scalars)
+  Packer(const InputBlocks& blocks, std::size_t block, const GridElements& elements,
+    std::vector<ParticleRow> rows, const hop::ParallelFor& parallelFor)
+    : Blocks(blocks)
+    , Grid(blocks[block].grid)
+    , Scalars(blocks[block].scalars)
+    , FirstCell(blocks.firstCell(block))
     , Elements(elements)
+    , Census(elements.census[block])
     , Parallel(parallelFor)
-    , Output(output)
+    , Output(blocks[block].particles)
+    , Rows(std::move(rows))
   {
   }
 
   void pack(const std::vector<IsovalueParticles>& isovalues);
 
 private:
-  void collectRows(const std::vector<IsovalueParticles>& isovalues);
   void addPoints();
   void addVertices();
   void addOwnArrays();
@@ -63,12 +67,15 @@ private:
   vtkIdType rowCount() const { return static_cast<vtkIdType>(this->Rows.size()); }
   vtkIdType cellOf(const ParticleRow& row) const
   {
-    return this->Elements.mesh.elements[row.particle->location.element].cell;
+    return this->Elements.mesh.elements[row.particle->location.element].cell - this->FirstCell;
   }
 
+  const InputBlocks& Blocks;
   vtkUnstructuredGrid* Grid;
-  ScalarChoice Scalars;
+  vtkDataArray* Scalars;
+  std::int64_t FirstCell;
   const GridElements& Elements;
+  const CellCensus& Census;
   const hop::ParallelFor& Parallel;
   vtkPolyData* Output;
   std::vector<ParticleRow> Rows;
@@ -79,7 +86,6 @@ private:
 
 void Packer::pack(const std::vector<IsovalueParticles>& isovalues)
 {
-  this->collectRows(isovalues);
   this->addPoints();
   this->addVertices();
   this->addPointArrays();
@@ -88,33 +94,6 @@ void Packer::pack(const std::vector<IsovalueParticles>& isovalues)
   this->fillRows();
   this->addCellArrays();
   this->addReport(isovalues);
-}
-
-/// Rows by isovalue, then by element, so that neighbours in memory share an element.
-void Packer::collectRows(const std::vector<IsovalueParticles>& isovalues)
-{
-  vtkUnsignedCharArray* ghosts = this->Grid->GetCellGhostArray();
-  std::size_t total = 0;
-  for (const IsovalueParticles& some : isovalues)
-  {
-    total += some.distribution.particles.size();
-  }
-  this->Rows.reserve(total);
-  for (const IsovalueParticles& some : isovalues)
-  {
-    const auto begin = static_cast<std::ptrdiff_t>(this->Rows.size());
-    for (const hop::Particle& particle : some.distribution.particles)
-    {
-      const ParticleRow row{ &particle, some.isovalue };
-      if (!ghosts || ghosts->GetValue(this->cellOf(row)) == 0)
-      {
-        this->Rows.push_back(row);
-      }
-    }
-    std::stable_sort(this->Rows.begin() + begin, this->Rows.end(),
-      [](const ParticleRow& a, const ParticleRow& b)
-      { return a.particle->location.element < b.particle->location.element; });
-  }
 }
 
 /// Has write(row number, row) called for every row when rows are filled.
@@ -146,7 +125,7 @@ void Packer::fillRows()
         }
       }
     });
-  evaluatePointArrays(this->Grid, this->Elements, this->Evaluated, this->Rows, this->Parallel);
+  evaluatePointArrays(this->Blocks, this->Elements, this->Evaluated, this->Rows, this->Parallel);
 }
 
 void Packer::addPoints()
@@ -264,7 +243,7 @@ void Packer::addPointArrays()
     }
     const int components = array->GetNumberOfComponents();
     vtkSmartPointer<vtkDoubleArray> values;
-    if (array == this->Scalars.array && components == 1)
+    if (array == this->Scalars && components == 1)
     {
       // As Contour: this array is the isovalue, not the isovalue with noise of the tolerance's size.
       values =
@@ -328,8 +307,8 @@ void Packer::addReport(const std::vector<IsovalueParticles>& isovalues)
   };
   addCount("Evaluations", sum.evaluations);
   addCount("Iterations", sum.iterations);
-  addCount("ElementsDropped", this->Elements.census.dropped);
-  addCount("CellsSkipped", this->Elements.census.skipped());
+  addCount("ElementsDropped", this->Census.dropped);
+  addCount("CellsSkipped", this->Census.skipped());
   addCount("BoxesUnresolved", sum.boxesUnresolved);
   addCount("SingularPoints", sum.singularPoints);
   addCount("ParticlesRejected", sum.particlesRejected);
@@ -337,18 +316,51 @@ void Packer::addReport(const std::vector<IsovalueParticles>& isovalues)
 
   vtkNew<vtkIdTypeArray> cells;
   cells->SetName("UnresolvedCellIds");
-  for (const std::int64_t cell : unresolved)
+  const auto end = unresolved.lower_bound(this->FirstCell + this->Grid->GetNumberOfCells());
+  for (auto cell = unresolved.lower_bound(this->FirstCell); cell != end; ++cell)
   {
-    cells->InsertNextValue(cell);
+    cells->InsertNextValue(*cell - this->FirstCell);
   }
   this->Output->GetFieldData()->AddArray(cells);
 }
 
+/// Adds the rows of one isovalue, sorted by element so that neighbours in memory share one, to those of
+/// their blocks.
+void addRows(const InputBlocks& blocks, const hop::ElementMesh& mesh, const IsovalueParticles& some,
+  std::vector<std::vector<ParticleRow>>& rowsOfBlocks)
+{
+  std::vector<ParticleRow> rows;
+  rows.reserve(some.distribution.particles.size());
+  for (const hop::Particle& particle : some.distribution.particles)
+  {
+    rows.push_back({ &particle, some.isovalue });
+  }
+  std::stable_sort(rows.begin(), rows.end(),
+    [](const ParticleRow& a, const ParticleRow& b)
+    { return a.particle->location.element < b.particle->location.element; });
+  for (const ParticleRow& row : rows)
+  {
+    const auto [block, cell] = blocks.locate(mesh.elements[row.particle->location.element].cell);
+    vtkUnsignedCharArray* ghosts = blocks[block].grid->GetCellGhostArray();
+    if (!ghosts || ghosts->GetValue(cell) == 0)
+    {
+      rowsOfBlocks[block].push_back(row);
+    }
+  }
+}
+
 } // namespace
 
-void packParticles(vtkUnstructuredGrid* grid, const ScalarChoice& scalars,
-  const GridElements& elements, const std::vector<IsovalueParticles>& isovalues,
-  const hop::ParallelFor& parallelFor, vtkPolyData* output)
+void packParticles(const InputBlocks& blocks, const GridElements& elements,
+  const std::vector<IsovalueParticles>& isovalues, const hop::ParallelFor& parallelFor)
 {
-  Packer(grid, scalars, elements, parallelFor, output).pack(isovalues);
+  std::vector<std::vector<ParticleRow>> rows(blocks.size());
+  for (const IsovalueParticles& some : isovalues)
+  {
+    addRows(blocks, elements.mesh, some, rows);
+  }
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+  {
+    Packer(blocks, b, elements, std::move(rows[b]), parallelFor).pack(isovalues);
+  }
 }

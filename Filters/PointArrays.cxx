@@ -7,6 +7,7 @@
 #include "vtkDataArray.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
+#include "vtkPointData.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -28,9 +29,9 @@ struct Target
 class ArrayEvaluator
 {
 public:
-  ArrayEvaluator(vtkUnstructuredGrid* grid, const GridElements& elements,
+  ArrayEvaluator(const InputBlocks& blocks, const GridElements& elements,
     const std::vector<EvaluatedArray>& arrays, const std::vector<ParticleRow>& rows)
-    : Grid(grid)
+    : Blocks(blocks)
     , Elements(elements)
     , Arrays(arrays)
     , Rows(rows)
@@ -75,7 +76,9 @@ private:
     const int nodes = basis.nodeCount();
     vtkIdType count = 0;
     const vtkIdType* ids = nullptr;
-    this->Grid->GetCells()->GetCellAtId(e.cell, count, ids, this->CopiedIds);
+    const auto [block, cell] = this->Blocks.locate(e.cell);
+    vtkUnstructuredGrid* grid = this->Blocks[block].grid;
+    grid->GetCells()->GetCellAtId(cell, count, ids, this->CopiedIds);
     this->Nodal.resize(static_cast<std::size_t>(nodes) * this->width());
     double* column = this->Nodal.data();
     for (const EvaluatedArray& array : this->Arrays)
@@ -91,7 +94,8 @@ private:
     if (e.rational)
     {
       this->Nodal.resize(nodes);
-      gatherComponent(this->Elements.rationalWeights, ids, nodes, 0, this->Nodal.data());
+      gatherComponent(
+        grid->GetPointData()->GetRationalWeights(), ids, nodes, 0, this->Nodal.data());
       this->Weights.resize(basis.coefficientCount());
       basis.toBernstein(this->Nodal.data(), 1, this->Weights.data());
     }
@@ -140,7 +144,7 @@ private:
     }
   }
 
-  vtkUnstructuredGrid* Grid;
+  const InputBlocks& Blocks;
   const GridElements& Elements;
   const std::vector<EvaluatedArray>& Arrays;
   const std::vector<ParticleRow>& Rows;
@@ -158,7 +162,7 @@ private:
 
 } // namespace
 
-void evaluatePointArrays(vtkUnstructuredGrid* grid, const GridElements& elements,
+void evaluatePointArrays(const InputBlocks& blocks, const GridElements& elements,
   const std::vector<EvaluatedArray>& arrays, const std::vector<ParticleRow>& rows,
   const hop::ParallelFor& parallelFor)
 {
@@ -168,5 +172,5 @@ void evaluatePointArrays(vtkUnstructuredGrid* grid, const GridElements& elements
   }
   hop::runParallel(parallelFor, static_cast<std::ptrdiff_t>(rows.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-    { ArrayEvaluator(grid, elements, arrays, rows).evaluate(begin, end); });
+    { ArrayEvaluator(blocks, elements, arrays, rows).evaluate(begin, end); });
 }

@@ -19,7 +19,7 @@ struct EvaluatedArray
 
 /// Evaluates point arrays at particles by the basis functions of their elements, rational ones included:
 /// all arrays of an element are converted to Bernstein form once, and evaluated at all its particles.
-/// \param rows sorted by element
-void evaluatePointArrays(vtkUnstructuredGrid* grid, const GridElements& elements,
+/// \param rows sorted by element, all in the block whose arrays these are
+void evaluatePointArrays(const InputBlocks& blocks, const GridElements& elements,
   const std::vector<EvaluatedArray>& arrays, const std::vector<ParticleRow>& rows,
   const hop::ParallelFor& parallelFor);

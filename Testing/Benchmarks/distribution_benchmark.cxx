@@ -128,7 +128,10 @@ hop::DistributionParameters parametersOf(const Request& request)
 
 void runStages(const Request& request, Stages& stages)
 {
-  const ScalarChoice scalars{ request.grid->GetPointData()->GetArray(request.array.c_str()), 0 };
+  const vtkNew<vtkPolyData> output;
+  const InputBlocks blocks(
+    { { request.grid, request.grid->GetPointData()->GetArray(request.array.c_str()), output, "" } },
+    0);
   const hop::ParallelFor parallelFor = smpParallelFor();
   constexpr double tolerancePerDiagonal = 1e-10; // the filter's default
   const auto onTwoThreads = [](const std::function<void()>& work)
@@ -136,8 +139,8 @@ void runStages(const Request& request, Stages& stages)
   stages.setup = onTwoThreads(
     [&]
     {
-      stages.elements = buildGridElements(
-        request.grid, scalars, hop::NodeSpacing::Uniform, { request.isovalue }, parallelFor);
+      stages.elements =
+        buildGridElements(blocks, hop::NodeSpacing::Uniform, { request.isovalue }, parallelFor);
     });
   stages.surface = { &stages.elements.mesh, stages.elements.fieldIsovalue(request.isovalue),
     tolerancePerDiagonal * vtkBoundingBox(request.grid->GetBounds()).GetDiagonalLength() };
@@ -153,12 +156,11 @@ void runStages(const Request& request, Stages& stages)
     request.method == "classic" ? hop::distributeClassic : hop::distributeFast;
   stages.distributing = onTwoThreads([&]
     { stages.distribution = distribute(stages.surface, parametersOf(request), {}, parallelFor); });
-  vtkNew<vtkPolyData> output;
   stages.packing = onTwoThreads(
     [&]
     {
-      packParticles(request.grid, scalars, stages.elements,
-        { { request.isovalue, stages.distribution } }, parallelFor, output);
+      packParticles(
+        blocks, stages.elements, { { request.isovalue, stages.distribution } }, parallelFor);
     });
 }
 
