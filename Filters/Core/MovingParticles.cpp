@@ -51,7 +51,8 @@ void MovingParticles::add(const std::vector<Location>& places)
 {
   const auto first = static_cast<std::ptrdiff_t>(this->count());
   const auto count = static_cast<std::ptrdiff_t>(places.size());
-  this->add(std::vector<Anchor>(places.size()), std::vector<Patch>(places.size()));
+  this->Anchors.resize(this->Anchors.size() + places.size());
+  this->Patches.insert(this->Patches.begin() + first, places.size(), Patch());
   const std::vector<int> order = orderByElement(places, this->Surface.mesh->elements.size());
   std::vector<char> found(this->count(), 1);
   runParallel(this->Parallel, count,

@@ -345,13 +345,6 @@ std::vector<float> spacingsOf(const std::vector<Patch>& patches)
   return spacings;
 }
 
-std::array<glm::vec3, 2> tangentsOf(const glm::vec3& normal)
-{
-  const glm::vec3 other = std::abs(normal.x) < 0.6f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
-  const glm::vec3 first = glm::normalize(glm::cross(normal, other));
-  return { first, glm::cross(normal, first) };
-}
-
 Relaxed relaxOnPatches(const std::vector<Patch>& patches, int sweeps, const Balance& balance,
   const ParallelFor& parallelFor)
 {
