@@ -55,7 +55,7 @@ std::vector<int> sweepsOfRounds(Quality quality, bool isWarm)
       return { 5, 8, 8, 10 };
     default:
       // Where particles of a run before crowd or thin out there is more to do.
-      return isWarm ? std::vector<int>{ 8, 14 } : std::vector<int>{ 6, 12 };
+      return isWarm ? std::vector<int>{ 8, 14 } : std::vector<int>{ 7, 13 };
   }
 }
 
