@@ -55,7 +55,7 @@ std::vector<int> sweepsOfRounds(Quality quality, bool isWarm)
       return { 5, 8, 8, 10 };
     default:
       // Where particles of a run before crowd or thin out there is more to do.
-      return isWarm ? std::vector<int>{ 8, 14 } : std::vector<int>{ 6, 10 };
+      return isWarm ? std::vector<int>{ 8, 14 } : std::vector<int>{ 6, 12 };
   }
 }
 
@@ -315,13 +315,14 @@ void FastSystem::relax(MovingParticles& moving, int sweeps, const Balance& balan
   this->Result.report.iterations += sweeps;
 }
 
-/// One round. Where a number is not given, particles for which there turns out to be no room are dropped;
-/// and before the last round so many are added or removed everywhere that their number is as wanted.
+/// One round. Where a number is not given, so many are added or removed everywhere before the last round that
+/// their number is as wanted; the last one mends single defects.
 void FastSystem::relaxAll(int sweeps, bool isLast)
 {
   Balance balance;
-  balance.removesCrowded = !this->countIsGiven();
-  balance.everywhere = !this->countIsGiven() && !isLast;
+  balance.extent = this->countIsGiven() ? Balance::None
+    : isLast                            ? Balance::Defects
+                                        : Balance::Everywhere;
   if (this->Law.angularDensity == 0.0)
   {
     // Particles on rims stand for half as much area as others.
@@ -373,7 +374,7 @@ void FastSystem::repair()
   for (int n = 0; n < repairRounds; ++n)
   {
     Balance balance;
-    balance.removesCrowded = !this->countIsGiven();
+    balance.extent = this->countIsGiven() ? Balance::None : Balance::Defects;
     this->relax(part, repairSweeps, balance);
   }
   moved = part.patches();

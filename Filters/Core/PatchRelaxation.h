@@ -43,10 +43,15 @@ std::vector<float> spacingsOf(const std::vector<Patch>& patches);
 /// What to do about the number of particles (Population.h).
 struct Balance
 {
-  /// Remove those that are far too close to others.
-  bool removesCrowded = false;
-  /// Make the number what it should be everywhere.
-  bool everywhere = false;
+  enum Extent
+  {
+    None,
+    /// Remove those that are far too close to others, and fill holes between them.
+    Defects,
+    /// Remove those that are far too close to others, and make the number what it should be everywhere.
+    Everywhere
+  };
+  Extent extent = None;
   /// How many are missing in all, as far as that is known; else energies tell.
   std::optional<double> missing;
 };

@@ -23,6 +23,11 @@ constexpr double largestCorrection = 0.05;
 constexpr double smallestShare = 0.02;
 /// Largest D h at which energies tell numbers.
 constexpr float largestBend = 1.0f;
+/// Energy, in units of that of hexagonal packing, below which a particle may stand beside a hole; where that
+/// would be, and how far the nearest particles are from its middle, in units of h.
+constexpr double lonelyEnergy = 0.95;
+constexpr float holeDistance = 0.95f;
+constexpr double holeClearance = 0.8;
 /// How far from a doubled particle the new one starts, in units of h.
 constexpr float childDistance = 0.55f;
 
@@ -103,6 +108,39 @@ public:
     }
   }
 
+  /// Puts particles where one is missing among its neighbours, which have too little energy then.
+  void fillHoles(const ParallelFor& parallelFor)
+  {
+    const auto lonely = static_cast<float>(lonelyEnergy * idealEnergy());
+    std::vector<FreePlace> places(this->Patches.size());
+    this->forAll(parallelFor,
+      [&](std::size_t i)
+      {
+        const Patch& patch = this->Patches[i];
+        if (this->Energies[i] >= 0.0f && this->Energies[i] < lonely &&
+          patch.curvatureMagnitude() * patch.spacing <= largestBend)
+        {
+          places[i] = this->freePlace(i, holeDistance);
+        }
+      });
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      // All around a hole find it: the first of them fills it.
+      const auto fills = [&](int j)
+      {
+        return j < static_cast<int>(i) && this->Touched[j] &&
+          glm::distance(places[j].position, places[i].position) <
+          holeClearance * this->Patches[i].spacing;
+      };
+      if (places[i].clearance >= holeClearance &&
+        std::none_of(this->Lists.begin(i), this->Lists.end(i), fills))
+      {
+        this->Result.splits.push_back({ static_cast<int>(i), places[i].displacement });
+        this->Touched[i] = 1;
+      }
+    }
+  }
+
 private:
   template <class Work>
   void forAll(const ParallelFor& parallelFor, const Work& work) const
@@ -127,7 +165,7 @@ private:
   {
     if (!this->Touched[i])
     {
-      this->Result.splits.push_back({ i, this->freePlace(i) });
+      this->Result.splits.push_back({ i, this->freePlace(i, childDistance).displacement });
       this->Touched[i] = 1;
     }
   }
@@ -184,31 +222,39 @@ private:
     return missingShare(sum / (count * typicalEnergy * idealEnergy()) - 1.0);
   }
 
-  /// Displacement, on the patch of particle i, to the one of some places around it that is farthest
-  /// from its neighbours.
-  glm::vec2 freePlace(std::size_t i) const
+  struct FreePlace
+  {
+    /// On the patch of the particle that it is found from.
+    glm::vec2 displacement{ 0.0f };
+    glm::dvec3 position{ 0.0 };
+    /// To the particle nearest to it among those that are seen from there, in units of the spacing.
+    double clearance = -1.0;
+  };
+
+  /// Of some places all around particle i, at that distance in units of its spacing, the one farthest from
+  /// its neighbours.
+  FreePlace freePlace(std::size_t i, float distance) const
   {
     constexpr int directions = 12;
     const Patch& patch = this->Patches[i];
-    const glm::vec2 own = this->Result.displacements[i];
-    glm::vec2 best(0.0f);
-    double farthest = -1.0;
+    FreePlace best;
     for (int n = 0; n < directions; ++n)
     {
       const auto angle = static_cast<float>(2.0 * Pi * n / directions);
-      const glm::vec2 t =
-        own + childDistance * patch.spacing * glm::vec2(std::cos(angle), std::sin(angle));
-      const glm::dvec3 there = movedPosition(patch, t);
-      double nearest = 2.0 * patch.spacing;
+      FreePlace place;
+      place.displacement = this->Result.displacements[i] +
+        distance * patch.spacing * glm::vec2(std::cos(angle), std::sin(angle));
+      place.position = movedPosition(patch, place.displacement);
+      place.clearance = distance;
       for (const int* j = this->Lists.begin(i); j != this->Lists.end(i); ++j)
       {
-        nearest = std::min(nearest,
-          glm::distance(there, movedPosition(this->Patches[*j], this->Result.displacements[*j])));
+        const glm::dvec3 other = movedPosition(this->Patches[*j], this->Result.displacements[*j]);
+        place.clearance =
+          std::min(place.clearance, glm::distance(place.position, other) / patch.spacing);
       }
-      if (nearest > farthest)
+      if (place.clearance > best.clearance)
       {
-        farthest = nearest;
-        best = t;
+        best = place;
       }
     }
     return best;
@@ -229,11 +275,15 @@ void balancePopulation(const std::vector<Patch>& patches, const SeenLists& lists
   Relaxed& relaxed)
 {
   Population population(patches, lists, energies, relaxed);
-  if (balance.removesCrowded)
+  if (balance.extent != Balance::None)
   {
     population.removeCrowded(parallelFor);
   }
-  if (balance.everywhere)
+  if (balance.extent == Balance::Defects)
+  {
+    population.fillHoles(parallelFor);
+  }
+  if (balance.extent == Balance::Everywhere)
   {
     population.balance(balance.missing, parallelFor);
   }
