@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 from paraview import servermanager, simple
-from support import add_point_array, grid_of_cells, source_of
+from support import add_point_array, grid_of_cells, output_of, points_of, source_of
 from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON
 
 NAME = "HighOrderParticleIsosurface"
@@ -82,6 +82,25 @@ def test_contour_by_starts_with_a_field():
 
 def test_contour_by_takes_what_there_is():
     assert filter_on(GlobalNodeId=np.arange(8)).ContourBy == ["POINTS", "GlobalNodeId"]
+
+
+def test_one_odd_value_does_not_move_the_default_isovalue():
+    """Solvers leave pressures of 1e7 in a corner; the middle of the range would show nothing."""
+    grid = output_of(simple.UnstructuredCellTypes(CellType="Hex", BlocksDimensions=[9, 9, 9]))
+    x = points_of(grid)[:, 0]
+    spoilt = np.append(x[:-1], 5.8e7)
+    for values in (spoilt, np.append(x[:-1], np.nan)):
+        add_point_array(grid, "p", values)
+        proxy = simple.HighOrderParticleIsosurface(Input=source_of(grid), ContourBy=["POINTS", "p"])
+        proxy.SMProxy.GetProperty("ContourValues").ResetToDomainDefaults()
+        assert list(proxy.Isosurfaces) == pytest.approx([x.max() / 2], rel=0.02)
+
+
+def test_default_isovalue_of_a_magnitude():
+    corners = filter_on(v=np.tile([3.0, 4.0, 0.0], (8, 1)) * np.linspace(0, 2, 8)[:, None])
+    corners.Component = 3
+    corners.SMProxy.GetProperty("ContourValues").ResetToDomainDefaults()
+    assert list(corners.Isosurfaces) == pytest.approx([5.0])
 
 
 def test_the_slider_of_the_spacing_reaches_beyond_its_default():
