@@ -1,9 +1,9 @@
 #include "FastDistribution.h"
 
 #include "ClipPlanes.h"
-#include "FaceJumps.h"
 #include "Interruptible.h"
 #include "KeepMarked.h"
+#include "KinkSpacings.h"
 #include "MovingParticles.h"
 #include "ParticleFinish.h"
 #include "PatchDistances.h"
@@ -37,7 +37,7 @@ constexpr double seedToRim = 0.433;
 constexpr double squeezed = 0.6;
 /// Pairs nearer than this, in units of their spacing, are defects of the packing. Particles within some
 /// spacings of them are relaxed further.
-constexpr double smallestSpacing = 0.8;
+constexpr double smallestSpacing = 0.82;
 constexpr double repairReach = 3.0;
 constexpr int repairRounds = 2;
 constexpr int repairSweeps = 8;
@@ -70,7 +70,9 @@ public:
     , Law(parameters.law)
     , Work(monitor, parallelFor)
     , Parallel([this](std::ptrdiff_t count, const auto& body) { this->Work(count, body); })
+    , Locator(this->Mesh, surface.isovalue, parallelFor)
   {
+    this->Surface.locator = &this->Locator;
   }
 
   Distribution run();
@@ -85,10 +87,10 @@ private:
   SurfaceProxy proxyAt(double spacing);
   bool tooMany(double count);
   bool estimateCount();
+  void lookAtSurface();
   void makeProxy();
   void matchCount();
   void makeExactly(std::int64_t count);
-  void findJumps();
   void makeRims();
   void dropNearRims(double nearest);
   void startMoving();
@@ -107,6 +109,7 @@ private:
   SpacingLaw Law;
   Interruptible Work;
   ParallelFor Parallel;
+  FaceLocator Locator;
   std::unique_ptr<SurfaceProxy> Proxy;
   FaceJumps Jumps;
   RimCurves Rims;
@@ -173,9 +176,24 @@ bool FastSystem::estimateCount()
   return ratio <= 1.0 || !this->tooMany(this->proxyAt(coarse).particleCount() * ratio * ratio);
 }
 
+/// Makes the proxy. From then on the surface ends where its two sides miss each other, and particles are
+/// to stand closer where it turns.
+void FastSystem::lookAtSurface()
+{
+  this->Surface.gaps = nullptr;
+  this->Proxy = std::make_unique<SurfaceProxy>(this->proxyAt(this->Law.spacing));
+  this->Jumps = findFaceJumps(this->Surface, *this->Proxy, this->Parallel);
+  std::int64_t cost = this->Jumps.evaluations;
+  this->Proxy->limitSpacings(
+    findKinkSpacings(this->Surface, *this->Proxy, this->Jumps, this->Parallel, cost),
+    this->Parallel);
+  this->Evaluations += cost;
+  this->Surface.gaps = &this->Jumps.gaps;
+}
+
 void FastSystem::makeProxy()
 {
-  this->Proxy = std::make_unique<SurfaceProxy>(this->proxyAt(this->Law.spacing));
+  this->lookAtSurface();
   this->matchCount();
   reportUnresolved(this->Surface, this->Proxy->boxes(), this->Result.report);
 }
@@ -194,7 +212,7 @@ void FastSystem::matchCount()
       return;
     }
     this->Law.spacing *= std::sqrt(ratio);
-    this->Proxy = std::make_unique<SurfaceProxy>(this->proxyAt(this->Law.spacing));
+    this->lookAtSurface();
   }
 }
 
@@ -266,14 +284,6 @@ void FastSystem::startMoving()
   this->Evaluations += this->Moving ? this->Moving->evaluations() : 0;
   this->Moving = std::make_unique<MovingParticles>(
     this->Surface, *this->Proxy, this->RimPatches, this->Parallel);
-}
-
-/// From here on the surface ends where its two sides miss each other.
-void FastSystem::findJumps()
-{
-  this->Jumps = findFaceJumps(this->Surface, *this->Proxy, this->Parallel);
-  this->Evaluations += this->Jumps.evaluations;
-  this->Surface.cuts = &this->Jumps.cuts;
 }
 
 void FastSystem::makeRims()
@@ -451,7 +461,6 @@ Distribution FastSystem::run()
     const double wanted = this->Proxy->particleCount();
     if (wanted > 0.0 && !this->tooMany(wanted))
     {
-      this->findJumps();
       this->makeRims();
       this->reach(0.35);
       if (this->countIsGiven())
@@ -479,8 +488,8 @@ Distribution FastSystem::run()
     this->Result.particles.clear();
     this->Result.report.aborted = true;
   }
-  this->Result.report.evaluations =
-    this->Evaluations + (this->Moving ? this->Moving->evaluations() : 0);
+  this->Result.report.evaluations = this->Evaluations +
+    (this->Moving ? this->Moving->evaluations() : 0) + this->Locator.evaluations();
   return this->Result;
 }
 

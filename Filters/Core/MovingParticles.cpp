@@ -2,6 +2,7 @@
 
 #include "KeepMarked.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -49,34 +50,42 @@ MovingParticles::MovingParticles(const Isosurface& surface, const SurfaceProxy& 
 
 void MovingParticles::add(const std::vector<Location>& places)
 {
-  const auto first = static_cast<std::ptrdiff_t>(this->count());
-  const auto count = static_cast<std::ptrdiff_t>(places.size());
-  this->add(std::vector<Anchor>(places.size()), std::vector<Patch>(places.size()));
-  const std::vector<int> order = orderByElement(places, this->Surface.mesh->elements.size());
-  std::vector<char> found(this->count(), 1);
-  runParallel(this->Parallel, count,
-    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-    {
-      evaluateInOrder(*this->Surface.mesh, places, order, begin, end,
-        [&](int i, const Jet& jet)
-        {
-          Patch& patch = this->Patches[first + i];
-          found[first + i] =
-            anchorPatch(places[i], jet, this->Surface.isovalue, this->Anchors[first + i], patch);
-          patch.spacing = this->Proxy.spacingAt(patch.position, patch.curvatureMagnitude());
-        });
-      this->Evaluations += end - begin;
-    });
-  this->keep(std::move(found));
+  const std::size_t first = this->count();
+  this->Anchors.resize(first + places.size());
+  this->Patches.insert(
+    this->Patches.begin() + static_cast<std::ptrdiff_t>(first), places.size(), Patch());
+  this->keep(this->anchorAt(places, first));
   std::vector<int> far;
-  for (auto i = static_cast<int>(first); i < static_cast<int>(this->count()); ++i)
+  for (std::size_t i = first; i < this->count(); ++i)
   {
     if (std::abs(this->Anchors[i].offset) > nearEnough * this->Patches[i].spacing)
     {
-      far.push_back(i);
+      far.push_back(static_cast<int>(i));
     }
   }
-  this->commitThose(far, std::vector<glm::vec2>(far.size(), glm::vec2(0.0f)));
+  this->step(far, std::vector<glm::vec2>(far.size(), glm::vec2(0.0f)));
+}
+
+/// Gives particles from `first` on the patches that belong to places.
+/// \return marks of those that have one
+std::vector<char> MovingParticles::anchorAt(const std::vector<Location>& places, std::size_t first)
+{
+  std::vector<char> found(this->count(), 1);
+  const std::vector<int> order = orderByElement(places, this->Surface.mesh->elements.size());
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(places.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      evaluateInOrder(*this->Surface.mesh, places, order, begin, end,
+        [&](int n, const Jet& jet)
+        {
+          const std::size_t i = first + n;
+          Patch& patch = this->Patches[i];
+          found[i] = anchorPatch(places[n], jet, this->Surface.isovalue, this->Anchors[i], patch);
+          patch.spacing = this->Proxy.spacingAt(patch.position, patch.curvatureMagnitude());
+        });
+    });
+  this->Evaluations += static_cast<std::int64_t>(places.size());
+  return found;
 }
 
 void MovingParticles::add(const std::vector<Anchor>& anchors, const std::vector<Patch>& patches)
@@ -111,13 +120,14 @@ Location MovingParticles::target(std::size_t i, const glm::dvec3& step, std::int
   map.jacobian = glm::inverse(map.inverse);
   // Onto a wall only particles on rims may go.
   Location reached = walker.move(start, { step });
-  const auto onWall = [&]() { return boundaryFaceCount(this->Surface, reached) > 0; };
+  const auto onWall = [&]() { return walker.endCount(reached) > 0; };
   if (onWall())
   {
     reached = walker.move(start, { 0.5 * step });
   }
+  const bool ends = onWall();
   cost += walker.evaluations();
-  return onWall() ? anchor.place : reached;
+  return ends ? anchor.place : reached;
 }
 
 /// World vector from where particle i was evaluated to a displacement on its patch.
@@ -126,6 +136,24 @@ glm::dvec3 MovingParticles::stepTo(std::size_t i, const glm::vec2& displacement)
   const Patch& patch = this->Patches[i];
   return worldStep(patch, displacement) +
     static_cast<double>(this->Anchors[i].offset) * glm::dvec3(patch.normal);
+}
+
+/// Where displacements, one for each of some particles, take them.
+std::vector<Location> MovingParticles::targets(
+  const std::vector<int>& which, const std::vector<glm::vec2>& displacements)
+{
+  std::vector<Location> places(which.size());
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(which.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      std::int64_t cost = 0;
+      for (std::ptrdiff_t n = begin; n < end; ++n)
+      {
+        places[n] = this->target(which[n], this->stepTo(which[n], displacements[n]), cost);
+      }
+      this->Evaluations += cost;
+    });
+  return places;
 }
 
 /// Half the step, a quarter of it, ...
@@ -147,31 +175,13 @@ bool MovingParticles::retry(
   return false;
 }
 
-void MovingParticles::commit(const std::vector<glm::vec2>& displacements)
-{
-  std::vector<int> all(this->count());
-  std::iota(all.begin(), all.end(), 0);
-  this->commitThose(all, displacements);
-}
-
-/// \param displacements one for each of those
-void MovingParticles::commitThose(
+/// Takes some particles where displacements, one for each, and Newton's method lead them.
+void MovingParticles::step(
   const std::vector<int>& which, const std::vector<glm::vec2>& displacements)
 {
-  const auto count = static_cast<std::ptrdiff_t>(which.size());
-  std::vector<Location> places(which.size());
-  runParallel(this->Parallel, count,
-    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-    {
-      std::int64_t cost = 0;
-      for (std::ptrdiff_t n = begin; n < end; ++n)
-      {
-        places[n] = this->target(which[n], this->stepTo(which[n], displacements[n]), cost);
-      }
-      this->Evaluations += cost;
-    });
+  const std::vector<Location> places = this->targets(which, displacements);
   const std::vector<int> order = orderByElement(places, this->Surface.mesh->elements.size());
-  runParallel(this->Parallel, count,
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(which.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       std::int64_t cost = end - begin;
@@ -194,6 +204,16 @@ void MovingParticles::commitThose(
         });
       this->Evaluations += cost;
     });
+}
+
+void MovingParticles::commit(const std::vector<glm::vec2>& displacements)
+{
+  std::vector<int> all(this->count());
+  std::iota(all.begin(), all.end(), 0);
+  this->step(all, displacements);
+  const std::vector<int> order = orderByElement(this->Anchors, this->Surface.mesh->elements.size());
+  permute(this->Anchors, order);
+  permute(this->Patches, order);
 }
 
 Location MovingParticles::onSurface(std::size_t i, std::int64_t& cost) const

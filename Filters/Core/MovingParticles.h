@@ -36,7 +36,7 @@ public:
   void keep(std::vector<char> kept);
 
   /// Takes particles to where relaxation wants them, and to the surface; one evaluation each gives them
-  /// new patches there, more where half a step has to do.
+  /// new patches there, more where half a step has to do. Afterwards they are sorted by element.
   /// \param displacements in the tangent planes of the patches, one for each that moves at least
   void commit(const std::vector<glm::vec2>& displacements);
 
@@ -45,16 +45,20 @@ public:
   /// Gives particle i a new anchor and patch, unless they are too far from those before.
   void renew(std::size_t i, const Location& place, const Jet& jet);
   /// Puts particle i where it was found to lie.
-  void settle(std::size_t i, const WorldPoint& position)
+  void settle(std::size_t i, const WorldPoint& position, const WorldVector& normal)
   {
     this->Patches[i].position = position.xyz;
+    this->Patches[i].normal = glm::vec3(normal.xyz);
   }
   const Isosurface& surface() const { return this->Surface; }
 
 private:
+  std::vector<char> anchorAt(const std::vector<Location>& places, std::size_t first);
   Location target(std::size_t i, const glm::dvec3& step, std::int64_t& cost) const;
   glm::dvec3 stepTo(std::size_t i, const glm::vec2& displacement) const;
-  void commitThose(const std::vector<int>& which, const std::vector<glm::vec2>& displacements);
+  std::vector<Location> targets(
+    const std::vector<int>& which, const std::vector<glm::vec2>& displacements);
+  void step(const std::vector<int>& which, const std::vector<glm::vec2>& displacements);
   bool retry(
     std::size_t i, glm::dvec3 step, Anchor& anchor, Patch& patch, std::int64_t& cost) const;
 

@@ -35,9 +35,9 @@ constexpr float childDistance = 0.55f;
 /// less one. Inverts E(beta (1 + eps)) to second order.
 double missingShare(double excess)
 {
-  const double linear =
+  static const double linear =
     HexagonalDistance * pairEnergyDerivative(HexagonalDistance) / pairEnergy(HexagonalDistance);
-  const double quadratic = 0.5 * HexagonalDistance * HexagonalDistance *
+  static const double quadratic = 0.5 * HexagonalDistance * HexagonalDistance *
     pairEnergySecondDerivative(HexagonalDistance) / pairEnergy(HexagonalDistance);
   const double first = excess / linear;
   const double eps = first - quadratic / linear * first * first;

@@ -15,8 +15,6 @@ struct RimParticle
   /// Unit vector along the surface, out of the domain; zero where the surface goes on, in elements that
   /// the mesh does not join to this one.
   WorldVector outward;
-  /// Number of the curve that it stands on.
-  std::int64_t curve = 0;
 };
 
 /// The rims {F = c} on boundary faces, as closed curves: they pass from face to face around the edges

@@ -39,19 +39,35 @@ SurfaceProxy::SurfaceProxy(const Isosurface& surface, const SpacingLaw& law,
   }
   if (law.angularDensity > 0.0)
   {
-    this->gradeSpacings();
+    this->gradeSpacings({});
   }
-  this->SmallestSpacing = law.spacing;
-  for (const Sample& sample : this->Samples)
-  {
-    this->SmallestSpacing =
-      std::min<double>(this->SmallestSpacing, sample.found ? sample.patch.spacing : law.spacing);
-  }
+  this->findSmallestSpacing();
   this->sumWeights(parallelFor);
 }
 
 SurfaceProxy::SurfaceProxy(SurfaceProxy&&) noexcept = default;
 SurfaceProxy::~SurfaceProxy() = default;
+
+void SurfaceProxy::findSmallestSpacing()
+{
+  this->SmallestSpacing = this->Law.spacing;
+  for (const Sample& sample : this->Samples)
+  {
+    this->SmallestSpacing = std::min<double>(
+      this->SmallestSpacing, sample.found ? sample.patch.spacing : this->Law.spacing);
+  }
+}
+
+void SurfaceProxy::limitSpacings(
+  const std::vector<SpacingLimit>& limits, const ParallelFor& parallelFor)
+{
+  if (!limits.empty())
+  {
+    this->gradeSpacings(limits);
+    this->findSmallestSpacing();
+    this->sumWeights(parallelFor);
+  }
+}
 
 bool SurfaceProxy::sampleAt(std::size_t box, const Location& place, const Jet& jet)
 {
@@ -128,9 +144,11 @@ bool SurfaceProxy::samplePatiently(std::size_t b, std::int64_t& evaluations)
     this->sampleAt(b, at.location, evaluateHessian(mesh.form(at.location.element), at.location.u));
 }
 
-/// Dijkstra's method: from the smallest spacing on, each sample limits those around it.
-void SurfaceProxy::gradeSpacings()
+/// Dijkstra's method: from the smallest spacing on, each sample, and each limit, limits those around it.
+void SurfaceProxy::gradeSpacings(const std::vector<SpacingLimit>& limits)
 {
+  this->Positions.clear();
+  this->Spacings.clear();
   std::vector<int> sampleOf;
   for (std::size_t b = 0; b < this->Samples.size(); ++b)
   {
@@ -140,6 +158,11 @@ void SurfaceProxy::gradeSpacings()
       this->Positions.push_back(this->Samples[b].patch.position);
       this->Spacings.push_back(this->Samples[b].patch.spacing);
     }
+  }
+  for (const SpacingLimit& limit : limits)
+  {
+    this->Positions.push_back(limit.position);
+    this->Spacings.push_back(limit.spacing);
   }
   using Entry = std::pair<float, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;

@@ -34,6 +34,16 @@ public:
   SurfaceProxy(SurfaceProxy&&) noexcept;
   ~SurfaceProxy();
 
+  /// A place at which particles are to have that spacing at most.
+  struct SpacingLimit
+  {
+    glm::dvec3 position{ 0.0 };
+    float spacing = 0.0f;
+  };
+
+  /// Lowers the spacings at and, graded as between samples, around some places.
+  void limitSpacings(const std::vector<SpacingLimit>& limits, const ParallelFor& parallelFor);
+
   /// Number of particles in hexagonal packing at the spacings wanted: the sum of 2 area/(sqrt(3) h^2).
   double particleCount() const { return this->Sums.empty() ? 0.0 : this->Sums.back(); }
 
@@ -73,7 +83,8 @@ private:
   void putOnSurface(const ParallelFor& parallelFor);
   bool samplePatiently(std::size_t box, std::int64_t& evaluations);
   bool sampleAt(std::size_t box, const Location& place, const Jet& jet);
-  void gradeSpacings();
+  void gradeSpacings(const std::vector<SpacingLimit>& limits);
+  void findSmallestSpacing();
   void sumWeights(const ParallelFor& parallelFor);
   void seedBox(std::size_t box, std::int64_t first, std::int64_t last, double phase, double stride,
     std::vector<Location>& seeds) const;
