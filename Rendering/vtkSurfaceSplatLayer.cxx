@@ -38,7 +38,7 @@ struct Format
   int Components, VtkType;
 };
 constexpr Format FloatSums = { GL_RGBA32F, GL_RGBA, GL_FLOAT, 4, VTK_FLOAT };
-constexpr Format Byte = { GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1, VTK_UNSIGNED_CHAR };
+constexpr Format TwoBytes = { GL_RG8, GL_RG, GL_UNSIGNED_BYTE, 2, VTK_UNSIGNED_CHAR };
 constexpr Format Count = { GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 1, VTK_UNSIGNED_INT };
 
 void PrepareTexture(
@@ -140,9 +140,14 @@ bool vtkSurfaceSplatLayer::NeedsUpdate(const vtkSurfaceSplatDrawing& drawing)
 //------------------------------------------------------------------------------
 bool vtkSurfaceSplatLayer::PrepareTextures(const vtkSurfaceSplatDrawing& drawing)
 {
-  int size[2] = { drawing.View->GetWidth(), drawing.View->GetHeight() };
+  const auto padded = [](int size) { return (size + 3) / 4 * 4; }; // to be halved twice
+  int size[2] = { padded(drawing.View->GetWidth()), padded(drawing.View->GetHeight()) };
   PrepareTexture(this->VisibleDepth, drawing.Window, nullptr, size);
-  PrepareTexture(this->SeenFrom, drawing.Window, &Byte, size);
+  this->Seen->SetMinificationFilter(vtkTextureObject::LinearMipmapNearest);
+  this->Seen->SetWrapS(vtkTextureObject::ClampToEdge);
+  this->Seen->SetWrapT(vtkTextureObject::ClampToEdge);
+  this->Seen->SetMaxLevel(2);
+  PrepareTexture(this->Seen, drawing.Window, &TwoBytes, size);
   PrepareTexture(this->NormalWeight, drawing.Window, &FloatSums, size);
   PrepareTexture(this->OffsetDepth, drawing.Window, &FloatSums, size);
   std::vector<vtkTextureObject*> sums = { this->NormalWeight, this->OffsetDepth };
@@ -151,7 +156,7 @@ bool vtkSurfaceSplatLayer::PrepareTextures(const vtkSurfaceSplatDrawing& drawing
     PrepareTexture(this->ColorSum, drawing.Window, &FloatSums, size);
     sums.push_back(this->ColorSum);
   }
-  this->PrepareFramebuffer(drawing, this->Visibility, { this->SeenFrom }, this->VisibleDepth);
+  this->PrepareFramebuffer(drawing, this->Visibility, { this->Seen }, this->VisibleDepth);
   this->PrepareFramebuffer(drawing, this->Accumulation, sums, this->VisibleDepth);
   bool complete = this->Visibility.Complete && this->Accumulation.Complete;
   if (drawing.Strongest)
@@ -195,13 +200,16 @@ void vtkSurfaceSplatLayer::FindVisible(const vtkSurfaceSplatDrawing& drawing)
   state->vtkglDepthMask(GL_TRUE);
   state->vtkglDepthFunc(front ? GL_LESS : GL_GREATER);
   const float depth = front ? 1.f : 0.f;
-  const float nothing[4] = { 0.5f, 0.5f, 0.5f, 0.5f }; // between the sides
+  const float nothing[4] = { 0.f, 0.f, 0.f, 0.f };
   glClearBufferfv(GL_DEPTH, 0, &depth);
   glClearBufferfv(GL_COLOR, 0, nothing);
   if (this->ReadyProgram(drawing, vtkSurfaceSplatVisibilityFS, front ? Thickness : -Thickness))
   {
     this->DrawSplats(drawing);
   }
+  this->Seen->Activate();
+  glGenerateMipmap(GL_TEXTURE_2D);
+  this->Seen->Deactivate();
 }
 
 //------------------------------------------------------------------------------
@@ -222,13 +230,13 @@ void vtkSurfaceSplatLayer::Accumulate(const vtkSurfaceSplatDrawing& drawing)
   std::string source = vtkSurfaceSplatAccumulationFS;
   vtkShaderProgram::Substitute(source, "//Splat::Color::Impl",
     drawing.Colors ? "gl_FragData[2] = weight * texelFetch(splatColor, splatParticle);" : "");
-  this->SeenFrom->Activate();
+  this->Seen->Activate();
   if (vtkShaderProgram* program = this->ReadyProgram(drawing, source.c_str(), 0.))
   {
-    SetSampler(program, "splatSeenFrom", this->SeenFrom);
+    SetSampler(program, "splatSeen", this->Seen);
     this->DrawSplats(drawing);
   }
-  this->SeenFrom->Deactivate();
+  this->Seen->Deactivate();
 }
 
 //------------------------------------------------------------------------------
@@ -243,17 +251,17 @@ void vtkSurfaceSplatLayer::FindStrongest(const vtkSurfaceSplatDrawing& drawing)
   const GLuint nothing[4] = { 0, 0, 0, 0 };
   glClearBufferfv(GL_DEPTH, 0, &far);
   glClearBufferuiv(GL_COLOR, 0, nothing);
-  this->SeenFrom->Activate();
+  this->Seen->Activate();
   this->VisibleDepth->Activate();
   if (vtkShaderProgram* program = this->ReadyProgram(drawing, vtkSurfaceSplatStrongestFS, 0.))
   {
-    SetSampler(program, "splatSeenFrom", this->SeenFrom);
+    SetSampler(program, "splatSeen", this->Seen);
     SetSampler(program, "splatVisibleDepth", this->VisibleDepth);
     program->SetUniformf("splatNearer", this->WhichSide == Front ? 1.f : -1.f);
     this->DrawSplats(drawing);
   }
   this->VisibleDepth->Deactivate();
-  this->SeenFrom->Deactivate();
+  this->Seen->Deactivate();
 }
 
 //------------------------------------------------------------------------------
@@ -310,7 +318,7 @@ void vtkSurfaceSplatLayer::DrawSplats(const vtkSurfaceSplatDrawing& drawing)
 //------------------------------------------------------------------------------
 void vtkSurfaceSplatLayer::Activate()
 {
-  for (vtkTextureObject* texture : { this->SeenFrom.Get(), this->NormalWeight.Get(),
+  for (vtkTextureObject* texture : { this->Seen.Get(), this->NormalWeight.Get(),
          this->OffsetDepth.Get(), this->ColorSum.Get(), this->Number.Get() })
   {
     if (texture->GetHandle() != 0)
@@ -322,7 +330,7 @@ void vtkSurfaceSplatLayer::Activate()
 
 void vtkSurfaceSplatLayer::Deactivate()
 {
-  for (vtkTextureObject* texture : { this->SeenFrom.Get(), this->NormalWeight.Get(),
+  for (vtkTextureObject* texture : { this->Seen.Get(), this->NormalWeight.Get(),
          this->OffsetDepth.Get(), this->ColorSum.Get(), this->Number.Get() })
   {
     if (texture->GetHandle() != 0)
@@ -335,14 +343,14 @@ void vtkSurfaceSplatLayer::Deactivate()
 void vtkSurfaceSplatLayer::SetSamplers(
   vtkShaderProgram* program, const vtkSurfaceSplatLayer& front) const
 {
-  SetSampler(program, "splatSeenFrom", this->SeenFrom);
+  SetSampler(program, "splatSeen", this->Seen);
   SetSampler(program, "splatNormalWeight", this->NormalWeight);
   SetSampler(program, "splatOffsetDepth", this->OffsetDepth);
   SetSampler(program, "splatColorSum", this->ColorSum);
   SetSampler(program, "splatStrongest", this->Number);
   SetSampler(program, "splatFrontNormalWeight", front.NormalWeight);
   SetSampler(program, "splatFrontOffsetDepth", front.OffsetDepth);
-  SetSampler(program, "splatFrontSeenFrom", front.SeenFrom);
+  SetSampler(program, "splatFrontSeen", front.Seen);
 }
 
 //------------------------------------------------------------------------------
@@ -357,8 +365,8 @@ void vtkSurfaceSplatLayer::ReleaseGraphicsResources(vtkWindow* window)
     *framebuffer = Framebuffer();
   }
   for (vtkTextureObject* texture :
-    { this->VisibleDepth.Get(), this->SeenFrom.Get(), this->NormalWeight.Get(),
-      this->OffsetDepth.Get(), this->ColorSum.Get(), this->Number.Get(), this->WeightDepth.Get() })
+    { this->VisibleDepth.Get(), this->Seen.Get(), this->NormalWeight.Get(), this->OffsetDepth.Get(),
+      this->ColorSum.Get(), this->Number.Get(), this->WeightDepth.Get() })
   {
     texture->ReleaseGraphicsResources(window);
   }

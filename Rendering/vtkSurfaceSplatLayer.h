@@ -92,7 +92,7 @@ private:
 
   const Side WhichSide;
   vtkNew<vtkTextureObject> VisibleDepth;
-  vtkNew<vtkTextureObject> SeenFrom;
+  vtkNew<vtkTextureObject> Seen;
   vtkNew<vtkTextureObject> NormalWeight;
   vtkNew<vtkTextureObject> OffsetDepth;
   vtkNew<vtkTextureObject> ColorSum;

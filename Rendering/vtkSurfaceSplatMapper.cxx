@@ -27,6 +27,7 @@
 #include "vtkSurfaceSplatRay.h"
 #include "vtkSurfaceSplatResolve.h"
 #include "vtkSurfaceSplatResolveVS.h"
+#include "vtkSurfaceSplatTiles.h"
 #include "vtkSurfaceSplatVS.h"
 #include "vtkSurfaceSplatView.h"
 #include "vtkUnsignedCharArray.h"
@@ -46,6 +47,11 @@ enum class ColorSource
   Strongest // one a particle, not to be mixed
 };
 
+// The base class keeps a program for every kind of primitive. Those of triangles and of strips are lit
+// alike; the second one draws outlines if the surface is opaque, else the back layer.
+constexpr int Surface = vtkOpenGLPolyDataMapper::PrimitiveTris;
+constexpr int Extra = vtkOpenGLPolyDataMapper::PrimitiveTriStrips;
+
 constexpr const char* ClipNormalName = "Clip_Normal";
 constexpr const char* ClipDistanceName = "Clip_Distance";
 }
@@ -57,6 +63,8 @@ struct vtkSurfaceSplatMapper::Internals
   vtkSurfaceSplatLayer FrontLayer{ vtkSurfaceSplatLayer::Front };
   vtkSurfaceSplatLayer BackLayer{ vtkSurfaceSplatLayer::Back };
   vtkSurfaceSplatLayer* DrawnLayer = nullptr;
+  int DrawnTiles = 0;
+  bool Translucent = false;
   ColorSource Source = ColorSource::Property;
   bool CannotSplat = false; // the driver has no floating-point targets
 
@@ -294,7 +302,16 @@ void vtkSurfaceSplatMapper::UploadColors(vtkRenderer* renderer, vtkPolyData* inp
   }
   if (this->Internal->Source != before)
   {
-    this->Primitives[PrimitiveTris].ShaderSourceTime = vtkTimeStamp(); // to be built again
+    this->ForgetShaders();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatMapper::ForgetShaders()
+{
+  for (int primitive : { Surface, Extra })
+  {
+    this->Primitives[primitive].ShaderSourceTime = vtkTimeStamp(); // to be built again
   }
 }
 
@@ -400,9 +417,15 @@ bool vtkSurfaceSplatMapper::DrawSplats(vtkRenderer* renderer, vtkActor* actor)
 {
   // Far to near, for blending without depth peeling.
   std::vector<vtkSurfaceSplatLayer*> layers = { &this->Internal->FrontLayer };
-  if (actor->IsRenderingTranslucentPolygonalGeometry())
+  const bool translucent = actor->IsRenderingTranslucentPolygonalGeometry() != 0;
+  if (translucent)
   {
     layers.insert(layers.begin(), &this->Internal->BackLayer);
+  }
+  if (translucent != this->Internal->Translucent)
+  {
+    this->Internal->Translucent = translucent;
+    this->ForgetShaders();
   }
   vtkSurfaceSplatDrawing drawing;
   this->DescribeDrawing(renderer, actor, drawing);
@@ -414,13 +437,13 @@ bool vtkSurfaceSplatMapper::DrawSplats(vtkRenderer* renderer, vtkActor* actor)
                       "particles are drawn as disks.");
       this->Internal->CannotSplat = true;
       this->UploadColors(renderer, this->CurrentInput);
-      this->Primitives[PrimitiveTris].ShaderSourceTime = vtkTimeStamp(); // to be built again
+      this->ForgetShaders();
       return false;
     }
   }
   for (vtkSurfaceSplatLayer* layer : layers)
   {
-    this->DrawResolved(*layer, renderer, actor);
+    this->DrawLayer(*layer, renderer, actor);
   }
   return true;
 }
@@ -447,30 +470,46 @@ void vtkSurfaceSplatMapper::DescribeDrawing(
 }
 
 //------------------------------------------------------------------------------
-void vtkSurfaceSplatMapper::DrawResolved(
+void vtkSurfaceSplatMapper::DrawLayer(
   vtkSurfaceSplatLayer& layer, vtkRenderer* renderer, vtkActor* actor)
 {
-  vtkOpenGLState* state =
-    vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow())->GetState();
-  vtkOpenGLState::ScopedglEnableDisable cullFace(state, GL_CULL_FACE);
-  state->vtkglDisable(GL_CULL_FACE);
-  this->Internal->FrontLayer.Activate();
-  if (&layer != &this->Internal->FrontLayer)
+  Internals& internal = *this->Internal;
+  const bool front = &layer == &internal.FrontLayer;
+  internal.FrontLayer.Activate();
+  if (!front)
   {
     layer.Activate();
   }
-  this->Internal->DrawnLayer = &layer;
-  vtkOpenGLHelper& rectangle = this->Primitives[PrimitiveTris];
-  this->UpdateShaders(rectangle, renderer, actor);
-  if (rectangle.Program)
+  internal.DrawnLayer = &layer;
+  // Outlines are mixed with what was drawn before, which makes sense for pictures of opaque things.
+  if (renderer->GetSelector() || internal.Translucent)
+  {
+    this->DrawResolved(front ? Surface : Extra,
+      vtkSurfaceSplatTiles::Inside | vtkSurfaceSplatTiles::Edges, renderer, actor);
+  }
+  else
+  {
+    this->DrawResolved(Surface, vtkSurfaceSplatTiles::Inside, renderer, actor);
+    this->DrawResolved(Extra, vtkSurfaceSplatTiles::Edges, renderer, actor);
+  }
+  internal.DrawnLayer = nullptr;
+  layer.Deactivate();
+  internal.FrontLayer.Deactivate();
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatMapper::DrawResolved(
+  int primitive, int tiles, vtkRenderer* renderer, vtkActor* actor)
+{
+  this->Internal->DrawnTiles = tiles;
+  vtkOpenGLHelper& helper = this->Primitives[primitive];
+  this->UpdateShaders(helper, renderer, actor);
+  if (helper.Program)
   {
     // A program that was just built has a new vertex array, which UpdateShaders() may leave unbound.
-    rectangle.VAO->Bind();
-    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    helper.VAO->Bind();
+    vtkSurfaceSplatTiles(this->Internal->View).Draw();
   }
-  this->Internal->DrawnLayer = nullptr;
-  layer.Deactivate();
-  this->Internal->FrontLayer.Deactivate();
 }
 
 //------------------------------------------------------------------------------
@@ -526,6 +565,7 @@ void vtkSurfaceSplatMapper::GetShaderTemplate(
   }
   vtkShader* vertex = shaders[vtkShader::Vertex];
   vertex->SetSource(this->DrawsSplats() ? vtkSurfaceSplatResolveVS : vtkSurfaceSplatVS);
+  Replace(vertex, "SPLAT_TILE_SIZE", std::to_string(vtkSurfaceSplatTiles::Size));
   Replace(vertex, "//Splat::Disk::Dec",
     std::string(vtkSurfaceSplatDisk) +
       "const int splatVerticesAParticle = " + (this->Mode == Points ? "1" : "3") + ";\n");
@@ -591,9 +631,12 @@ void vtkSurfaceSplatMapper::ReplaceShaderPositionVC(
   vtkShader* fragment = shaders[vtkShader::Fragment];
   if (this->DrawsSplats())
   {
+    const bool extra = this->LastBoundBO == &this->Primitives[Extra];
     Replace(fragment, "//VTK::PositionVC::Dec",
-      "#define SPLAT_LEAST_WEIGHT " + std::to_string(vtkSurfaceSplatLayer::LeastWeight) + "\n" +
-        vtkSurfaceSplatResolve);
+      "#define SPLAT_LEAST_WEIGHT " + std::to_string(vtkSurfaceSplatLayer::LeastWeight) +
+        "\n#define SPLAT_OUTLINE " + std::to_string(extra && !this->Internal->Translucent) +
+        "\n#define SPLAT_BACK_LAYER " + std::to_string(extra && this->Internal->Translucent) +
+        "\n" + vtkSurfaceSplatResolve);
     Replace(fragment, "//Splat::Ray::Dec", vtkSurfaceSplatRay);
     Replace(fragment, "//Splat::Outline::Dec", vtkSurfaceSplatOutline);
     std::string code = "SplatSurface splat = splatResolve();\n"
@@ -702,15 +745,11 @@ void vtkSurfaceSplatMapper::SetMapperShaderParameters(
   this->Internal->View.SetUniforms(program);
   if (const vtkSurfaceSplatLayer* layer = this->Internal->DrawnLayer)
   {
-    const bool front = layer == &this->Internal->FrontLayer;
     const double diameter = 2. * this->GetDrawnRadiusScale() *
       this->Internal->Buffers.GetMeanRadius() * this->Internal->View.GetScale();
     layer->SetSamplers(program, this->Internal->FrontLayer);
-    program->SetUniformf("splatLayerDistance", front ? -1.f : static_cast<float>(diameter));
-    // Outlines are mixed with what was drawn before, which makes sense for pictures of opaque things.
-    const bool opaque =
-      !renderer->GetSelector() && !actor->IsRenderingTranslucentPolygonalGeometry();
-    program->SetUniformi("splatSmoothOutline", opaque ? 1 : 0);
+    program->SetUniformf("splatLayerDistance", static_cast<float>(diameter));
+    vtkSurfaceSplatTiles(this->Internal->View).SetUniforms(program, this->Internal->DrawnTiles);
   }
   program->SetUniformf("splatRadiusScale", static_cast<float>(this->GetDrawnRadiusScale()));
   program->SetUniformi("splatStride", this->Stride);

@@ -201,7 +201,9 @@ private:
 
   bool DrawsSplats() const;
   bool DrawSplats(vtkRenderer* renderer, vtkActor* actor);
-  void DrawResolved(vtkSurfaceSplatLayer& layer, vtkRenderer* renderer, vtkActor* actor);
+  void DrawLayer(vtkSurfaceSplatLayer& layer, vtkRenderer* renderer, vtkActor* actor);
+  void DrawResolved(int primitive, int tiles, vtkRenderer* renderer, vtkActor* actor);
+  void ForgetShaders();
   void DrawPrimitives(vtkRenderer* renderer, vtkActor* actor);
   void DescribeDrawing(vtkRenderer* renderer, vtkActor* actor, vtkSurfaceSplatDrawing& drawing);
   int GetShiftedClippingPlanes(vtkActor* actor, float planes[6][4]);
