@@ -73,6 +73,20 @@ bool DrawsPoints(const vtkSurfaceSplatDrawing& drawing)
   return drawing.View->GetLargestPixels(radius) <= LargestPoint;
 }
 
+/** Where the weight of a splat has fallen to the least that makes a surface, in radii. */
+double Rim(double sharpness)
+{
+  const double atRim = std::exp(-sharpness);
+  const double least = vtkSurfaceSplatLayer::LeastWeight * (1. - atRim) + atRim;
+  return std::sqrt(-std::log(least) / sharpness);
+}
+
+std::string WithColors(std::string source, const char* code)
+{
+  vtkShaderProgram::Substitute(source, "//Splat::Color::Impl", code);
+  return source;
+}
+
 void SetSampler(vtkShaderProgram* program, const char* name, vtkTextureObject* texture)
 {
   if (program->IsUniformUsed(name))
@@ -143,6 +157,7 @@ bool vtkSurfaceSplatLayer::PrepareTextures(const vtkSurfaceSplatDrawing& drawing
   const auto padded = [](int size) { return (size + 3) / 4 * 4; }; // to be halved twice
   int size[2] = { padded(drawing.View->GetWidth()), padded(drawing.View->GetHeight()) };
   PrepareTexture(this->VisibleDepth, drawing.Window, nullptr, size);
+  PrepareTexture(this->TestedDepth, drawing.Window, nullptr, size);
   this->Seen->SetMinificationFilter(vtkTextureObject::LinearMipmapNearest);
   this->Seen->SetWrapS(vtkTextureObject::ClampToEdge);
   this->Seen->SetWrapT(vtkTextureObject::ClampToEdge);
@@ -157,13 +172,12 @@ bool vtkSurfaceSplatLayer::PrepareTextures(const vtkSurfaceSplatDrawing& drawing
     sums.push_back(this->ColorSum);
   }
   this->PrepareFramebuffer(drawing, this->Visibility, { this->Seen }, this->VisibleDepth);
-  this->PrepareFramebuffer(drawing, this->Accumulation, sums, this->VisibleDepth);
+  this->PrepareFramebuffer(drawing, this->Accumulation, sums, this->TestedDepth);
   bool complete = this->Visibility.Complete && this->Accumulation.Complete;
   if (drawing.Strongest)
   {
     PrepareTexture(this->Number, drawing.Window, &Count, size);
-    PrepareTexture(this->WeightDepth, drawing.Window, nullptr, size);
-    this->PrepareFramebuffer(drawing, this->Strongest, { this->Number }, this->WeightDepth);
+    this->PrepareFramebuffer(drawing, this->Strongest, { this->Number }, this->TestedDepth);
     complete = complete && this->Strongest.Complete;
   }
   return complete;
@@ -187,55 +201,92 @@ void vtkSurfaceSplatLayer::PrepareFramebuffer(const vtkSurfaceSplatDrawing& draw
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth->GetHandle(), 0);
   // Not through vtkOpenGLState: it caches draw buffers for one framebuffer only.
   glDrawBuffers(static_cast<GLsizei>(buffers.size()), buffers.data());
+  framebuffer.Colors = static_cast<int>(buffers.size());
   framebuffer.Complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatLayer::ClearColors(const Framebuffer& framebuffer)
+{
+  const float nothing[4] = { 0.f, 0.f, 0.f, 0.f };
+  for (int buffer = 0; buffer < framebuffer.Colors; ++buffer)
+  {
+    glClearBufferfv(GL_COLOR, buffer, nothing);
+  }
 }
 
 //------------------------------------------------------------------------------
 void vtkSurfaceSplatLayer::FindVisible(const vtkSurfaceSplatDrawing& drawing)
 {
+  this->StartWithDepth(drawing, this->Visibility);
+  const double push = this->WhichSide == Front ? Thickness : -Thickness;
+  if (this->ReadyProgram(
+        drawing, { vtkSurfaceSplatVisibilityFS, push, Rim(drawing.Sharpness), false }))
+  {
+    this->DrawSplats(drawing);
+  }
+  this->AverageSeen();
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatLayer::StartWithDepth(
+  const vtkSurfaceSplatDrawing& drawing, const Framebuffer& framebuffer)
+{
   const bool front = this->WhichSide == Front;
   vtkOpenGLState* state = drawing.Window->GetState();
-  state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Visibility.Handle);
+  state->vtkglBindFramebuffer(GL_FRAMEBUFFER, framebuffer.Handle);
   state->vtkglDisable(GL_BLEND);
   state->vtkglDepthMask(GL_TRUE);
   state->vtkglDepthFunc(front ? GL_LESS : GL_GREATER);
   const float depth = front ? 1.f : 0.f;
-  const float nothing[4] = { 0.f, 0.f, 0.f, 0.f };
   glClearBufferfv(GL_DEPTH, 0, &depth);
-  glClearBufferfv(GL_COLOR, 0, nothing);
-  if (this->ReadyProgram(drawing, vtkSurfaceSplatVisibilityFS, front ? Thickness : -Thickness))
-  {
-    this->DrawSplats(drawing);
-  }
+  ClearColors(framebuffer);
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatLayer::AverageSeen()
+{
   this->Seen->Activate();
   glGenerateMipmap(GL_TEXTURE_2D);
   this->Seen->Deactivate();
 }
 
 //------------------------------------------------------------------------------
+void vtkSurfaceSplatLayer::CopyVisibleDepth(const vtkSurfaceSplatDrawing& drawing)
+{
+  vtkOpenGLState* state = drawing.Window->GetState();
+  const int right = drawing.View->GetWidth();
+  const int top = drawing.View->GetHeight();
+  state->vtkglBindFramebuffer(GL_READ_FRAMEBUFFER, this->Visibility.Handle);
+  state->vtkglBindFramebuffer(GL_DRAW_FRAMEBUFFER, this->Accumulation.Handle);
+  glBlitFramebuffer(0, 0, right, top, 0, 0, right, top, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+}
+
+//------------------------------------------------------------------------------
 void vtkSurfaceSplatLayer::Accumulate(const vtkSurfaceSplatDrawing& drawing)
 {
   vtkOpenGLState* state = drawing.Window->GetState();
+  this->CopyVisibleDepth(drawing);
   state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Accumulation.Handle);
   state->vtkglEnable(GL_BLEND);
   state->vtkglBlendEquation(GL_FUNC_ADD);
   state->vtkglBlendFunc(GL_ONE, GL_ONE);
   state->vtkglDepthMask(GL_FALSE);
   state->vtkglDepthFunc(this->WhichSide == Front ? GL_LEQUAL : GL_GEQUAL);
-  const float nothing[4] = { 0.f, 0.f, 0.f, 0.f };
-  for (int buffer = 0; buffer < (drawing.Colors ? 3 : 2); ++buffer)
-  {
-    glClearBufferfv(GL_COLOR, buffer, nothing);
-  }
-  std::string source = vtkSurfaceSplatAccumulationFS;
-  vtkShaderProgram::Substitute(source, "//Splat::Color::Impl",
+  ClearColors(this->Accumulation);
+  const std::string source = WithColors(vtkSurfaceSplatAccumulationFS,
     drawing.Colors ? "gl_FragData[2] = weight * texelFetch(splatColor, splatParticle);" : "");
   this->Seen->Activate();
-  if (vtkShaderProgram* program = this->ReadyProgram(drawing, source.c_str(), 0.))
+  this->VisibleDepth->Activate();
+  if (vtkShaderProgram* program =
+        this->ReadyProgram(drawing, { source, 0., 1., DrawsPoints(drawing) }))
   {
     SetSampler(program, "splatSeen", this->Seen);
+    SetSampler(program, "splatVisibleDepth", this->VisibleDepth);
+    program->SetUniformf("splatNearer", this->WhichSide == Front ? 1.f : -1.f);
     this->DrawSplats(drawing);
   }
+  this->VisibleDepth->Deactivate();
   this->Seen->Deactivate();
 }
 
@@ -253,7 +304,8 @@ void vtkSurfaceSplatLayer::FindStrongest(const vtkSurfaceSplatDrawing& drawing)
   glClearBufferuiv(GL_COLOR, 0, nothing);
   this->Seen->Activate();
   this->VisibleDepth->Activate();
-  if (vtkShaderProgram* program = this->ReadyProgram(drawing, vtkSurfaceSplatStrongestFS, 0.))
+  if (vtkShaderProgram* program =
+        this->ReadyProgram(drawing, { vtkSurfaceSplatStrongestFS, 0., 1., false }))
   {
     SetSampler(program, "splatSeen", this->Seen);
     SetSampler(program, "splatVisibleDepth", this->VisibleDepth);
@@ -266,14 +318,15 @@ void vtkSurfaceSplatLayer::FindStrongest(const vtkSurfaceSplatDrawing& drawing)
 
 //------------------------------------------------------------------------------
 vtkShaderProgram* vtkSurfaceSplatLayer::ReadyProgram(
-  const vtkSurfaceSplatDrawing& drawing, const char* fragmentSource, double push)
+  const vtkSurfaceSplatDrawing& drawing, const Pass& pass)
 {
   const std::string definitions = "#define SPLAT_POINTS " + std::to_string(DrawsPoints(drawing)) +
     "\n#define SPLAT_LEAST_PIXELS " + std::to_string(LeastPixels) + "\n#define SPLAT_HAS_CLIP " +
-    std::to_string(drawing.Buffers->GetHasClip()) + "\n#define SPLAT_CLIPPING_PLANES " +
+    std::to_string(drawing.Buffers->GetHasClip()) + "\n#define SPLAT_SKIPS_HIDDEN " +
+    std::to_string(pass.SkipsHidden) + "\n#define SPLAT_CLIPPING_PLANES " +
     std::to_string(drawing.NumberOfClippingPlanes) + "\n";
   std::string vertex = vtkSurfaceSplatPassVS;
-  std::string fragment = fragmentSource;
+  std::string fragment = pass.Fragment;
   vtkShaderProgram::Substitute(vertex, "//Splat::Disk::Dec", definitions + vtkSurfaceSplatDisk);
   vtkShaderProgram::Substitute(
     fragment, "//Splat::Fragment::Dec", definitions + vtkSurfaceSplatFragment);
@@ -287,12 +340,12 @@ vtkShaderProgram* vtkSurfaceSplatLayer::ReadyProgram(
   drawing.Buffers->SetSamplers(program);
   drawing.View->SetUniforms(program);
   program->SetUniformf("splatRadiusScale", static_cast<float>(drawing.RadiusScale));
-  const double rim = std::exp(-drawing.Sharpness);
-  const double least = -std::log(LeastWeight * (1. - rim) + rim) / drawing.Sharpness;
-  const float falloff[3] = { static_cast<float>(drawing.Sharpness), static_cast<float>(rim),
-    static_cast<float>(least) };
+  const double rim = Rim(drawing.Sharpness);
+  const float falloff[3] = { static_cast<float>(drawing.Sharpness),
+    static_cast<float>(std::exp(-drawing.Sharpness)), static_cast<float>(rim * rim) };
   program->SetUniform3f("splatFalloff", falloff);
-  program->SetUniformf("splatPush", static_cast<float>(push));
+  program->SetUniformf("splatPush", static_cast<float>(pass.Push));
+  program->SetUniformf("splatReach", static_cast<float>(pass.Reach));
   program->SetUniformf("splatHiddenSide", static_cast<float>(drawing.HiddenSide));
   program->SetUniformi("splatFacesViewer", drawing.FacesViewer ? 1 : 0);
   program->SetUniformi("splatStride", drawing.Stride);
@@ -366,7 +419,7 @@ void vtkSurfaceSplatLayer::ReleaseGraphicsResources(vtkWindow* window)
   }
   for (vtkTextureObject* texture :
     { this->VisibleDepth.Get(), this->Seen.Get(), this->NormalWeight.Get(), this->OffsetDepth.Get(),
-      this->ColorSum.Get(), this->Number.Get(), this->WeightDepth.Get() })
+      this->ColorSum.Get(), this->Number.Get(), this->TestedDepth.Get() })
   {
     texture->ReleaseGraphicsResources(window);
   }

@@ -3,9 +3,9 @@
 // number of the mapper's).
 
 #if SPLAT_POINTS
-flat in vec3 splatCentreVC;
-flat in vec3 splatTangentDual;
-flat in vec3 splatBitangentDual;
+flat in vec4 splatPixelToDisk;
+flat in vec2 splatCentrePixel;
+flat in vec3 splatDepths;
 vec2 splatDiskCoord;
 vec3 splatOffsetVC;
 float splatDepthVC;
@@ -26,18 +26,19 @@ uniform vec4 splatClippingPlane[6]; // MC
 #if SPLAT_POINTS
 //Splat::Ray::Dec
 
-// Where the pixel's view ray meets the disk's plane.
+// The private framebuffers begin at the viewport's corner.
+vec3 splatBehindPixel(vec2 pixel, float z)
+{
+  return splatOnRay(2.0 * pixel / splatViewport.zw - 1.0, z);
+}
+
+// Where the pixel's view ray meets the disk's plane, to first order.
 void splatMeetDisk()
 {
-  // The private framebuffers begin at the viewport's corner.
-  vec2 pixelDC = 2.0 * gl_FragCoord.xy / splatViewport.zw - 1.0;
-  vec3 origin = splatOnRay(pixelDC, 0.0);
-  vec3 direction = splatOnRay(pixelDC, -1.0) - origin;
-  float along = dot(splatNormalVC, splatCentreVC - origin) / dot(splatNormalVC, direction);
-  vec3 place = origin + along * direction;
-  splatOffsetVC = place - splatCentreVC;
-  splatDepthVC = place.z;
-  splatDiskCoord = vec2(dot(splatOffsetVC, splatTangentDual), dot(splatOffsetVC, splatBitangentDual));
+  splatDiskCoord = mat2(splatPixelToDisk.xy, splatPixelToDisk.zw) * (gl_FragCoord.xy - splatCentrePixel);
+  splatDepthVC = splatDepths.x + dot(splatDepths.yz, splatDiskCoord);
+  splatOffsetVC = splatBehindPixel(gl_FragCoord.xy, splatDepthVC) -
+    splatBehindPixel(splatCentrePixel, splatDepths.x);
 }
 #endif
 

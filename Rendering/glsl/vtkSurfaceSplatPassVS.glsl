@@ -14,12 +14,14 @@ uniform mat3 splatNormalMatrix; // normals from MC to VC
 uniform int splatParallel;      // 1: parallel projection
 uniform float splatPixel; // size of a pixel (VC) at distance 1, or everywhere if parallel
 uniform float splatPush;  // by how many radii the disk is moved along the view ray, away from the eye
+uniform float splatReach; // how far a splat reaches, in radii
+uniform vec4 splatViewport; // left, bottom, width, height in pixels
 uniform float splatHiddenSide; // 1 or -1: splats seen from that side are left out; 0: none
 
 #if SPLAT_POINTS
-flat out vec3 splatCentreVC;
-flat out vec3 splatTangentDual; // these two take an offset in the disk's plane (VC) to disk coordinates
-flat out vec3 splatBitangentDual;
+flat out vec4 splatPixelToDisk; // matrix, by columns, from offsets in pixels to disk coordinates
+flat out vec2 splatCentrePixel;
+flat out vec3 splatDepths; // z in the middle, and by how much it grows along the disk coordinates
 #else
 out vec2 splatDiskCoord; // inside the unit circle = inside the splat
 out vec3 splatOffsetVC;  // from the centre of the disk
@@ -30,6 +32,28 @@ out vec3 splatPointMC;           // for clipping planes
 flat out vec3 splatNormalVC;     // outward, unit
 flat out float splatSeenFromSide;
 flat out int splatParticle;
+
+#if SPLAT_SKIPS_HIDDEN
+uniform sampler2D splatVisibleDepth;
+uniform float splatNearer; // 1: what lies before the visible depth is seen; -1: what lies behind it
+
+// Whether something hides the middle of a splat.
+bool splatIsHidden(vec4 centreClip)
+{
+  vec3 centreDC = 0.5 * centreClip.xyz / centreClip.w + 0.5;
+  ivec2 texel = ivec2(clamp(centreDC.xy * splatViewport.zw, vec2(0.0), splatViewport.zw - 1.0));
+  return splatNearer * (centreDC.z - texelFetch(splatVisibleDepth, texel, 0).r) > 0.0;
+}
+#endif
+
+#if SPLAT_POINTS
+// Of an offset (VC) from a place with these clip coordinates, what becomes of it in pixels.
+vec2 splatInPixels(vec3 offsetVC, vec4 placeClip)
+{
+  vec4 offset = splatVCDC * vec4(offsetVC, 0.0);
+  return 0.5 * splatViewport.zw * (offset.xy - offset.w * placeClip.xy / placeClip.w) / placeClip.w;
+}
+#endif
 
 void main()
 {
@@ -58,19 +82,23 @@ void main()
   radiusVC *= enlarge;
 
 #if SPLAT_POINTS
-  splatCentreVC = centreVC;
+  vec4 centreClip = splatVCDC * vec4(centreVC, 1.0);
+  mat2 toPixels = mat2(splatInPixels(tangentVC, centreClip), splatInPixels(bitangentVC, centreClip));
+  mat2 toDisk = inverse(toPixels);
+  splatPixelToDisk = vec4(toDisk[0], toDisk[1]);
+  splatCentrePixel = (0.5 * centreClip.xy / centreClip.w + 0.5) * splatViewport.zw;
+#if SPLAT_SKIPS_HIDDEN
+  nothing = nothing || splatIsHidden(centreClip);
+#endif
+  splatDepths = vec3(centreVC.z, tangentVC.z, bitangentVC.z);
   splatPointMC = disk.centreMC;
-  vec3 scaledNormal = cross(tangentVC, bitangentVC);
-  float area = max(dot(scaledNormal, scaledNormal), 1e-30);
-  splatTangentDual = cross(bitangentVC, scaledNormal) / area;
-  splatBitangentDual = cross(scaledNormal, tangentVC) / area;
-  gl_PointSize = max(2.0 * radiusVC / pixel, 1.0);
+  gl_PointSize = max(2.0 * splatReach * radiusVC / pixel, 1.0);
   vec3 vertexVC = centreVC;
   // The depths of middles differ by as much more than those of neighbouring planes as they tilt.
   vec3 toEye = splatParallel == 1 ? vec3(0.0, 0.0, 1.0) : normalize(-centreVC);
   radiusVC /= max(abs(dot(splatNormalVC, toEye)), 0.2);
 #else
-  splatDiskCoord = splatCorner[gl_VertexID % 3];
+  splatDiskCoord = splatReach * splatCorner[gl_VertexID % 3];
   splatOffsetVC = splatDiskCoord.x * tangentVC + splatDiskCoord.y * bitangentVC;
   splatPointMC = disk.centreMC +
     enlarge * (splatDiskCoord.x * disk.tangentMC + splatDiskCoord.y * disk.bitangentMC);
