@@ -19,7 +19,9 @@
 #include "vtkSurfaceSplatVisibilityFS.h"
 #include "vtkTextureObject.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <string>
 
 namespace
@@ -31,6 +33,16 @@ constexpr double Thickness = 1.;
 // of its middle, which is no great error then.
 constexpr double LargestPoint = 2.;
 constexpr double LeastPixels = 0.75;
+
+// Mesa's rasterizers in software keep what they have set up of each primitive until they are flushed.
+// As long as that fits into the processor's cache a picture of 10^6 splats takes half the time.
+constexpr vtkIdType SoftwareBatch = 4096;
+
+bool IsDrawnInSoftware()
+{
+  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  return name && (std::strstr(name, "llvmpipe") || std::strstr(name, "softpipe"));
+}
 
 struct Format
 {
@@ -358,13 +370,18 @@ void vtkSurfaceSplatLayer::DrawSplats(const vtkSurfaceSplatDrawing& drawing)
 {
   const vtkIdType count =
     (drawing.Buffers->GetNumberOfParticles() + drawing.Stride - 1) / drawing.Stride;
-  if (DrawsPoints(drawing))
+  const bool points = DrawsPoints(drawing);
+  const int corners = points ? 1 : 3;
+  const vtkIdType batch = IsDrawnInSoftware() ? SoftwareBatch : count;
+  for (vtkIdType first = 0; first < count; first += batch)
   {
-    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(count));
-  }
-  else
-  {
-    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * count));
+    const vtkIdType size = std::min(batch, count - first);
+    glDrawArrays(points ? GL_POINTS : GL_TRIANGLES, static_cast<GLint>(corners * first),
+      static_cast<GLsizei>(corners * size));
+    if (first + size < count)
+    {
+      glFlush();
+    }
   }
 }
 
