@@ -145,9 +145,10 @@ bool vtkSurfaceSplatLayer::NeedsUpdate(const vtkSurfaceSplatDrawing& drawing)
 {
   std::vector<double> key = drawing.Key;
   drawing.View->AppendTo(key);
-  for (double value : { drawing.RadiusScale, drawing.Sharpness, double(drawing.Stride),
-         double(drawing.FacesViewer), double(drawing.HiddenSide), double(drawing.Colors),
-         double(drawing.Strongest), double(drawing.NumberOfClippingPlanes) })
+  for (double value :
+    { drawing.RadiusScale, drawing.Sharpness, double(drawing.Stride), double(drawing.Kind),
+      double(drawing.FacesViewer), double(drawing.HiddenSide), double(drawing.Colors),
+      double(drawing.Strongest), double(drawing.NumberOfClippingPlanes) })
   {
     key.push_back(value);
   }
@@ -361,6 +362,7 @@ vtkShaderProgram* vtkSurfaceSplatLayer::ReadyProgram(
   program->SetUniformf("splatHiddenSide", static_cast<float>(drawing.HiddenSide));
   program->SetUniformi("splatFacesViewer", drawing.FacesViewer ? 1 : 0);
   program->SetUniformi("splatStride", drawing.Stride);
+  program->SetUniformi("splatKind", drawing.Kind);
   program->SetUniform4fv("splatClippingPlane", 6, drawing.ClippingPlanes);
   return program;
 }

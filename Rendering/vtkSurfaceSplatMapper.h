@@ -44,7 +44,9 @@
 #include "vtkOpenGLPolyDataMapper.h"
 
 #include <memory> // for std::unique_ptr
+#include <vector> // for std::vector
 
+class vtkProperty;
 class vtkSurfaceSplatLayer;
 struct vtkSurfaceSplatDrawing;
 
@@ -140,6 +142,23 @@ public:
   vtkGetVector3Macro(InwardColor, double);
   ///@}
 
+  ///@{
+  /**
+   * Name of a cell array with colours of single particles, which come before scalars and property: red,
+   * green, blue and opacity in [0, 1]. A red above 1 keeps the colour that the particle has anyway, an
+   * opacity above 1 the opacity. Translucent particles are then a surface of their own, behind which
+   * the others are seen. Only for polydata with vertex cells. Default: none.
+   */
+  vtkSetStringMacro(CellColorArrayName);
+  vtkGetStringMacro(CellColorArrayName);
+  ///@}
+
+  ///@{
+  /** Whether some particles are opaque, or some translucent; both may be. */
+  bool HasOpaqueGeometry() override;
+  bool HasTranslucentPolygonalGeometry() override;
+  ///@}
+
   /**
    * Bounds of the disks that an input would be drawn as: of all its points, whether cells use them
    * or not, grown by the largest radius. Uninitialized bounds if there are no points.
@@ -180,6 +199,7 @@ protected:
   double Sharpness = 2.0;
   int Stride = 1;
   char* RadiusArrayName = nullptr;
+  char* CellColorArrayName = nullptr;
   double RadiusScale = 1.0;
   double Radius = 0.0;
   bool ColorByNormalDirection = false;
@@ -195,8 +215,12 @@ private:
   double GetDrawnRadiusScale() const;
   void WarnOfMissingArrays(vtkPolyData* input);
   void UploadParticles(vtkRenderer* renderer, vtkPolyData* input);
-  void UploadColors(vtkRenderer* renderer, vtkPolyData* input);
-  void UploadMappedColors(vtkRenderer* renderer, vtkUnsignedCharArray* colors, int source);
+  void UploadColors(vtkRenderer* renderer, vtkActor* actor);
+  vtkDataArray* GetCellColors(vtkPolyData* input);
+  std::vector<unsigned char> MappedColors(vtkUnsignedCharArray* colors, int source);
+  void ReplaceByCellColors(
+    std::vector<unsigned char>& rgba, vtkDataArray* cellColors, vtkProperty* property);
+  int GetDrawnKind(vtkRenderer* renderer, vtkActor* actor);
   void UploadLookupCoordinates(vtkRenderer* renderer);
 
   bool DrawsSplats() const;

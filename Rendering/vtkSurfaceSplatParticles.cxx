@@ -116,6 +116,7 @@ vtkSurfaceSplatParticles vtkSurfaceSplatParticles::FromPolyData(
   particles.Origin = MiddleOfFinitePoints(input->GetPoints());
 
   const vtkIdType count = particles.GetNumberOfParticles();
+  const bool colored = arrays.CellColors && !particles.CellIds.empty();
   const bool clipped = arrays.ClipNormals && arrays.ClipDistances;
   particles.CentreRadius.assign(4 * count, 0.f);
   particles.Normal.assign(4 * count, 0.f);
@@ -134,6 +135,10 @@ vtkSurfaceSplatParticles vtkSurfaceSplatParticles::FromPolyData(
         {
           particles.Normal[4 * i + 2] = 1.f; // any direction: shaders need not mind a zero one
           ++skipped;
+        }
+        if (colored && arrays.CellColors->GetComponent(particles.CellIds[i], 3) < 1.)
+        {
+          particles.Normal[4 * i + 3] = 1.f;
         }
         if (clipped)
         {

@@ -34,14 +34,15 @@ struct vtkSurfaceSplatArrays
    */
   vtkDataArray* ClipNormals = nullptr;
   vtkDataArray* ClipDistances = nullptr;
+  vtkDataArray* CellColors = nullptr; ///< see vtkSurfaceSplatMapper::SetCellColorArrayName()
 };
 
 struct vtkSurfaceSplatParticles
 {
   std::array<double, 3> Origin = { 0., 0., 0. };
   std::vector<float> CentreRadius; ///< 4 a particle: position - Origin, radius (world units)
-  std::vector<float> Normal;       ///< 4 a particle: unit normal, 0
-  std::vector<float> Clip; ///< 8 a particle: normal and distance of two planes; empty without
+  std::vector<float> Normal; ///< 4 a particle: unit normal, 1 if its cell is translucent else 0
+  std::vector<float> Clip;   ///< 8 a particle: normal and distance of two planes; empty without
   std::vector<vtkIdType> PointIds; ///< 1 a particle: the point it was made from
   std::vector<vtkIdType> CellIds;  ///< 1 a particle: its vertex cell; empty without vertex cells
   vtkIdType Skipped = 0;           ///< particles that cannot be drawn
