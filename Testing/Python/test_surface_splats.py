@@ -23,6 +23,7 @@ def particles(center=(0.0, 0.0, 0.0)):
 
 
 def make_view():
+    simple._DisableFirstRenderCameraReset()  # else the first test of a run has another camera
     view = simple.CreateView("RenderView")
     view.ViewSize = [SIZE, SIZE]
     view.OrientationAxesVisibility = 0
