@@ -32,8 +32,8 @@ struct Row
 };
 
 const std::set<std::string> ownArrays{ "Normals", "Radius", "Mean_Curvature", "Gauss_Curvature",
-  "Residual", "Clip_Normal", "Clip_Distance", "Jump", "Isovalue", "vtkOriginalCellIds",
-  "ParametricCoordinates" };
+  "Shape_Operator", "Residual", "Clip_Normal", "Clip_Distance", "Jump", "Isovalue",
+  "vtkOriginalCellIds", "ParametricCoordinates" };
 
 /// Rational basis functions R_i = w_i B_i / sum_j w_j B_j from polynomial ones.
 void applyRationalWeights(const std::vector<double>& weights, std::vector<double>& basis)
@@ -192,6 +192,15 @@ void Packer::addOwnArrays()
     "Mean_Curvature", 1, [](const Row& row, double* out) { *out = row.particle->curvature.mean; });
   this->addArray("Gauss_Curvature", 1,
     [](const Row& row, double* out) { *out = row.particle->curvature.gauss; });
+  this->addArray("Shape_Operator", 6,
+    [](const Row& row, double* out)
+    {
+      const glm::dmat3& shape =
+        row.particle->curvature.shape; // in VTK's order of symmetric tensors
+      const double components[] = { shape[0][0], shape[1][1], shape[2][2], shape[0][1], shape[1][2],
+        shape[0][2] };
+      std::copy(std::begin(components), std::end(components), out);
+    });
   this->addArray("Residual", 1, [](const Row& row, double* out) { *out = row.particle->residual; });
   this->addArray("Clip_Normal", 6,
     [&](const Row& row, double* out)

@@ -335,9 +335,11 @@ vtkShaderProgram* vtkSurfaceSplatLayer::ReadyProgram(
 {
   const std::string definitions = "#define SPLAT_POINTS " + std::to_string(DrawsPoints(drawing)) +
     "\n#define SPLAT_LEAST_PIXELS " + std::to_string(LeastPixels) + "\n#define SPLAT_HAS_CLIP " +
-    std::to_string(drawing.Buffers->GetHasClip()) + "\n#define SPLAT_SKIPS_HIDDEN " +
-    std::to_string(pass.SkipsHidden) + "\n#define SPLAT_CLIPPING_PLANES " +
-    std::to_string(drawing.NumberOfClippingPlanes) + "\n";
+    std::to_string(drawing.Buffers->GetHasClip()) + "\n#define SPLAT_CURVED " +
+    std::to_string(
+      drawing.Buffers->GetHasShape() && !drawing.FacesViewer && !DrawsPoints(drawing)) +
+    "\n#define SPLAT_SKIPS_HIDDEN " + std::to_string(pass.SkipsHidden) +
+    "\n#define SPLAT_CLIPPING_PLANES " + std::to_string(drawing.NumberOfClippingPlanes) + "\n";
   std::string vertex = vtkSurfaceSplatPassVS;
   std::string fragment = pass.Fragment;
   vtkShaderProgram::Substitute(vertex, "//Splat::Disk::Dec", definitions + vtkSurfaceSplatDisk);

@@ -54,6 +54,7 @@ constexpr int Surface = vtkOpenGLPolyDataMapper::PrimitiveTris;
 constexpr int Extra = vtkOpenGLPolyDataMapper::PrimitiveTriStrips;
 
 constexpr const char* ClipNormalName = "Clip_Normal";
+constexpr const char* ShapeOperatorName = "Shape_Operator";
 constexpr const char* ClipDistanceName = "Clip_Distance";
 }
 
@@ -270,6 +271,7 @@ void vtkSurfaceSplatMapper::UploadParticles(vtkRenderer* renderer, vtkPolyData* 
   arrays.Normals = data->GetNormals();
   arrays.ClipNormals = data->GetArray(ClipNormalName);
   arrays.ClipDistances = data->GetArray(ClipDistanceName);
+  arrays.ShapeOperators = data->GetArray(ShapeOperatorName);
   arrays.CellColors = this->GetCellColors(input);
   vtkSurfaceSplatParticles particles = vtkSurfaceSplatParticles::FromPolyData(input, arrays);
   gpu.Buffers.Upload(vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()), particles);

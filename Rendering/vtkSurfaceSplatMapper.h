@@ -24,6 +24,10 @@
  * components a plane: unit vector to the side that is cut off; zero: no plane) and `Clip_Distance` (1
  * component a plane: distance of the plane from the particle along that vector, >= 0, world units).
  *
+ * Where the surface bends much over one splat, particles that carry its shape operator are drawn as
+ * pieces of paraboloids instead of disks: point array `Shape_Operator` (6 components, the symmetric
+ * derivative of the unit normal along the surface: xx, yy, zz, xy, yz, xz; 1 / world units).
+ *
  * What is missing is borne: without point normals the disks face the viewer, without radii all have
  * the radius `Radius`; both are said in one warning. A particle with a normal, radius or position
  * that is zero, negative or not finite (positions may of course be zero) is skipped. Where the

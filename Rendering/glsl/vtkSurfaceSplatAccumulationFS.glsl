@@ -18,7 +18,7 @@ void main()
     discard;
   }
   float weight = splatWeight();
-  gl_FragData[0] = weight * vec4(splatNormalVC, 1.0);
+  gl_FragData[0] = weight * vec4(splatSurfaceNormal(), 1.0);
   gl_FragData[1] = weight * vec4(splatOffsetVC, splatDepthVC);
   //Splat::Color::Impl
 }

@@ -9,6 +9,17 @@ flat in vec3 splatDepths;
 vec2 splatDiskCoord;
 vec3 splatOffsetVC;
 float splatDepthVC;
+#elif SPLAT_CURVED
+in vec2 splatPlaneCoord;
+in vec3 splatPlaneOffset;
+flat in vec3 splatDual[2];
+flat in vec3 splatNormalMC;
+flat in vec3 splatBend;
+flat in vec3 splatTurn[2];
+flat in float splatCentreDepth;
+vec2 splatDiskCoord;
+const vec3 splatOffsetVC = vec3(0.0); // the place found lies on the surface, not above it
+float splatDepthVC;
 #else
 in vec2 splatDiskCoord;
 in vec3 splatOffsetVC;
@@ -42,13 +53,54 @@ void splatMeetDisk()
 }
 #endif
 
+#if SPLAT_CURVED
+uniform vec4 splatEyeMC;
+uniform mat4 splatMCVC;
+
+// Where the pixel's view ray meets the splat, bent to the paraboloid at the height -Q(t) / 2 above the
+// disk at disk coordinates t; Q(t) = bend.x t.x^2 + 2 bend.y t.x t.y + bend.z t.y^2. From the place p
+// where the ray meets the plane of the disk the paraboloid is `along` e away, e the way to the eye:
+//   along e.n + Q(p + along e) / 2 = 0,
+// of which the solution on the side that is seen is taken. False if there is none: the ray passes the
+// surface by.
+bool splatMeetPatch()
+{
+  vec3 toEyeMC = splatEyeMC.xyz - splatEyeMC.w * splatPointMC;
+  vec2 e = vec2(dot(splatDual[0], toEyeMC), dot(splatDual[1], toEyeMC));
+  mat2 q = mat2(splatBend.x, splatBend.y, splatBend.y, splatBend.z);
+  float atPlace = dot(splatPlaneCoord, q * splatPlaneCoord);
+  float slope = dot(splatNormalMC, toEyeMC) + dot(splatPlaneCoord, q * e);
+  float square = slope * slope - dot(e, q * e) * atPlace;
+  float along = -atPlace / (slope + splatSeenFromSide * sqrt(max(square, 0.0)));
+  splatDiskCoord = splatPlaneCoord + along * e;
+  splatDepthVC = splatCentreDepth + splatPlaneOffset.z + along * (mat3(splatMCVC) * toEyeMC).z;
+  return square >= 0.0;
+}
+
+vec3 splatSurfaceNormal()
+{
+  return normalize(
+    splatNormalVC + splatDiskCoord.x * splatTurn[0] + splatDiskCoord.y * splatTurn[1]);
+}
+#else
+vec3 splatSurfaceNormal()
+{
+  return splatNormalVC;
+}
+#endif
+
 // Call this first. Whether the fragment is no part of the splat.
 bool splatOutside()
 {
 #if SPLAT_POINTS
   splatMeetDisk();
 #endif
-  bool outside = !(dot(splatDiskCoord, splatDiskCoord) <= 1.0); // also where there is no such place
+#if SPLAT_CURVED
+  bool passed = !splatMeetPatch();
+#else
+  const bool passed = false;
+#endif
+  bool outside = passed ||  !(dot(splatDiskCoord, splatDiskCoord) <= 1.0); // also where there is no such place
 #if SPLAT_HAS_CLIP
   outside = outside || dot(splatClipLines[0].xy, splatDiskCoord) > splatClipLines[0].z ||
     dot(splatClipLines[1].xy, splatDiskCoord) > splatClipLines[1].z;

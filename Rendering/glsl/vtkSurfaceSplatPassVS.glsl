@@ -22,6 +22,14 @@ uniform float splatHiddenSide; // 1 or -1: splats seen from that side are left o
 flat out vec4 splatPixelToDisk; // matrix, by columns, from offsets in pixels to disk coordinates
 flat out vec2 splatCentrePixel;
 flat out vec3 splatDepths; // z in the middle, and by how much it grows along the disk coordinates
+#elif SPLAT_CURVED
+out vec2 splatPlaneCoord; // disk coordinates before the splat is bent
+out vec3 splatPlaneOffset; // the same place, from the centre (VC)
+flat out vec3 splatDual[2]; // these two take offsets along the disk (MC) to disk coordinates
+flat out vec3 splatNormalMC;
+flat out vec3 splatBend; // see splatMeetPatch()
+flat out vec3 splatTurn[2]; // by how much the normal (VC) turns along the disk coordinates
+flat out float splatCentreDepth;
 #else
 out vec2 splatDiskCoord; // inside the unit circle = inside the splat
 out vec3 splatOffsetVC;  // from the centre of the disk
@@ -29,9 +37,20 @@ out float splatDepthVC;  // z
 #endif
 flat out vec3 splatClipLines[2]; // see splatClipLine()
 out vec3 splatPointMC;           // for clipping planes
-flat out vec3 splatNormalVC;     // outward, unit
+flat out vec3 splatNormalVC;     // outward, unit if flat
 flat out float splatSeenFromSide;
 flat out int splatParticle;
+
+#if SPLAT_CURVED
+uniform samplerBuffer splatShape; // derivative of the normal along the surface, xx, yy, zz | xy, yz, xz
+
+mat3 splatShapeOf(int particle)
+{
+  vec3 d = texelFetch(splatShape, 2 * particle).xyz;
+  vec3 o = texelFetch(splatShape, 2 * particle + 1).xyz;
+  return mat3(d.x, o.x, o.z, o.x, d.y, o.y, o.z, o.y, d.z);
+}
+#endif
 
 #if SPLAT_SKIPS_HIDDEN
 uniform sampler2D splatVisibleDepth;
@@ -98,12 +117,32 @@ void main()
   vec3 toEye = splatParallel == 1 ? vec3(0.0, 0.0, 1.0) : normalize(-centreVC);
   radiusVC /= max(abs(dot(splatNormalVC, toEye)), 0.2);
 #else
-  splatDiskCoord = splatReach * splatCorner[gl_VertexID % 3];
-  splatOffsetVC = splatDiskCoord.x * tangentVC + splatDiskCoord.y * bitangentVC;
-  splatPointMC = disk.centreMC +
-    enlarge * (splatDiskCoord.x * disk.tangentMC + splatDiskCoord.y * disk.bitangentMC);
-  vec3 vertexVC = centreVC + splatOffsetVC;
+  vec2 place = splatReach * splatCorner[gl_VertexID % 3];
+  vec3 offsetVC = place.x * tangentVC + place.y * bitangentVC;
+  splatPointMC =
+    disk.centreMC + enlarge * (place.x * disk.tangentMC + place.y * disk.bitangentMC);
+  vec3 vertexVC = centreVC + offsetVC;
+#if SPLAT_CURVED
+  vec3 tangentMC = enlarge * disk.tangentMC;
+  vec3 bitangentMC = enlarge * disk.bitangentMC;
+  float square = dot(tangentMC, tangentMC);
+  vec3 turn = splatShapeOf(splatParticle) * tangentMC;
+  vec3 biturn = splatShapeOf(splatParticle) * bitangentMC;
+  splatPlaneCoord = place;
+  splatPlaneOffset = offsetVC;
+  splatDual[0] = tangentMC / square;
+  splatDual[1] = bitangentMC / square;
+  splatNormalMC = disk.normalMC;
+  splatBend = vec3(dot(tangentMC, turn), dot(tangentMC, biturn), dot(bitangentMC, biturn));
+  splatTurn[0] = splatNormalMatrix * turn;
+  splatTurn[1] = splatNormalMatrix * biturn;
+  splatNormalVC = splatNormalMatrix * disk.normalMC;
+  splatCentreDepth = centreVC.z;
+#else
+  splatDiskCoord = place;
+  splatOffsetVC = offsetVC;
   splatDepthVC = vertexVC.z;
+#endif
 #endif
   // Every point of the disk moves along its own view ray: the picture of the disk stays the same.
   if (splatParallel == 1)
