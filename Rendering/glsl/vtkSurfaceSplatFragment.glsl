@@ -17,7 +17,9 @@ flat in vec3 splatNormalMC;
 flat in vec3 splatBend;
 flat in vec3 splatTurn[2];
 flat in float splatCentreDepth;
+flat in vec2 splatClipDepths;
 vec2 splatDiskCoord;
+float splatBelowDisk; // distance of the bent splat from its disk (MC)
 const vec3 splatOffsetVC = vec3(0.0); // the place found lies on the surface, not above it
 float splatDepthVC;
 #else
@@ -26,7 +28,8 @@ in vec3 splatOffsetVC;
 in float splatDepthVC;
 #endif
 flat in vec3 splatClipLines[2];
-in vec3 splatPointMC;
+in vec3 splatPointMC; // of the disk
+vec3 splatPlaceMC;    // of the splat
 flat in vec3 splatNormalVC;
 flat in float splatSeenFromSide;
 flat in int splatParticle;
@@ -44,12 +47,14 @@ vec3 splatBehindPixel(vec2 pixel, float z)
 }
 
 // Where the pixel's view ray meets the disk's plane, to first order.
-void splatMeetDisk()
+bool splatMeetRay()
 {
+  splatPlaceMC = splatPointMC;
   splatDiskCoord = mat2(splatPixelToDisk.xy, splatPixelToDisk.zw) * (gl_FragCoord.xy - splatCentrePixel);
   splatDepthVC = splatDepths.x + dot(splatDepths.yz, splatDiskCoord);
   splatOffsetVC = splatBehindPixel(gl_FragCoord.xy, splatDepthVC) -
     splatBehindPixel(splatCentrePixel, splatDepths.x);
+  return true;
 }
 #endif
 
@@ -63,7 +68,7 @@ uniform mat4 splatMCVC;
 //   along e.n + Q(p + along e) / 2 = 0,
 // of which the solution on the side that is seen is taken. False if there is none: the ray passes the
 // surface by.
-bool splatMeetPatch()
+bool splatMeetRay()
 {
   vec3 toEyeMC = splatEyeMC.xyz - splatEyeMC.w * splatPointMC;
   vec2 e = vec2(dot(splatDual[0], toEyeMC), dot(splatDual[1], toEyeMC));
@@ -73,6 +78,8 @@ bool splatMeetPatch()
   float square = slope * slope - dot(e, q * e) * atPlace;
   float along = -atPlace / (slope + splatSeenFromSide * sqrt(max(square, 0.0)));
   splatDiskCoord = splatPlaneCoord + along * e;
+  splatPlaceMC = splatPointMC + along * toEyeMC;
+  splatBelowDisk = -along * dot(splatNormalMC, toEyeMC);
   splatDepthVC = splatCentreDepth + splatPlaneOffset.z + along * (mat3(splatMCVC) * toEyeMC).z;
   return square >= 0.0;
 }
@@ -89,26 +96,38 @@ vec3 splatSurfaceNormal()
 }
 #endif
 
+#if !SPLAT_POINTS && !SPLAT_CURVED
+bool splatMeetRay()
+{
+  splatPlaceMC = splatPointMC;
+  return true;
+}
+#endif
+
+#if SPLAT_HAS_CLIP
+// How far a place lies behind one of the particle's clip planes.
+float splatBehindClip(int plane)
+{
+  float behind = dot(splatClipLines[plane].xy, splatDiskCoord) - splatClipLines[plane].z;
+#if SPLAT_CURVED
+  behind -= splatBelowDisk * splatClipDepths[plane];
+#endif
+  return behind;
+}
+#endif
+
 // Call this first. Whether the fragment is no part of the splat.
 bool splatOutside()
 {
-#if SPLAT_POINTS
-  splatMeetDisk();
-#endif
-#if SPLAT_CURVED
-  bool passed = !splatMeetPatch();
-#else
-  const bool passed = false;
-#endif
-  bool outside = passed ||  !(dot(splatDiskCoord, splatDiskCoord) <= 1.0); // also where there is no such place
+  // Also where there is no such place.
+  bool outside = !splatMeetRay() || !(dot(splatDiskCoord, splatDiskCoord) <= 1.0);
 #if SPLAT_HAS_CLIP
-  outside = outside || dot(splatClipLines[0].xy, splatDiskCoord) > splatClipLines[0].z ||
-    dot(splatClipLines[1].xy, splatDiskCoord) > splatClipLines[1].z;
+  outside = outside || splatBehindClip(0) > 0.0 || splatBehindClip(1) > 0.0;
 #endif
 #if SPLAT_CLIPPING_PLANES
   for (int i = 0; i < SPLAT_CLIPPING_PLANES; ++i)
   {
-    outside = outside || dot(splatClippingPlane[i], vec4(splatPointMC, 1.0)) < 0.0;
+    outside = outside || dot(splatClippingPlane[i], vec4(splatPlaceMC, 1.0)) < 0.0;
   }
 #endif
   return outside;

@@ -27,9 +27,10 @@ out vec2 splatPlaneCoord; // disk coordinates before the splat is bent
 out vec3 splatPlaneOffset; // the same place, from the centre (VC)
 flat out vec3 splatDual[2]; // these two take offsets along the disk (MC) to disk coordinates
 flat out vec3 splatNormalMC;
-flat out vec3 splatBend; // see splatMeetPatch()
+flat out vec3 splatBend; // see splatMeetRay()
 flat out vec3 splatTurn[2]; // by how much the normal (VC) turns along the disk coordinates
 flat out float splatCentreDepth;
+flat out vec2 splatClipDepths; // by how much a place below the disk is before the clip planes
 #else
 out vec2 splatDiskCoord; // inside the unit circle = inside the splat
 out vec3 splatOffsetVC;  // from the centre of the disk
@@ -49,6 +50,13 @@ mat3 splatShapeOf(int particle)
   vec3 d = texelFetch(splatShape, 2 * particle).xyz;
   vec3 o = texelFetch(splatShape, 2 * particle + 1).xyz;
   return mat3(d.x, o.x, o.z, o.x, d.y, o.y, o.z, o.y, d.z);
+}
+#endif
+
+#if SPLAT_CURVED
+float splatClipDepth(int particle, int plane, SplatDisk disk)
+{
+  return splatHasClip == 0 ? 0.0 : dot(texelFetch(splatClip, 2 * particle + plane).xyz, disk.normalMC);
 }
 #endif
 
@@ -138,6 +146,7 @@ void main()
   splatTurn[1] = splatNormalMatrix * biturn;
   splatNormalVC = splatNormalMatrix * disk.normalMC;
   splatCentreDepth = centreVC.z;
+  splatClipDepths = vec2(splatClipDepth(splatParticle, 0, disk), splatClipDepth(splatParticle, 1, disk));
 #else
   splatDiskCoord = place;
   splatOffsetVC = offsetVC;
