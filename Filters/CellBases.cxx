@@ -77,6 +77,22 @@ bool isEnriched(int cellType, vtkIdType points)
     (cellType == VTK_LAGRANGE_WEDGE && points == 21);
 }
 
+/// The degrees that the file gives for this cell; zeros if it leaves them to the number of points.
+hop::Degrees explicitDegrees(vtkUnstructuredGrid* grid, vtkIdType cell)
+{
+  const int type = grid->GetCellType(cell);
+  vtkDataArray* given = grid->GetCellData()->GetHigherOrderDegrees();
+  if (!given || given->GetNumberOfComponents() != 3 || !(isLagrange(type) || isBezier(type)))
+  {
+    return degreesFromCount;
+  }
+  double tuple[3];
+  given->GetTuple(cell, tuple);
+  const auto degree = [](double value)
+  { return value >= 0.0 && value <= hop::MaximumInputDegree ? static_cast<int>(value) : -1; };
+  return { degree(tuple[0]), degree(tuple[1]), degree(tuple[2]) };
+}
+
 /// The degree at which the domain has that many nodes, or the given degrees if they have.
 std::optional<hop::Degrees> fittingDegrees(
   hop::Domain domain, const hop::Degrees& given, vtkIdType nodes)
@@ -205,34 +221,16 @@ std::shared_ptr<const CellBasis> sampleBasis(vtkCell* cell, hop::Domain domain)
 
 } // namespace
 
-CellBases::CellBases(vtkUnstructuredGrid* grid, hop::NodeSpacing spacing)
-  : Grid(grid)
-  , Spacing(spacing)
-  , HigherOrderDegrees(grid->GetCellData()->GetHigherOrderDegrees())
+CellBases::CellBases(hop::NodeSpacing spacing)
+  : Spacing(spacing)
   , Latest(Known.end())
 {
 }
 
-/// The degrees that the file gives for this cell; zeros if it leaves them to the number of points.
-hop::Degrees CellBases::explicitDegrees(vtkIdType cell) const
+std::shared_ptr<const CellBasis> CellBases::basisOf(vtkUnstructuredGrid* grid, vtkIdType cell)
 {
-  const int type = this->Grid->GetCellType(cell);
-  if (!this->HigherOrderDegrees || this->HigherOrderDegrees->GetNumberOfComponents() != 3 ||
-    !(isLagrange(type) || isBezier(type)))
-  {
-    return degreesFromCount;
-  }
-  double tuple[3];
-  this->HigherOrderDegrees->GetTuple(cell, tuple);
-  const auto degree = [](double value)
-  { return value >= 0.0 && value <= hop::MaximumInputDegree ? static_cast<int>(value) : -1; };
-  return { degree(tuple[0]), degree(tuple[1]), degree(tuple[2]) };
-}
-
-std::shared_ptr<const CellBasis> CellBases::basisOf(vtkIdType cell)
-{
-  const Key key{ this->Grid->GetCellType(cell), this->Grid->GetCells()->GetCellSize(cell),
-    this->explicitDegrees(cell) };
+  const Key key{ grid->GetCellType(cell), grid->GetCells()->GetCellSize(cell),
+    explicitDegrees(grid, cell) };
   // Cells of a kind mostly follow one another.
   if (this->Latest == this->Known.end() || this->Latest->first != key)
   {

@@ -12,7 +12,6 @@
 #include <utility>
 
 class vtkCell;
-class vtkDataArray;
 class vtkUnstructuredGrid;
 
 /// How the cells of one kind are rewritten as elements.
@@ -31,7 +30,7 @@ struct CellBasis
   bool bezier = false;
 };
 
-/// The bases of a grid's cells: one a combination of cell type, number of points and degrees, shared
+/// The bases of grids' cells: one a combination of cell type, number of points and degrees, shared
 /// by all cells of that kind. VTK stays the one authority on its cells: the order of the nodes of
 /// Lagrange and Bezier cells comes from their parametric coordinates, and the shape functions of all
 /// other cells are sampled from VTK's own InterpolateFunctions.
@@ -41,25 +40,22 @@ struct CellBasis
 class CellBases
 {
 public:
-  CellBases(vtkUnstructuredGrid* grid, hop::NodeSpacing spacing);
+  explicit CellBases(hop::NodeSpacing spacing);
   CellBases(const CellBases&) = delete;
   CellBases& operator=(const CellBases&) = delete;
 
   /// The basis of a cell, or nullptr: its type is not supported, or its number of points does not
   /// fit its degrees. Not for several threads at once.
-  std::shared_ptr<const CellBasis> basisOf(vtkIdType cell);
+  std::shared_ptr<const CellBasis> basisOf(vtkUnstructuredGrid* grid, vtkIdType cell);
 
 private:
   using Key = std::tuple<int, vtkIdType, hop::Degrees>;
 
-  hop::Degrees explicitDegrees(vtkIdType cell) const;
   std::shared_ptr<const CellBasis> makeBasis(const Key& key) const;
   std::shared_ptr<const CellBasis> makeLatticeBasis(
     vtkCell* vtk, hop::Domain domain, const hop::Degrees& degrees) const;
 
-  vtkUnstructuredGrid* Grid;
   hop::NodeSpacing Spacing;
-  vtkDataArray* HigherOrderDegrees;
   std::map<Key, std::shared_ptr<const CellBasis>> Known;
   std::map<Key, std::shared_ptr<const CellBasis>>::iterator Latest;
 };

@@ -35,6 +35,7 @@ enum class Verdict : char
   BrokenConnectivity,
   NotFinite,
   BadWeights,
+  Level,
   Unsupported,
   Hidden
 };
@@ -72,37 +73,41 @@ void addToRows(std::vector<double>& values, double factor, const std::vector<dou
 class Builder
 {
 public:
-  Builder(vtkUnstructuredGrid* grid, const ScalarChoice& scalars, hop::NodeSpacing spacing,
-    const std::vector<double>& isovalues, const hop::ParallelFor& parallelFor)
-    : Grid(grid)
-    , Scalars(scalars)
+  Builder(const InputBlocks& blocks, hop::NodeSpacing spacing, const std::vector<double>& isovalues,
+    const hop::ParallelFor& parallelFor)
+    : Blocks(blocks)
     , Spacing(spacing)
     , Isovalues(isovalues)
     , Parallel(parallelFor)
   {
-    this->Result.squared = scalars.component == ScalarChoice::Magnitude;
-    this->Components = this->Result.squared ? scalars.array->GetNumberOfComponents() : 1;
-    this->Result.rationalWeights = grid->GetPointData()->GetRationalWeights();
+    this->Result.squared = blocks.component() == InputBlocks::Magnitude;
+    this->Components = this->Result.squared ? blocks[0].scalars->GetNumberOfComponents() : 1;
+    this->Result.census.resize(blocks.size());
   }
 
   GridElements build();
 
 private:
   void judgeCells();
-  Verdict read(vtkIdType cell, const CellBasis& basis, CellValues& values) const;
+  void makeElements(const std::vector<Verdict>& verdicts,
+    const std::vector<std::shared_ptr<const CellBasis>>& bases);
+  Verdict judge(const BlockCell& where, const CellBasis* basis, CellValues& values) const;
+  Verdict read(const BlockCell& where, const CellBasis& basis, CellValues& values) const;
   void count(const std::vector<Verdict>& verdicts);
   void convertElements();
   hop::JacobianSign convert(int element, CellValues& values);
-  std::vector<double> controlValues(const CellBasis& cell, const CellValues& values) const;
+  std::vector<double> controlValues(
+    vtkUnstructuredGrid* grid, const CellBasis& cell, const CellValues& values) const;
   void numberCorners();
   void dropDoubledGhosts();
   void dropCollapsed();
   bool canHoldSurface(const CellBasis& basis, const CellValues& values) const;
+  bool isConstant(const CellValues& values) const;
   bool straddles(double lower, double upper) const;
+  bool isGhost(const hop::Element& element) const;
   hop::Degrees elementDegrees(const hop::NodalBasis& basis) const;
 
-  vtkUnstructuredGrid* Grid;
-  ScalarChoice Scalars;
+  const InputBlocks& Blocks;
   hop::NodeSpacing Spacing;
   const std::vector<double>& Isovalues;
   const hop::ParallelFor& Parallel;
@@ -133,61 +138,92 @@ hop::Degrees Builder::elementDegrees(const hop::NodalBasis& basis) const
 /// Sorts out which cells become elements. Only values are read here, not coordinates.
 void Builder::judgeCells()
 {
-  const vtkIdType cells = this->Grid->GetNumberOfCells();
-  CellBases known(this->Grid, this->Spacing);
+  const std::int64_t cells = this->Blocks.cellCount();
+  CellBases known(this->Spacing);
   std::vector<std::shared_ptr<const CellBasis>> bases(cells);
-  for (vtkIdType cell = 0; cell < cells; ++cell)
-  {
-    bases[cell] = known.basisOf(cell);
-  }
+  this->Blocks.visit(0, cells,
+    [&](std::int64_t number, const BlockCell& where)
+    { bases[number] = known.basisOf(this->Blocks[where.block].grid, where.cell); });
   std::vector<Verdict> verdicts(cells, Verdict::Unsupported);
-  vtkUnsignedCharArray* ghosts = this->Grid->GetCellGhostArray();
   hop::runParallel(this->Parallel, cells,
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       CellValues values;
-      for (std::ptrdiff_t cell = begin; cell < end; ++cell)
-      {
-        if (ghosts && (ghosts->GetValue(cell) & vtkDataSetAttributes::HIDDENCELL))
-        {
-          verdicts[cell] = Verdict::Hidden;
-        }
-        else if (bases[cell])
-        {
-          verdicts[cell] = this->read(cell, *bases[cell], values);
-          if (verdicts[cell] == Verdict::Keep && !this->canHoldSurface(*bases[cell], values))
-          {
-            verdicts[cell] = Verdict::Drop;
-          }
-        }
-      }
+      this->Blocks.visit(begin, end,
+        [&](std::int64_t number, const BlockCell& where)
+        { verdicts[number] = this->judge(where, bases[number].get(), values); });
     });
   this->count(verdicts);
-  hop::ElementMesh& mesh = this->Result.mesh;
-  std::size_t coefficients = 0;
-  for (vtkIdType cell = 0; cell < cells; ++cell)
-  {
-    if (verdicts[cell] == Verdict::Keep)
-    {
-      hop::Element element;
-      element.domain = bases[cell]->basis.domain();
-      element.degrees = this->elementDegrees(bases[cell]->basis);
-      element.firstCoefficient = coefficients;
-      element.rational = bases[cell]->bezier && this->Result.rationalWeights;
-      element.cell = cell;
-      coefficients += hop::coefficientCount(element.domain, element.degrees);
-      mesh.elements.push_back(element);
-      this->Result.bases.push_back(bases[cell]);
-    }
-  }
-  mesh.coefficients.resize(coefficients);
-  mesh.weights.resize(this->Result.rationalWeights ? coefficients : 0);
+  this->makeElements(verdicts, bases);
 }
 
-Verdict Builder::read(vtkIdType cell, const CellBasis& basis, CellValues& values) const
+/// \param basis of the cell, or nullptr
+Verdict Builder::judge(const BlockCell& where, const CellBasis* basis, CellValues& values) const
 {
-  this->Grid->GetCells()->GetCellAtId(cell, values.count, values.ids, values.copiedIds);
-  const vtkIdType points = this->Grid->GetNumberOfPoints();
+  vtkUnsignedCharArray* ghosts = this->Blocks[where.block].grid->GetCellGhostArray();
+  if (ghosts && (ghosts->GetValue(where.cell) & vtkDataSetAttributes::HIDDENCELL))
+  {
+    return Verdict::Hidden;
+  }
+  if (!basis)
+  {
+    return Verdict::Unsupported;
+  }
+  const Verdict verdict = this->read(where, *basis, values);
+  if (verdict != Verdict::Keep)
+  {
+    return verdict;
+  }
+  if (!this->canHoldSurface(*basis, values))
+  {
+    return Verdict::Drop;
+  }
+  return this->isConstant(values) ? Verdict::Level : Verdict::Keep;
+}
+
+/// Whether all nodes have the same values.
+bool Builder::isConstant(const CellValues& values) const
+{
+  return std::equal(
+    values.field.begin() + this->Components, values.field.end(), values.field.begin());
+}
+
+/// Elements of the cells to keep, with room for their coefficients.
+void Builder::makeElements(
+  const std::vector<Verdict>& verdicts, const std::vector<std::shared_ptr<const CellBasis>>& bases)
+{
+  hop::ElementMesh& mesh = this->Result.mesh;
+  std::size_t coefficients = 0;
+  bool anyRational = false;
+  this->Blocks.visit(0, this->Blocks.cellCount(),
+    [&](std::int64_t number, const BlockCell& where)
+    {
+      if (verdicts[number] != Verdict::Keep)
+      {
+        return;
+      }
+      const CellBasis& basis = *bases[number];
+      hop::Element element;
+      element.domain = basis.basis.domain();
+      element.degrees = this->elementDegrees(basis.basis);
+      element.firstCoefficient = coefficients;
+      element.rational =
+        basis.bezier && this->Blocks[where.block].grid->GetPointData()->GetRationalWeights();
+      element.cell = number;
+      anyRational = anyRational || element.rational;
+      coefficients += hop::coefficientCount(element.domain, element.degrees);
+      mesh.elements.push_back(element);
+      this->Result.bases.push_back(bases[number]);
+    });
+  mesh.coefficients.resize(coefficients);
+  mesh.weights.resize(anyRational ? coefficients : 0);
+}
+
+Verdict Builder::read(const BlockCell& where, const CellBasis& basis, CellValues& values) const
+{
+  const InputBlock& block = this->Blocks[where.block];
+  block.grid->GetCells()->GetCellAtId(where.cell, values.count, values.ids, values.copiedIds);
+  const vtkIdType points = block.grid->GetNumberOfPoints();
   const auto isOutside = [points](vtkIdType id) { return id < 0 || id >= points; };
   if (std::any_of(values.ids, values.ids + values.count, isOutside))
   {
@@ -196,8 +232,8 @@ Verdict Builder::read(vtkIdType cell, const CellBasis& basis, CellValues& values
   values.field.resize(values.count * this->Components);
   for (int c = 0; c < this->Components; ++c)
   {
-    gatherComponent(this->Scalars.array, values.ids, values.count,
-      this->Result.squared ? c : this->Scalars.component, values.field.data() + c,
+    gatherComponent(block.scalars, values.ids, values.count,
+      this->Result.squared ? c : this->Blocks.component(), values.field.data() + c,
       this->Components);
   }
   if (!std::all_of(values.field.begin(), values.field.end(), isFinite))
@@ -205,11 +241,11 @@ Verdict Builder::read(vtkIdType cell, const CellBasis& basis, CellValues& values
     return Verdict::NotFinite;
   }
   values.weights.clear();
-  if (basis.bezier && this->Result.rationalWeights)
+  vtkDataArray* weights = block.grid->GetPointData()->GetRationalWeights();
+  if (basis.bezier && weights)
   {
     values.weights.resize(values.count);
-    gatherComponent(
-      this->Result.rationalWeights, values.ids, values.count, 0, values.weights.data());
+    gatherComponent(weights, values.ids, values.count, 0, values.weights.data());
   }
   const auto isGood = [](double weight) { return weight > 0.0 && isFinite(weight); };
   return std::all_of(values.weights.begin(), values.weights.end(), isGood) ? Verdict::Keep
@@ -254,30 +290,35 @@ bool Builder::canHoldSurface(const CellBasis& cell, const CellValues& values) co
 
 void Builder::count(const std::vector<Verdict>& verdicts)
 {
-  CellCensus& census = this->Result.census;
-  for (vtkIdType cell = 0; cell < static_cast<vtkIdType>(verdicts.size()); ++cell)
-  {
-    switch (verdicts[cell])
+  this->Blocks.visit(0, this->Blocks.cellCount(),
+    [&](std::int64_t number, const BlockCell& where)
     {
-      case Verdict::Drop:
-        ++census.dropped;
-        break;
-      case Verdict::Unsupported:
-        census.unsupported[this->Grid->GetCellType(cell)].add(cell);
-        break;
-      case Verdict::BrokenConnectivity:
-        census.brokenConnectivity.add(cell);
-        break;
-      case Verdict::NotFinite:
-        census.notFinite.add(cell);
-        break;
-      case Verdict::BadWeights:
-        census.badWeights.add(cell);
-        break;
-      default:
-        break;
-    }
-  }
+      CellCensus& census = this->Result.census[where.block];
+      switch (verdicts[number])
+      {
+        case Verdict::Drop:
+          ++census.dropped;
+          break;
+        case Verdict::Unsupported:
+          census.unsupported[this->Blocks[where.block].grid->GetCellType(where.cell)].add(
+            where.cell);
+          break;
+        case Verdict::BrokenConnectivity:
+          census.brokenConnectivity.add(where.cell);
+          break;
+        case Verdict::NotFinite:
+          census.notFinite.add(where.cell);
+          break;
+        case Verdict::BadWeights:
+          census.badWeights.add(where.cell);
+          break;
+        case Verdict::Level:
+          census.level.add(where.cell);
+          break;
+        default:
+          break;
+      }
+    });
 }
 
 void Builder::convertElements()
@@ -301,8 +342,10 @@ hop::JacobianSign Builder::convert(int element, CellValues& values)
   hop::ElementMesh& mesh = this->Result.mesh;
   const hop::Element& e = mesh.elements[element];
   const CellBasis& cell = *this->Result.bases[element];
-  this->read(e.cell, cell, values);
-  const std::vector<double> control = this->controlValues(cell, values);
+  const BlockCell where = this->Blocks.locate(e.cell);
+  this->read(where, cell, values);
+  const std::vector<double> control =
+    this->controlValues(this->Blocks[where.block].grid, cell, values);
   const int width = 3 + this->Components;
   const int count = cell.basis.coefficientCount();
   std::vector<double> weights(count, 1.0);
@@ -340,15 +383,15 @@ hop::JacobianSign Builder::convert(int element, CellValues& values)
 }
 
 /// Bernstein coefficients of x, y, z and the field's components, times the weight if there is one.
-std::vector<double> Builder::controlValues(const CellBasis& cell, const CellValues& values) const
+std::vector<double> Builder::controlValues(
+  vtkUnstructuredGrid* grid, const CellBasis& cell, const CellValues& values) const
 {
   const int width = 3 + this->Components;
   const int nodes = cell.basis.nodeCount();
   std::vector<double> nodal(static_cast<std::size_t>(nodes) * width);
   for (int c = 0; c < 3; ++c)
   {
-    gatherComponent(
-      this->Grid->GetPoints()->GetData(), values.ids, nodes, c, nodal.data() + c, width);
+    gatherComponent(grid->GetPoints()->GetData(), values.ids, nodes, c, nodal.data() + c, width);
   }
   for (int node = 0; node < nodes; ++node)
   {
@@ -377,11 +420,11 @@ std::vector<double> Builder::controlValues(const CellBasis& cell, const CellValu
 void Builder::dropCollapsed()
 {
   hop::ElementMesh& mesh = this->Result.mesh;
-  CellCensus& census = this->Result.census;
   std::size_t kept = 0;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e)
   {
-    const vtkIdType cell = mesh.elements[e].cell;
+    const auto [block, cell] = this->Blocks.locate(mesh.elements[e].cell);
+    CellCensus& census = this->Result.census[block];
     const hop::JacobianSign sign = this->Signs[e];
     if (sign == hop::JacobianSign::NotFinite)
     {
@@ -453,18 +496,27 @@ void Builder::numberCorners()
   }
 }
 
+bool Builder::isGhost(const hop::Element& element) const
+{
+  const auto [block, cell] = this->Blocks.locate(element.cell);
+  vtkUnsignedCharArray* ghosts = this->Blocks[block].grid->GetCellGhostArray();
+  return ghosts && ghosts->GetValue(cell) != 0;
+}
+
 /// A ghost whose original, or another copy, is here too would claim the faces of its neighbours a
 /// second time: readers of files in pieces bring both together.
 void Builder::dropDoubledGhosts()
 {
-  vtkUnsignedCharArray* ghosts = this->Grid->GetCellGhostArray();
-  if (!ghosts)
+  hop::ElementMesh& mesh = this->Result.mesh;
+  std::vector<char> ghosts;
+  for (const hop::Element& element : mesh.elements)
+  {
+    ghosts.push_back(this->isGhost(element));
+  }
+  if (std::find(ghosts.begin(), ghosts.end(), true) == ghosts.end())
   {
     return;
   }
-  hop::ElementMesh& mesh = this->Result.mesh;
-  const auto isGhost = [&](const hop::Element& element)
-  { return ghosts->GetValue(element.cell) != 0; };
   const auto sortedCorners = [](const hop::Element& element)
   {
     auto corners = element.corners;
@@ -472,17 +524,17 @@ void Builder::dropDoubledGhosts()
     return corners;
   };
   std::set<decltype(hop::Element::corners)> present;
-  for (const hop::Element& element : mesh.elements)
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
   {
-    if (!isGhost(element))
+    if (!ghosts[e])
     {
-      present.insert(sortedCorners(element));
+      present.insert(sortedCorners(mesh.elements[e]));
     }
   }
   std::size_t kept = 0;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e)
   {
-    if (!isGhost(mesh.elements[e]) || present.insert(sortedCorners(mesh.elements[e])).second)
+    if (!ghosts[e] || present.insert(sortedCorners(mesh.elements[e])).second)
     {
       mesh.elements[kept] = mesh.elements[e];
       this->Result.bases[kept++] = this->Result.bases[e];
@@ -514,7 +566,7 @@ void describeCells(std::ostream& text, const SkippedCells& cells, const std::str
 vtkIdType CellCensus::skipped() const
 {
   vtkIdType sum = this->brokenConnectivity.count + this->notFinite.count + this->badWeights.count +
-    this->collapsed.count;
+    this->level.count + this->collapsed.count;
   for (const auto& [type, cells] : this->unsupported)
   {
     sum += cells.count;
@@ -536,14 +588,15 @@ std::string CellCensus::describe() const
   describeCells(text, this->brokenConnectivity, "skipped: point ids outside the grid");
   describeCells(text, this->notFinite, "skipped: coordinates or values that are NaN or infinite");
   describeCells(text, this->badWeights, "skipped: RationalWeights that are not positive");
+  describeCells(
+    text, this->level, "skipped: the field is the isovalue throughout, which is no surface");
   describeCells(text, this->collapsed, "skipped: without volume");
   describeCells(text, this->folded, "kept, but partly inverted: the Jacobian changes its sign");
   return text.str();
 }
 
-GridElements buildGridElements(vtkUnstructuredGrid* grid, const ScalarChoice& scalars,
-  hop::NodeSpacing spacing, const std::vector<double>& isovalues,
-  const hop::ParallelFor& parallelFor)
+GridElements buildGridElements(const InputBlocks& blocks, hop::NodeSpacing spacing,
+  const std::vector<double>& isovalues, const hop::ParallelFor& parallelFor)
 {
-  return Builder(grid, scalars, spacing, isovalues, parallelFor).build();
+  return Builder(blocks, spacing, isovalues, parallelFor).build();
 }

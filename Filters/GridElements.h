@@ -2,23 +2,12 @@
 
 #include "CellBases.h"
 #include "ElementMesh.h"
+#include "InputBlocks.h"
 #include "Monitor.h"
 
 #include <map>
 #include <string>
 #include <vector>
-
-class vtkDataArray;
-class vtkUnstructuredGrid;
-
-/// What to contour by: a point array's component, or the magnitude of its tuples.
-struct ScalarChoice
-{
-  static constexpr int Magnitude = -1;
-
-  vtkDataArray* array = nullptr;
-  int component = 0;
-};
 
 /// Cells that were left out, for one reason: how many, and the first.
 struct SkippedCells
@@ -29,7 +18,7 @@ struct SkippedCells
   void add(vtkIdType cell) { this->first = this->count++ == 0 ? cell : this->first; }
 };
 
-/// What became of a grid's cells.
+/// What became of a block's cells; they are named by their numbers in the block.
 struct CellCensus
 {
   /// Cells that provably hold none of the isosurfaces.
@@ -42,6 +31,8 @@ struct CellCensus
   SkippedCells notFinite;
   /// Rational Bezier cells with weights that are not positive.
   SkippedCells badWeights;
+  /// The field is the same in the whole cell, and one of the isovalues: no surface.
+  SkippedCells level;
   /// Jacobian determinant zero wherever it was looked at.
   SkippedCells collapsed;
   /// Kept, but the Jacobian determinant changes its sign: partly inverted.
@@ -52,19 +43,19 @@ struct CellCensus
   std::string describe() const;
 };
 
-/// A grid seen as elements: those that can hold one of the isosurfaces in Bernstein form, joined at
-/// their faces, and the bases by which further arrays can be evaluated on them.
+/// Grids seen as elements: those that can hold one of the isosurfaces in Bernstein form, joined at
+/// their faces within and across blocks, and the bases by which further arrays can be evaluated on them.
 struct GridElements
 {
+  /// Its elements name their cells by the number that InputBlocks gives them.
   hop::ElementMesh mesh;
   /// One an element.
   std::vector<std::shared_ptr<const CellBasis>> bases;
-  /// The grid's RationalWeights, or nullptr; they apply to Bezier cells.
-  vtkDataArray* rationalWeights = nullptr;
   /// Whether the mesh's field is the square of the chosen scalar: the magnitude of a vector is no
   /// polynomial, its square is, and |v| = c where |v|^2 = c^2.
   bool squared = false;
-  CellCensus census;
+  /// One a block.
+  std::vector<CellCensus> census;
 
   /// The value of the mesh's field on the isosurface of the chosen scalar.
   double fieldIsovalue(double isovalue) const
@@ -74,6 +65,5 @@ struct GridElements
 };
 
 /// \param isovalues of the chosen scalar, at least one
-GridElements buildGridElements(vtkUnstructuredGrid* grid, const ScalarChoice& scalars,
-  hop::NodeSpacing spacing, const std::vector<double>& isovalues,
-  const hop::ParallelFor& parallelFor);
+GridElements buildGridElements(const InputBlocks& blocks, hop::NodeSpacing spacing,
+  const std::vector<double>& isovalues, const hop::ParallelFor& parallelFor);

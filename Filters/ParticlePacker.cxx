@@ -1,5 +1,7 @@
 #include "ParticlePacker.h"
 
+#include "PointArrays.h"
+
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataSetAttributes.h"
@@ -17,220 +19,218 @@
 
 #include <algorithm>
 #include <functional>
-#include <numeric>
 #include <set>
 #include <string>
+#include <utility>
 
 namespace
 {
-
-/// A particle on its way to its row of the output.
-struct Row
-{
-  const hop::Particle* particle = nullptr;
-  double isovalue = 0.0;
-};
 
 const std::set<std::string> ownArrays{ "Normals", "Radius", "Mean_Curvature", "Gauss_Curvature",
   "Shape_Operator", "Residual", "Clip_Normal", "Clip_Distance", "Jump", "Isovalue",
   "vtkOriginalCellIds", "ParametricCoordinates" };
 
-/// Rational basis functions R_i = w_i B_i / sum_j w_j B_j from polynomial ones.
-void applyRationalWeights(const std::vector<double>& weights, std::vector<double>& basis)
-{
-  if (weights.empty())
-  {
-    return;
-  }
-  std::transform(
-    basis.begin(), basis.end(), weights.begin(), basis.begin(), std::multiplies<double>());
-  const double sum = std::accumulate(basis.begin(), basis.end(), 0.0);
-  std::transform(
-    basis.begin(), basis.end(), basis.begin(), [sum](double value) { return value / sum; });
-}
-
 class Packer
 {
 public:
-  Packer(vtkUnstructuredGrid* grid, const ScalarChoice& scalars, const GridElements& elements,
-    const hop::ParallelFor& parallelFor, vtkPolyData* output)
-    : Grid(grid)
-    , Scalars(scalars)
+  Packer(const InputBlocks& blocks, std::size_t block, const GridElements& elements,
+    std::vector<ParticleRow> rows, const hop::ParallelFor& parallelFor)
+    : Blocks(blocks)
+    , Grid(blocks[block].grid)
+    , Scalars(blocks[block].scalars)
+    , FirstCell(blocks.firstCell(block))
     , Elements(elements)
+    , Census(elements.census[block])
     , Parallel(parallelFor)
-    , Output(output)
+    , Output(blocks[block].particles)
+    , Rows(std::move(rows))
   {
   }
 
   void pack(const std::vector<IsovalueParticles>& isovalues);
 
 private:
-  void collectRows(const std::vector<IsovalueParticles>& isovalues);
   void addPoints();
   void addVertices();
   void addOwnArrays();
   void addPointArrays();
+  void addCellIds();
   void addCellArrays();
   void addReport(const std::vector<IsovalueParticles>& isovalues);
-  std::vector<double> rationalWeights(int element, vtkIdList* ids) const;
-  void evaluate(vtkDataArray* source, vtkDoubleArray* target);
-  void evaluateRun(vtkDataArray* source, vtkDoubleArray* target, std::size_t begin, std::size_t end,
-    vtkIdList* ids) const;
+  vtkSmartPointer<vtkDoubleArray> newArray(const std::string& name, int components) const;
   template <class Write>
   vtkSmartPointer<vtkDoubleArray> addArray(
     const std::string& name, int components, const Write& write);
-  vtkIdType cellOf(const Row& row) const
+  template <class Write>
+  void fillWith(const Write& write);
+  void fillRows();
+  vtkIdType rowCount() const { return static_cast<vtkIdType>(this->Rows.size()); }
+  vtkIdType cellOf(const ParticleRow& row) const
   {
-    return this->Elements.mesh.elements[row.particle->location.element].cell;
+    return this->Elements.mesh.elements[row.particle->location.element].cell - this->FirstCell;
   }
 
+  const InputBlocks& Blocks;
   vtkUnstructuredGrid* Grid;
-  ScalarChoice Scalars;
+  vtkDataArray* Scalars;
+  std::int64_t FirstCell;
   const GridElements& Elements;
+  const CellCensus& Census;
   const hop::ParallelFor& Parallel;
   vtkPolyData* Output;
-  std::vector<Row> Rows;
+  std::vector<ParticleRow> Rows;
+  /// What writes rows begin to end - 1 of some array.
+  std::vector<std::function<void(std::ptrdiff_t begin, std::ptrdiff_t end)>> Writers;
+  std::vector<EvaluatedArray> Evaluated;
 };
 
 void Packer::pack(const std::vector<IsovalueParticles>& isovalues)
 {
-  this->collectRows(isovalues);
   this->addPoints();
   this->addVertices();
   this->addPointArrays();
   this->addOwnArrays();
+  this->addCellIds();
+  this->fillRows();
   this->addCellArrays();
   this->addReport(isovalues);
 }
 
-/// Rows by isovalue, then by element, so that neighbours in memory share an element.
-void Packer::collectRows(const std::vector<IsovalueParticles>& isovalues)
+/// Has write(row number, row) called for every row when rows are filled.
+template <class Write>
+void Packer::fillWith(const Write& write)
 {
-  vtkUnsignedCharArray* ghosts = this->Grid->GetCellGhostArray();
-  for (const IsovalueParticles& some : isovalues)
-  {
-    const auto begin = static_cast<std::ptrdiff_t>(this->Rows.size());
-    for (const hop::Particle& particle : some.distribution.particles)
+  this->Writers.push_back(
+    [this, write](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
-      const Row row{ &particle, some.isovalue };
-      if (!ghosts || ghosts->GetValue(this->cellOf(row)) == 0)
+      for (std::ptrdiff_t i = begin; i < end; ++i)
       {
-        this->Rows.push_back(row);
+        write(i, this->Rows[i]);
       }
-    }
-    std::stable_sort(this->Rows.begin() + begin, this->Rows.end(),
-      [](const Row& a, const Row& b)
-      { return a.particle->location.element < b.particle->location.element; });
-  }
+    });
+}
+
+/// All arrays at once, a few rows at a time, so that each particle is fetched from memory once.
+void Packer::fillRows()
+{
+  constexpr std::ptrdiff_t rowsAtOnce = 128;
+  hop::runParallel(this->Parallel, this->rowCount(),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      for (; begin < end; begin += rowsAtOnce)
+      {
+        for (const auto& write : this->Writers)
+        {
+          write(begin, std::min(end, begin + rowsAtOnce));
+        }
+      }
+    });
+  evaluatePointArrays(this->Blocks, this->Elements, this->Evaluated, this->Rows, this->Parallel);
 }
 
 void Packer::addPoints()
 {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(static_cast<vtkIdType>(this->Rows.size()));
-  for (std::size_t i = 0; i < this->Rows.size(); ++i)
-  {
-    points->SetPoint(static_cast<vtkIdType>(i), &this->Rows[i].particle->position.xyz.x);
-  }
+  points->SetNumberOfPoints(this->rowCount());
+  auto* positions = static_cast<double*>(points->GetVoidPointer(0));
+  this->fillWith([positions](std::ptrdiff_t i, const ParticleRow& row)
+    { std::copy_n(&row.particle->position.xyz.x, 3, positions + 3 * i); });
   this->Output->SetPoints(points);
 }
 
 void Packer::addVertices()
 {
-  const auto count = static_cast<vtkIdType>(this->Rows.size());
   vtkNew<vtkIdTypeArray> offsets;
   vtkNew<vtkIdTypeArray> connectivity;
-  offsets->SetNumberOfValues(count + 1);
-  connectivity->SetNumberOfValues(count);
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    offsets->SetValue(i, i);
-    connectivity->SetValue(i, i);
-  }
-  offsets->SetValue(count, count);
+  offsets->SetNumberOfValues(this->rowCount() + 1);
+  connectivity->SetNumberOfValues(this->rowCount());
+  vtkIdType* offset = offsets->GetPointer(0);
+  vtkIdType* vertex = connectivity->GetPointer(0);
+  this->fillWith([offset, vertex](std::ptrdiff_t i, const ParticleRow&)
+    { offset[i] = vertex[i] = static_cast<vtkIdType>(i); });
+  offsets->SetValue(this->rowCount(), this->rowCount());
   vtkNew<vtkCellArray> vertices;
   vertices->SetData(offsets, connectivity);
   this->Output->SetVerts(vertices);
 }
 
-/// A point array whose row i is filled by write(row, double*).
-template <class Write>
-vtkSmartPointer<vtkDoubleArray> Packer::addArray(
-  const std::string& name, int components, const Write& write)
+/// A point array of the output, yet to be filled.
+vtkSmartPointer<vtkDoubleArray> Packer::newArray(const std::string& name, int components) const
 {
   auto array = vtkSmartPointer<vtkDoubleArray>::New();
   array->SetName(name.c_str());
   array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(this->Rows.size()));
-  double* values = array->GetPointer(0);
-  hop::runParallel(this->Parallel, static_cast<std::ptrdiff_t>(this->Rows.size()),
-    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-    {
-      for (std::ptrdiff_t i = begin; i < end; ++i)
-      {
-        write(this->Rows[i], values + i * components);
-      }
-    });
+  array->SetNumberOfTuples(this->rowCount());
   this->Output->GetPointData()->AddArray(array);
+  return array;
+}
+
+/// A point array whose rows are filled by write(row, double*).
+template <class Write>
+vtkSmartPointer<vtkDoubleArray> Packer::addArray(
+  const std::string& name, int components, const Write& write)
+{
+  const auto array = this->newArray(name, components);
+  double* values = array->GetPointer(0);
+  this->fillWith([values, components, write](std::ptrdiff_t i, const ParticleRow& row)
+    { write(row, values + i * components); });
   return array;
 }
 
 void Packer::addOwnArrays()
 {
-  const auto writeVector = [](const glm::dvec3& v, double* out)
-  {
-    out[0] = v.x;
-    out[1] = v.y;
-    out[2] = v.z;
-  };
-  const auto normals = this->addArray(
-    "Normals", 3, [&](const Row& row, double* out) { writeVector(row.particle->normal.xyz, out); });
+  const auto writeVector = [](const glm::dvec3& v, double* out) { std::copy_n(&v.x, 3, out); };
+  const auto normals = this->addArray("Normals", 3,
+    [=](const ParticleRow& row, double* out) { writeVector(row.particle->normal.xyz, out); });
   this->Output->GetPointData()->SetNormals(normals);
-  this->addArray("Radius", 1, [](const Row& row, double* out) { *out = row.particle->spacing; });
   this->addArray(
-    "Mean_Curvature", 1, [](const Row& row, double* out) { *out = row.particle->curvature.mean; });
+    "Radius", 1, [](const ParticleRow& row, double* out) { *out = row.particle->spacing; });
+  this->addArray("Mean_Curvature", 1,
+    [](const ParticleRow& row, double* out) { *out = row.particle->curvature.mean; });
   this->addArray("Gauss_Curvature", 1,
-    [](const Row& row, double* out) { *out = row.particle->curvature.gauss; });
+    [](const ParticleRow& row, double* out) { *out = row.particle->curvature.gauss; });
   this->addArray("Shape_Operator", 6,
-    [](const Row& row, double* out)
+    [](const ParticleRow& row, double* out)
     {
-      const glm::dmat3& shape =
-        row.particle->curvature.shape; // in VTK's order of symmetric tensors
+      const glm::dmat3& shape = row.particle->curvature.shape;
       const double components[] = { shape[0][0], shape[1][1], shape[2][2], shape[0][1], shape[1][2],
-        shape[0][2] };
+        shape[0][2] }; // VTK's order of symmetric tensors
       std::copy(std::begin(components), std::end(components), out);
     });
-  this->addArray("Residual", 1, [](const Row& row, double* out) { *out = row.particle->residual; });
+  this->addArray(
+    "Residual", 1, [](const ParticleRow& row, double* out) { *out = row.particle->residual; });
   this->addArray("Clip_Normal", 6,
-    [&](const Row& row, double* out)
+    [=](const ParticleRow& row, double* out)
     {
       writeVector(row.particle->clips[0].normal.xyz, out);
       writeVector(row.particle->clips[1].normal.xyz, out + 3);
     });
   this->addArray("Clip_Distance", 2,
-    [](const Row& row, double* out)
+    [](const ParticleRow& row, double* out)
     {
       out[0] = row.particle->clips[0].distance;
       out[1] = row.particle->clips[1].distance;
     });
-  this->addArray("Jump", 1, [](const Row& row, double* out) { *out = row.particle->jump; });
-  this->addArray("Isovalue", 1, [](const Row& row, double* out) { *out = row.isovalue; });
+  this->addArray("Jump", 1, [](const ParticleRow& row, double* out) { *out = row.particle->jump; });
+  this->addArray("Isovalue", 1, [](const ParticleRow& row, double* out) { *out = row.isovalue; });
   // Places on a face may have left the domain by a rounding error.
   this->addArray("ParametricCoordinates", 3,
-    [&](const Row& row, double* out)
+    [=](const ParticleRow& row, double* out)
     {
       const hop::ReferencePoint u{ glm::clamp(row.particle->location.u.xyz, 0.0, 1.0) };
       writeVector(parametricCoordinates(this->Grid->GetCellType(this->cellOf(row)), u).xyz, out);
     });
+}
 
+void Packer::addCellIds()
+{
   vtkNew<vtkIdTypeArray> cells;
   cells->SetName("vtkOriginalCellIds");
-  cells->SetNumberOfValues(static_cast<vtkIdType>(this->Rows.size()));
-  for (std::size_t i = 0; i < this->Rows.size(); ++i)
-  {
-    cells->SetValue(static_cast<vtkIdType>(i), this->cellOf(this->Rows[i]));
-  }
+  cells->SetNumberOfValues(this->rowCount());
+  vtkIdType* ids = cells->GetPointer(0);
+  this->fillWith(
+    [this, ids](std::ptrdiff_t i, const ParticleRow& row) { ids[i] = this->cellOf(row); });
   this->Output->GetPointData()->AddArray(cells);
 }
 
@@ -249,108 +249,25 @@ void Packer::addPointArrays()
     {
       continue;
     }
-    vtkNew<vtkDoubleArray> values;
-    values->SetName(name.c_str());
-    values->SetNumberOfComponents(array->GetNumberOfComponents());
-    values->SetNumberOfTuples(static_cast<vtkIdType>(this->Rows.size()));
-    for (int c = 0; c < array->GetNumberOfComponents(); ++c)
-    {
-      values->SetComponentName(c, array->GetComponentName(c));
-    }
-    this->Output->GetPointData()->AddArray(values);
-    if (array == this->Scalars.array && array->GetNumberOfComponents() == 1)
+    const int components = array->GetNumberOfComponents();
+    vtkSmartPointer<vtkDoubleArray> values;
+    if (array == this->Scalars && components == 1)
     {
       // As Contour: this array is the isovalue, not the isovalue with noise of the tolerance's size.
-      for (std::size_t i = 0; i < this->Rows.size(); ++i)
-      {
-        values->SetValue(static_cast<vtkIdType>(i), this->Rows[i].isovalue);
-      }
+      values =
+        this->addArray(name, 1, [](const ParticleRow& row, double* out) { *out = row.isovalue; });
       this->Output->GetPointData()->SetScalars(values);
     }
     else
     {
-      this->evaluate(array, values);
+      values = this->newArray(name, components);
+      this->Evaluated.push_back({ array, values->GetPointer(0) });
     }
-  }
-}
-
-void Packer::evaluate(vtkDataArray* source, vtkDoubleArray* target)
-{
-  hop::runParallel(this->Parallel, static_cast<std::ptrdiff_t>(this->Rows.size()),
-    [&](std::ptrdiff_t first, std::ptrdiff_t last)
-    {
-      vtkNew<vtkIdList> ids;
-      for (auto begin = static_cast<std::size_t>(first); begin < static_cast<std::size_t>(last);)
-      {
-        std::size_t end = begin;
-        while (end < static_cast<std::size_t>(last) &&
-          this->Rows[end].particle->location.element ==
-            this->Rows[begin].particle->location.element)
-        {
-          ++end;
-        }
-        this->evaluateRun(source, target, begin, end, ids);
-        begin = end;
-      }
-    });
-}
-
-/// Evaluates an array for rows that share an element: converted once, summed for each.
-void Packer::evaluateRun(vtkDataArray* source, vtkDoubleArray* target, std::size_t begin,
-  std::size_t end, vtkIdList* ids) const
-{
-  const int element = this->Rows[begin].particle->location.element;
-  const CellBasis& cell = *this->Elements.bases[element];
-  const hop::NodalBasis& basis = cell.basis;
-  const int components = source->GetNumberOfComponents();
-  this->Grid->GetCells()->GetCellAtId(this->Elements.mesh.elements[element].cell, ids);
-  std::vector<double> nodal(static_cast<std::size_t>(basis.nodeCount()) * components);
-  for (int node = 0; node < basis.nodeCount(); ++node)
-  {
     for (int c = 0; c < components; ++c)
     {
-      nodal[node * components + c] = source->GetComponent(ids->GetId(node), c);
+      values->SetComponentName(c, array->GetComponentName(c));
     }
   }
-  const int count = basis.coefficientCount();
-  std::vector<double> coefficients(static_cast<std::size_t>(count) * components);
-  basis.toBernstein(nodal.data(), components, coefficients.data());
-
-  const std::vector<double> rational = this->rationalWeights(element, ids);
-  std::vector<double> weights(count);
-  for (std::size_t row = begin; row < end; ++row)
-  {
-    hop::evaluateBasis(
-      basis.domain(), basis.degrees(), this->Rows[row].particle->location.u, weights.data());
-    applyRationalWeights(rational, weights);
-    double* out = target->GetPointer(static_cast<vtkIdType>(row) * components);
-    std::fill_n(out, components, 0.0);
-    for (int i = 0; i < count; ++i)
-    {
-      for (int c = 0; c < components; ++c)
-      {
-        out[c] += weights[i] * coefficients[i * components + c];
-      }
-    }
-  }
-}
-
-/// An element's rational weights in the order of its coefficients, or nothing.
-std::vector<double> Packer::rationalWeights(int element, vtkIdList* ids) const
-{
-  if (!this->Elements.mesh.elements[element].rational)
-  {
-    return {};
-  }
-  const hop::NodalBasis& basis = this->Elements.bases[element]->basis;
-  std::vector<double> nodal;
-  for (int node = 0; node < basis.nodeCount(); ++node)
-  {
-    nodal.push_back(this->Elements.rationalWeights->GetComponent(ids->GetId(node), 0));
-  }
-  std::vector<double> weights(nodal.size());
-  basis.toBernstein(nodal.data(), 1, weights.data());
-  return weights;
 }
 
 void Packer::addCellArrays()
@@ -360,11 +277,17 @@ void Packer::addCellArrays()
   target->CopyGlobalIdsOff();          // several particles share a cell: its id is no id of theirs
   target->CopyHigherOrderDegreesOff(); // particles have none
   target->CopyFieldOff(vtkDataSetAttributes::GhostArrayName());
-  target->CopyAllocate(source, static_cast<vtkIdType>(this->Rows.size()));
-  for (std::size_t i = 0; i < this->Rows.size(); ++i)
+  target->CopyAllocate(source, this->rowCount());
+  vtkNew<vtkIdList> cells;
+  vtkNew<vtkIdList> rows;
+  cells->SetNumberOfIds(this->rowCount());
+  rows->SetNumberOfIds(this->rowCount());
+  for (vtkIdType i = 0; i < this->rowCount(); ++i)
   {
-    target->CopyData(source, this->cellOf(this->Rows[i]), static_cast<vtkIdType>(i));
+    cells->SetId(i, this->cellOf(this->Rows[i]));
+    rows->SetId(i, i);
   }
+  target->CopyData(source, cells, rows);
 }
 
 void Packer::addReport(const std::vector<IsovalueParticles>& isovalues)
@@ -392,8 +315,8 @@ void Packer::addReport(const std::vector<IsovalueParticles>& isovalues)
   };
   addCount("Evaluations", sum.evaluations);
   addCount("Iterations", sum.iterations);
-  addCount("ElementsDropped", this->Elements.census.dropped);
-  addCount("CellsSkipped", this->Elements.census.skipped());
+  addCount("ElementsDropped", this->Census.dropped);
+  addCount("CellsSkipped", this->Census.skipped());
   addCount("BoxesUnresolved", sum.boxesUnresolved);
   addCount("SingularPoints", sum.singularPoints);
   addCount("ParticlesRejected", sum.particlesRejected);
@@ -401,18 +324,51 @@ void Packer::addReport(const std::vector<IsovalueParticles>& isovalues)
 
   vtkNew<vtkIdTypeArray> cells;
   cells->SetName("UnresolvedCellIds");
-  for (const std::int64_t cell : unresolved)
+  const auto end = unresolved.lower_bound(this->FirstCell + this->Grid->GetNumberOfCells());
+  for (auto cell = unresolved.lower_bound(this->FirstCell); cell != end; ++cell)
   {
-    cells->InsertNextValue(cell);
+    cells->InsertNextValue(*cell - this->FirstCell);
   }
   this->Output->GetFieldData()->AddArray(cells);
 }
 
+/// Adds the rows of one isovalue, sorted by element so that neighbours in memory share one, to those of
+/// their blocks.
+void addRows(const InputBlocks& blocks, const hop::ElementMesh& mesh, const IsovalueParticles& some,
+  std::vector<std::vector<ParticleRow>>& rowsOfBlocks)
+{
+  std::vector<ParticleRow> rows;
+  rows.reserve(some.distribution.particles.size());
+  for (const hop::Particle& particle : some.distribution.particles)
+  {
+    rows.push_back({ &particle, some.isovalue });
+  }
+  std::stable_sort(rows.begin(), rows.end(),
+    [](const ParticleRow& a, const ParticleRow& b)
+    { return a.particle->location.element < b.particle->location.element; });
+  for (const ParticleRow& row : rows)
+  {
+    const auto [block, cell] = blocks.locate(mesh.elements[row.particle->location.element].cell);
+    vtkUnsignedCharArray* ghosts = blocks[block].grid->GetCellGhostArray();
+    if (!ghosts || ghosts->GetValue(cell) == 0)
+    {
+      rowsOfBlocks[block].push_back(row);
+    }
+  }
+}
+
 } // namespace
 
-void packParticles(vtkUnstructuredGrid* grid, const ScalarChoice& scalars,
-  const GridElements& elements, const std::vector<IsovalueParticles>& isovalues,
-  const hop::ParallelFor& parallelFor, vtkPolyData* output)
+void packParticles(const InputBlocks& blocks, const GridElements& elements,
+  const std::vector<IsovalueParticles>& isovalues, const hop::ParallelFor& parallelFor)
 {
-  Packer(grid, scalars, elements, parallelFor, output).pack(isovalues);
+  std::vector<std::vector<ParticleRow>> rows(blocks.size());
+  for (const IsovalueParticles& some : isovalues)
+  {
+    addRows(blocks, elements.mesh, some, rows);
+  }
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+  {
+    Packer(blocks, b, elements, std::move(rows[b]), parallelFor).pack(isovalues);
+  }
 }

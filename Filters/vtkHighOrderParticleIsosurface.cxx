@@ -1,24 +1,28 @@
 #include "vtkHighOrderParticleIsosurface.h"
 
+#include "BlockGroups.h"
 #include "ClassicDistribution.h"
 #include "FastDistribution.h"
+#include "GatherBlocks.h"
 #include "GridElements.h"
 #include "ParticlePacker.h"
+#include "PreviousRun.h"
 #include "Threads.h"
 #include "VtkCompatibility.h"
 
 #include "vtkBoundingBox.h"
+#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCommunicator.h"
 #include "vtkContourValues.h"
 #include "vtkDataArray.h"
 #include "vtkDataObjectTree.h"
-#include "vtkDataObjectTreeIterator.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
@@ -51,6 +55,29 @@ std::int64_t particlesThatFit()
                        : hop::DistributionParameters().particleLimit;
 }
 
+/// What the data say about a run; the properties say the rest.
+RunOrigin originOf(const InputBlocks& blocks)
+{
+  RunOrigin origin;
+  const char* name = blocks[0].scalars->GetName();
+  origin.array = name ? name : "";
+  origin.component = blocks.component();
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+  {
+    // The grid itself is a new copy each time that ParaView's pipeline looks at it.
+    vtkUnstructuredGrid* grid = blocks[b].grid;
+    for (vtkObject* part : { static_cast<vtkObject*>(grid->GetPoints()),
+           static_cast<vtkObject*>(grid->GetCells()), static_cast<vtkObject*>(blocks[b].scalars) })
+    {
+      origin.dataTime =
+        std::max<std::uint64_t>(origin.dataTime, part ? part->GetMTime() : vtkMTimeType(0));
+    }
+    origin.cells += grid->GetNumberOfCells();
+    origin.points += grid->GetNumberOfPoints();
+  }
+  return origin;
+}
+
 /// The spacing at which all but so small a share of the particles would have D h <= 2, evenly spread.
 double resolvingSpacing(const std::vector<hop::Particle>& particles)
 {
@@ -64,29 +91,6 @@ double resolvingSpacing(const std::vector<hop::Particle>& particles)
     (1.0 - warnUndersampledShare) * static_cast<double>(bends.size() - 1));
   std::nth_element(bends.begin(), bends.begin() + rank, bends.end());
   return 2.0 / bends[rank];
-}
-
-/// The leaves of a composite data set that can be processed, with where they belong.
-std::vector<vtkSmartPointer<vtkDataObjectTreeIterator>> gridLeaves(vtkDataObjectTree* tree)
-{
-  std::vector<vtkSmartPointer<vtkDataObjectTreeIterator>> leaves;
-  auto iterator = vtk::TakeSmartPointer(tree->NewTreeIterator());
-  iterator->VisitOnlyLeavesOn();
-  for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
-  {
-    if (vtkUnstructuredGrid::SafeDownCast(iterator->GetCurrentDataObject()))
-    {
-      auto here = vtk::TakeSmartPointer(tree->NewTreeIterator());
-      here->VisitOnlyLeavesOn();
-      here->InitTraversal();
-      while (here->GetCurrentFlatIndex() != iterator->GetCurrentFlatIndex())
-      {
-        here->GoToNextItem();
-      }
-      leaves.push_back(here);
-    }
-  }
-  return leaves;
 }
 
 /// The box around all boxes of all ranks. Every rank has to call it.
@@ -106,22 +110,81 @@ vtkBoundingBox overAllRanks(const vtkBoundingBox& local)
     globalLower[0], globalUpper[0], globalLower[1], globalUpper[1], globalLower[2], globalUpper[2]);
 }
 
-std::string listOfArrays(vtkDataSetAttributes* attributes)
+std::string listOf(const std::vector<std::string>& names)
 {
+  constexpr std::size_t most = 10;
   std::string list;
-  for (int a = 0; a < attributes->GetNumberOfArrays(); ++a)
+  for (std::size_t n = 0; n < std::min(names.size(), most); ++n)
   {
-    const char* name = attributes->GetArrayName(a);
-    list += std::string(list.empty() ? "" : ", ") + (name ? name : "(unnamed)");
+    list += (n == 0 ? "" : ", ") + names[n];
   }
-  return list.empty() ? "none" : list;
+  const std::size_t more = names.size() - std::min(names.size(), most);
+  return names.empty() ? "none" : list + (more > 0 ? " and " + std::to_string(more) + " more" : "");
+}
+
+/// Names of the point arrays of all grids.
+std::vector<std::string> pointArraysOf(const std::vector<InputBlock>& blocks)
+{
+  std::vector<std::string> names;
+  for (const InputBlock& block : blocks)
+  {
+    vtkPointData* data = block.grid->GetPointData();
+    for (int a = 0; a < data->GetNumberOfArrays(); ++a)
+    {
+      const std::string name = data->GetArrayName(a) ? data->GetArrayName(a) : "(unnamed)";
+      if (std::find(names.begin(), names.end(), name) == names.end())
+      {
+        names.push_back(name);
+      }
+    }
+  }
+  return names;
+}
+
+/// Name of the array that was asked for, empty for the active scalars.
+std::string chosenArray(vtkInformation* choice)
+{
+  const char* name = choice->Get(vtkDataObject::FIELD_NAME());
+  return name ? name : "";
+}
+
+/// The blocks with cells that have point scalars of that name and of as many components as the first
+/// of them; names of the rest are added to `others`.
+/// \param name empty for the active scalars, which have to be the same in all
+std::vector<InputBlock> blocksWithScalars(
+  const std::vector<InputBlock>& blocks, std::string name, std::vector<std::string>& others)
+{
+  std::vector<InputBlock> found;
+  for (InputBlock block : blocks)
+  {
+    if (block.grid->GetNumberOfCells() == 0)
+    {
+      continue;
+    }
+    vtkPointData* data = block.grid->GetPointData();
+    block.scalars = name.empty() ? data->GetScalars() : data->GetArray(name.c_str());
+    if (!block.scalars ||
+      (!found.empty() &&
+        block.scalars->GetNumberOfComponents() != found[0].scalars->GetNumberOfComponents()))
+    {
+      others.push_back(block.name);
+      continue;
+    }
+    found.push_back(block);
+    name = block.scalars->GetName() ? block.scalars->GetName() : "";
+  }
+  return found;
 }
 
 } // namespace
 
 vtkStandardNewMacro(vtkHighOrderParticleIsosurface);
 
-vtkHighOrderParticleIsosurface::vtkHighOrderParticleIsosurface() = default;
+vtkHighOrderParticleIsosurface::vtkHighOrderParticleIsosurface()
+  : Previous(std::make_unique<PreviousRun>())
+{
+}
+
 vtkHighOrderParticleIsosurface::~vtkHighOrderParticleIsosurface() = default;
 
 void vtkHighOrderParticleIsosurface::SetValue(int i, double value)
@@ -201,50 +264,45 @@ int vtkHighOrderParticleIsosurface::RequestDataObject(
 int vtkHighOrderParticleIsosurface::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
-  vtkDataObject* output = vtkDataObject::GetData(outputs, 0);
-  std::vector<vtkUnstructuredGrid*> grids;
-  std::vector<vtkSmartPointer<vtkPolyData>> results;
-  if (auto* tree = vtkDataObjectTree::SafeDownCast(input))
-  {
-    auto* outputTree = vtkDataObjectTree::SafeDownCast(output);
-    outputTree->CopyStructure(tree);
-    for (const auto& leaf : gridLeaves(tree))
-    {
-      grids.push_back(vtkUnstructuredGrid::SafeDownCast(leaf->GetCurrentDataObject()));
-      results.push_back(vtkSmartPointer<vtkPolyData>::New());
-      outputTree->SetDataSet(leaf, results.back());
-    }
-  }
-  else
-  {
-    grids.push_back(vtkUnstructuredGrid::SafeDownCast(input));
-    results.emplace_back(vtkPolyData::SafeDownCast(output));
-  }
-
+  const GatheredBlocks gathered =
+    gatherBlocks(vtkDataObject::GetData(inputs[0], 0), vtkDataObject::GetData(outputs, 0));
   // Ranks agree on the scale before any of them may return.
-  const Scale scale = this->FindScale(grids);
-  if (!this->CheckParameters())
+  const Scale scale = this->FindScale(gathered.blocks);
+  if (!this->WarmStart)
+  {
+    this->Previous->forget();
+  }
+  if (!this->CheckParameters() || this->GetNumberOfContours() == 0)
   {
     return 1;
   }
-  const double share = 1.0 / std::max<std::size_t>(1, grids.size());
-  for (std::size_t g = 0; g < grids.size() && !isAborted(this); ++g)
+  const std::vector<InputBlock> blocks =
+    this->CheckInput(gathered) ? this->FindScalars(gathered) : std::vector<InputBlock>{};
+  if (blocks.empty())
   {
-    this->Process(grids[g], scale, static_cast<double>(g) * share, share, results[g]);
+    return 1;
+  }
+  const int components = blocks[0].scalars->GetNumberOfComponents();
+  const int component = components == 1 ? 0
+    : this->Component < components      ? this->Component
+                                        : InputBlocks::Magnitude;
+  const auto groups = groupWithoutSharedCells(blocks);
+  for (std::size_t g = 0; g < groups.size() && !isAborted(this); ++g)
+  {
+    this->Process({ groups[g], component }, scale, g, groups.size());
   }
   return 1;
 }
 
 vtkHighOrderParticleIsosurface::Scale vtkHighOrderParticleIsosurface::FindScale(
-  const std::vector<vtkUnstructuredGrid*>& grids)
+  const std::vector<InputBlock>& blocks)
 {
   vtkBoundingBox box;
-  for (vtkUnstructuredGrid* grid : grids)
+  for (const InputBlock& block : blocks)
   {
     double bounds[6];
-    grid->GetBounds(bounds);
-    if (grid->GetNumberOfPoints() > 0)
+    block.grid->GetBounds(bounds);
+    if (block.grid->GetNumberOfPoints() > 0)
     {
       box.AddBounds(bounds);
     }
@@ -285,52 +343,58 @@ bool vtkHighOrderParticleIsosurface::CheckParameters()
   return true;
 }
 
-/// The array to contour by; nullptr, and an error that says what to do, if there is none.
-vtkDataArray* vtkHighOrderParticleIsosurface::FindScalars(vtkUnstructuredGrid* grid)
+/// Whether the input and the choice of an array make sense, whatever arrays there are.
+bool vtkHighOrderParticleIsosurface::CheckInput(const GatheredBlocks& gathered)
 {
+  if (gathered.blocks.empty() && !gathered.others.empty())
+  {
+    vtkErrorMacro("The input holds no unstructured grid, only " << listOf(gathered.others) << ".");
+    return false;
+  }
   vtkInformation* choice = this->GetInputArrayInformation(0);
-  const char* name = choice->Get(vtkDataObject::FIELD_NAME());
   if (choice->Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_CELLS)
   {
-    vtkErrorMacro("'" << (name ? name : "")
+    vtkErrorMacro("'" << chosenArray(choice)
                       << "' is asked for as a cell array; an isosurface needs a point array. The "
                          "grid's point arrays: "
-                      << listOfArrays(grid->GetPointData()) << ".");
-    return nullptr;
+                      << listOf(pointArraysOf(gathered.blocks)) << ".");
+    return false;
   }
-  vtkDataArray* scalars =
-    name && *name ? grid->GetPointData()->GetArray(name) : grid->GetPointData()->GetScalars();
-  if (!scalars)
-  {
-    const bool isCellArray = name && grid->GetCellData()->HasArray(name);
-    vtkErrorMacro("There is no " << (name && *name ? "point array '" + std::string(name) + "'"
-                                                   : "active point scalar")
-                                 << (isCellArray ? ", only a cell array of that name" : "")
-                                 << "; choose one with ContourBy. The grid's point arrays: "
-                                 << listOfArrays(grid->GetPointData()) << ".");
-  }
-  return scalars;
+  return true;
 }
 
-void vtkHighOrderParticleIsosurface::Process(vtkUnstructuredGrid* grid, const Scale& scale,
-  double progressBegin, double progressShare, vtkPolyData* output)
+/// The blocks that have the array to contour by, with it. An error that says what to do where there is
+/// none, a warning where some take no part.
+std::vector<InputBlock> vtkHighOrderParticleIsosurface::FindScalars(const GatheredBlocks& gathered)
 {
-  const vtkIdType isovalueCount = this->GetNumberOfContours();
-  if (grid->GetNumberOfCells() == 0 || isovalueCount == 0)
+  const std::string name = chosenArray(this->GetInputArrayInformation(0));
+  std::vector<std::string> others = gathered.others;
+  const std::vector<InputBlock> found = blocksWithScalars(gathered.blocks, name, others);
+  const std::string wanted = name.empty() ? "active point scalar" : "point array '" + name + "'";
+  if (found.empty() && !others.empty())
   {
-    return;
+    const auto hasCellArray = [&](const InputBlock& block)
+    { return block.grid->GetCellData()->HasArray(name.c_str()) != 0; };
+    const bool isCellArray =
+      std::any_of(gathered.blocks.begin(), gathered.blocks.end(), hasCellArray);
+    vtkErrorMacro("There is no " << wanted
+                                 << (isCellArray ? ", only a cell array of that name" : "")
+                                 << "; choose one with ContourBy. The grid's point arrays: "
+                                 << listOf(pointArraysOf(gathered.blocks)) << ".");
   }
-  ScalarChoice scalars;
-  scalars.array = this->FindScalars(grid);
-  if (!scalars.array)
+  else if (!others.empty())
   {
-    return;
+    vtkWarningMacro("Without particles are " << listOf(others) << ": no unstructured grid with the "
+                                             << wanted << " of as many components as in "
+                                             << found[0].name << ".");
   }
-  const int components = scalars.array->GetNumberOfComponents();
-  if (components > 1)
-  {
-    scalars.component = this->Component < components ? this->Component : ScalarChoice::Magnitude;
-  }
+  return found;
+}
+
+void vtkHighOrderParticleIsosurface::Process(
+  const InputBlocks& blocks, const Scale& scale, std::size_t group, std::size_t groupCount)
+{
+  const auto isovalueCount = static_cast<std::size_t>(this->GetNumberOfContours());
   const double* values = this->ContourValues->GetValues();
   const hop::ParallelFor parallelFor = smpParallelFor();
   const auto work = [&]()
@@ -338,42 +402,68 @@ void vtkHighOrderParticleIsosurface::Process(vtkUnstructuredGrid* grid, const Sc
     const auto spacing = this->NodeSpacing == UNIFORM ? hop::NodeSpacing::Uniform
                                                       : hop::NodeSpacing::GaussLobattoLegendre;
     const GridElements elements =
-      buildGridElements(grid, scalars, spacing, { values, values + isovalueCount }, parallelFor);
-    const std::string remarks = elements.census.describe();
-    if (!remarks.empty())
-    {
-      vtkWarningMacro("Not every cell is as it should be:" << remarks);
-    }
+      buildGridElements(blocks, spacing, { values, values + isovalueCount }, parallelFor);
+    this->Review(blocks, elements);
     std::vector<IsovalueParticles> particles;
-    for (vtkIdType i = 0; i < isovalueCount && !isAborted(this); ++i)
+    RunOrigin origin = originOf(blocks);
+    origin.nodeSpacing = this->NodeSpacing;
+    origin.parameters.law = { scale.Spacing, this->AngularDensity };
+    origin.parameters.quality = static_cast<hop::Quality>(this->Quality);
+    origin.parameters.seed = static_cast<std::uint64_t>(this->Seed);
+    origin.parameters.particleCount = this->NumberOfParticles;
+    origin.parameters.particleLimit = particlesThatFit();
+    const bool continues = this->WarmStart && this->Method == FAST;
+    for (std::size_t i = 0; i < isovalueCount && !isAborted(this); ++i)
     {
+      const std::size_t number = group * isovalueCount + i;
       hop::Monitor monitor;
       monitor.report = [&](double fraction)
       {
-        this->UpdateProgress(
-          progressBegin + progressShare * (static_cast<double>(i) + fraction) / isovalueCount);
+        this->UpdateProgress((static_cast<double>(number) + fraction) /
+          static_cast<double>(groupCount * isovalueCount));
         return !isAborted(this);
       };
-      hop::DistributionParameters parameters;
-      parameters.law = { scale.Spacing, this->AngularDensity };
-      parameters.quality = static_cast<hop::Quality>(this->Quality);
-      parameters.seed = static_cast<std::uint64_t>(this->Seed);
-      parameters.particleCount = this->NumberOfParticles;
-      parameters.particleLimit = particlesThatFit();
+      origin.isovalue = values[i];
+      hop::DistributionParameters parameters = origin.parameters;
+      if (continues)
+      {
+        parameters.start = this->Previous->startOf(number, origin, elements.mesh);
+      }
       const auto distribute =
         this->Method == CLASSIC ? hop::distributeClassic : hop::distributeFast;
       particles.push_back({ values[i],
         distribute({ &elements.mesh, elements.fieldIsovalue(values[i]), scale.Tolerance },
           parameters, monitor, parallelFor) });
-      this->Review(particles.back().distribution, values[i]);
+      if (continues)
+      {
+        this->Previous->remember(number, origin, elements.mesh, particles.back().distribution);
+      }
+      this->Review(blocks, particles.back().distribution, values[i]);
     }
-    packParticles(grid, scalars, elements, particles, parallelFor, output);
+    packParticles(blocks, elements, particles, parallelFor);
   };
   withThreads(work);
 }
 
+/// Tells the user which cells are not as they should be.
+void vtkHighOrderParticleIsosurface::Review(const InputBlocks& blocks, const GridElements& elements)
+{
+  std::string remarks;
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+  {
+    const std::string some = elements.census[b].describe();
+    const bool isNamed = !some.empty() && !blocks[b].name.empty();
+    remarks += (isNamed ? "\n  in " + blocks[b].name + ":" : "") + some;
+  }
+  if (!remarks.empty())
+  {
+    vtkWarningMacro("Not every cell is as it should be:" << remarks);
+  }
+}
+
 /// Tells the user what a distribution could not do.
-void vtkHighOrderParticleIsosurface::Review(const hop::Distribution& distribution, double isovalue)
+void vtkHighOrderParticleIsosurface::Review(
+  const InputBlocks& blocks, const hop::Distribution& distribution, double isovalue)
 {
   const hop::DistributionReport& report = distribution.report;
   const double count = static_cast<double>(distribution.particles.size());
@@ -391,9 +481,10 @@ void vtkHighOrderParticleIsosurface::Review(const hop::Distribution& distributio
   if (report.boxesUnresolved > 0)
   {
     vtkWarningMacro("Isovalue "
-      << isovalue << ": in " << report.unresolvedCells.size() << " cells (first: cell "
-      << report.unresolvedCells.front() << "; all: field data 'UnresolvedCellIds') "
-      << report.boxesUnresolved << " small parts are not proven to hold at most one sheet of the "
+      << isovalue << ": in " << report.unresolvedCells.size()
+      << " cells (first: " << blocks.describe(report.unresolvedCells.front())
+      << "; all: field data 'UnresolvedCellIds') " << report.boxesUnresolved
+      << " small parts are not proven to hold at most one sheet of the "
       << "surface; what lies between the particles there may be missing. Singular points found on "
       << "the surface: " << report.singularPoints << ".");
   }
@@ -422,6 +513,7 @@ void vtkHighOrderParticleIsosurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Quality: " << this->Quality << "\n";
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "NumberOfParticles: " << this->NumberOfParticles << "\n";
+  os << indent << "WarmStart: " << (this->WarmStart ? "On" : "Off") << "\n";
   os << indent << "ContourValues:\n";
   this->ContourValues->PrintSelf(os, indent.GetNextIndent());
 }

@@ -3,10 +3,15 @@
  * @brief isosurfaces of high-order finite elements as evenly spread, oriented particles
  *
  * Input: vtkUnstructuredGrid (or a composite data set of them) with high-order cells and a
- * point array F, or a component or the magnitude of one. Output: vtkPolyData (or a composite of the input's kind) with one point and one
- * vertex cell a particle. Each particle lies on the isosurface F = c of the elements' true
- * polynomials, not of linear pieces, and particles stand at an even spacing in world space, closer
- * where the surface bends if AngularDensity asks for it.
+ * point array F, or a component or the magnitude of one. Output: vtkPolyData (or a composite of the
+ * input's kind) with one point and one vertex cell a particle. Each particle lies on the isosurface
+ * F = c of the elements' true polynomials, not of linear pieces, and particles stand at an even spacing
+ * in world space, closer where the surface bends if AngularDensity asks for it.
+ *
+ * The blocks of a composite are one mesh: particles of neighbouring blocks see each other, and go to
+ * the block of the cell in which they end. Blocks that have a cell in common, as several results on one
+ * grid do, are kept apart. Blocks that lack F, and data sets that are no unstructured grids, take no
+ * part and are named in one warning.
  *
  * After M. Meyer, B. Nelson, R. M. Kirby, R. Whitaker, "Particle Systems for Efficient and Accurate
  * High-Order Finite Element Visualization", IEEE TVCG 13(5), 2007.
@@ -19,8 +24,9 @@
  *
  * Point data of the output: `Normals` (unit, towards lower values, as Contour orients them),
  * `Radius` (the particle's own spacing, world units), `Mean_Curvature` (with respect to Normals;
- * 1/r on a sphere with high values inside), `Gauss_Curvature`, `Residual` (|F - c|/|grad F|, world
- * units), `Clip_Normal` and `Clip_Distance` (from method FAST: unit normals and distances, in world
+ * 1/r on a sphere with high values inside), `Gauss_Curvature`, `Shape_Operator` (the derivative of Normals
+ * along the surface, a symmetric tensor: xx, yy, zz, xy, yz, xz; 1 / world units), `Residual` (|F - c|/|grad F|,
+ * world units), `Clip_Normal` and `Clip_Distance` (from method FAST: unit normals and distances, in world
  * units, of up to two planes near the particle at which the surface ends or turns sharply: rims, or faces
  * between elements; splats are to be cut there; normal zero: none), `Jump` (on rims where the field jumps from
  * element to element: F - c on the other side; else 0), `Isovalue`, `vtkOriginalCellIds`, `ParametricCoordinates` (of VTK's cell), and every
@@ -34,9 +40,11 @@
  * at most one sheet of the surface), `SingularPoints` (near those, where the gradient vanishes on the
  * surface: cones, isolated points, crossings),
  * `ParticlesRejected` and `ParticlesUndersampled` (curvature times spacing above 2), one value each; and
- * `UnresolvedCellIds`, the cells of those parts.
+ * `UnresolvedCellIds`, the cells of those parts. In a composite, cells are those of the block, and all
+ * other figures those of the whole mesh.
  *
- * The same input and Seed give the same output, bit for bit, for any number of threads.
+ * The same input and Seed give the same output, bit for bit, for any number of threads; where a run
+ * before is continued (WarmStart), the same runs do.
  */
 #ifndef vtkHighOrderParticleIsosurface_h
 #define vtkHighOrderParticleIsosurface_h
@@ -45,11 +53,15 @@
 #include "vtkNew.h"                            // for the isovalues
 #include "vtkPolyDataAlgorithm.h"
 
+#include <memory> // for the run before
 #include <vector> // for the blocks of the input
 
+class InputBlocks;
+class PreviousRun;
 class vtkContourValues;
-class vtkDataArray;
-class vtkUnstructuredGrid;
+struct GatheredBlocks;
+struct GridElements;
+struct InputBlock;
 
 namespace hop
 {
@@ -77,8 +89,7 @@ public:
   ///@{
   /**
    * Distance of neighbouring particles where the surface is flat, world units. Values <= 0 stand
-   * for 1/100 of the longest side of the input's bounds, without a warning: ParaView's default is
-   * negative where the input was not yet read. Default 0.
+   * for 1/100 of the longest side of the input's bounds. Default 0.
    */
   vtkSetMacro(Spacing, double);
   vtkGetMacro(Spacing, double);
@@ -170,11 +181,23 @@ public:
 
   ///@{
   /**
-   * If positive, the number of particles for each isovalue and block; the spacing then follows.
+   * If positive, the number of particles for each isovalue, over all blocks; the spacing then follows.
    * 0 lets Spacing decide. Default 0.
    */
   vtkSetClampMacro(NumberOfParticles, vtkIdType, 0, VTK_ID_MAX);
   vtkGetMacro(NumberOfParticles, vtkIdType);
+  ///@}
+
+  ///@{
+  /**
+   * Whether particles of the last run go on where only an isovalue or the data changed, from one time
+   * step to the next or while an isovalue is moved: they stay where they can, and what they miss is
+   * added, so that the surface is found and covered as from scratch. Off: the output depends on the
+   * input and the properties only, not on runs before. With method FAST. Default on.
+   */
+  vtkSetMacro(WarmStart, bool);
+  vtkGetMacro(WarmStart, bool);
+  vtkBooleanMacro(WarmStart, bool);
   ///@}
 
   /**
@@ -205,12 +228,14 @@ private:
     double Spacing = 0.0;
     double Tolerance = 0.0;
   };
-  Scale FindScale(const std::vector<vtkUnstructuredGrid*>& grids);
+  Scale FindScale(const std::vector<InputBlock>& blocks);
   bool CheckParameters();
-  vtkDataArray* FindScalars(vtkUnstructuredGrid* grid);
-  void Process(vtkUnstructuredGrid* grid, const Scale& scale, double progressBegin,
-    double progressShare, vtkPolyData* output);
-  void Review(const hop::Distribution& distribution, double isovalue);
+  bool CheckInput(const GatheredBlocks& gathered);
+  std::vector<InputBlock> FindScalars(const GatheredBlocks& gathered);
+  void Process(
+    const InputBlocks& blocks, const Scale& scale, std::size_t group, std::size_t groupCount);
+  void Review(const InputBlocks& blocks, const GridElements& elements);
+  void Review(const InputBlocks& blocks, const hop::Distribution& distribution, double isovalue);
 
   vtkNew<vtkContourValues> ContourValues;
   double Spacing = 0.0;
@@ -222,6 +247,8 @@ private:
   int Quality = STANDARD;
   int Seed = 1;
   vtkIdType NumberOfParticles = 0;
+  bool WarmStart = true;
+  std::unique_ptr<PreviousRun> Previous;
 };
 
 #endif

@@ -5,6 +5,29 @@
 
 namespace hop
 {
+namespace
+{
+
+/// Indices of items sorted by a number below `count`, stably.
+template <class Item, class NumberOf>
+std::vector<int> sortedBy(
+  const std::vector<Item>& items, std::size_t count, const NumberOf& numberOf)
+{
+  std::vector<int> next(count + 1, 0);
+  for (const Item& item : items)
+  {
+    ++next[numberOf(item) + 1];
+  }
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<int> order(items.size());
+  for (std::size_t i = 0; i < items.size(); ++i)
+  {
+    order[next[numberOf(items[i])]++] = static_cast<int>(i);
+  }
+  return order;
+}
+
+} // namespace
 
 bool anchorPatch(
   const Location& place, const Jet& jet, double isovalue, Anchor& anchor, Patch& patch)
@@ -31,18 +54,12 @@ bool anchorPatch(
 
 std::vector<int> orderByElement(const std::vector<Location>& places, std::size_t elementCount)
 {
-  std::vector<int> next(elementCount + 1, 0);
-  for (const Location& place : places)
-  {
-    ++next[place.element + 1];
-  }
-  std::partial_sum(next.begin(), next.end(), next.begin());
-  std::vector<int> order(places.size());
-  for (std::size_t i = 0; i < places.size(); ++i)
-  {
-    order[next[places[i].element]++] = static_cast<int>(i);
-  }
-  return order;
+  return sortedBy(places, elementCount, [](const Location& place) { return place.element; });
+}
+
+std::vector<int> orderByElement(const std::vector<Anchor>& anchors, std::size_t elementCount)
+{
+  return sortedBy(anchors, elementCount, [](const Anchor& anchor) { return anchor.place.element; });
 }
 
 } // namespace hop

@@ -70,11 +70,12 @@ class ClassicSystem
 public:
   ClassicSystem(const Isosurface& surface, const DistributionParameters& parameters,
     const Monitor& monitor, const ParallelFor& parallelFor)
-    : Surface(surface)
+    : Locator(*surface.mesh, surface.isovalue, parallelFor)
+    , Surface(located(surface, this->Locator))
     , Parameters(parameters)
     , Progress(monitor)
     , Parallel(parallelFor)
-    , Moving(whileMoving(surface, parameters.law))
+    , Moving(whileMoving(this->Surface, parameters.law))
     , Walker(this->Moving)
     , Dice(parameters.seed)
     , Law(parameters.law)
@@ -108,11 +109,13 @@ private:
   int chooseLevels(double extent);
   bool tooMany(int levels);
   Distribution finish();
+  static Isosurface located(Isosurface surface, const FaceLocator& locator);
   static Isosurface whileMoving(const Isosurface& surface, const SpacingLaw& law);
   bool settle(const Mover& mover, SurfaceWalker& walker, Particle& particle) const;
   bool proceed() { return this->Report.aborted ? false : this->askMonitor(); }
   bool askMonitor();
 
+  FaceLocator Locator;
   Isosurface Surface;
   DistributionParameters Parameters;
   const Monitor& Progress;
@@ -167,7 +170,7 @@ bool ClassicSystem::place(
     return false;
   }
   mover.normal = surfaceNormal(mover.at.point.gradient);
-  mover.ideal = idealEnergyOnBoundary(boundaryFaceCount(*this->Surface.mesh, mover.at.location));
+  mover.ideal = idealEnergyOnBoundary(walker.endCount(mover.at.location));
   mover.curvature = 0.0;
   if (this->Law.angularDensity > 0.0)
   {
@@ -635,6 +638,12 @@ Distribution ClassicSystem::run()
   return this->finish();
 }
 
+Isosurface ClassicSystem::located(Isosurface surface, const FaceLocator& locator)
+{
+  surface.locator = &locator;
+  return surface;
+}
+
 Isosurface ClassicSystem::whileMoving(const Isosurface& surface, const SpacingLaw& law)
 {
   Isosurface moving = surface;
@@ -683,7 +692,8 @@ Distribution ClassicSystem::finish()
     }
   }
   this->Report.particlesRejected += static_cast<std::int64_t>(count - result.particles.size());
-  this->Report.evaluations += std::accumulate(cost.begin(), cost.end(), this->Walker.evaluations());
+  this->Report.evaluations += std::accumulate(
+    cost.begin(), cost.end(), this->Walker.evaluations() + this->Locator.evaluations());
   this->Report.particlesUndersampled =
     std::count_if(result.particles.begin(), result.particles.end(),
       [](const Particle& p) { return p.curvature.magnitude * p.spacing > 2.0; });

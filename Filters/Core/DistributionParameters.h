@@ -1,8 +1,10 @@
 #pragma once
 
+#include "ElementMesh.h"
 #include "Energy.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace hop
 {
@@ -28,6 +30,9 @@ struct DistributionParameters
   std::uint64_t seed = 1;
   /// 0: as many particles as the spacing asks for. Otherwise this many, and the spacing follows.
   std::int64_t particleCount = 0;
+  /// Places to start from, in the mesh at hand, where a run before left its particles on a surface nearby.
+  /// What they miss is seeded as ever. Fast only.
+  std::vector<Location> start;
   /// A request that would need more particles than this is refused before it is begun.
   std::int64_t particleLimit = 100'000'000;
 };

@@ -63,130 +63,187 @@ std::vector<std::size_t> boxRanges(const std::vector<SurfaceBox>& boxes, std::si
   return first;
 }
 
-} // namespace
-
-double valueBehind(const Isosurface& surface, const Location& location, int face)
+class JumpFinder
 {
-  const ElementMesh& mesh = *surface.mesh;
-  if (mesh.neighbor(location.element, face).element < 0)
+public:
+  JumpFinder(const Isosurface& surface, const SurfaceProxy& proxy)
+    : Surface(surface)
+    , Mesh(*surface.mesh)
+    , Proxy(proxy)
+    , Everywhere(this->Mesh.elements.size() * MaximumFaces, 0.0f)
+    , OfElement(this->Mesh.elements.size())
+    , FirstBox(boxRanges(proxy.boxes(), this->Mesh.elements.size()))
   {
-    return 0.0;
   }
-  const Location behind = crossFace(mesh, location, face);
-  return evaluateGradient(mesh.form(behind.element), behind.u).value.w - surface.isovalue;
+
+  FaceJumps run(const ParallelFor& parallelFor);
+
+private:
+  /// What was seen at a face, and the face on its other side.
+  struct Finding
+  {
+    std::size_t here = 0;
+    std::size_t there = 0;
+    /// Infinite where the sides agree.
+    float gap = std::numeric_limits<float>::infinity();
+    bool turns = false;
+  };
+
+  /// One walker stays on the face as if the surface ended there, the other passes it.
+  struct Walkers
+  {
+    SurfaceWalker along;
+    SurfaceWalker across;
+  };
+
+  std::optional<Finding> look(const FaceCrossing& crossing, double spacing, Walkers& walkers) const;
+  void lookAtElement(int element, Walkers& walkers);
+  bool mayBeOpen(int element, int face) const;
+
+  Isosurface Surface;
+  const ElementMesh& Mesh;
+  const SurfaceProxy& Proxy;
+  /// Gaps by which the surface may end at all faces.
+  std::vector<float> Everywhere;
+  std::vector<std::vector<Finding>> OfElement;
+  std::vector<std::size_t> FirstBox;
+};
+
+/// What the surface does at the place of a crossing; nothing where it does not reach the face, or nothing
+/// lies behind.
+std::optional<JumpFinder::Finding> JumpFinder::look(
+  const FaceCrossing& crossing, double spacing, Walkers& walkers) const
+{
+  const int element = crossing.location.element;
+  const Face& face = facts(this->Mesh.elements[element].domain).faces[crossing.face];
+  Evaluated here;
+  if (!walkers.along.project(crossing.location, 4.0 * spacing, here, true) ||
+    faceMargin(face, here.location.u) > OnFace)
+  {
+    return std::nullopt;
+  }
+  const auto behind = walkers.across.behind(here.location, crossing.face);
+  if (!behind)
+  {
+    return std::nullopt;
+  }
+  const FieldPoint& there = behind->at.point;
+  const double slope = length(there.gradient);
+  Finding finding{ slotOf(element, crossing.face),
+    slotOf(behind->at.location.element, behind->face) };
+  if (!(std::abs(there.value) <= LargestJumpPerSpacing * spacing * slope))
+  {
+    finding.gap = static_cast<float>(LargestJumpPerSpacing * spacing);
+  }
+  else
+  {
+    finding.turns =
+      dot(here.point.gradient, there.gradient) < KinkCosine * slope * length(here.point.gradient);
+  }
+  return finding;
 }
 
-FaceJumps findFaceJumps(
-  const Isosurface& surface, const SurfaceProxy& proxy, const ParallelFor& parallelFor)
+/// Whether there may be something behind a face that the mesh does not join.
+bool JumpFinder::mayBeOpen(int element, int face) const
 {
-  const ElementMesh& mesh = *surface.mesh;
-  FaceJumps result;
-  result.cuts.assign(mesh.elements.size() * MaximumFaces, 0);
-  result.kinks = result.cuts;
+  return this->Mesh.neighbor(element, face).element < 0 && this->Surface.locator &&
+    this->Surface.locator->mayGoOn(element, face);
+}
 
-  // As if the surface ended at all inner faces, so that Newton's method stays on them.
-  const std::vector<char> everywhere(result.cuts.size(), 1);
-  Isosurface walled = surface;
-  walled.cuts = &everywhere;
-  // Jumps and kinks are large beside this.
-  walled.tolerance = std::max(surface.tolerance, 0.02 * proxy.smallestSpacing());
-  enum Finding : char
+/// A few looks at a face are enough to see a kink: at the first, second, fourth ... box. Jumps are looked
+/// for at all of them, but one is enough.
+void JumpFinder::lookAtElement(int element, Walkers& walkers)
+{
+  std::array<bool, MaximumFaces> jumps{};
+  std::array<bool, MaximumFaces> open{};
+  std::array<bool, MaximumFaces> wanted{};
+  std::array<unsigned, MaximumFaces> boxesSeen{};
+  const auto faceCount = static_cast<int>(facts(this->Mesh.elements[element].domain).faces.size());
+  for (int f = 0; f < faceCount; ++f)
   {
-    Agrees,
-    Jumps,
-    Turns
-  };
-  struct Found
+    const int behind = this->Mesh.neighbor(element, f).element;
+    jumps[f] = behind >= 0 && mayJump(this->Mesh, element, f);
+    open[f] = this->mayBeOpen(element, f);
+    wanted[f] = jumps[f] || open[f] || element < behind;
+  }
+  for (std::size_t b = this->FirstBox[element]; b < this->FirstBox[element + 1]; ++b)
   {
-    int face;
-    Finding finding;
-  };
-  const std::vector<std::size_t> firstBox = boxRanges(proxy.boxes(), mesh.elements.size());
-  std::vector<std::vector<Found>> ofElement(mesh.elements.size());
-  std::atomic<std::int64_t> evaluations{ 0 };
-  const auto check = [&](const FaceCrossing& crossing, double spacing, SurfaceWalker& walker)
-  {
-    Evaluated here;
-    const Location& start = crossing.location;
-    const Face& face = facts(mesh.elements[start.element].domain).faces[crossing.face];
-    if (!walker.project(start, 4.0 * spacing, here, true) ||
-      faceMargin(face, here.location.u) > OnFace)
-    {
-      return Agrees;
-    }
-    const Evaluated there = walker.evaluate(crossFace(mesh, here.location, crossing.face));
-    const double slope = length(there.point.gradient);
-    if (!(std::abs(there.point.value) <= LargestJumpPerSpacing * spacing * slope))
-    {
-      return Jumps;
-    }
-    return dot(here.point.gradient, there.point.gradient) <
-        KinkCosine * slope * length(here.point.gradient)
-      ? Turns
-      : Agrees;
-  };
-  const auto checkElement = [&](int element, SurfaceWalker& walker)
-  {
-    // A few looks are enough to see a kink: at the first, second, fourth ... box. Jumps are looked for at
-    // all of them.
-    std::array<bool, MaximumFaces> jumps{};
-    std::array<bool, MaximumFaces> wanted{};
-    std::array<unsigned, MaximumFaces> boxesSeen{};
-    const auto faceCount = static_cast<int>(facts(mesh.elements[element].domain).faces.size());
-    for (int f = 0; f < faceCount; ++f)
-    {
-      const int behind = mesh.neighbor(element, f).element;
-      jumps[f] = behind >= 0 && mayJump(mesh, element, f);
-      wanted[f] = jumps[f] || element < behind;
-    }
-    for (std::size_t b = firstBox[element]; b < firstBox[element + 1]; ++b)
-    {
-      std::array<bool, MaximumFaces> seen{};
-      visitFaceCrossings(
-        mesh, proxy.boxes()[b], [&](int face) { return wanted[face] && proxy.samples()[b].found; },
-        [&](const FaceCrossing& crossing)
+    const SurfaceProxy::Sample& sample = this->Proxy.samples()[b];
+    std::array<bool, MaximumFaces> seen{};
+    visitFaceCrossings(
+      this->Mesh, this->Proxy.boxes()[b],
+      [&](int face) { return wanted[face] && sample.found && !seen[face]; },
+      [&](const FaceCrossing& crossing)
+      {
+        const int face = crossing.face;
+        if (seen[face])
         {
-          if (!seen[crossing.face])
-          {
-            seen[crossing.face] = true;
-            const unsigned before = boxesSeen[crossing.face]++;
-            if (!jumps[crossing.face] && (before & (before + 1)) != 0)
-            {
-              return;
-            }
-            const Finding finding = check(crossing, proxy.samples()[b].patch.spacing, walker);
-            ofElement[element].push_back({ crossing.face, finding });
-            // One jump is enough to cut a face.
-            wanted[crossing.face] = finding != Jumps;
-          }
-        });
-    }
-  };
-  runParallel(parallelFor, static_cast<std::ptrdiff_t>(ofElement.size()),
+          return;
+        }
+        seen[face] = true;
+        const double spacing = sample.patch.spacing;
+        if (open[face])
+        {
+          const std::size_t slot = slotOf(element, face);
+          this->OfElement[element].push_back(
+            { slot, slot, static_cast<float>(LargestJumpPerSpacing * spacing) });
+        }
+        const unsigned before = boxesSeen[face]++;
+        if (!jumps[face] && (before & (before + 1)) != 0)
+        {
+          return;
+        }
+        if (const auto finding = this->look(crossing, spacing, walkers))
+        {
+          this->OfElement[element].push_back(*finding);
+          wanted[face] = open[face] || !std::isfinite(finding->gap);
+        }
+      });
+  }
+}
+
+FaceJumps JumpFinder::run(const ParallelFor& parallelFor)
+{
+  Isosurface walled = this->Surface;
+  walled.gaps = &this->Everywhere;
+  walled.walled = true;
+  // Jumps and kinks are large beside this.
+  walled.tolerance = std::max(this->Surface.tolerance, 0.02 * this->Proxy.smallestSpacing());
+  std::atomic<std::int64_t> evaluations{ 0 };
+  runParallel(parallelFor, static_cast<std::ptrdiff_t>(this->OfElement.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
-      SurfaceWalker walker(walled);
+      Walkers walkers{ SurfaceWalker(walled), SurfaceWalker(this->Surface) };
       for (std::ptrdiff_t e = begin; e < end; ++e)
       {
-        checkElement(static_cast<int>(e), walker);
+        this->lookAtElement(static_cast<int>(e), walkers);
       }
-      evaluations += walker.evaluations();
+      evaluations += walkers.along.evaluations() + walkers.across.evaluations();
     });
-  for (std::size_t e = 0; e < ofElement.size(); ++e)
+  FaceJumps result;
+  result.gaps.assign(this->Everywhere.size(), std::numeric_limits<float>::infinity());
+  result.kinks.assign(this->Everywhere.size(), 0);
+  for (const std::vector<Finding>& findings : this->OfElement)
   {
-    for (const Found& found : ofElement[e])
+    for (const Finding& finding : findings)
     {
-      if (found.finding != Agrees)
+      for (const std::size_t slot : { finding.here, finding.there })
       {
-        std::vector<char>& marks = found.finding == Jumps ? result.cuts : result.kinks;
-        const FaceNeighbor& neighbor = mesh.neighbor(static_cast<int>(e), found.face);
-        marks[slotOf(static_cast<int>(e), found.face)] = 1;
-        marks[slotOf(neighbor.element, neighbor.face)] = 1;
+        result.gaps[slot] = std::min(result.gaps[slot], finding.gap);
+        result.kinks[slot] = result.kinks[slot] || finding.turns;
       }
     }
   }
   result.evaluations = evaluations;
   return result;
+}
+
+} // namespace
+
+FaceJumps findFaceJumps(
+  const Isosurface& surface, const SurfaceProxy& proxy, const ParallelFor& parallelFor)
+{
+  return JumpFinder(surface, proxy).run(parallelFor);
 }
 
 } // namespace hop

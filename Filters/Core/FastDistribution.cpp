@@ -1,18 +1,21 @@
 #include "FastDistribution.h"
 
 #include "ClipPlanes.h"
-#include "FaceJumps.h"
 #include "Interruptible.h"
+#include "KeepMarked.h"
+#include "KinkSpacings.h"
+#include "MovingParticles.h"
+#include "ParticleFinish.h"
+#include "PatchDistances.h"
 #include "Random.h"
 #include "RimCurves.h"
-#include "SpacingGrid.h"
 #include "SurfaceProxy.h"
 #include "UnresolvedBoxes.h"
 
 #include <atomic>
 #include <cmath>
 #include <functional>
-#include <numeric>
+#include <iterator>
 
 namespace hop
 {
@@ -27,20 +30,22 @@ constexpr double tetrahedronPerSpacing = 9.0;
 /// Spacing of the first look, in units of the mesh's diagonal. Where more is asked for, the number of
 /// particles cannot get out of hand.
 constexpr double coarseSpacingPerExtent = 0.001;
-/// A step of relaxation is taken back by half while it ends farther from the surface than this, in
-/// units of the spacing, or on a sheet that is turned away.
-constexpr float largestOffset = 0.5f;
-constexpr float smallestTurn = 0.3f;
-constexpr int maximumHalvings = 3;
 /// Seeds nearer to a rim's particle than this, in units of their spacing, are dropped: half the
 /// distance of two rows of hexagonal packing. Those that a round of relaxation squeezed against the rim
 /// are dropped after it.
 constexpr double seedToRim = 0.433;
 constexpr double squeezed = 0.6;
-/// A patch runs through a box if it passes its sample nearer than this, in units of its spacing.
-constexpr float coverOffset = 0.1f;
+/// Pairs nearer than this, in units of their spacing, are defects of the packing. Particles within some
+/// spacings of them are relaxed further.
+constexpr double smallestSpacing = 0.82;
+constexpr double repairReach = 3.0;
+constexpr int repairRounds = 2;
+constexpr int repairSweeps = 8;
+/// A particle of a run before has arrived if it is nearer to the surface than this, in units of its
+/// spacing.
+constexpr float arrivedOffset = 0.1f;
 
-std::vector<int> sweepsOfRounds(Quality quality)
+std::vector<int> sweepsOfRounds(Quality quality, bool isWarm)
 {
   switch (quality)
   {
@@ -49,7 +54,8 @@ std::vector<int> sweepsOfRounds(Quality quality)
     case Quality::High:
       return { 5, 8, 8, 10 };
     default:
-      return { 5, 9 };
+      // Where particles of a run before crowd or thin out there is more to do.
+      return isWarm ? std::vector<int>{ 8, 14 } : std::vector<int>{ 7, 13 };
   }
 }
 
@@ -64,7 +70,9 @@ public:
     , Law(parameters.law)
     , Work(monitor, parallelFor)
     , Parallel([this](std::ptrdiff_t count, const auto& body) { this->Work(count, body); })
+    , Locator(this->Mesh, surface.isovalue, parallelFor)
   {
+    this->Surface.locator = &this->Locator;
   }
 
   Distribution run();
@@ -79,30 +87,20 @@ private:
   SurfaceProxy proxyAt(double spacing);
   bool tooMany(double count);
   bool estimateCount();
+  void lookAtSurface();
   void makeProxy();
   void matchCount();
   void makeExactly(std::int64_t count);
-  void findJumps();
   void makeRims();
-  std::vector<char> farFromRims(double nearest);
-  std::vector<char> standApart(double nearest);
   void dropNearRims(double nearest);
+  void startMoving();
   void makeSeeds(std::int64_t count);
+  void continueFrom(const std::vector<Location>& places);
   bool countIsGiven() const { return this->Parameters.particleCount > 0; }
-  void putNearSurface();
   void coverBoxes();
-  bool isCovered(const SurfaceProxy::Sample& sample, const SpacingGrid& grid) const;
-  void relax(int sweeps);
-  void commit(const std::vector<glm::vec2>& displacements);
-  Location target(std::size_t i, const glm::dvec3& step, std::int64_t& cost) const;
-  glm::dvec3 stepTo(std::size_t i, const glm::vec2& displacement) const;
-  std::vector<Location> targets(const std::vector<glm::vec2>& displacements);
-  bool retry(
-    std::size_t i, glm::dvec3 step, Anchor& anchor, Patch& patch, std::int64_t& cost) const;
-  bool accepts(const Patch& before, const Anchor& anchor, const Patch& after) const;
-  bool settle(const Location& place, const Jet& jet, Patch& patch, Particle& particle) const;
-  void finishPass(
-    std::vector<int>& pending, std::vector<Particle>& particles, std::vector<char>& settled);
+  void relax(MovingParticles& moving, int sweeps, const Balance& balance);
+  void relaxAll(int sweeps, bool isLast);
+  void repair();
   void finish();
 
   Isosurface Surface;
@@ -111,37 +109,15 @@ private:
   SpacingLaw Law;
   Interruptible Work;
   ParallelFor Parallel;
+  FaceLocator Locator;
   std::unique_ptr<SurfaceProxy> Proxy;
-  std::vector<Anchor> Anchors;
-  /// Those of the particles that move, then those on rims.
-  std::vector<Patch> Patches;
+  FaceJumps Jumps;
   RimCurves Rims;
   std::vector<Patch> RimPatches;
-  FaceJumps Jumps;
+  std::unique_ptr<MovingParticles> Moving;
   std::atomic<std::int64_t> Evaluations{ 0 };
   Distribution Result;
 };
-
-/// World vector of a displacement on a patch.
-glm::dvec3 worldStep(const Patch& patch, const glm::vec2& t)
-{
-  const auto tangents = tangentsOf(patch.normal);
-  return glm::dvec3(t.x * tangents[0] + t.y * tangents[1] - patch.sink(t) * patch.normal);
-}
-
-template <class T>
-void keep(std::vector<T>& items, const std::vector<char>& kept)
-{
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < items.size(); ++i)
-  {
-    if (kept[i])
-    {
-      items[next++] = items[i];
-    }
-  }
-  items.resize(next);
-}
 
 SurfaceProxy FastSystem::proxyAt(double spacing)
 {
@@ -200,9 +176,24 @@ bool FastSystem::estimateCount()
   return ratio <= 1.0 || !this->tooMany(this->proxyAt(coarse).particleCount() * ratio * ratio);
 }
 
+/// Makes the proxy. From then on the surface ends where its two sides miss each other, and particles are
+/// to stand closer where it turns.
+void FastSystem::lookAtSurface()
+{
+  this->Surface.gaps = nullptr;
+  this->Proxy = std::make_unique<SurfaceProxy>(this->proxyAt(this->Law.spacing));
+  this->Jumps = findFaceJumps(this->Surface, *this->Proxy, this->Parallel);
+  std::int64_t cost = this->Jumps.evaluations;
+  this->Proxy->limitSpacings(
+    findKinkSpacings(this->Surface, *this->Proxy, this->Jumps, this->Parallel, cost),
+    this->Parallel);
+  this->Evaluations += cost;
+  this->Surface.gaps = &this->Jumps.gaps;
+}
+
 void FastSystem::makeProxy()
 {
-  this->Proxy = std::make_unique<SurfaceProxy>(this->proxyAt(this->Law.spacing));
+  this->lookAtSurface();
   this->matchCount();
   reportUnresolved(this->Surface, this->Proxy->boxes(), this->Result.report);
 }
@@ -221,23 +212,43 @@ void FastSystem::matchCount()
       return;
     }
     this->Law.spacing *= std::sqrt(ratio);
-    this->Proxy = std::make_unique<SurfaceProxy>(this->proxyAt(this->Law.spacing));
+    this->lookAtSurface();
   }
 }
 
-/// Draws that many first places.
+/// Draws that many first places, or as many of them as lie in boxes that the places to start from leave
+/// alone.
 void FastSystem::makeSeeds(std::int64_t count)
 {
-  const std::vector<Location> seeds =
-    this->Proxy->seeds(count, Random(this->Parameters.seed).uniform(), this->Parallel);
-  this->Anchors.resize(seeds.size());
-  for (std::size_t i = 0; i < seeds.size(); ++i)
+  this->startMoving();
+  const double phase = Random(this->Parameters.seed).uniform();
+  if (this->Parameters.start.empty())
   {
-    this->Anchors[i].place = seeds[i];
+    this->Moving->add(this->Proxy->seeds(count, phase, this->Parallel));
   }
-  this->putNearSurface();
+  else
+  {
+    this->continueFrom(this->Parameters.start);
+    const std::vector<char> lonely =
+      findLonely(this->Proxy->samples(), this->Moving->patches(), this->Parallel);
+    this->Moving->add(this->Proxy->seeds(count, phase, this->Parallel, lonely));
+    this->Moving->keep(
+      standApart(this->Moving->patches(), this->Moving->count(), squeezed, this->Parallel));
+  }
   this->dropNearRims(seedToRim);
   this->coverBoxes();
+}
+
+/// Takes particles from places near the surface to it; those that do not arrive are dropped.
+void FastSystem::continueFrom(const std::vector<Location>& places)
+{
+  this->Moving->add(places);
+  std::vector<char> arrived(this->Moving->count());
+  std::transform(this->Moving->anchors().begin(), this->Moving->anchors().end(),
+    this->Moving->patches().begin(), arrived.begin(),
+    [](const Anchor& anchor, const Patch& patch)
+    { return std::abs(anchor.offset) <= arrivedOffset * patch.spacing; });
+  this->Moving->keep(arrived);
 }
 
 /// The first places of a given number of particles: more are drawn until those that rims push aside are
@@ -245,64 +256,39 @@ void FastSystem::makeSeeds(std::int64_t count)
 void FastSystem::makeExactly(std::int64_t count)
 {
   constexpr int tries = 8;
+  const auto missing = [&]() { return count - static_cast<std::int64_t>(this->Moving->size()); };
+  this->makeSeeds(count);
   std::int64_t drawn = count;
-  for (int n = 0; n < tries; ++n)
+  for (int n = 1; n < tries && missing() > 0; ++n)
   {
-    this->makeSeeds(drawn);
-    const auto missing = count - static_cast<std::int64_t>(this->Patches.size());
-    if (missing <= 0)
+    drawn += missing();
+    if (this->Parameters.start.empty())
     {
-      break;
+      this->makeSeeds(drawn);
     }
-    drawn += missing;
+    else
+    {
+      this->Moving->add(this->Proxy->seeds(missing(), 0.5, this->Parallel));
+      this->dropNearRims(seedToRim);
+    }
   }
-  const auto moving = static_cast<std::int64_t>(this->Anchors.size());
+  const auto moving = static_cast<std::int64_t>(this->Moving->count());
   const auto surplus =
-    std::clamp<std::int64_t>(static_cast<std::int64_t>(this->Patches.size()) - count, 0, moving);
-  std::vector<char> kept(this->Patches.size(), 1);
+    std::clamp<std::int64_t>(static_cast<std::int64_t>(this->Moving->size()) - count, 0, moving);
+  std::vector<char> kept(moving, 1);
   for (std::int64_t n = 0; n < surplus; ++n)
   {
     kept[n * moving / surplus] = 0;
   }
-  keep(this->Patches, kept);
-  kept.resize(moving);
-  keep(this->Anchors, kept);
+  this->Moving->keep(kept);
 }
 
-/// One Newton step for each seed, then its first patch.
-void FastSystem::putNearSurface()
+/// No particles yet but those on rims.
+void FastSystem::startMoving()
 {
-  this->Patches.assign(this->Anchors.size(), Patch());
-  std::vector<Location> places;
-  for (const Anchor& anchor : this->Anchors)
-  {
-    places.push_back(anchor.place);
-  }
-  const std::vector<int> order = orderByElement(places, this->Mesh.elements.size());
-  std::vector<char> found(places.size(), 0);
-  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(places.size()),
-    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-    {
-      evaluateInOrder(this->Mesh, places, order, begin, end,
-        [&](int i, const Jet& jet)
-        {
-          Patch& patch = this->Patches[i];
-          found[i] = anchorPatch(places[i], jet, this->Surface.isovalue, this->Anchors[i], patch);
-          patch.spacing = static_cast<float>(this->Law.spacing);
-        });
-      this->Evaluations += end - begin;
-    });
-  keep(this->Anchors, found);
-  keep(this->Patches, found);
-  this->commit(std::vector<glm::vec2>(this->Anchors.size(), glm::vec2(0.0f)));
-}
-
-/// From here on the surface ends where its two sides miss each other.
-void FastSystem::findJumps()
-{
-  this->Jumps = findFaceJumps(this->Surface, *this->Proxy, this->Parallel);
-  this->Evaluations += this->Jumps.evaluations;
-  this->Surface.cuts = &this->Jumps.cuts;
+  this->Evaluations += this->Moving ? this->Moving->evaluations() : 0;
+  this->Moving = std::make_unique<MovingParticles>(
+    this->Surface, *this->Proxy, this->RimPatches, this->Parallel);
 }
 
 void FastSystem::makeRims()
@@ -315,393 +301,152 @@ void FastSystem::makeRims()
   }
 }
 
-/// For each particle that moves, whether it keeps that distance, in units of its spacing, from all
-/// particles on rims.
-std::vector<char> FastSystem::farFromRims(double nearest)
-{
-  std::vector<char> far(this->Anchors.size(), 1);
-  const std::vector<glm::dvec3> positions = positionsOf(this->RimPatches);
-  const std::vector<float> spacings = spacingsOf(this->RimPatches);
-  const SpacingGrid grid(positions, spacings, nearest, 0.5, this->Parallel);
-  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(far.size()),
-    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-    {
-      for (std::ptrdiff_t i = begin; i < end; ++i)
-      {
-        const Patch& patch = this->Patches[i];
-        grid.visit(patch.position, patch.spacing,
-          [&](int j)
-          {
-            const Patch& rim = this->RimPatches[j];
-            const bool near =
-              glm::distance(patch.position, rim.position) < nearest * patch.spacing &&
-              glm::dot(patch.normal, rim.normal) > 0.0f;
-            far[i] = far[i] && !near;
-          });
-      }
-    });
-  return far;
-}
-
-/// For each particle that moves, whether to keep it if any two are to be that far apart, in units of their
-/// spacings: the first of two stays, and those on rims do.
-std::vector<char> FastSystem::standApart(double nearest)
-{
-  const std::vector<glm::dvec3> positions = positionsOf(this->Patches);
-  const std::vector<float> spacings = spacingsOf(this->Patches);
-  const SpacingGrid grid(positions, spacings, nearest, 0.5, this->Parallel);
-  const auto visitNear = [&](std::size_t i, const auto& use)
-  {
-    grid.visit(positions[i], spacings[i],
-      [&](int j)
-      {
-        if (static_cast<std::size_t>(j) != i &&
-          glm::distance(positions[i], positions[j]) <
-            nearest * std::min(spacings[i], spacings[j]) &&
-          glm::dot(this->Patches[i].normal, this->Patches[j].normal) > 0.0f)
-        {
-          use(j);
-        }
-      });
-  };
-  std::vector<char> kept(this->Patches.size(), 1);
-  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(this->Anchors.size()),
-    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-    {
-      for (std::ptrdiff_t i = begin; i < end; ++i)
-      {
-        visitNear(i, [&](int) { kept[i] = 0; });
-      }
-    });
-  // The few that have a neighbour too near, one by one.
-  for (std::size_t i = 0; i < this->Anchors.size(); ++i)
-  {
-    if (!kept[i])
-    {
-      bool alone = true;
-      visitNear(i, [&](int j) { alone = alone && !kept[j]; });
-      kept[i] = alone;
-    }
-  }
-  kept.resize(this->Anchors.size());
-  return kept;
-}
-
 /// Particles on rims are there first: others too near to one are dropped.
 void FastSystem::dropNearRims(double nearest)
 {
-  this->Patches.resize(this->Anchors.size());
-  const std::vector<char> far = this->farFromRims(nearest);
-  keep(this->Anchors, far);
-  keep(this->Patches, far);
-  this->Patches.insert(this->Patches.end(), this->RimPatches.begin(), this->RimPatches.end());
+  this->Moving->keep(keepDistance(
+    this->Moving->patches(), this->Moving->count(), this->RimPatches, nearest, this->Parallel));
 }
 
-/// Where a step in world space takes particle i: in its own element by its own map, else by walking.
-Location FastSystem::target(std::size_t i, const glm::dvec3& step, std::int64_t& cost) const
+/// Sweeps, what they tell about the number of particles, and one evaluation each.
+void FastSystem::relax(MovingParticles& moving, int sweeps, const Balance& balance)
 {
-  const Anchor& anchor = this->Anchors[i];
-  const glm::dvec3 u = anchor.place.u.xyz + glm::dmat3(anchor.pull) * step;
-  if (insideMargin(this->Mesh.elements[anchor.place.element].domain, { u }) >= 0.0)
+  Relaxed relaxed = relaxOnPatches(moving.patches(), sweeps, balance, this->Parallel);
+  std::vector<glm::vec2>& displacements = relaxed.displacements;
+  std::vector<Anchor> anchors;
+  std::vector<Patch> patches;
+  for (const Split& split : relaxed.splits)
   {
-    return { anchor.place.element, { u } };
+    anchors.push_back(moving.anchors()[split.particle]);
+    patches.push_back(moving.patches()[split.particle]);
   }
-  SurfaceWalker walker(this->Surface);
-  Evaluated start{ anchor.place, {} };
-  LocalMap& map = start.point.map;
-  map.position = { this->Patches[i].position -
-    static_cast<double>(anchor.offset) * glm::dvec3(this->Patches[i].normal) };
-  map.inverse = glm::dmat3(anchor.pull);
-  map.jacobian = glm::inverse(map.inverse);
-  // Onto a wall only particles on rims may go.
-  Location reached = walker.move(start, { step });
-  const auto onWall = [&]() { return boundaryFaceCount(this->Surface, reached) > 0; };
-  if (onWall())
+  displacements.resize(moving.count());
+  keepMarked(displacements, relaxed.kept);
+  moving.keep(relaxed.kept);
+  moving.add(anchors, patches);
+  std::transform(relaxed.splits.begin(), relaxed.splits.end(), std::back_inserter(displacements),
+    [](const Split& split) { return split.displacement; });
+  moving.commit(displacements);
+  this->Result.report.iterations += sweeps;
+}
+
+/// One round. Where a number is not given, so many are added or removed everywhere before the last round that
+/// their number is as wanted; the last one mends single defects.
+void FastSystem::relaxAll(int sweeps, bool isLast)
+{
+  Balance balance;
+  balance.extent = this->countIsGiven() ? Balance::None
+    : isLast                            ? Balance::Defects
+                                        : Balance::Everywhere;
+  if (this->Law.angularDensity == 0.0)
   {
-    reached = walker.move(start, { 0.5 * step });
+    // Particles on rims stand for half as much area as others.
+    balance.missing = this->Proxy->particleCount() - static_cast<double>(this->Moving->count()) -
+      0.5 * static_cast<double>(this->RimPatches.size());
   }
-  cost += walker.evaluations();
-  return onWall() ? anchor.place : reached;
-}
-
-bool FastSystem::accepts(const Patch& before, const Anchor& anchor, const Patch& after) const
-{
-  return std::abs(anchor.offset) <= largestOffset * before.spacing &&
-    glm::dot(before.normal, after.normal) > smallestTurn &&
-    glm::distance(before.position, after.position) <= 2.0 * before.spacing;
-}
-
-/// World vector from where particle i was evaluated to a displacement on its patch.
-glm::dvec3 FastSystem::stepTo(std::size_t i, const glm::vec2& displacement) const
-{
-  const Patch& patch = this->Patches[i];
-  return worldStep(patch, displacement) +
-    static_cast<double>(this->Anchors[i].offset) * glm::dvec3(patch.normal);
-}
-
-std::vector<Location> FastSystem::targets(const std::vector<glm::vec2>& displacements)
-{
-  std::vector<Location> places(this->Anchors.size());
-  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(places.size()),
-    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-    {
-      std::int64_t cost = 0;
-      for (std::ptrdiff_t i = begin; i < end; ++i)
-      {
-        places[i] = this->target(i, this->stepTo(i, displacements[i]), cost);
-      }
-      this->Evaluations += cost;
-    });
-  return places;
-}
-
-/// Half the step, a quarter of it, ...
-bool FastSystem::retry(
-  std::size_t i, glm::dvec3 step, Anchor& anchor, Patch& patch, std::int64_t& cost) const
-{
-  for (int n = 0; n < maximumHalvings; ++n)
-  {
-    step *= 0.5;
-    const Location place = this->target(i, step, cost);
-    const Jet jet = evaluateHessian(this->Mesh.form(place.element), place.u);
-    ++cost;
-    if (anchorPatch(place, jet, this->Surface.isovalue, anchor, patch) &&
-      this->accepts(this->Patches[i], anchor, patch))
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-/// Takes particles to where relaxation wants them, and to the surface; one evaluation each gives them
-/// new patches there. Afterwards they are sorted by element.
-void FastSystem::commit(const std::vector<glm::vec2>& displacements)
-{
-  const std::size_t count = this->Anchors.size();
-  const std::vector<Location> places = this->targets(displacements);
-  const std::vector<int> order = orderByElement(places, this->Mesh.elements.size());
-  std::vector<int> rank(count);
-  for (std::size_t n = 0; n < count; ++n)
-  {
-    rank[order[n]] = static_cast<int>(n);
-  }
-  std::vector<Anchor> anchors(count);
-  std::vector<Patch> patches(count);
-  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(count),
-    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-    {
-      std::int64_t cost = end - begin;
-      evaluateInOrder(this->Mesh, places, order, begin, end,
-        [&](int i, const Jet& jet)
-        {
-          Anchor& anchor = anchors[rank[i]];
-          Patch& patch = patches[rank[i]];
-          const Patch& before = this->Patches[i];
-          const bool moved = (anchorPatch(places[i], jet, this->Surface.isovalue, anchor, patch) &&
-                               this->accepts(before, anchor, patch)) ||
-            this->retry(i, this->stepTo(i, displacements[i]), anchor, patch, cost);
-          if (!moved)
-          {
-            anchor = this->Anchors[i];
-            patch = before;
-          }
-          patch.spacing =
-            this->Proxy->spacingAt(patch.position, patch.curvatureMagnitude(), before.spacing);
-        });
-      this->Evaluations += cost;
-    });
-  this->Anchors = std::move(anchors);
-  std::copy(patches.begin(), patches.end(), this->Patches.begin());
-}
-
-/// One round. Particles for which there turns out to be no room are dropped.
-void FastSystem::relax(int sweeps)
-{
-  Relaxed relaxed = relaxOnPatches(this->Patches, sweeps, this->Parallel);
-  std::vector<char> kept(this->Patches.size());
-  std::transform(relaxed.surplus.begin(), relaxed.surplus.end(), kept.begin(),
-    [this](char surplus) { return !surplus || this->countIsGiven(); });
-  keep(relaxed.displacements, kept);
-  keep(this->Patches, kept);
-  kept.resize(this->Anchors.size());
-  keep(this->Anchors, kept);
-  this->commit(relaxed.displacements);
+  this->relax(*this->Moving, sweeps, balance);
   if (!this->countIsGiven())
   {
     this->dropNearRims(squeezed);
   }
-  this->Result.report.iterations += sweeps;
 }
 
-/// Whether a particle stands on the piece of surface around a sample.
-bool FastSystem::isCovered(const SurfaceProxy::Sample& sample, const SpacingGrid& grid) const
+/// Particles around pairs that stand too near to each other go on alone, those farther off stay.
+void FastSystem::repair()
 {
-  bool covered = false;
-  grid.visit(sample.patch.position, sample.patch.spacing,
-    [&](int j)
+  const std::vector<Patch>& patches = this->Moving->patches();
+  const std::size_t count = this->Moving->count();
+  std::vector<char> apart = haveDistance(patches, count, smallestSpacing, this->Parallel);
+  std::vector<Patch> tooNear = patches;
+  tooNear.resize(count);
+  std::transform(apart.begin(), apart.end(), apart.begin(), std::logical_not<>());
+  keepMarked(tooNear, apart);
+  if (tooNear.empty())
+  {
+    return;
+  }
+  std::vector<char> staying = keepDistance(patches, count, tooNear, repairReach, this->Parallel);
+  std::vector<char> outOfSight =
+    keepDistance(patches, patches.size(), tooNear, 2.0 * repairReach, this->Parallel);
+  std::vector<Anchor> anchors = this->Moving->anchors();
+  std::vector<Patch> moved = patches;
+  std::vector<Patch> around;
+  moved.resize(count);
+  for (std::size_t i = 0; i < patches.size(); ++i)
+  {
+    if (!outOfSight[i] && (i >= count || staying[i]))
     {
-      const Patch& patch = this->Patches[j];
-      const glm::vec3 d(sample.patch.position - patch.position);
-      const float distance = glm::length(d);
-      if (covered || distance > patch.spacing ||
-        glm::dot(patch.normal, sample.patch.normal) <= 0.0f)
-      {
-        return;
-      }
-      const auto tangents = tangentsOf(patch.normal);
-      const glm::vec2 t(glm::dot(d, tangents[0]), glm::dot(d, tangents[1]));
-      const float bend = patch.curvatureMagnitude() * distance;
-      covered = std::abs(glm::dot(d, patch.normal) + patch.sink(t)) <=
-        (coverOffset + bend * bend) * patch.spacing;
-    });
-  return covered;
+      around.push_back(patches[i]);
+      around.back().fixed = true;
+    }
+  }
+  std::vector<char> moving(count);
+  std::transform(staying.begin(), staying.end(), moving.begin(), std::logical_not<>());
+  keepMarked(anchors, moving);
+  keepMarked(moved, moving);
+  MovingParticles part(this->Surface, *this->Proxy, std::move(around), this->Parallel);
+  part.add(anchors, moved);
+  for (int n = 0; n < repairRounds; ++n)
+  {
+    Balance balance;
+    balance.extent = this->countIsGiven() ? Balance::None : Balance::Defects;
+    this->relax(part, repairSweeps, balance);
+  }
+  moved = part.patches();
+  moved.resize(part.count());
+  this->Moving->keep(staying);
+  this->Moving->add(part.anchors(), moved);
+  this->Evaluations += part.evaluations();
 }
 
+/// Boxes on whose piece of surface no particle stands get one. Those added cover others in turn.
 void FastSystem::coverBoxes()
 {
-  const std::vector<glm::dvec3> positions = positionsOf(this->Patches);
-  const std::vector<float> spacings = spacingsOf(this->Patches);
   const auto& samples = this->Proxy->samples();
-  std::vector<char> lonely(samples.size(), 0);
-  {
-    const SpacingGrid grid(positions, spacings, 1.0, 0.5, this->Parallel);
-    runParallel(this->Parallel, static_cast<std::ptrdiff_t>(samples.size()),
-      [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-      {
-        for (std::ptrdiff_t b = begin; b < end; ++b)
-        {
-          lonely[b] = samples[b].found && !this->isCovered(samples[b], grid);
-        }
-      });
-  }
-  // Those added cover others in turn.
-  std::vector<Patch> added;
+  const std::vector<char> lonely = findLonely(samples, this->Moving->patches(), this->Parallel);
+  std::vector<Anchor> anchors;
+  std::vector<Patch> patches;
   for (std::size_t b = 0; b < samples.size(); ++b)
   {
-    if (!lonely[b])
+    const auto covers = [&sample = samples[b].patch](const Patch& patch)
     {
-      continue;
-    }
-    const auto covers = [&](const Patch& patch)
-    {
-      return glm::distance(patch.position, samples[b].patch.position) <= 0.7 * patch.spacing &&
-        glm::dot(patch.normal, samples[b].patch.normal) > 0.0f;
+      return glm::distance(patch.position, sample.position) <= 0.7 * patch.spacing &&
+        glm::dot(patch.normal, sample.normal) > 0.0f;
     };
-    if (std::none_of(added.begin(), added.end(), covers))
+    if (lonely[b] && std::none_of(patches.begin(), patches.end(), covers))
     {
-      added.push_back(samples[b].patch);
-      this->Anchors.push_back(samples[b].anchor);
+      anchors.push_back(samples[b].anchor);
+      patches.push_back(samples[b].patch);
     }
   }
-  const auto rims = static_cast<std::ptrdiff_t>(this->Rims.particles.size());
-  this->Patches.insert(this->Patches.end() - rims, added.begin(), added.end());
+  this->Moving->add(anchors, patches);
 }
 
-/// What there is to say about a particle, if it lies on the surface to the tolerance.
-bool FastSystem::settle(
-  const Location& place, const Jet& jet, Patch& patch, Particle& particle) const
-{
-  const FieldPoint point = fieldPoint(jet, this->Surface.isovalue);
-  const double slope = length(point.gradient);
-  const double residual = std::abs(point.value) / slope;
-  if (point.map.singular || !(residual <= this->Surface.tolerance) || !isNearInReference(point))
-  {
-    return false;
-  }
-  particle = { place, point.map.position, surfaceNormal(point.gradient),
-    curvature(point.gradient, worldHessian(jet, point)), residual,
-    this->Law.angularDensity == 0.0 ? this->Law.spacing : patch.spacing, {}, 0.0 };
-  patch.position = particle.position.xyz;
-  return true;
-}
-
-/// Evaluates the pending particles where Newton's method takes them. Those on the surface to the
-/// tolerance are finished, the others stay pending.
-void FastSystem::finishPass(
-  std::vector<int>& pending, std::vector<Particle>& particles, std::vector<char>& settled)
-{
-  std::vector<Location> places(pending.size());
-  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(pending.size()),
-    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-    {
-      std::int64_t cost = 0;
-      for (std::ptrdiff_t n = begin; n < end; ++n)
-      {
-        places[n] = this->target(pending[n], this->stepTo(pending[n], glm::vec2(0.0f)), cost);
-      }
-      this->Evaluations += cost;
-    });
-  const std::vector<int> order = orderByElement(places, this->Mesh.elements.size());
-  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(pending.size()),
-    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-    {
-      evaluateInOrder(this->Mesh, places, order, begin, end,
-        [&](int n, const Jet& jet)
-        {
-          const int i = pending[n];
-          Patch& patch = this->Patches[i];
-          settled[i] = this->settle(places[n], jet, patch, particles[i]);
-          Anchor anchor;
-          Patch there = patch;
-          if (!settled[i] && anchorPatch(places[n], jet, this->Surface.isovalue, anchor, there) &&
-            this->accepts(patch, anchor, there))
-          {
-            this->Anchors[i] = anchor;
-            patch = there;
-          }
-        });
-      this->Evaluations += end - begin;
-    });
-  pending.erase(std::remove_if(pending.begin(), pending.end(), [&](int i) { return settled[i]; }),
-    pending.end());
-}
-
-/// Newton's method to the tolerance: a few steps for all that need them at once, then one by one.
+/// Takes all particles to the tolerance and says what there is to say about them.
 void FastSystem::finish()
 {
-  constexpr int passes = 3;
-  const std::size_t count = this->Anchors.size();
-  std::vector<Particle> particles(count);
-  std::vector<char> settled(count, 0);
-  std::vector<int> pending(count);
-  std::iota(pending.begin(), pending.end(), 0);
-  for (int pass = 0; pass < passes; ++pass)
-  {
-    this->finishPass(pending, particles, settled);
-  }
-  SurfaceWalker walker(this->Surface);
-  for (const int i : pending)
-  {
-    Evaluated at;
-    const float spacing = this->Patches[i].spacing;
-    if (walker.project(this->Anchors[i].place, spacing, at))
-    {
-      const Jet jet = evaluateHessian(this->Mesh.form(at.location.element), at.location.u);
-      ++this->Evaluations;
-      settled[i] = this->settle(at.location, jet, this->Patches[i], particles[i]);
-    }
-  }
-  this->Evaluations += walker.evaluations();
-  const std::ptrdiff_t lost = std::count(settled.begin(), settled.end(), 0);
+  FinishedParticles finished = finishParticles(*this->Moving, this->Law, this->Parallel);
+  this->Evaluations += finished.evaluations;
+  DistributionReport& report = this->Result.report;
+  std::vector<char>& kept = finished.settled;
+  report.particlesRejected += std::count(kept.begin(), kept.end(), 0);
   if (!this->countIsGiven())
   {
-    const std::vector<char> apart = this->standApart(squeezed);
-    std::transform(
-      settled.begin(), settled.end(), apart.begin(), settled.begin(), std::logical_and<>());
+    const std::vector<char> apart =
+      standApart(this->Moving->patches(), this->Moving->count(), squeezed, this->Parallel);
+    std::transform(kept.begin(), kept.end(), apart.begin(), kept.begin(), std::logical_and<>());
   }
-  keep(particles, settled);
-  DistributionReport& report = this->Result.report;
-  report.particlesRejected += lost;
+  std::vector<Particle>& particles = this->Result.particles;
+  particles = std::move(finished.particles);
+  keepMarked(particles, kept);
   this->Evaluations +=
-    markClipPlanes(this->Mesh, this->Jumps, this->Rims.particles, particles, this->Parallel);
+    markClipPlanes(this->Surface, this->Jumps, this->Rims.particles, particles, this->Parallel);
   for (const RimParticle& rim : this->Rims.particles)
   {
     particles.push_back(rim.particle);
   }
   report.particlesUndersampled = std::count_if(particles.begin(), particles.end(),
     [](const Particle& p) { return p.curvature.magnitude * p.spacing > 2.0; });
-  this->Result.particles = std::move(particles);
 }
 
 Distribution FastSystem::run()
@@ -721,7 +466,6 @@ Distribution FastSystem::run()
     const double wanted = this->Proxy->particleCount();
     if (wanted > 0.0 && !this->tooMany(wanted))
     {
-      this->findJumps();
       this->makeRims();
       this->reach(0.35);
       if (this->countIsGiven())
@@ -733,12 +477,14 @@ Distribution FastSystem::run()
         this->makeSeeds(std::llround(wanted));
       }
       this->reach(0.45);
-      const std::vector<int> rounds = sweepsOfRounds(this->Parameters.quality);
+      const std::vector<int> rounds =
+        sweepsOfRounds(this->Parameters.quality, !this->Parameters.start.empty());
       for (std::size_t n = 0; n < rounds.size(); ++n)
       {
-        this->relax(rounds[n]);
+        this->relaxAll(rounds[n], n + 1 == rounds.size());
         this->reach(0.45 + 0.45 * static_cast<double>(n + 1) / static_cast<double>(rounds.size()));
       }
+      this->repair();
       this->finish();
     }
   }
@@ -747,7 +493,8 @@ Distribution FastSystem::run()
     this->Result.particles.clear();
     this->Result.report.aborted = true;
   }
-  this->Result.report.evaluations = this->Evaluations;
+  this->Result.report.evaluations = this->Evaluations +
+    (this->Moving ? this->Moving->evaluations() : 0) + this->Locator.evaluations();
   return this->Result;
 }
 

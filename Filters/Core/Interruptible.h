@@ -3,6 +3,7 @@
 #include "Monitor.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 
 namespace hop
@@ -13,9 +14,8 @@ struct Interrupted
 {
 };
 
-/// A ParallelFor that asks a monitor between pieces of the work, about ten times a second, and throws
-/// Interrupted where it should stop. The pieces grow until each takes its share of time, so that short
-/// loops run undivided.
+/// A ParallelFor that asks a monitor some twenty times a second, and throws Interrupted where it should
+/// stop. Threads take chunks of the work as they come, until all is done or it is time to ask.
 class Interruptible
 {
 public:
@@ -33,21 +33,30 @@ public:
     std::ptrdiff_t count, const std::function<void(std::ptrdiff_t, std::ptrdiff_t)>& body)
   {
     using Clock = std::chrono::steady_clock;
-    constexpr std::chrono::milliseconds longEnough{ 20 };
     constexpr std::chrono::milliseconds period{ 50 };
-    std::ptrdiff_t piece = 1024;
-    for (std::ptrdiff_t begin = 0; begin < count;)
+    // Chunks enough for many threads to finish together, each short beside the period.
+    constexpr std::ptrdiff_t chunkCount = 64;
+    constexpr std::ptrdiff_t largestChunk = 4096;
+    const std::ptrdiff_t chunk = std::clamp<std::ptrdiff_t>(count / chunkCount, 1, largestChunk);
+    std::atomic<std::ptrdiff_t> next{ 0 };
+    while (next < count)
     {
-      const std::ptrdiff_t end = std::min(count, begin + piece);
-      const auto start = Clock::now();
-      runParallel(this->Parallel, end - begin,
-        [&](std::ptrdiff_t first, std::ptrdiff_t last) { body(begin + first, begin + last); });
-      const auto now = Clock::now();
-      piece *= now - start < longEnough ? 4 : 1;
-      begin = end;
-      if (now - this->LastAsked > period)
+      const auto pause = Clock::now() + period;
+      runParallel(this->Parallel, std::min(count, chunkCount),
+        [&](std::ptrdiff_t, std::ptrdiff_t)
+        {
+          while (next < count && Clock::now() < pause)
+          {
+            const std::ptrdiff_t begin = next.fetch_add(chunk);
+            if (begin < count)
+            {
+              body(begin, std::min(count, begin + chunk));
+            }
+          }
+        });
+      if (Clock::now() - this->LastAsked > period)
       {
-        this->LastAsked = now;
+        this->LastAsked = Clock::now();
         this->ask();
       }
     }

@@ -1,8 +1,13 @@
 #include "PatchRelaxation.h"
 
+#include "Buffer.h"
 #include "Energy.h"
 #include "InstructionSet.h"
+#include "Phases.h"
+#include "Population.h"
 #include "SpacingGrid.h"
+
+#include <glm/integer.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,10 +23,9 @@ using kernel::SweepLanes;
 
 /// Two particles interact up to h/beta; what they move in a round is added to that.
 constexpr double listSlack = 0.35;
-/// Energy, in units of that of hexagonal packing, from which on a particle is one too many.
-constexpr double crowdedEnergy = 2.5;
-/// Blocks that one thread moves before another has started.
-constexpr std::ptrdiff_t fewBlocks = 64;
+/// Blocks that a thread moves at a time, and those that are moved before others may interrupt.
+constexpr std::ptrdiff_t blocksPerPiece = 8;
+constexpr std::ptrdiff_t mostBlocksAtOnce = 200'000;
 /// Over-relaxation of Newton's steps where the surface is flat, and where it bends.
 constexpr float flatRelaxation = 1.5f;
 constexpr float bentRelaxation = 0.7f;
@@ -30,35 +34,40 @@ constexpr float flatUpTo = 0.3f;
 constexpr float farthestPerSpacing = 0.5f;
 constexpr float farthestPerRadius = 0.5f;
 
-/// Gives each particle that moves the lowest colour that none of those it sees has yet; -1 for fixed.
+/// The lowest colour that none of those a particle sees has; some 20 are in use, as a rule.
+int lowestFreeColor(const std::vector<int>& colors, const int* begin, const int* end)
+{
+  constexpr int colorsAtOnce = 64;
+  for (int base = 0;; base += colorsAtOnce)
+  {
+    std::uint64_t taken = 0;
+    for (const int* j = begin; j != end; ++j)
+    {
+      const auto color = static_cast<unsigned>(colors[*j] - base);
+      taken |= color < colorsAtOnce ? std::uint64_t{ 1 } << color : 0;
+    }
+    if (~taken != 0)
+    {
+      return base + glm::findLSB(~taken);
+    }
+  }
+}
+
+/// Gives each particle that moves the lowest colour that none of those it sees has yet.
 /// \return lists of particles by colour
 std::vector<std::vector<int>> colorParticles(
   const std::vector<Patch>& patches, const SeenLists& lists)
 {
   std::vector<std::vector<int>> byColor;
   std::vector<int> colors(patches.size(), -1);
-  std::vector<int> takenBy;
   for (std::size_t i = 0; i < patches.size(); ++i)
   {
     if (patches[i].fixed)
     {
       continue;
     }
-    for (const int* j = lists.begin(i); j != lists.end(i); ++j)
-    {
-      if (colors[*j] >= 0)
-      {
-        takenBy[colors[*j]] = static_cast<int>(i);
-      }
-    }
-    const auto free = std::find_if(
-      takenBy.begin(), takenBy.end(), [i](int taker) { return taker != static_cast<int>(i); });
-    colors[i] = static_cast<int>(free - takenBy.begin());
-    if (free == takenBy.end())
-    {
-      takenBy.push_back(-1);
-      byColor.emplace_back();
-    }
+    colors[i] = lowestFreeColor(colors, lists.begin(i), lists.end(i));
+    byColor.resize(std::max<std::size_t>(byColor.size(), colors[i] + 1));
     byColor[colors[i]].push_back(static_cast<int>(i));
   }
   return byColor;
@@ -75,56 +84,86 @@ public:
         (1.0 + listSlack * HexagonalDistance) / HexagonalDistance, parallelFor)
   {
     this->makeSeen();
-    const auto byColor = colorParticles(patches, this->Lists);
-    for (const auto& particles : byColor)
-    {
-      this->layOut(particles);
-    }
-    this->fillBlocks(byColor);
+    this->layOut();
+    this->fillBlocks();
   }
 
-  void sweep()
+  /// Every particle moves that many times, colour by colour.
+  void sweep(int times)
   {
-    const auto sweepBlocks = kernel::current().sweep;
-    for (std::size_t color = 0; color + 1 < this->ColorStart.size(); ++color)
+    const int colors = static_cast<int>(this->ColorStart.size()) - 1;
+    for (int first = 0; first < times * colors;)
     {
-      const std::ptrdiff_t first = this->ColorStart[color];
-      const std::ptrdiff_t count = this->ColorStart[color + 1] - first;
-      const auto sweepRange = [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+      std::ptrdiff_t blocks = 0;
+      int last = first;
+      for (; last < times * colors && blocks <= mostBlocksAtOnce; ++last)
       {
-        sweepBlocks(this->Blocks.data() + first + begin, end - begin, this->Neighbors.data(),
-          this->SeenParticles.data());
-      };
-      // The last colours have few particles: not worth waking threads for.
-      if (count < fewBlocks)
-      {
-        sweepRange(0, count);
+        blocks += this->blockCount(last % colors);
       }
-      else
-      {
-        runParallel(this->Parallel, count, sweepRange);
-      }
+      this->moveColors(first, last);
+      first = last;
     }
   }
 
-  Relaxed result() const;
+  Relaxed result(const Balance& balance) const;
 
 private:
   void makeSeen();
-  void layOut(const std::vector<int>& particles);
-  void fillBlocks(const std::vector<std::vector<int>>& byColor);
-  void fillLane(SweepBlock& block, int lane, int particle) const;
+  void sortByNeighbors(std::vector<int>& particles) const;
+  void layOut();
+  void fillBlocks();
+  void fillNeighbors(const SweepBlock& block);
+  void fillLane(SweepBlock& block, int lane) const;
+  std::ptrdiff_t blockCount(int color) const
+  {
+    return this->ColorStart[color + 1] - this->ColorStart[color];
+  }
+  void moveColors(int first, int last);
+  template <class Work>
+  void forAll(std::size_t count, const Work& work) const
+  {
+    runParallel(this->Parallel, static_cast<std::ptrdiff_t>(count),
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+      {
+        for (std::ptrdiff_t i = begin; i < end; ++i)
+        {
+          work(static_cast<std::size_t>(i));
+        }
+      });
+  }
 
   const std::vector<Patch>& Patches;
   const ParallelFor& Parallel;
   SeenLists Lists;
   glm::dvec3 Center{ 0.0 };
   /// One a particle, and one beyond the sight of all that stands in for neighbours missing in a block.
-  std::vector<Seen> SeenParticles;
-  std::vector<SweepBlock> Blocks;
+  Buffer<Seen> SeenParticles;
+  Buffer<SweepBlock> Blocks;
   std::vector<std::ptrdiff_t> ColorStart{ 0 };
-  std::vector<std::int32_t> Neighbors;
+  Buffer<std::int32_t> Neighbors;
 };
+
+/// Colours first to last - 1, in the endless sequence of all colours.
+void SweepSystem::moveColors(int first, int last)
+{
+  const int colors = static_cast<int>(this->ColorStart.size()) - 1;
+  const auto sweepBlocks = kernel::current().sweep;
+  runPhases(
+    this->Parallel, last - first,
+    [&](int phase)
+    {
+      const std::ptrdiff_t blocks = this->blockCount((first + phase) % colors);
+      return (blocks + blocksPerPiece - 1) / blocksPerPiece;
+    },
+    [&](int phase, std::ptrdiff_t piece)
+    {
+      const int color = (first + phase) % colors;
+      const std::ptrdiff_t begin = this->ColorStart[color] + piece * blocksPerPiece;
+      const std::ptrdiff_t end = std::min(begin + blocksPerPiece, this->ColorStart[color + 1]);
+      sweepBlocks(this->Blocks.data() + begin, end - begin, this->Neighbors.data(),
+        this->SeenParticles.data());
+    });
+}
 
 void SweepSystem::makeSeen()
 {
@@ -136,84 +175,113 @@ void SweepSystem::makeSeen()
     upper = glm::max(upper, patch.position);
   }
   this->Center = 0.5 * (lower + upper);
-  this->SeenParticles.reserve(this->Patches.size() + 1);
-  for (const Patch& patch : this->Patches)
-  {
-    const glm::vec3 x(patch.position - this->Center);
-    this->SeenParticles.push_back({ { x.x, x.y, x.z }, 1.0f / patch.spacing,
-      { patch.normal.x, patch.normal.y, patch.normal.z }, 0.0f });
-  }
-  Seen beyond = this->SeenParticles.front();
+  this->SeenParticles = Buffer<Seen>(this->Patches.size() + 1);
+  this->forAll(this->Patches.size(),
+    [&](std::size_t i)
+    {
+      const Patch& patch = this->Patches[i];
+      const glm::vec3 x(patch.position - this->Center);
+      this->SeenParticles[i] = { { x.x, x.y, x.z }, 1.0f / patch.spacing,
+        { patch.normal.x, patch.normal.y, patch.normal.z }, 0.0f };
+    });
+  Seen& beyond = this->SeenParticles[this->Patches.size()];
+  beyond = this->SeenParticles[0];
   beyond.position[0] =
     static_cast<float>(4.0 * glm::distance(lower, upper)) + 100.0f / beyond.inverseSpacing;
-  this->SeenParticles.push_back(beyond);
 }
 
-/// Appends the blocks of a colour, empty but for the sizes of their lists.
-void SweepSystem::layOut(const std::vector<int>& particles)
+/// Sorts particles by the number of their neighbours, a few blocks at a time: lists of a block are filled up
+/// to the longest.
+void SweepSystem::sortByNeighbors(std::vector<int>& particles) const
 {
-  for (std::size_t first = 0; first < particles.size(); first += SweepLanes)
+  constexpr std::size_t window = 16 * SweepLanes;
+  for (std::size_t first = 0; first < particles.size(); first += window)
   {
-    SweepBlock block{};
-    block.count =
-      static_cast<std::int32_t>(std::min<std::size_t>(SweepLanes, particles.size() - first));
-    for (int lane = 0; lane < block.count; ++lane)
-    {
-      block.neighborCount =
-        std::max(block.neighborCount, this->Lists.count(particles[first + lane]));
-    }
-    block.firstNeighbor = this->Blocks.empty()
-      ? 0
-      : this->Blocks.back().firstNeighbor + this->Blocks.back().neighborCount * SweepLanes;
-    this->Blocks.push_back(block);
-  }
-  this->ColorStart.push_back(static_cast<std::ptrdiff_t>(this->Blocks.size()));
-}
-
-void SweepSystem::fillBlocks(const std::vector<std::vector<int>>& byColor)
-{
-  if (this->Blocks.empty())
-  {
-    return;
-  }
-  const auto beyond = static_cast<std::int32_t>(this->Patches.size());
-  this->Neighbors.resize(
-    this->Blocks.back().firstNeighbor + this->Blocks.back().neighborCount * SweepLanes);
-  const auto fill = [&](const std::vector<int>& particles, SweepBlock& block, std::size_t first)
-  {
-    std::int32_t* neighbors = this->Neighbors.data() + block.firstNeighbor;
-    std::fill_n(neighbors, block.neighborCount * SweepLanes, beyond);
-    for (int lane = 0; lane < SweepLanes; ++lane)
-    {
-      const int particle = particles[first + std::min(lane, block.count - 1)];
-      this->fillLane(block, lane, particle);
-      std::int32_t* neighbor = neighbors + lane;
-      for (const int* j = this->Lists.begin(particle); j != this->Lists.end(particle); ++j)
+    const std::size_t last = std::min(particles.size(), first + window);
+    std::sort(particles.begin() + first, particles.begin() + last,
+      [this](int a, int b)
       {
-        *neighbor = *j;
-        neighbor += SweepLanes;
-      }
-    }
-  };
-  for (std::size_t color = 0; color < byColor.size(); ++color)
-  {
-    const std::ptrdiff_t start = this->ColorStart[color];
-    runParallel(this->Parallel, this->ColorStart[color + 1] - start,
-      [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-      {
-        for (std::ptrdiff_t b = begin; b < end; ++b)
-        {
-          fill(byColor[color], this->Blocks[start + b], b * SweepLanes);
-        }
+        const int countA = this->Lists.count(a);
+        const int countB = this->Lists.count(b);
+        return countA != countB ? countA < countB : a < b;
       });
   }
 }
 
-Relaxed SweepSystem::result() const
+/// Makes the blocks of each colour, with their particles and room for their lists.
+void SweepSystem::layOut()
+{
+  std::vector<std::vector<int>> byColor = colorParticles(this->Patches, this->Lists);
+  this->forAll(byColor.size(), [&](std::size_t color) { this->sortByNeighbors(byColor[color]); });
+  for (const std::vector<int>& particles : byColor)
+  {
+    this->ColorStart.push_back(this->ColorStart.back() +
+      static_cast<std::ptrdiff_t>((particles.size() + SweepLanes - 1) / SweepLanes));
+  }
+  this->Blocks = Buffer<SweepBlock>(this->ColorStart.back());
+  this->forAll(this->Blocks.size(),
+    [&](std::size_t b)
+    {
+      const auto next = std::upper_bound(
+        this->ColorStart.begin(), this->ColorStart.end(), static_cast<std::ptrdiff_t>(b));
+      const std::vector<int>& particles = byColor[next - this->ColorStart.begin() - 1];
+      const std::size_t first = (b - *(next - 1)) * SweepLanes;
+      SweepBlock& block = this->Blocks[b];
+      block = {};
+      block.count =
+        static_cast<std::int32_t>(std::min<std::size_t>(SweepLanes, particles.size() - first));
+      for (int lane = 0; lane < SweepLanes; ++lane)
+      {
+        block.particle[lane] = particles[first + std::min(lane, block.count - 1)];
+        block.neighborCount =
+          std::max(block.neighborCount, this->Lists.count(block.particle[lane]));
+      }
+    });
+}
+
+void SweepSystem::fillBlocks()
+{
+  std::ptrdiff_t neighbors = 0;
+  for (SweepBlock& block : this->Blocks)
+  {
+    block.firstNeighbor = neighbors;
+    neighbors += std::ptrdiff_t{ block.neighborCount } * SweepLanes;
+  }
+  this->Neighbors = Buffer<std::int32_t>(neighbors);
+  this->forAll(this->Blocks.size(),
+    [&](std::size_t b)
+    {
+      SweepBlock& block = this->Blocks[b];
+      for (int lane = 0; lane < SweepLanes; ++lane)
+      {
+        this->fillLane(block, lane);
+      }
+      this->fillNeighbors(block);
+    });
+}
+
+void SweepSystem::fillNeighbors(const SweepBlock& block)
+{
+  const auto beyond = static_cast<std::int32_t>(this->Patches.size());
+  std::int32_t* rows = this->Neighbors.data() + block.firstNeighbor;
+  std::fill_n(rows, block.neighborCount * SweepLanes, beyond);
+  for (int lane = 0; lane < SweepLanes; ++lane)
+  {
+    std::int32_t* neighbor = rows + lane;
+    const int particle = block.particle[lane];
+    for (const int* j = this->Lists.begin(particle); j != this->Lists.end(particle); ++j)
+    {
+      *neighbor = *j;
+      neighbor += SweepLanes;
+    }
+  }
+}
+
+Relaxed SweepSystem::result(const Balance& balance) const
 {
   const std::size_t count = this->Patches.size();
-  Relaxed result{ std::vector<glm::vec2>(count, glm::vec2(0.0f)), std::vector<char>(count, 0) };
-  std::vector<float> energies(count, 0.0f);
+  Relaxed result{ std::vector<glm::vec2>(count, glm::vec2(0.0f)), std::vector<char>(count, 1), {} };
+  std::vector<float> energies(count, -1.0f);
   for (const SweepBlock& block : this->Blocks)
   {
     for (int lane = 0; lane < block.count; ++lane)
@@ -222,21 +290,13 @@ Relaxed SweepSystem::result() const
       energies[block.particle[lane]] = block.energy[lane];
     }
   }
-  const auto crowded = static_cast<float>(crowdedEnergy * idealEnergy());
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    result.surplus[i] = energies[i] > crowded &&
-      std::none_of(this->Lists.begin(i), this->Lists.end(i),
-        [&](int j) {
-          return energies[j] > energies[i] ||
-            (energies[j] == energies[i] && j < static_cast<int>(i));
-        });
-  }
+  balancePopulation(this->Patches, this->Lists, energies, balance, this->Parallel, result);
   return result;
 }
 
-void SweepSystem::fillLane(SweepBlock& block, int lane, int particle) const
+void SweepSystem::fillLane(SweepBlock& block, int lane) const
 {
+  const int particle = block.particle[lane];
   const Patch& patch = this->Patches[particle];
   const auto tangents = tangentsOf(patch.normal);
   for (int axis = 0; axis < 3; ++axis)
@@ -253,7 +313,6 @@ void SweepSystem::fillLane(SweepBlock& block, int lane, int particle) const
     std::max(bentRelaxation, flatRelaxation - std::max(0.0f, bend * patch.spacing - flatUpTo));
   block.farthest[lane] =
     std::min(farthestPerSpacing * patch.spacing, farthestPerRadius / std::max(bend, 1e-30f));
-  block.particle[lane] = particle;
 }
 
 } // namespace
@@ -286,26 +345,16 @@ std::vector<float> spacingsOf(const std::vector<Patch>& patches)
   return spacings;
 }
 
-std::array<glm::vec3, 2> tangentsOf(const glm::vec3& normal)
-{
-  const glm::vec3 other = std::abs(normal.x) < 0.6f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
-  const glm::vec3 first = glm::normalize(glm::cross(normal, other));
-  return { first, glm::cross(normal, first) };
-}
-
-Relaxed relaxOnPatches(
-  const std::vector<Patch>& patches, int sweeps, const ParallelFor& parallelFor)
+Relaxed relaxOnPatches(const std::vector<Patch>& patches, int sweeps, const Balance& balance,
+  const ParallelFor& parallelFor)
 {
   if (patches.empty())
   {
     return {};
   }
   SweepSystem system(patches, parallelFor);
-  for (int n = 0; n < sweeps; ++n)
-  {
-    system.sweep();
-  }
-  return system.result();
+  system.sweep(sweeps);
+  return system.result(balance);
 }
 
 } // namespace hop

@@ -5,6 +5,8 @@
 #include <glm/glm.hpp>
 
 #include <array>
+#include <cmath>
+#include <optional>
 #include <vector>
 
 namespace hop
@@ -33,20 +35,51 @@ struct Patch
 };
 
 /// Two unit vectors that span the plane normal to a unit vector, right-handed with it.
-std::array<glm::vec3, 2> tangentsOf(const glm::vec3& normal);
+inline std::array<glm::vec3, 2> tangentsOf(const glm::vec3& normal)
+{
+  // Across the normal and an axis that is not near it, written out.
+  const glm::vec3 across = std::abs(normal.x) < 0.6f ? glm::vec3(0.0f, normal.z, -normal.y)
+                                                     : glm::vec3(-normal.z, 0.0f, normal.x);
+  const glm::vec3 first = glm::normalize(across);
+  return { first, glm::cross(normal, first) };
+}
 
 /// As SpacingGrid wants them.
 std::vector<glm::dvec3> positionsOf(const std::vector<Patch>& patches);
 std::vector<float> spacingsOf(const std::vector<Patch>& patches);
+
+/// What to do about the number of particles (Population.h).
+struct Balance
+{
+  enum Extent
+  {
+    None,
+    /// Remove those that are far too close to others, and fill holes between them.
+    Defects,
+    /// Remove those that are far too close to others, and make the number what it should be everywhere.
+    Everywhere
+  };
+  Extent extent = None;
+  /// How many are missing in all, as far as that is known; else energies tell.
+  std::optional<double> missing;
+};
+
+/// A particle to double, and the place of the new one on its patch.
+struct Split
+{
+  int particle = 0;
+  glm::vec2 displacement{ 0.0f };
+};
 
 /// Where relaxation takes particles.
 struct Relaxed
 {
   /// In the basis of each particle's tangents; zero for fixed ones.
   std::vector<glm::vec2> displacements;
-  /// Particles that there is no room for, none of which see each other: their energy is far above that
-  /// of hexagonal packing, and above that of all around them.
-  std::vector<char> surplus;
+  /// Marks the particles that there is room for.
+  std::vector<char> kept;
+  /// Where there is room for more, in the order of the particles.
+  std::vector<Split> splits;
 };
 
 /// Spreads particles evenly over their patches: Gauss-Seidel sweeps over the energy of
@@ -58,7 +91,7 @@ struct Relaxed
 ///
 /// Particles that see each other never move at the same time: a greedy colouring in the order of the
 /// particles decides who moves together. So the result does not depend on threads.
-Relaxed relaxOnPatches(
-  const std::vector<Patch>& patches, int sweeps, const ParallelFor& parallelFor);
+Relaxed relaxOnPatches(const std::vector<Patch>& patches, int sweeps, const Balance& balance,
+  const ParallelFor& parallelFor);
 
 } // namespace hop

@@ -24,6 +24,18 @@ Isosurface roughly(Isosurface surface, double spacing)
   return surface;
 }
 
+Isosurface walled(Isosurface surface)
+{
+  surface.walled = true;
+  return surface;
+}
+
+Isosurface seamless(Isosurface surface)
+{
+  surface.gaps = nullptr;
+  return surface;
+}
+
 class RimSampler
 {
 public:
@@ -33,7 +45,8 @@ public:
     , Law(law)
     , Tracer(roughly(surface, proxy.smallestSpacing()))
     , Exact(surface)
-    , Walker(surface)
+    , Walker(walled(surface))
+    , Passer(seamless(surface))
   {
   }
 
@@ -45,7 +58,8 @@ private:
   void sampleStretch(const std::vector<RimVertex>& vertices, bool withEnd, double nearby);
   double spacingAt(const RimPoint& point, double nearby);
   void addParticle(const Location& place, int face, double nearby);
-  void mergeCurves();
+  double jumpAt(const Location& location);
+  void thinOut();
 
   Isosurface Surface;
   const SurfaceProxy& Proxy;
@@ -54,7 +68,8 @@ private:
   /// For the particles, when the way is known.
   RimTracer Exact;
   SurfaceWalker Walker;
-  std::int64_t Curves = 0;
+  /// Goes on wherever there is something to go on in.
+  SurfaceWalker Passer;
   RimCurves Result;
 };
 
@@ -73,13 +88,11 @@ double RimSampler::spacingAt(const RimPoint& point, double nearby)
 void RimSampler::follow(const FaceCrossing& hint, double nearby)
 {
   const auto start = this->Tracer.project(hint.location, hint.face, 4.0 * nearby);
-  if (!start || this->Tracer.hasPassed(*start))
+  if (!start || this->Tracer.hasPassed(*start) || !this->Tracer.isOnRim(*start))
   {
     return;
   }
   const RimTrace trace = this->Tracer.trace(*start, chordPerSpacing * nearby);
-  this->Result.open += !trace.closed;
-  ++this->Curves;
   this->sample(trace, nearby);
 }
 
@@ -148,7 +161,7 @@ void RimSampler::sampleStretch(const std::vector<RimVertex>& vertices, bool with
 void RimSampler::addParticle(const Location& place, int face, double nearby)
 {
   const auto point = this->Exact.project(place, face, nearby);
-  if (!point)
+  if (!point || !this->Exact.isOnRim(*point))
   {
     return;
   }
@@ -175,25 +188,33 @@ void RimSampler::addParticle(const Location& place, int face, double nearby)
   const glm::dvec3 inward = glm::transpose(field.map.inverse) * faces[point->face].inward.xyz;
   const glm::dvec3 along = inward - glm::dot(inward, normal.xyz) * normal.xyz;
   rim.outward = { glm::length(along) > 0.0 ? -glm::normalize(along) : glm::dvec3(0.0) };
-  rim.curve = this->Curves;
-  for (int f = 0; f < static_cast<int>(faces.size()); ++f)
-  {
-    const bool cut = this->Surface.neighbor(location.element, f).element < 0 &&
-      mesh.neighbor(location.element, f).element >= 0;
-    if (cut && faceMargin(faces[f], location.u) < OnFace)
-    {
-      rim.particle.jump = valueBehind(this->Surface, location, f);
-      ++this->Result.evaluations;
-    }
-  }
+  rim.particle.jump = this->jumpAt(location);
   this->Result.particles.push_back(rim);
 }
 
-/// Of particles on different curves that are as near as particles of one surface never are, the first
-/// stays. If they look at each other, the surface goes on there.
-void RimSampler::mergeCurves()
+/// F - c on the other side of the face on which a place lies; zero where there is no other side.
+double RimSampler::jumpAt(const Location& location)
+{
+  double jump = 0.0;
+  const auto& faces = facts(this->Surface.mesh->elements[location.element].domain).faces;
+  for (int f = 0; f < static_cast<int>(faces.size()); ++f)
+  {
+    if (faceMargin(faces[f], location.u) < OnFace && this->Surface.mayEnd(location.element, f))
+    {
+      const auto behind = this->Passer.behind(location, f);
+      jump = behind ? behind->at.point.value : jump;
+    }
+  }
+  return jump;
+}
+
+/// Of particles that are as near as particles of one surface never are, the first stays. Where two sheets
+/// meet at a sharp edge they may be nearer. If they look at each other, the surface goes on there.
+void RimSampler::thinOut()
 {
   constexpr double sameSurface = 0.6;
+  constexpr double sharpEdge = 0.3;
+  constexpr double sameSheet = 0.5;
   std::vector<glm::dvec3> positions;
   std::vector<float> spacings;
   for (const RimParticle& rim : this->Result.particles)
@@ -211,9 +232,9 @@ void RimSampler::mergeCurves()
       [&](int j)
       {
         const bool earlier = j < static_cast<int>(i) && kept[j];
-        const double near = rims[i].curve == rims[j].curve ? 0.5 * sameSurface : sameSurface;
-        if (earlier && glm::distance(positions[i], positions[j]) < near * spacings[i] &&
-          dot(rims[i].particle.normal, rims[j].particle.normal) > 0.5)
+        const double turn = dot(rims[i].particle.normal, rims[j].particle.normal);
+        const double near = turn > sameSheet ? sameSurface : sharpEdge;
+        if (earlier && turn > 0.0 && glm::distance(positions[i], positions[j]) < near * spacings[i])
         {
           kept[i] = 0;
           seam[j] = seam[j] || dot(rims[i].outward, rims[j].outward) < -0.5;
@@ -244,12 +265,12 @@ RimCurves RimSampler::run()
     const double nearby = sample.found ? sample.patch.spacing : this->Law.spacing;
     visitFaceCrossings(
       *this->Surface.mesh, box,
-      [&](int face) { return this->Surface.neighbor(box.middle.element, face).element < 0; },
+      [&](int face) { return this->Surface.mayEnd(box.middle.element, face); },
       [&](const FaceCrossing& crossing) { this->follow(crossing, nearby); });
   }
-  this->mergeCurves();
-  this->Result.evaluations +=
-    this->Tracer.evaluations() + this->Exact.evaluations() + this->Walker.evaluations();
+  this->thinOut();
+  this->Result.evaluations += this->Tracer.evaluations() + this->Exact.evaluations() +
+    this->Walker.evaluations() + this->Passer.evaluations();
   return std::move(this->Result);
 }
 

@@ -56,12 +56,13 @@ std::int64_t RimChords::keyOf(const RimPoint& point)
   return std::int64_t{ MaximumFaces } * point.at.location.element + point.face;
 }
 
-/// The boundary face on which a place lies, the preferred one if it is among them; -1 if none.
+/// The face at which the surface may end on which a place lies, the preferred one if it is among them; -1
+/// if none.
 int RimTracer::wallOf(const Location& location, int preferred) const
 {
   const auto onWall = [&](int f)
   {
-    return this->Surface.neighbor(location.element, f).element < 0 &&
+    return this->Surface.mayEnd(location.element, f) &&
       faceMargin(faceOf(*this->Surface.mesh, location, f), location.u) < OnFace;
   };
   if (preferred >= 0 && onWall(preferred))
@@ -139,51 +140,105 @@ std::optional<Evaluated> RimTracer::projectAlongEdge(
   return std::nullopt;
 }
 
+std::vector<std::int64_t> RimTracer::cornersOf(const Location& location, int face) const
+{
+  const ElementMesh& mesh = *this->Surface.mesh;
+  const Face& which = faceOf(mesh, location, face);
+  std::vector<std::int64_t> numbers;
+  for (int c = 0; c < which.cornerCount; ++c)
+  {
+    numbers.push_back(mesh.elements[location.element].corners[which.corners[c]]);
+  }
+  std::sort(numbers.begin(), numbers.end());
+  return numbers;
+}
+
+/// The other face of an element that has the corners of an edge; -1 if there is none.
+int RimTracer::faceAtEdge(
+  const Location& location, int entry, const std::vector<std::int64_t>& edge) const
+{
+  const auto count =
+    static_cast<int>(facts(this->Surface.mesh->elements[location.element].domain).faces.size());
+  for (int f = 0; f < count; ++f)
+  {
+    const auto corners = this->cornersOf(location, f);
+    if (f != entry && std::includes(corners.begin(), corners.end(), edge.begin(), edge.end()))
+    {
+      return f;
+    }
+  }
+  return -1;
+}
+
+/// The other face of an element on which a place lies, to what rounding leaves of places that were
+/// located; -1 if there is none.
+int RimTracer::faceAtPlace(const Location& location, int entry) const
+{
+  constexpr double rounding = 1e-6;
+  const auto count =
+    static_cast<int>(facts(this->Surface.mesh->elements[location.element].domain).faces.size());
+  for (int f = 0; f < count; ++f)
+  {
+    if (f != entry && faceMargin(faceOf(*this->Surface.mesh, location, f), location.u) < rounding)
+    {
+      return f;
+    }
+  }
+  return -1;
+}
+
+Location RimTracer::ontoFace(const Location& location, int face) const
+{
+  const Face& which = faceOf(*this->Surface.mesh, location, face);
+  const glm::dvec3& inward = which.inward.xyz;
+  return { location.element,
+    { location.u.xyz - faceMargin(which, location.u) / glm::dot(inward, inward) * inward } };
+}
+
 /// From a wall across an edge to the wall behind it: that of the same element, or that to which the
 /// elements around the edge lead, one through the next.
 std::optional<RimPoint> RimTracer::turnAroundEdge(const Evaluated& at, int wall, int face)
 {
   constexpr int maximumElements = 64;
-  const ElementMesh& mesh = *this->Surface.mesh;
-  const auto cornersOf = [&](const Location& location, int f)
+  const auto edgeBetween = [&](const Location& location, int a, int b)
   {
-    const Face& which = faceOf(mesh, location, f);
-    std::vector<std::int64_t> numbers;
-    for (int c = 0; c < which.cornerCount; ++c)
-    {
-      numbers.push_back(mesh.elements[location.element].corners[which.corners[c]]);
-    }
-    std::sort(numbers.begin(), numbers.end());
-    return numbers;
+    const auto first = this->cornersOf(location, a);
+    const auto second = this->cornersOf(location, b);
+    std::vector<std::int64_t> edge;
+    std::set_intersection(
+      first.begin(), first.end(), second.begin(), second.end(), std::back_inserter(edge));
+    return edge;
   };
-  const auto first = cornersOf(at.location, wall);
-  const auto second = cornersOf(at.location, face);
-  std::vector<std::int64_t> edge;
-  std::set_intersection(
-    first.begin(), first.end(), second.begin(), second.end(), std::back_inserter(edge));
-
+  std::vector<std::int64_t> edge = edgeBetween(at.location, wall, face);
   Location location = at.location;
   for (int n = 0; n < maximumElements; ++n)
   {
-    const FaceNeighbor neighbor = this->Surface.neighbor(location.element, face);
-    if (neighbor.element < 0)
+    const FaceNeighbor& neighbor = this->Surface.mesh->neighbor(location.element, face);
+    int entry = neighbor.face;
+    if (this->Surface.mayEnd(location.element, face))
     {
-      return RimPoint{ n == 0 ? at : this->Walker.evaluate(location), face };
+      const auto next = this->Passer.behind(location, face);
+      if (!next)
+      {
+        return RimPoint{ n == 0 ? at : this->Walker.evaluate(location), face };
+      }
+      location = next->at.location;
+      entry = next->face;
     }
-    location = crossFace(mesh, location, face);
-    const auto faceCount =
-      static_cast<int>(facts(mesh.elements[location.element].domain).faces.size());
-    const int entry = neighbor.face;
-    face = -1;
-    for (int f = 0; f < faceCount && face < 0; ++f)
+    else
     {
-      const auto corners = cornersOf(location, f);
-      const bool hasEdge = std::includes(corners.begin(), corners.end(), edge.begin(), edge.end());
-      face = f != entry && hasEdge ? f : -1;
+      location = crossFace(*this->Surface.mesh, location, face);
     }
+    const bool joined = neighbor.element >= 0;
+    face = joined ? this->faceAtEdge(location, entry, edge) : this->faceAtPlace(location, entry);
     if (face < 0)
     {
       return std::nullopt;
+    }
+    if (!joined)
+    {
+      location = this->ontoFace(location, face);
+      edge = edgeBetween(location, entry, face);
     }
   }
   return std::nullopt;
@@ -194,7 +249,11 @@ std::optional<RimVertex> RimTracer::passEdge(
 {
   const auto at =
     this->projectAlongEdge({ from.at.location.element, u }, from.face, otherFace, step);
-  const auto beyond = at ? this->turnAroundEdge(*at, from.face, otherFace) : std::nullopt;
+  if (!at || !this->isOnRim({ *at, from.face }))
+  {
+    return std::nullopt;
+  }
+  const auto beyond = this->turnAroundEdge(*at, from.face, otherFace);
   if (!beyond)
   {
     return std::nullopt;
@@ -219,7 +278,8 @@ std::optional<RimVertex> RimTracer::advance(const RimPoint& from, double step, d
     return this->passEdge(from, u, exit.face, step);
   }
   const auto next = this->project({ from.at.location.element, u }, from.face, step);
-  if (!next || dot(this->tangent(*next), this->tangent(from)) < smallestTurn)
+  if (!next || dot(this->tangent(*next), this->tangent(from)) < smallestTurn ||
+    !this->isOnRim(*next))
   {
     return std::nullopt;
   }

@@ -48,18 +48,22 @@ private:
   std::unordered_map<std::int64_t, std::vector<std::pair<glm::dvec3, glm::dvec3>>> Chords;
 };
 
-/// Follows rims of the isosurface: curves {F = c} on boundary faces.
+/// Follows rims of the isosurface: curves {F = c} on faces, as far as the surface ends there.
 class RimTracer
 {
 public:
   explicit RimTracer(const Isosurface& surface)
     : Surface(surface)
-    , Walker(surface)
+    , Walker(walled(surface))
+    , Passer(surface)
   {
   }
 
-  /// Puts a place on a boundary face onto the rim, along the boundary.
+  /// Puts a place on a face at which the surface may end onto the surface, along the face.
   std::optional<RimPoint> project(const Location& start, int face, double maximumTravel);
+
+  /// Whether the surface ends there.
+  bool isOnRim(const RimPoint& point) { return this->Passer.endsAt(point.at, point.face); }
 
   /// Follows the rim in direction n x w, n the surface's normal and w the inward normal of the
   /// boundary, and from a dead end also the other way.
@@ -71,7 +75,10 @@ public:
   /// Whether a rim was traced through a point.
   bool hasPassed(const RimPoint& point) const { return this->Chords.pass(point); }
 
-  std::int64_t evaluations() const { return this->Walker.evaluations(); }
+  std::int64_t evaluations() const
+  {
+    return this->Walker.evaluations() + this->Passer.evaluations();
+  }
 
 private:
   bool follow(
@@ -82,11 +89,24 @@ private:
   std::optional<Evaluated> projectAlongEdge(
     const Location& start, int faceA, int faceB, double maximumTravel);
   std::optional<RimPoint> turnAroundEdge(const Evaluated& at, int wall, int face);
+  std::vector<std::int64_t> cornersOf(const Location& location, int face) const;
+  int faceAtEdge(const Location& location, int entry, const std::vector<std::int64_t>& edge) const;
+  int faceAtPlace(const Location& location, int entry) const;
+  Location ontoFace(const Location& location, int face) const;
   int wallOf(const Location& location, int preferred) const;
   WorldVector tangent(const RimPoint& point) const;
 
+  static Isosurface walled(Isosurface surface)
+  {
+    surface.walled = true;
+    return surface;
+  }
+
   Isosurface Surface;
+  /// Stays on faces at which the surface may end.
   SurfaceWalker Walker;
+  /// Tells whether it does.
+  SurfaceWalker Passer;
   RimChords Chords;
 };
 

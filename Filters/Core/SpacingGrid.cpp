@@ -1,7 +1,11 @@
 #include "SpacingGrid.h"
 
+#include "InstructionSet.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace hop
@@ -9,16 +13,9 @@ namespace hop
 namespace
 {
 
-constexpr int bitsPerAxis = 20;
-constexpr std::int64_t cellsPerAxis = std::int64_t{ 1 } << bitsPerAxis;
+constexpr std::int64_t cellsPerAxis = std::int64_t{ 1 } << SpacingGrid::BitsPerAxis;
 /// Levels have four bits of a key.
 constexpr int maximumLevels = 15;
-
-std::size_t slotOf(std::uint64_t key, std::size_t mask)
-{
-  key *= 0x9e3779b97f4a7c15ULL;
-  return static_cast<std::size_t>(key ^ (key >> 32)) & mask;
-}
 
 } // namespace
 
@@ -29,65 +26,81 @@ SpacingGrid::SpacingGrid(const std::vector<glm::dvec3>& positions,
   , Spacings(spacings)
   , Reach(reach)
 {
-  this->CellStart.push_back(0);
-  if (positions.empty())
+  if (!positions.empty())
   {
-    return;
+    this->chooseCellSizes(cellsPerReach);
+    this->fillSlots(parallelFor);
+    this->sortPoints();
   }
-  const auto [smallest, largest] = std::minmax_element(spacings.begin(), spacings.end());
+}
+
+void SpacingGrid::chooseCellSizes(double cellsPerReach)
+{
+  const auto [smallest, largest] =
+    std::minmax_element(this->Spacings.begin(), this->Spacings.end());
   this->SmallestSpacing = *smallest;
   const double largestSpacing = *largest;
   this->LevelCount = maximumLevels;
   this->LevelCount = this->levelOf(largestSpacing) + 1;
-  glm::dvec3 upper = this->Origin = positions.front();
-  for (const glm::dvec3& p : positions)
+  glm::dvec3 upper = this->Origin = this->Positions.front();
+  for (const glm::dvec3& p : this->Positions)
   {
     this->Origin = glm::min(this->Origin, p);
     upper = glm::max(upper, p);
   }
   const glm::dvec3 extent = upper - this->Origin;
+  constexpr double tiniest = std::numeric_limits<double>::min();
   const double smallestCell = std::max({ extent.x, extent.y, extent.z }) / (cellsPerAxis - 4);
   for (int level = 0; level < this->LevelCount; ++level)
   {
-    this->CellSizes.push_back(
-      std::max(reach * std::ldexp(this->SmallestSpacing, level + 1) / cellsPerReach, smallestCell));
-    this->LargestSpacings.push_back(std::ldexp(this->SmallestSpacing, level + 1));
+    const double spacing =
+      this->LevelCount == 1 ? largestSpacing : std::ldexp(this->SmallestSpacing, level + 1);
+    this->LargestSpacings.push_back(spacing);
+    this->CellsPerLength.push_back(
+      1.0 / std::max({ this->Reach * spacing / cellsPerReach, smallestCell, tiniest }));
   }
-  if (this->LevelCount == 1)
-  {
-    this->LargestSpacings[0] = largestSpacing;
-    this->CellSizes[0] = std::max(reach * largestSpacing / cellsPerReach, smallestCell);
-  }
+}
 
+/// Gives each point's cell a slot.
+void SpacingGrid::fillSlots(const ParallelFor& parallelFor)
+{
   std::size_t slots = 64;
-  while (slots < positions.size())
+  while (2 * slots < 3 * this->Positions.size())
   {
     slots *= 2;
   }
-  this->Slots.assign(slots, { 0, -1 });
-  std::vector<std::uint64_t> keys(positions.size());
-  runParallel(parallelFor, static_cast<std::ptrdiff_t>(positions.size()),
+  this->Keys = std::vector<std::atomic<std::uint64_t>>(slots);
+  this->SlotOfPoint.resize(this->Positions.size());
+  runParallel(parallelFor, static_cast<std::ptrdiff_t>(this->Positions.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
+      std::uint64_t previous = 0;
       for (std::ptrdiff_t i = begin; i < end; ++i)
       {
-        const int level = this->levelOf(spacings[i]);
-        keys[i] = keyOf(this->cellOf(positions[i], level), level);
+        const int level = this->levelOf(this->Spacings[i]);
+        const std::uint64_t key = keyOf(this->cellOf(this->Positions[i], level), level);
+        // Neighbours in memory often share a cell.
+        this->SlotOfPoint[i] =
+          key == previous ? this->SlotOfPoint[i - 1] : static_cast<int>(this->findOrAdd(key));
+        previous = key;
       }
     });
-  std::vector<int> cells(positions.size());
-  for (std::size_t i = 0; i < positions.size(); ++i)
+}
+
+/// Counting sort by slot.
+void SpacingGrid::sortPoints()
+{
+  this->SlotStart.assign(this->Keys.size() + 1, 0);
+  for (const int slot : this->SlotOfPoint)
   {
-    // Neighbours in memory often share a cell.
-    cells[i] = i > 0 && keys[i] == keys[i - 1] ? cells[i - 1] : this->findOrAdd(keys[i]);
-    ++this->CellStart[cells[i] + 1];
+    ++this->SlotStart[slot + 1];
   }
-  std::partial_sum(this->CellStart.begin(), this->CellStart.end(), this->CellStart.begin());
-  std::vector<int> next(this->CellStart.begin(), this->CellStart.end() - 1);
-  this->Order.resize(positions.size());
-  for (std::size_t i = 0; i < positions.size(); ++i)
+  std::partial_sum(this->SlotStart.begin(), this->SlotStart.end(), this->SlotStart.begin());
+  std::vector<int> next(this->SlotStart.begin(), this->SlotStart.end() - 1);
+  this->Order.resize(this->Positions.size());
+  for (std::size_t i = 0; i < this->Positions.size(); ++i)
   {
-    this->Order[next[cells[i]]++] = static_cast<int>(i);
+    this->Order[next[this->SlotOfPoint[i]]++] = static_cast<int>(i);
   }
 }
 
@@ -100,115 +113,125 @@ int SpacingGrid::levelOf(double spacing) const
 
 SpacingGrid::Cell SpacingGrid::cellOf(const glm::dvec3& position, int level) const
 {
-  const glm::dvec3 cell = glm::floor((position - this->Origin) / this->CellSizes[level]);
-  return Cell(glm::clamp(cell, -1.0, static_cast<double>(cellsPerAxis - 2)));
+  // Cell 0, just outside, exists for queries. Truncation is floor for what is not negative.
+  const glm::dvec3 cell = (position - this->Origin) * this->CellsPerLength[level] + 1.0;
+  return Cell(glm::min(glm::max(cell, 0.0), static_cast<double>(cellsPerAxis - 1)));
 }
 
 std::uint64_t SpacingGrid::keyOf(const Cell& cell, int level)
 {
-  // Cell -1, just outside, exists for queries; shifted by one it is a key like any other.
-  const glm::u64vec3 c(cell + std::int64_t{ 1 });
-  return (static_cast<std::uint64_t>(level) << (3 * bitsPerAxis)) | (c.z << (2 * bitsPerAxis)) |
-    (c.y << bitsPerAxis) | c.x;
+  const glm::u64vec3 c(cell);
+  return (static_cast<std::uint64_t>(level) << (3 * BitsPerAxis)) | (c.z << (2 * BitsPerAxis)) |
+    (c.y << BitsPerAxis) | c.x;
 }
 
-int SpacingGrid::find(std::uint64_t key) const
+std::size_t SpacingGrid::findOrAdd(std::uint64_t key)
 {
-  const std::size_t mask = this->Slots.size() - 1;
-  for (std::size_t slot = slotOf(key, mask);; slot = (slot + 1) & mask)
+  for (std::size_t slot = this->firstSlotOf(key);; slot = this->nextSlot(slot))
   {
-    if (this->Slots[slot].second < 0 || this->Slots[slot].first == key)
+    std::uint64_t found = this->Keys[slot].load(std::memory_order_relaxed);
+    const bool taken =
+      found == 0 && this->Keys[slot].compare_exchange_strong(found, key, std::memory_order_relaxed);
+    if (taken || found == key)
     {
-      return this->Slots[slot].second;
+      return slot;
     }
   }
 }
 
-int SpacingGrid::findOrAdd(std::uint64_t key)
+namespace
 {
-  const int found = this->find(key);
-  if (found >= 0)
-  {
-    return found;
-  }
-  const int added = static_cast<int>(this->CellStart.size()) - 1;
-  this->CellStart.push_back(0);
-  if (2 * this->CellStart.size() > this->Slots.size())
-  {
-    std::vector<std::pair<std::uint64_t, int>> old(2 * this->Slots.size(), { 0, -1 });
-    old.swap(this->Slots);
-    for (const auto& [oldKey, cell] : old)
-    {
-      if (cell >= 0)
-      {
-        this->place(oldKey, cell);
-      }
-    }
-  }
-  this->place(key, added);
-  return added;
-}
 
-void SpacingGrid::place(std::uint64_t key, int cell)
+/// Points to choose neighbours from, as the kernel wants them. To be reused: memory only grows.
+class CandidateRows
 {
-  const std::size_t mask = this->Slots.size() - 1;
-  std::size_t slot = slotOf(key, mask);
-  while (this->Slots[slot].second >= 0)
+public:
+  void clear() { this->Count = 0; }
+
+  void add(const glm::dvec3& position, double inverseSpacing, int index)
   {
-    slot = (slot + 1) & mask;
+    if (this->Count + kernel::MaximumLanes > this->Index.size())
+    {
+      this->grow();
+    }
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->Rows[axis][this->Count] = position[axis];
+    }
+    this->Rows[3][this->Count] = inverseSpacing;
+    this->Index[this->Count++] = index;
   }
-  this->Slots[slot] = { key, cell };
-}
+
+  kernel::Candidates filledUp()
+  {
+    constexpr double outOfReach = 1e150;
+    const std::size_t count = this->Count;
+    while (this->Count % kernel::MaximumLanes != 0)
+    {
+      this->add(glm::dvec3(outOfReach), 1.0, 0);
+    }
+    const kernel::Candidates result{ this->Rows[0].data(), this->Rows[1].data(),
+      this->Rows[2].data(), this->Rows[3].data(), this->Index.data(),
+      static_cast<std::ptrdiff_t>(this->Count) };
+    this->Count = count;
+    return result;
+  }
+
+private:
+  void grow()
+  {
+    const std::size_t size = 2 * this->Index.size() + 64;
+    for (auto& row : this->Rows)
+    {
+      row.resize(size);
+    }
+    this->Index.resize(size);
+  }
+
+  std::array<std::vector<double>, 4> Rows;
+  std::vector<std::int32_t> Index;
+  std::size_t Count = 0;
+};
+
+} // namespace
 
 SeenLists::SeenLists(const std::vector<glm::dvec3>& positions, const std::vector<float>& spacings,
   double reach, const ParallelFor& parallelFor)
 {
   const SpacingGrid grid(positions, spacings, reach, 1.0, parallelFor);
-  const auto& cellStart = grid.cellStart();
-  const auto& order = grid.order();
-  constexpr std::ptrdiff_t cellsPerChunk = 64;
-  const auto cellCount = static_cast<std::ptrdiff_t>(cellStart.size()) - 1;
+  constexpr std::size_t pointsPerChunk = 256;
   this->Places.resize(positions.size());
-  this->Chunks.resize((cellCount + cellsPerChunk - 1) / cellsPerChunk);
+  this->Chunks.resize((positions.size() + pointsPerChunk - 1) / pointsPerChunk);
 
-  // Two points see each other if d <= 2 reach/(1/h_i + 1/h_j): the same sum for both, so that either
-  // both see each other or neither.
-  struct Candidate
-  {
-    glm::dvec3 position;
-    double inverseSpacing;
-    int index;
-  };
-  const auto fillChunk = [&](std::ptrdiff_t chunk, std::vector<Candidate>& candidates)
+  // Two points see each other if d <= 2 reach/(1/h_i + 1/h_j).
+  const double limit = 4.0 * reach * reach;
+  const auto findNear = kernel::current().near;
+  const auto fillChunk = [&](std::size_t chunk, CandidateRows& candidates)
   {
     std::vector<int>& lists = this->Chunks[chunk];
     std::size_t used = 0;
-    const std::ptrdiff_t end = std::min(cellCount, (chunk + 1) * cellsPerChunk);
-    for (std::ptrdiff_t cell = chunk * cellsPerChunk; cell < end; ++cell)
+    const std::size_t end = std::min(positions.size(), (chunk + 1) * pointsPerChunk);
+    for (std::size_t first = chunk * pointsPerChunk; first < end; ++first)
     {
-      candidates.clear();
-      grid.visitAround(static_cast<int>(cell),
-        [&](int j) {
-          candidates.push_back({ positions[j], 1.0 / spacings[j], j });
-        });
-      for (int n = cellStart[cell]; n < cellStart[cell + 1]; ++n)
+      // A cell is looked at when its first point comes.
+      const SpacingGrid::Points points = grid.cellMates(static_cast<int>(first));
+      if (*points.begin() != static_cast<int>(first))
       {
-        const int i = order[n];
-        const glm::dvec3 position = positions[i];
-        const double inverseSpacing = 1.0 / spacings[i];
-        const std::size_t first = used;
-        lists.resize(std::max(lists.size(), used + candidates.size()));
-        int* list = lists.data();
-        for (const Candidate& c : candidates)
-        {
-          const glm::dvec3 d = c.position - position;
-          const double sum = c.inverseSpacing + inverseSpacing;
-          // Without a branch: nearly half of the candidates are neighbours.
-          list[used] = c.index;
-          used += (glm::dot(d, d) * (sum * sum) <= 4.0 * reach * reach) & (c.index != i);
-        }
-        this->Places[i] = { static_cast<int>(chunk), static_cast<int>(first),
-          static_cast<int>(used - first) };
+        continue;
+      }
+      candidates.clear();
+      grid.visitAround(points, [&](int j) { candidates.add(positions[j], 1.0 / spacings[j], j); });
+      const kernel::Candidates rows = candidates.filledUp();
+      for (const int i : points)
+      {
+        lists.resize(std::max(lists.size(), used + rows.count));
+        const glm::dvec3& x = positions[i];
+        int* list = lists.data() + used;
+        int* listEnd = findNear(rows, { x.x, x.y, x.z }, 1.0 / spacings[i], limit, list);
+        listEnd = std::remove(list, listEnd, i);
+        this->Places[i] = { static_cast<int>(chunk), static_cast<int>(used),
+          static_cast<int>(listEnd - list) };
+        used += listEnd - list;
       }
     }
     lists.resize(used);
@@ -216,7 +239,7 @@ SeenLists::SeenLists(const std::vector<glm::dvec3>& positions, const std::vector
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(this->Chunks.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
-      std::vector<Candidate> candidates;
+      CandidateRows candidates;
       for (std::ptrdiff_t chunk = begin; chunk < end; ++chunk)
       {
         fillChunk(chunk, candidates);

@@ -5,8 +5,8 @@
 #include <glm/glm.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace hop
@@ -39,23 +39,44 @@ public:
   template <class Use>
   void visitCoarser(const glm::dvec3& position, double spacing, const Use& use) const;
 
+  /// The points of a cell, ascending.
+  struct Points
+  {
+    const int* First;
+    const int* Last;
+
+    const int* begin() const { return this->First; }
+    const int* end() const { return this->Last; }
+  };
+
+  /// All that share a point's cell, itself included.
+  Points cellMates(int point) const { return this->pointsIn(this->SlotOfPoint[point]); }
+
   /// visit() for all points of a cell at once.
   template <class Use>
-  void visitAround(int cell, const Use& use) const;
+  void visitAround(const Points& points, const Use& use) const;
 
-  /// Cell c holds the points order()[n] with cellStart()[c] <= n < cellStart()[c + 1].
-  const std::vector<int>& order() const { return this->Order; }
-  const std::vector<int>& cellStart() const { return this->CellStart; }
+  /// Bits of a cell's key for each coordinate.
+  static constexpr int BitsPerAxis = 20;
 
 private:
   using Cell = glm::i64vec3;
 
+  void chooseCellSizes(double cellsPerReach);
+  void fillSlots(const ParallelFor& parallelFor);
+  void sortPoints();
   int levelOf(double spacing) const;
   Cell cellOf(const glm::dvec3& position, int level) const;
   static std::uint64_t keyOf(const Cell& cell, int level);
-  int find(std::uint64_t key) const;
-  int findOrAdd(std::uint64_t key);
-  void place(std::uint64_t key, int cell);
+  std::size_t firstSlotOf(std::uint64_t key) const;
+  std::size_t nextSlot(std::size_t slot) const { return (slot + 1) & (this->Keys.size() - 1); }
+  Points find(std::uint64_t key) const;
+  std::size_t findOrAdd(std::uint64_t key);
+  Points pointsIn(std::size_t slot) const
+  {
+    const int* points = this->Order.data();
+    return { points + this->SlotStart[slot], points + this->SlotStart[slot + 1] };
+  }
   template <class Use>
   void visitLevel(
     int level, const glm::dvec3& lower, const glm::dvec3& upper, const Use& use) const;
@@ -69,11 +90,14 @@ private:
   double SmallestSpacing = 1.0;
   int LevelCount = 0;
   glm::dvec3 Origin{ 0.0 };
-  std::vector<double> CellSizes;
+  std::vector<double> CellsPerLength;
   std::vector<double> LargestSpacings;
-  /// Open addressing: key and cell of each slot, cell -1 where it is free.
-  std::vector<std::pair<std::uint64_t, int>> Slots;
-  std::vector<int> CellStart;
+  /// Open addressing: the key of the cell in each slot, 0 where there is none. In which of them a cell
+  /// ends up may depend on threads, but nothing that is visited does.
+  std::vector<std::atomic<std::uint64_t>> Keys;
+  std::vector<int> SlotOfPoint;
+  /// The cell in slot s holds the points Order[n], ascending, SlotStart[s] <= n < SlotStart[s + 1].
+  std::vector<int> SlotStart;
   std::vector<int> Order;
 };
 
@@ -105,6 +129,35 @@ private:
   std::vector<std::vector<int>> Chunks;
 };
 
+/// Cells of a block of 4 x 4 x 4 come next to each other, as they are looked at together.
+inline std::size_t SpacingGrid::firstSlotOf(std::uint64_t key) const
+{
+  constexpr std::uint64_t low = 3;
+  constexpr std::uint64_t inBlock = low | (low << BitsPerAxis) | (low << (2 * BitsPerAxis));
+  const std::uint64_t cell = (key & low) | ((key >> (BitsPerAxis - 2)) & (low << 2)) |
+    ((key >> (2 * BitsPerAxis - 4)) & (low << 4));
+  // Twice, for the upper bits of a product depend on all bits, the lower ones on few.
+  std::uint64_t block = (key & ~inBlock) * 0x9e3779b97f4a7c15ULL;
+  block = (block ^ (block >> 32)) * 0x9e3779b97f4a7c15ULL;
+  return static_cast<std::size_t>(((block >> 32) << 6) + cell) & (this->Keys.size() - 1);
+}
+
+inline SpacingGrid::Points SpacingGrid::find(std::uint64_t key) const
+{
+  for (std::size_t slot = this->firstSlotOf(key);; slot = this->nextSlot(slot))
+  {
+    const std::uint64_t found = this->Keys[slot].load(std::memory_order_relaxed);
+    if (found == key)
+    {
+      return this->pointsIn(slot);
+    }
+    if (found == 0)
+    {
+      return { nullptr, nullptr };
+    }
+  }
+}
+
 template <class Use>
 void SpacingGrid::visitLevel(
   int level, const glm::dvec3& lower, const glm::dvec3& upper, const Use& use) const
@@ -115,13 +168,12 @@ void SpacingGrid::visitLevel(
   {
     for (auto y = first.y; y <= last.y; ++y)
     {
-      for (auto x = first.x; x <= last.x; ++x)
+      std::uint64_t key = keyOf({ first.x, y, z }, level);
+      for (auto x = first.x; x <= last.x; ++x, ++key)
       {
-        const int cell = this->find(keyOf({ x, y, z }, level));
-        for (int n = cell < 0 ? 0 : this->CellStart[cell];
-             cell >= 0 && n < this->CellStart[cell + 1]; ++n)
+        for (const int point : this->find(key))
         {
-          use(this->Order[n]);
+          use(point);
         }
       }
     }
@@ -162,21 +214,19 @@ void SpacingGrid::visit(const glm::dvec3& position, double spacing, const Use& u
 }
 
 template <class Use>
-void SpacingGrid::visitAround(int cell, const Use& use) const
+void SpacingGrid::visitAround(const Points& points, const Use& use) const
 {
   // The bounds of the points are tighter than those of the cell: a surface fills a slice of it.
-  const int* points = this->Order.data() + this->CellStart[cell];
-  const int* end = this->Order.data() + this->CellStart[cell + 1];
-  glm::dvec3 lower = this->Positions[*points];
+  glm::dvec3 lower = this->Positions[*points.begin()];
   glm::dvec3 upper = lower;
   double spacing = 0.0;
-  for (const int* p = points; p != end; ++p)
+  for (const int p : points)
   {
-    lower = glm::min(lower, this->Positions[*p]);
-    upper = glm::max(upper, this->Positions[*p]);
-    spacing = std::max<double>(spacing, this->Spacings[*p]);
+    lower = glm::min(lower, this->Positions[p]);
+    upper = glm::max(upper, this->Positions[p]);
+    spacing = std::max<double>(spacing, this->Spacings[p]);
   }
-  this->visitBox(lower, upper, spacing, this->levelOf(this->Spacings[*points]), use);
+  this->visitBox(lower, upper, spacing, this->levelOf(this->Spacings[*points.begin()]), use);
 }
 
 } // namespace hop

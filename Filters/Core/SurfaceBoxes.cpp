@@ -50,6 +50,11 @@ std::vector<std::pair<int, int>> edgesAlong(Domain domain, const LatticePoint& d
   }
   return edges;
 }
+
+/// Levels of fewer pieces are not worth waking threads for.
+constexpr std::size_t fewPieces = 32;
+/// Fewer elements than this are split one after the other, each in threads.
+constexpr std::size_t fewElements = 64;
 /// Halving adds rounding errors of the order of eps times the values themselves.
 constexpr double roundingShare = 1e-14;
 
@@ -64,7 +69,8 @@ public:
   {
   }
 
-  void split(int element, std::vector<SurfaceBox>& boxes)
+  /// Appends the boxes of an element.
+  void split(int element, const ParallelFor& parallelFor, std::vector<SurfaceBox>& boxes)
   {
     this->begin(element);
     // Level by level, so that the limit on pieces cuts all of the element at the same size.
@@ -75,32 +81,69 @@ public:
     }
     while (!level.empty())
     {
-      std::vector<Piece> next;
       const bool tooMany = this->undecided(level) > MaximumPieces;
-      for (Piece& piece : level)
+      std::vector<Outcome> outcomes(level.size());
+      const auto decide = [&](std::ptrdiff_t begin, std::ptrdiff_t end)
       {
-        if (!this->mayHoldSurface(piece))
+        for (std::ptrdiff_t n = begin; n < end; ++n)
         {
-          continue;
+          outcomes[n] = this->decide(element, level[n], tooMany);
         }
-        piece.certified = piece.certified || this->isOneSheet(piece);
-        const double size = this->worldSize(piece);
-        const bool last = piece.bisections == MaximumBisections;
-        if (piece.certified ? last || this->IsSmall({ element, middle(piece) }, size)
-                            : last || tooMany)
+      };
+      runParallel(level.size() < fewPieces ? ParallelFor() : parallelFor,
+        static_cast<std::ptrdiff_t>(level.size()), decide);
+      std::vector<Piece> next;
+      for (std::size_t n = 0; n < level.size(); ++n)
+      {
+        if (outcomes[n].verdict == Verdict::Box)
         {
-          piece.certified = piece.certified || this->Monotone.rises(valuesOf(piece));
-          boxes.push_back(this->boxOf(piece, element, size));
-          continue;
+          boxes.push_back(outcomes[n].box);
         }
-        next.push_back(this->halve(piece));
-        next.push_back(std::move(piece));
+        else if (outcomes[n].verdict == Verdict::Halved)
+        {
+          next.push_back(std::move(outcomes[n].second));
+          next.push_back(std::move(level[n]));
+        }
       }
       level = std::move(next);
     }
   }
 
 private:
+  enum class Verdict : char
+  {
+    Drop,
+    Box,
+    Halved
+  };
+
+  struct Outcome
+  {
+    Verdict verdict = Verdict::Drop;
+    SurfaceBox box;
+    Piece second;
+  };
+
+  /// What becomes of a piece: nothing, a box, or two halves, of which it keeps the first.
+  Outcome decide(int element, Piece& piece, bool tooMany) const
+  {
+    if (!this->mayHoldSurface(piece))
+    {
+      return {};
+    }
+    piece.certified = piece.certified || this->isOneSheet(piece);
+    const double size = this->worldSize(piece);
+    const bool last = piece.bisections == MaximumBisections;
+    const bool isDone =
+      piece.certified ? last || this->IsSmall({ element, middle(piece) }, size) : last || tooMany;
+    if (isDone)
+    {
+      piece.certified = piece.certified || this->Monotone.rises(valuesOf(piece));
+      return { Verdict::Box, this->boxOf(piece, element, size), {} };
+    }
+    return { Verdict::Halved, {}, this->halve(piece) };
+  }
+
   void begin(int element)
   {
     const BernsteinForm form = this->Mesh.form(element);
@@ -406,6 +449,16 @@ std::vector<SurfaceBox> findSurfaceBoxes(
 std::vector<SurfaceBox> findSurfaceBoxes(const ElementMesh& mesh, double isovalue,
   const std::function<bool(const Location&, double)>& isSmall, const ParallelFor& parallelFor)
 {
+  std::vector<SurfaceBox> boxes;
+  if (mesh.elements.size() < fewElements)
+  {
+    ElementSplitter splitter(mesh, isovalue, isSmall);
+    for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
+    {
+      splitter.split(e, parallelFor, boxes);
+    }
+    return boxes;
+  }
   std::vector<std::vector<SurfaceBox>> ofElement(mesh.elements.size());
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(mesh.elements.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
@@ -413,10 +466,9 @@ std::vector<SurfaceBox> findSurfaceBoxes(const ElementMesh& mesh, double isovalu
       ElementSplitter splitter(mesh, isovalue, isSmall);
       for (std::ptrdiff_t e = begin; e < end; ++e)
       {
-        splitter.split(static_cast<int>(e), ofElement[e]);
+        splitter.split(static_cast<int>(e), {}, ofElement[e]);
       }
     });
-  std::vector<SurfaceBox> boxes;
   for (const auto& some : ofElement)
   {
     boxes.insert(boxes.end(), some.begin(), some.end());

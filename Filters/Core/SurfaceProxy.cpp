@@ -39,19 +39,35 @@ SurfaceProxy::SurfaceProxy(const Isosurface& surface, const SpacingLaw& law,
   }
   if (law.angularDensity > 0.0)
   {
-    this->gradeSpacings();
+    this->gradeSpacings({});
   }
-  this->SmallestSpacing = law.spacing;
-  for (const Sample& sample : this->Samples)
-  {
-    this->SmallestSpacing =
-      std::min<double>(this->SmallestSpacing, sample.found ? sample.patch.spacing : law.spacing);
-  }
+  this->findSmallestSpacing();
   this->sumWeights(parallelFor);
 }
 
 SurfaceProxy::SurfaceProxy(SurfaceProxy&&) noexcept = default;
 SurfaceProxy::~SurfaceProxy() = default;
+
+void SurfaceProxy::findSmallestSpacing()
+{
+  this->SmallestSpacing = this->Law.spacing;
+  for (const Sample& sample : this->Samples)
+  {
+    this->SmallestSpacing = std::min<double>(
+      this->SmallestSpacing, sample.found ? sample.patch.spacing : this->Law.spacing);
+  }
+}
+
+void SurfaceProxy::limitSpacings(
+  const std::vector<SpacingLimit>& limits, const ParallelFor& parallelFor)
+{
+  if (!limits.empty())
+  {
+    this->gradeSpacings(limits);
+    this->findSmallestSpacing();
+    this->sumWeights(parallelFor);
+  }
+}
 
 bool SurfaceProxy::sampleAt(std::size_t box, const Location& place, const Jet& jet)
 {
@@ -128,9 +144,11 @@ bool SurfaceProxy::samplePatiently(std::size_t b, std::int64_t& evaluations)
     this->sampleAt(b, at.location, evaluateHessian(mesh.form(at.location.element), at.location.u));
 }
 
-/// Dijkstra's method: from the smallest spacing on, each sample limits those around it.
-void SurfaceProxy::gradeSpacings()
+/// Dijkstra's method: from the smallest spacing on, each sample, and each limit, limits those around it.
+void SurfaceProxy::gradeSpacings(const std::vector<SpacingLimit>& limits)
 {
+  this->Positions.clear();
+  this->Spacings.clear();
   std::vector<int> sampleOf;
   for (std::size_t b = 0; b < this->Samples.size(); ++b)
   {
@@ -140,6 +158,11 @@ void SurfaceProxy::gradeSpacings()
       this->Positions.push_back(this->Samples[b].patch.position);
       this->Spacings.push_back(this->Samples[b].patch.spacing);
     }
+  }
+  for (const SpacingLimit& limit : limits)
+  {
+    this->Positions.push_back(limit.position);
+    this->Spacings.push_back(limit.spacing);
   }
   using Entry = std::pair<float, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
@@ -189,6 +212,18 @@ float SurfaceProxy::spacingAt(
           static_cast<float>(
             this->Spacings[j] + GradationSlope * glm::distance(position, this->Positions[j])));
       });
+  }
+  return spacing;
+}
+
+float SurfaceProxy::spacingAt(const glm::dvec3& position, float curvatureMagnitude) const
+{
+  // Coarser samples lead to finer ones: those that are looked at have up to a factor of two less.
+  auto spacing = static_cast<float>(this->Law.at(curvatureMagnitude));
+  for (float coarser = 0.0f; this->Grid && spacing != coarser;)
+  {
+    coarser = spacing;
+    spacing = this->spacingAt(position, curvatureMagnitude, coarser);
   }
   return spacing;
 }
@@ -284,8 +319,8 @@ void SurfaceProxy::seedBox(std::size_t box, std::int64_t first, std::int64_t las
   }
 }
 
-std::vector<Location> SurfaceProxy::seeds(
-  std::int64_t count, double phase, const ParallelFor& parallelFor) const
+std::vector<Location> SurfaceProxy::seeds(std::int64_t count, double phase,
+  const ParallelFor& parallelFor, const std::vector<char>& only) const
 {
   std::vector<Location> result(count);
   const double stride = this->particleCount() / static_cast<double>(count);
@@ -300,12 +335,16 @@ std::vector<Location> SurfaceProxy::seeds(
         const std::int64_t first = b > 0 ? firstFrom(this->Sums[b - 1]) : 0;
         const bool isLast = this->Sums[b] == this->Sums.back();
         const std::int64_t last = isLast ? count : firstFrom(this->Sums[b]);
-        if (first < last && (b == 0 || this->Sums[b] > this->Sums[b - 1]))
+        const bool wanted = only.empty() || only[b];
+        if (wanted && first < last && (b == 0 || this->Sums[b] > this->Sums[b - 1]))
         {
           this->seedBox(b, first, last, phase, stride, result);
         }
       }
     });
+  result.erase(std::remove_if(result.begin(), result.end(),
+                 [](const Location& seed) { return seed.element < 0; }),
+    result.end());
   return result;
 }
 

@@ -34,19 +34,34 @@ public:
   SurfaceProxy(SurfaceProxy&&) noexcept;
   ~SurfaceProxy();
 
+  /// A place at which particles are to have that spacing at most.
+  struct SpacingLimit
+  {
+    glm::dvec3 position{ 0.0 };
+    float spacing = 0.0f;
+  };
+
+  /// Lowers the spacings at and, graded as between samples, around some places.
+  void limitSpacings(const std::vector<SpacingLimit>& limits, const ParallelFor& parallelFor);
+
   /// Number of particles in hexagonal packing at the spacings wanted: the sum of 2 area/(sqrt(3) h^2).
   double particleCount() const { return this->Sums.empty() ? 0.0 : this->Sums.back(); }
 
   /// `count` places on the triangles, by systematic sampling of the density of particles: the k-th
   /// stands where the sum of the weights reaches (k + phase) particleCount()/count.
   /// \param phase in [0, 1)
-  std::vector<Location> seeds(
-    std::int64_t count, double phase, const ParallelFor& parallelFor) const;
+  /// \param only if not empty, a mark for each box: of all places those in boxes that have one
+  std::vector<Location> seeds(std::int64_t count, double phase, const ParallelFor& parallelFor,
+    const std::vector<char>& only = {}) const;
 
   /// The spacing that a particle wants: that of the law at its own curvature, or less near places
   /// that want less. Graded like the samples.
   /// \param nearby a spacing found near the position before
   float spacingAt(const glm::dvec3& position, float curvatureMagnitude, float nearby) const;
+  /// The same where nothing is known nearby.
+  float spacingAt(const glm::dvec3& position, float curvatureMagnitude) const;
+
+  const SpacingLaw& law() const { return this->Law; }
 
   /// Of all samples.
   double smallestSpacing() const { return this->SmallestSpacing; }
@@ -68,7 +83,8 @@ private:
   void putOnSurface(const ParallelFor& parallelFor);
   bool samplePatiently(std::size_t box, std::int64_t& evaluations);
   bool sampleAt(std::size_t box, const Location& place, const Jet& jet);
-  void gradeSpacings();
+  void gradeSpacings(const std::vector<SpacingLimit>& limits);
+  void findSmallestSpacing();
   void sumWeights(const ParallelFor& parallelFor);
   void seedBox(std::size_t box, std::int64_t first, std::int64_t last, double phase, double stride,
     std::vector<Location>& seeds) const;

@@ -11,22 +11,19 @@ namespace hop
 namespace
 {
 
-bool onBoundary(const Isosurface& surface, const Location& location, int face)
+bool isOnFace(const ElementMesh& mesh, const Location& location, int face)
 {
-  const Domain domain = surface.mesh->elements[location.element].domain;
-  return surface.neighbor(location.element, face).element < 0 &&
-    faceMargin(facts(domain).faces[face], location.u) < OnFace;
+  const Domain domain = mesh.elements[location.element].domain;
+  return faceMargin(facts(domain).faces[face], location.u) < OnFace;
 }
 
-/// \pre the place lies on one
-int firstBoundaryFace(const Isosurface& surface, const Location& location)
+/// Cosine of the largest turn at a face at which the field jumps: particles on sheets that turn more do
+/// not keep each other off.
+constexpr double sameSheet = 0.5;
+
+int faceCountOf(const ElementMesh& mesh, const Location& location)
 {
-  int face = 0;
-  while (!onBoundary(surface, location, face))
-  {
-    ++face;
-  }
-  return face;
+  return static_cast<int>(facts(mesh.elements[location.element].domain).faces.size());
 }
 
 } // namespace
@@ -45,6 +42,88 @@ Evaluated SurfaceWalker::evaluateCurved(const Location& location)
   Evaluated result{ location, fieldPoint(jet, this->Surface.isovalue) };
   result.hessian = worldHessian(jet, result.point);
   return result;
+}
+
+std::optional<LocatedPlace> SurfaceWalker::placeBehind(const Evaluated& here, int face)
+{
+  const Isosurface& surface = this->Surface;
+  const int element = here.location.element;
+  const FaceNeighbor& neighbor = surface.mesh->neighbor(element, face);
+  if (neighbor.element >= 0)
+  {
+    return LocatedPlace{ crossFace(*surface.mesh, here.location, face), neighbor.face, 0.0 };
+  }
+  return surface.locator->locate(
+    here.point.map.position, element, face, surface.gap(element, face), this->Evaluations);
+}
+
+std::optional<SurfaceWalker::Behind> SurfaceWalker::behind(const Evaluated& here, int face)
+{
+  const Isosurface& surface = this->Surface;
+  const int element = here.location.element;
+  const bool mayEnd = surface.mayEnd(element, face);
+  if (mayEnd && !surface.mayGoOnAndEnd(element, face))
+  {
+    return std::nullopt;
+  }
+  const auto place = this->placeBehind(here, face);
+  if (!place)
+  {
+    return std::nullopt;
+  }
+  const Behind there{ this->evaluate(place->location), place->face };
+  const double gap = surface.gap(element, face);
+  if (!std::isfinite(gap))
+  {
+    return there;
+  }
+  const WorldVector& before = here.point.gradient;
+  const WorldVector& after = there.at.point.gradient;
+  const double slope = length(after);
+  const bool agrees = std::abs(there.at.point.value - here.point.value) <= gap * slope &&
+    dot(before, after) >= sameSheet * slope * length(before);
+  return agrees ? std::optional<Behind>(there) : std::nullopt;
+}
+
+std::optional<SurfaceWalker::Behind> SurfaceWalker::behind(const Location& here, int face)
+{
+  const bool matters = this->Surface.mayGoOnAndEnd(here.element, face);
+  return this->behind(matters ? this->evaluate(here) : Evaluated{ here, {} }, face);
+}
+
+bool SurfaceWalker::endsAt(const Evaluated& here, int face)
+{
+  return isOnFace(*this->Surface.mesh, here.location, face) &&
+    this->Surface.mayEnd(here.location.element, face) && !this->behind(here, face);
+}
+
+int SurfaceWalker::endCount(const Location& location)
+{
+  int count = 0;
+  for (int f = 0; f < faceCountOf(*this->Surface.mesh, location); ++f)
+  {
+    count += isOnFace(*this->Surface.mesh, location, f) &&
+      this->Surface.mayEnd(location.element, f) && !this->behind(location, f);
+  }
+  return count;
+}
+
+/// The face at which the surface ends at a place; -1 if there is none or more than one.
+int SurfaceWalker::onlyEnd(const Evaluated& here)
+{
+  int end = -1;
+  for (int f = 0; f < faceCountOf(*this->Surface.mesh, here.location); ++f)
+  {
+    if (this->endsAt(here, f))
+    {
+      if (end >= 0)
+      {
+        return -1;
+      }
+      end = f;
+    }
+  }
+  return end;
 }
 
 Location SurfaceWalker::move(const Evaluated& start, const WorldVector& step)
@@ -69,14 +148,16 @@ Location SurfaceWalker::move(const Evaluated& start, const WorldVector& step)
     {
       break;
     }
-    const FaceNeighbor neighbor = this->Surface.neighbor(at.location.element, exit.face);
     // Where the walls of two elements meet, each sends the step into the other: straight back
     // through the face it came by. Then it can only follow that face.
     const bool comesBack = exit.face == entry && exit.fraction == 0.0 && active.count > 0;
-    if (neighbor.element >= 0 && !comesBack)
+    const bool looked = this->Surface.mayEnd(at.location.element, exit.face);
+    at = looked ? this->evaluate(at.location) : at;
+    const auto next = comesBack ? std::nullopt : this->behind(at, exit.face);
+    if (next)
     {
-      entry = neighbor.face;
-      at.location = crossFace(mesh, at.location, exit.face);
+      entry = next->face;
+      at = next->at;
       active = {};
     }
     else if (active.count == 2)
@@ -86,8 +167,8 @@ Location SurfaceWalker::move(const Evaluated& start, const WorldVector& step)
     else
     {
       active.add(exit.face);
+      at = looked ? at : this->evaluate(at.location);
     }
-    at = this->evaluate(at.location);
   }
   return at.location;
 }
@@ -95,7 +176,7 @@ Location SurfaceWalker::move(const Evaluated& start, const WorldVector& step)
 /// The step of Newton's method. One that would leave through the boundary looks for the surface along
 /// the boundary instead, and so do those that follow (`alongWall`): an overshoot would otherwise send
 /// the next one back inside, past the rim.
-WorldVector SurfaceWalker::newtonStep(const Evaluated& at, bool& alongWall) const
+WorldVector SurfaceWalker::newtonStep(const Evaluated& at, bool& alongWall)
 {
   const WorldVector& gradient = at.point.gradient;
   const double slope2 = dot(gradient, gradient);
@@ -112,14 +193,14 @@ WorldVector SurfaceWalker::newtonStep(const Evaluated& at, bool& alongWall) cons
     // Where the surface all but touches the boundary there is no curve to find.
     step = rate > 1e-6 * slope2 ? (-at.point.value / rate) * along : WorldVector{};
   };
-  if (alongWall && boundaryFaceCount(this->Surface, at.location) == 1)
+  if (const int wall = alongWall ? this->onlyEnd(at) : -1; wall >= 0)
   {
-    hold(firstBoundaryFace(this->Surface, at.location));
+    hold(wall);
   }
   while (active.count < 2)
   {
     const Exit exit = findExit(domain, at.location.u, at.point.map.pull(step), active);
-    if (exit.face < 0 || !onBoundary(this->Surface, at.location, exit.face))
+    if (exit.face < 0 || !this->endsAt(at, exit.face))
     {
       break;
     }
@@ -165,20 +246,14 @@ bool SurfaceWalker::project(
   return false;
 }
 
-int boundaryFaceCount(const Isosurface& surface, const Location& location)
-{
-  const auto& faces = facts(surface.mesh->elements[location.element].domain).faces;
-  int count = 0;
-  for (int f = 0; f < static_cast<int>(faces.size()); ++f)
-  {
-    count += onBoundary(surface, location, f);
-  }
-  return count;
-}
-
 int boundaryFaceCount(const ElementMesh& mesh, const Location& location)
 {
-  return boundaryFaceCount(Isosurface{ &mesh }, location);
+  int count = 0;
+  for (int f = 0; f < faceCountOf(mesh, location); ++f)
+  {
+    count += mesh.neighbor(location.element, f).element < 0 && isOnFace(mesh, location, f);
+  }
+  return count;
 }
 
 } // namespace hop

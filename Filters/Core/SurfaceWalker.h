@@ -1,8 +1,10 @@
 #pragma once
 
-#include "SurfaceGeometry.h"
+#include "FaceLocator.h"
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace hop
 {
@@ -14,16 +16,34 @@ struct Isosurface
   double isovalue = 0.0;
   /// Largest distance |F - c|/|grad F| of a particle from the surface, world units.
   double tolerance = 0.0;
-  /// MaximumFaces entries an element; nonzero: the surface ends at that face on both sides, as the
-  /// field jumps there. nullptr: it ends at no inner face.
-  const std::vector<char>* cuts = nullptr;
+  /// Finds what lies behind faces that the mesh does not join; nullptr: nothing does.
+  const FaceLocator* locator = nullptr;
+  /// MaximumFaces entries an element: by how much the two sides of the surface may miss each other at
+  /// that face and still count as one, world units; infinite where they are known to agree. nullptr:
+  /// infinite everywhere.
+  const std::vector<float>* gaps = nullptr;
+  /// As if the surface ended at every face at which it might.
+  bool walled = false;
 
-  /// What lies behind a face, as far as the surface goes on there.
-  FaceNeighbor neighbor(int element, int face) const
+  double gap(int element, int face) const
   {
-    const bool cut =
-      this->cuts && (*this->cuts)[static_cast<std::size_t>(element) * MaximumFaces + face];
-    return cut ? FaceNeighbor() : this->mesh->neighbor(element, face);
+    return this->gaps ? (*this->gaps)[static_cast<std::size_t>(element) * MaximumFaces + face]
+                      : std::numeric_limits<double>::infinity();
+  }
+
+  /// Whether it is to be looked at whether the surface goes on behind a place on the face.
+  bool mayGoOnAndEnd(int element, int face) const
+  {
+    const bool joined = this->mesh->neighbor(element, face).element >= 0;
+    const bool open = joined || (this->locator && this->locator->mayGoOn(element, face));
+    return open && !this->walled && this->mayEnd(element, face);
+  }
+
+  /// Whether there are places on the face at which the surface may end.
+  bool mayEnd(int element, int face) const
+  {
+    return this->mesh->neighbor(element, face).element < 0 ||
+      std::isfinite(this->gap(element, face));
   }
 };
 
@@ -51,6 +71,24 @@ public:
   /// Value, gradient and Hessian at a place.
   Evaluated evaluateCurved(const Location& location);
 
+  /// What lies behind a face, on which a place lies, where the surface goes on there: joined by the mesh or
+  /// found by the locator, and no farther off than the face's gap.
+  struct Behind
+  {
+    Evaluated at;
+    /// The face of that element by which one enters it.
+    int face = -1;
+  };
+  std::optional<Behind> behind(const Evaluated& here, int face);
+  /// The same; the place is evaluated only if that matters.
+  std::optional<Behind> behind(const Location& here, int face);
+
+  /// Whether a place lies on that face of its element, and the surface ends there.
+  bool endsAt(const Evaluated& here, int face);
+
+  /// How many faces of its element there are for which it does.
+  int endCount(const Location& location);
+
   /// Follows a world vector from a place, through as many elements as it takes: at each face the
   /// rest of the vector, towards the same world target, is continued with the Jacobian of the next
   /// element. At a boundary the rest slides along it. Within an element the step is first order
@@ -73,15 +111,15 @@ public:
   static constexpr int MaximumNewtonSteps = 25;
 
 private:
-  WorldVector newtonStep(const Evaluated& at, bool& alongWall) const;
+  WorldVector newtonStep(const Evaluated& at, bool& alongWall);
+  int onlyEnd(const Evaluated& here);
+  std::optional<LocatedPlace> placeBehind(const Evaluated& here, int face);
 
   Isosurface Surface;
   std::int64_t Evaluations = 0;
 };
 
-/// How many boundary faces (faces behind which the surface does not go on) of its element a place lies on.
-int boundaryFaceCount(const Isosurface& surface, const Location& location);
-/// The same for faces without neighbour.
+/// On how many faces without neighbour of its element a place lies.
 int boundaryFaceCount(const ElementMesh& mesh, const Location& location);
 
 } // namespace hop

@@ -54,12 +54,11 @@ Timings measure(vtkUnstructuredGrid* grid, vtkDataArray* array, double isovalue,
 {
   Timings result;
   const hop::ParallelFor parallelFor = smpParallelFor();
+  const InputBlocks blocks({ { grid, array, nullptr, "" } }, 0);
   GridElements elements;
   result.elements = bestSeconds(repetitions,
-    [&]()
-    {
-      elements =
-        buildGridElements(grid, { array, 0 }, hop::NodeSpacing::Uniform, { isovalue }, parallelFor);
+    [&]() {
+      elements = buildGridElements(blocks, hop::NodeSpacing::Uniform, { isovalue }, parallelFor);
     });
   result.kept = elements.mesh.elements.size();
   const double wantedSize = 0.03 * grid->GetLength();

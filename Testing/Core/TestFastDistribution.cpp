@@ -362,7 +362,7 @@ TEST(FastDistribution, ClipsAtKinks)
   for (const Particle& p : result.particles)
   {
     const glm::dvec3 x = p.position.xyz;
-    if (std::abs(x.x) > spacing || std::abs(x.y) > 1.0 - 2.0 * spacing)
+    if (std::abs(x.x) > 0.8 * spacing || std::abs(x.y) > 1.0 - 2.0 * spacing)
     {
       continue;
     }

@@ -7,7 +7,8 @@ cmake=$1 build=$2 && shift 2
 work=$build/Testing/example
 rm -rf "$work"
 "$cmake" --install "$build" --prefix "$work/prefix" >/dev/null
-"$cmake" -S "$(dirname "${BASH_SOURCE[0]}")" -B "$work/build" -DCMAKE_BUILD_TYPE=Release \
+generator=$(sed -n 's/^CMAKE_GENERATOR:INTERNAL=//p' "$build/CMakeCache.txt")
+"$cmake" -G "$generator" -S "$(dirname "${BASH_SOURCE[0]}")" -B "$work/build" -DCMAKE_BUILD_TYPE=Release \
   -DCMAKE_PREFIX_PATH="$work/prefix"
 "$cmake" --build "$work/build"
 "$work/build/isosurface_picture" "$@" "$work/isosurface.png"

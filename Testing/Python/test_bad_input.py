@@ -140,7 +140,7 @@ def test_a_block_without_the_array_leaves_the_others_right(good):
     composite.SetBlock(0, bare)
     composite.SetBlock(1, good)
     output, messages = support.run(composite, **SPHERE)
-    assert_one_error(messages, "no point array 'F'")
+    assert_one_warning(messages, "block 1", "point array 'F'")
     assert output.GetBlock(0).GetNumberOfPoints() == 0
     assert output.GetBlock(1).GetNumberOfPoints() > 400
 
@@ -288,12 +288,12 @@ def test_another_array_with_nan_does_not_matter(good):
 
 
 def test_a_constant_field_equal_to_the_isovalue():
-    """The surface is the whole volume: no particle can stand on it, and nothing hangs."""
+    """The surface would be the whole volume: no particle can stand on it, and nothing takes long."""
     grid = block(field=lambda x: np.ones(len(x)))
     begin = time.monotonic()
     particles, messages = support.run(grid, **SPHERE)
-    assert time.monotonic() - begin < 20
-    assert messages.errors == []
+    assert time.monotonic() - begin < 2
+    assert_one_warning(messages, f"{CELLS**3} cells skipped: the field is the isovalue throughout")
     assert_empty(particles)
 
 

@@ -115,12 +115,13 @@ SurfacePicture DrawSurface(vtkPolyDataMapper* mapper, const PictureCamera& camer
 SurfacePicture CastSurface(const SurfaceCase& surface, const PictureCamera& camera)
 {
   vtkDataArray* array = surface.Grid->GetPointData()->GetArray(surface.Array.c_str());
+  const InputBlocks blocks({ { surface.Grid, array, nullptr, "" } }, 0);
   SurfacePicture picture;
   withThreads(
     [&]()
     {
-      const GridElements elements = buildGridElements(surface.Grid, { array, 0 },
-        hop::NodeSpacing::Uniform, { surface.Isovalue }, smpParallelFor());
+      const GridElements elements = buildGridElements(
+        blocks, hop::NodeSpacing::Uniform, { surface.Isovalue }, smpParallelFor());
       picture.Seen =
         hop::testing::castRays(elements.mesh, surface.Isovalue, camera, smpParallelFor());
     });

@@ -90,6 +90,44 @@ ElementMesh makeMesh(const MeshRecipe& recipe)
   return mesh;
 }
 
+void appendBox(
+  ElementMesh& mesh, const MeshRecipe& recipe, const glm::dvec3& lower, const glm::dvec3& upper)
+{
+  const auto numberOf = [](const glm::dvec3& x)
+  {
+    constexpr double perUnit = 1e4;
+    constexpr std::int64_t stride = 1 << 20;
+    const glm::i64vec3 n(glm::round(perUnit * x));
+    return ((n.x + stride / 2) * stride + n.y + stride / 2) * stride + n.z + stride / 2;
+  };
+  for (const std::vector<int>& part : partsOfCube(recipe.domain))
+  {
+    std::vector<glm::dvec3> corners;
+    std::vector<std::int64_t> numbers;
+    for (const int c : part)
+    {
+      corners.push_back(glm::mix(lower, upper, facts(Domain::Hexahedron).corners[c].xyz));
+      numbers.push_back(numberOf(corners.back()));
+    }
+    appendElement(mesh, recipe, corners, numbers);
+  }
+}
+
+ElementMesh hangingMesh(const MeshRecipe& left, const MeshRecipe& right)
+{
+  ElementMesh mesh;
+  appendBox(mesh, left, { -1, -1, -1 }, { 0, 1, 1 });
+  for (const double y : { -1.0, 0.0 })
+  {
+    for (const double z : { -1.0, 0.0 })
+    {
+      appendBox(mesh, right, { 0, y, z }, { 1, y + 1, z + 1 });
+    }
+  }
+  findFaceNeighbors(mesh, 1e-9);
+  return mesh;
+}
+
 Map wavyMap(double amount)
 {
   return [amount](const glm::dvec3& x)

@@ -31,6 +31,15 @@ ElementMesh makeMesh(const MeshRecipe& recipe);
 void appendElement(ElementMesh& mesh, const MeshRecipe& recipe,
   const std::vector<glm::dvec3>& corners, const std::vector<std::int64_t>& numbers);
 
+/// The box between two corners, straight-sided before `map` bends it, as one hexahedron, two wedges or
+/// six tetrahedra. Corners in one place have one number, whichever box they belong to.
+void appendBox(
+  ElementMesh& mesh, const MeshRecipe& recipe, const glm::dvec3& lower, const glm::dvec3& upper);
+
+/// Two halves of the cube [-1,1]^3 whose faces at x = 0 do not match: on the left as `left` says, in
+/// one box, on the right as `right` says, in 2 x 2 boxes. Face neighbours are found.
+ElementMesh hangingMesh(const MeshRecipe& left, const MeshRecipe& right);
+
 /// A smooth bend of the cube, invertible, that moves points by up to `amount`.
 Map wavyMap(double amount);
 

@@ -89,12 +89,33 @@ struct SweepBlock
 using SweepFunction = void (*)(
   SweepBlock* blocks, std::ptrdiff_t count, const std::int32_t* neighbors, Seen* seen);
 
+/// Points among which those near a point are looked for. `count` is a multiple of MaximumLanes: points
+/// out of reach fill the arrays up.
+struct Candidates
+{
+  const double* x;
+  const double* y;
+  const double* z;
+  /// 1/h.
+  const double* inverseSpacing;
+  const std::int32_t* index;
+  std::ptrdiff_t count;
+};
+
+/// Writes the indices of the candidates for which d^2 (1/h + 1/h')^2 is within the limit, in their order.
+/// Two points find each other, or neither finds the other.
+/// \param near room for all candidates
+/// \return the end of what was found
+using NearFunction = std::int32_t* (*)(const Candidates&, const double (&position)[3],
+  double inverseSpacing, double limit, std::int32_t* near);
+
 struct Kernels
 {
   DomainKernels hexahedron;
   DomainKernels tetrahedron;
   DomainKernels wedge;
   SweepFunction sweep;
+  NearFunction near;
 };
 
 Kernels baselineKernels();

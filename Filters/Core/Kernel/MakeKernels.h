@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Jets.h"
+#include "Near.h"
 #include "Sweep.h"
 
 #include <utility>
@@ -163,7 +164,7 @@ constexpr Kernels makeKernels()
   static_assert(PointLanes <= MaximumLanes);
   return { makeDomainKernels<Hexahedron, PointLanes, ComponentLanes>(),
     makeDomainKernels<Tetrahedron, PointLanes, ComponentLanes>(),
-    makeDomainKernels<Wedge, PointLanes, ComponentLanes>(), sweepBlocks };
+    makeDomainKernels<Wedge, PointLanes, ComponentLanes>(), sweepBlocks, findNear<PointLanes> };
 }
 
 } // namespace

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <type_traits>
+
+namespace hop
+{
+
+/// An array whose entries are yet to be written. A vector would write zeros first, on one thread, and for
+/// large arrays fetching their memory from the system is what takes the time.
+template <class T>
+class Buffer
+{
+public:
+  static_assert(std::is_trivially_default_constructible_v<T>);
+
+  Buffer() = default;
+  explicit Buffer(std::size_t size)
+    : Values(new T[size])
+    , Size(size)
+  {
+  }
+
+  std::size_t size() const { return this->Size; }
+  bool empty() const { return this->Size == 0; }
+  T* data() { return this->Values.get(); }
+  const T* data() const { return this->Values.get(); }
+  T& operator[](std::size_t i) { return this->Values[i]; }
+  const T& operator[](std::size_t i) const { return this->Values[i]; }
+  T* begin() { return this->data(); }
+  T* end() { return this->data() + this->Size; }
+  const T* begin() const { return this->data(); }
+  const T* end() const { return this->data() + this->Size; }
+
+private:
+  std::unique_ptr<T[]> Values;
+  std::size_t Size = 0;
+};
+
+} // namespace hop

@@ -1,0 +1,134 @@
+#include "KinkSpacings.h"
+
+#include "FaceCrossings.h"
+
+#include <atomic>
+#include <cmath>
+
+namespace hop
+{
+namespace
+{
+
+/// Distance of places along a kink, in units of the spacing there.
+constexpr double placesPerSpacing = 0.5;
+
+using SpacingLimit = SurfaceProxy::SpacingLimit;
+
+class KinkSampler
+{
+public:
+  KinkSampler(const Isosurface& surface, const SurfaceProxy& proxy, const FaceJumps& jumps)
+    : Mesh(*surface.mesh)
+    , Proxy(proxy)
+    , Kinks(jumps.kinks)
+    , Walker(surface)
+  {
+  }
+
+  void addBox(std::size_t box, std::vector<SpacingLimit>& limits);
+  std::int64_t evaluations() const { return this->Walker.evaluations(); }
+
+private:
+  void addSegment(
+    const FaceCrossing& from, const FaceCrossing& to, std::vector<SpacingLimit>& limits);
+  SpacingLimit limitAt(const Location& place, int face);
+
+  const ElementMesh& Mesh;
+  const SurfaceProxy& Proxy;
+  const std::vector<char>& Kinks;
+  SurfaceWalker Walker;
+};
+
+/// The spacing wanted at a place on a face, from the normals on both sides.
+SpacingLimit KinkSampler::limitAt(const Location& place, int face)
+{
+  const Evaluated here = this->Walker.evaluate(place);
+  const auto behind = this->Walker.behind(here, face);
+  const WorldVector& before = here.point.gradient;
+  const WorldVector after = behind ? behind->at.point.gradient : before;
+  const double cosine = dot(before, after) / (length(before) * length(after));
+  const double turn = cosine < KinkCosine ? std::acos(std::max(-1.0, cosine)) : 0.0;
+  return { here.point.map.position.xyz,
+    static_cast<float>(spacingAtKink(this->Proxy.law(), turn)) };
+}
+
+/// Places on the line between two crossings, which the surface follows as far as the box shows it.
+void KinkSampler::addSegment(
+  const FaceCrossing& from, const FaceCrossing& to, std::vector<SpacingLimit>& limits)
+{
+  const SpacingLimit first = this->limitAt(from.location, from.face);
+  const SpacingLimit last = this->limitAt(to.location, from.face);
+  limits.insert(limits.end(), { first, last });
+  const double step = placesPerSpacing * std::min(first.spacing, last.spacing);
+  const auto count =
+    static_cast<int>(std::ceil(glm::distance(first.position, last.position) / step));
+  for (int n = 1; n < count; ++n)
+  {
+    const glm::dvec3 u =
+      glm::mix(from.location.u.xyz, to.location.u.xyz, n / static_cast<double>(count));
+    limits.push_back(this->limitAt({ from.location.element, { u } }, from.face));
+  }
+}
+
+void KinkSampler::addBox(std::size_t box, std::vector<SpacingLimit>& limits)
+{
+  const int element = this->Proxy.boxes()[box].middle.element;
+  const auto isKink = [&](int face)
+  {
+    const int behind = this->Mesh.neighbor(element, face).element;
+    // Joined faces are looked at from one side only.
+    return this->Kinks[static_cast<std::size_t>(element) * MaximumFaces + face] &&
+      (behind < 0 || element < behind);
+  };
+  // Those of one side of the box come in pairs: the surface enters the side and leaves it.
+  std::optional<FaceCrossing> entered;
+  visitFaceCrossings(this->Mesh, this->Proxy.boxes()[box], isKink,
+    [&](const FaceCrossing& crossing)
+    {
+      if (entered && entered->face == crossing.face)
+      {
+        this->addSegment(*entered, crossing, limits);
+        entered.reset();
+      }
+      else
+      {
+        entered = crossing;
+      }
+    });
+}
+
+} // namespace
+
+std::vector<SurfaceProxy::SpacingLimit> findKinkSpacings(const Isosurface& surface,
+  const SurfaceProxy& proxy, const FaceJumps& jumps, const ParallelFor& parallelFor,
+  std::int64_t& evaluations)
+{
+  if (proxy.law().angularDensity == 0.0)
+  {
+    return {};
+  }
+  std::vector<std::vector<SpacingLimit>> ofBox(proxy.boxes().size());
+  std::atomic<std::int64_t> cost{ 0 };
+  runParallel(parallelFor, static_cast<std::ptrdiff_t>(ofBox.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      KinkSampler sampler(surface, proxy, jumps);
+      for (std::ptrdiff_t b = begin; b < end; ++b)
+      {
+        sampler.addBox(b, ofBox[b]);
+      }
+      cost += sampler.evaluations();
+    });
+  evaluations += cost;
+  std::vector<SpacingLimit> limits;
+  for (const std::vector<SpacingLimit>& some : ofBox)
+  {
+    std::copy_if(some.begin(), some.end(), std::back_inserter(limits),
+      [&](const SpacingLimit& limit)
+      { return limit.spacing < static_cast<float>(proxy.law().spacing); });
+  }
+  return limits;
+}
+
+} // namespace hop

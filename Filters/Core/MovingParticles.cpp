@@ -1,0 +1,236 @@
+#include "MovingParticles.h"
+
+#include "KeepMarked.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace hop
+{
+namespace
+{
+
+/// A step of relaxation is taken back by half while it ends farther from the surface than this, in
+/// units of the spacing, or on a sheet that is turned away.
+constexpr float largestOffset = 0.5f;
+constexpr float smallestTurn = 0.3f;
+constexpr int maximumHalvings = 3;
+/// Steps from farther off have to shorten the way by this factor.
+constexpr float smallestProgress = 0.7f;
+/// A patch is good if it was evaluated nearer to the surface than this, in units of its spacing.
+constexpr float nearEnough = 0.1f;
+
+/// World vector of a displacement on a patch.
+glm::dvec3 worldStep(const Patch& patch, const glm::vec2& t)
+{
+  const auto tangents = tangentsOf(patch.normal);
+  return glm::dvec3(t.x * tangents[0] + t.y * tangents[1] - patch.sink(t) * patch.normal);
+}
+
+/// Whether a step leads to the surface, or nearer to it at least, and not astray.
+bool accepts(const Anchor& from, const Patch& before, const Anchor& to, const Patch& after)
+{
+  const float farthest =
+    std::max(largestOffset * before.spacing, smallestProgress * std::abs(from.offset));
+  return std::abs(to.offset) <= farthest && glm::dot(before.normal, after.normal) > smallestTurn &&
+    glm::distance(before.position, after.position) <= 2.0 * before.spacing;
+}
+
+} // namespace
+
+MovingParticles::MovingParticles(const Isosurface& surface, const SurfaceProxy& proxy,
+  std::vector<Patch> rims, ParallelFor parallelFor)
+  : Surface(surface)
+  , Proxy(proxy)
+  , Parallel(std::move(parallelFor))
+  , Patches(std::move(rims))
+{
+}
+
+void MovingParticles::add(const std::vector<Location>& places)
+{
+  const std::size_t first = this->count();
+  this->Anchors.resize(first + places.size());
+  this->Patches.insert(
+    this->Patches.begin() + static_cast<std::ptrdiff_t>(first), places.size(), Patch());
+  this->keep(this->anchorAt(places, first));
+  std::vector<int> far;
+  for (std::size_t i = first; i < this->count(); ++i)
+  {
+    if (std::abs(this->Anchors[i].offset) > nearEnough * this->Patches[i].spacing)
+    {
+      far.push_back(static_cast<int>(i));
+    }
+  }
+  this->step(far, std::vector<glm::vec2>(far.size(), glm::vec2(0.0f)));
+}
+
+/// Gives particles from `first` on the patches that belong to places.
+/// \return marks of those that have one
+std::vector<char> MovingParticles::anchorAt(const std::vector<Location>& places, std::size_t first)
+{
+  std::vector<char> found(this->count(), 1);
+  const std::vector<int> order = orderByElement(places, this->Surface.mesh->elements.size());
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(places.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      evaluateInOrder(*this->Surface.mesh, places, order, begin, end,
+        [&](int n, const Jet& jet)
+        {
+          const std::size_t i = first + n;
+          Patch& patch = this->Patches[i];
+          found[i] = anchorPatch(places[n], jet, this->Surface.isovalue, this->Anchors[i], patch);
+          patch.spacing = this->Proxy.spacingAt(patch.position, patch.curvatureMagnitude());
+        });
+    });
+  this->Evaluations += static_cast<std::int64_t>(places.size());
+  return found;
+}
+
+void MovingParticles::add(const std::vector<Anchor>& anchors, const std::vector<Patch>& patches)
+{
+  this->Patches.insert(this->Patches.begin() + static_cast<std::ptrdiff_t>(this->count()),
+    patches.begin(), patches.end());
+  this->Anchors.insert(this->Anchors.end(), anchors.begin(), anchors.end());
+}
+
+void MovingParticles::keep(std::vector<char> kept)
+{
+  keepMarked(this->Anchors, kept);
+  kept.resize(this->Patches.size(), 1);
+  keepMarked(this->Patches, kept);
+}
+
+/// Where a step in world space takes particle i: in its own element by its own map, else by walking.
+Location MovingParticles::target(std::size_t i, const glm::dvec3& step, std::int64_t& cost) const
+{
+  const Anchor& anchor = this->Anchors[i];
+  const glm::dvec3 u = anchor.place.u.xyz + glm::dmat3(anchor.pull) * step;
+  if (insideMargin(this->Surface.mesh->elements[anchor.place.element].domain, { u }) >= 0.0)
+  {
+    return { anchor.place.element, { u } };
+  }
+  SurfaceWalker walker(this->Surface);
+  Evaluated start{ anchor.place, {} };
+  LocalMap& map = start.point.map;
+  map.position = { this->Patches[i].position -
+    static_cast<double>(anchor.offset) * glm::dvec3(this->Patches[i].normal) };
+  map.inverse = glm::dmat3(anchor.pull);
+  map.jacobian = glm::inverse(map.inverse);
+  // Onto a wall only particles on rims may go.
+  Location reached = walker.move(start, { step });
+  const auto onWall = [&]() { return walker.endCount(reached) > 0; };
+  if (onWall())
+  {
+    reached = walker.move(start, { 0.5 * step });
+  }
+  const bool ends = onWall();
+  cost += walker.evaluations();
+  return ends ? anchor.place : reached;
+}
+
+/// World vector from where particle i was evaluated to a displacement on its patch.
+glm::dvec3 MovingParticles::stepTo(std::size_t i, const glm::vec2& displacement) const
+{
+  const Patch& patch = this->Patches[i];
+  return worldStep(patch, displacement) +
+    static_cast<double>(this->Anchors[i].offset) * glm::dvec3(patch.normal);
+}
+
+/// Where displacements, one for each of some particles, take them.
+std::vector<Location> MovingParticles::targets(
+  const std::vector<int>& which, const std::vector<glm::vec2>& displacements)
+{
+  std::vector<Location> places(which.size());
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(which.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      std::int64_t cost = 0;
+      for (std::ptrdiff_t n = begin; n < end; ++n)
+      {
+        places[n] = this->target(which[n], this->stepTo(which[n], displacements[n]), cost);
+      }
+      this->Evaluations += cost;
+    });
+  return places;
+}
+
+/// Half the step, a quarter of it, ...
+bool MovingParticles::retry(
+  std::size_t i, glm::dvec3 step, Anchor& anchor, Patch& patch, std::int64_t& cost) const
+{
+  for (int n = 0; n < maximumHalvings; ++n)
+  {
+    step *= 0.5;
+    const Location place = this->target(i, step, cost);
+    const Jet jet = evaluateHessian(this->Surface.mesh->form(place.element), place.u);
+    ++cost;
+    if (anchorPatch(place, jet, this->Surface.isovalue, anchor, patch) &&
+      accepts(this->Anchors[i], this->Patches[i], anchor, patch))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Takes some particles where displacements, one for each, and Newton's method lead them.
+void MovingParticles::step(
+  const std::vector<int>& which, const std::vector<glm::vec2>& displacements)
+{
+  const std::vector<Location> places = this->targets(which, displacements);
+  const std::vector<int> order = orderByElement(places, this->Surface.mesh->elements.size());
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(which.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      std::int64_t cost = end - begin;
+      evaluateInOrder(*this->Surface.mesh, places, order, begin, end,
+        [&](int n, const Jet& jet)
+        {
+          const int i = which[n];
+          Anchor anchor;
+          Patch patch;
+          const Patch& before = this->Patches[i];
+          if ((anchorPatch(places[n], jet, this->Surface.isovalue, anchor, patch) &&
+                accepts(this->Anchors[i], before, anchor, patch)) ||
+            this->retry(i, this->stepTo(i, displacements[n]), anchor, patch, cost))
+          {
+            patch.spacing =
+              this->Proxy.spacingAt(patch.position, patch.curvatureMagnitude(), before.spacing);
+            this->Anchors[i] = anchor;
+            this->Patches[i] = patch;
+          }
+        });
+      this->Evaluations += cost;
+    });
+}
+
+void MovingParticles::commit(const std::vector<glm::vec2>& displacements)
+{
+  std::vector<int> all(this->count());
+  std::iota(all.begin(), all.end(), 0);
+  this->step(all, displacements);
+  const std::vector<int> order = orderByElement(this->Anchors, this->Surface.mesh->elements.size());
+  permute(this->Anchors, order);
+  permute(this->Patches, order);
+}
+
+Location MovingParticles::onSurface(std::size_t i, std::int64_t& cost) const
+{
+  return this->target(i, this->stepTo(i, glm::vec2(0.0f)), cost);
+}
+
+void MovingParticles::renew(std::size_t i, const Location& place, const Jet& jet)
+{
+  Anchor anchor;
+  Patch patch = this->Patches[i];
+  if (anchorPatch(place, jet, this->Surface.isovalue, anchor, patch) &&
+    accepts(this->Anchors[i], this->Patches[i], anchor, patch))
+  {
+    this->Anchors[i] = anchor;
+    this->Patches[i] = patch;
+  }
+}
+
+} // namespace hop

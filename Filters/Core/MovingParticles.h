@@ -1,0 +1,73 @@
+#pragma once
+
+#include "Anchor.h"
+#include "SurfaceProxy.h"
+
+#include <atomic>
+#include <vector>
+
+namespace hop
+{
+
+/// Particles on their way to an even spread. Those that move are tied to the mesh by anchors; those on rims
+/// stay where they are, and come last among the patches.
+class MovingParticles
+{
+public:
+  /// \param proxy says which spacing is wanted where; outlives this, as the surface's mesh does
+  /// \param rims patches that are fixed
+  MovingParticles(const Isosurface& surface, const SurfaceProxy& proxy, std::vector<Patch> rims,
+    ParallelFor parallelFor);
+
+  /// How many move.
+  std::size_t count() const { return this->Anchors.size(); }
+  /// How many there are in all.
+  std::size_t size() const { return this->Patches.size(); }
+  const std::vector<Anchor>& anchors() const { return this->Anchors; }
+  const std::vector<Patch>& patches() const { return this->Patches; }
+  std::int64_t evaluations() const { return this->Evaluations; }
+
+  /// Adds a particle for each place from which one Newton step leads to the surface; one evaluation each,
+  /// and another where that step is not small.
+  void add(const std::vector<Location>& places);
+  /// Adds particles whose patches are known.
+  void add(const std::vector<Anchor>& anchors, const std::vector<Patch>& patches);
+  /// Keeps those marked; all that move, and no others, have a mark.
+  void keep(std::vector<char> kept);
+
+  /// Takes particles to where relaxation wants them, and to the surface; one evaluation each gives them
+  /// new patches there, more where half a step has to do. Afterwards they are sorted by element.
+  /// \param displacements in the tangent planes of the patches, one for each that moves at least
+  void commit(const std::vector<glm::vec2>& displacements);
+
+  /// Where one Newton step takes particle i. Costs evaluations only where it leaves its element.
+  Location onSurface(std::size_t i, std::int64_t& cost) const;
+  /// Gives particle i a new anchor and patch, unless they are too far from those before.
+  void renew(std::size_t i, const Location& place, const Jet& jet);
+  /// Puts particle i where it was found to lie.
+  void settle(std::size_t i, const WorldPoint& position, const WorldVector& normal)
+  {
+    this->Patches[i].position = position.xyz;
+    this->Patches[i].normal = glm::vec3(normal.xyz);
+  }
+  const Isosurface& surface() const { return this->Surface; }
+
+private:
+  std::vector<char> anchorAt(const std::vector<Location>& places, std::size_t first);
+  Location target(std::size_t i, const glm::dvec3& step, std::int64_t& cost) const;
+  glm::dvec3 stepTo(std::size_t i, const glm::vec2& displacement) const;
+  std::vector<Location> targets(
+    const std::vector<int>& which, const std::vector<glm::vec2>& displacements);
+  void step(const std::vector<int>& which, const std::vector<glm::vec2>& displacements);
+  bool retry(
+    std::size_t i, glm::dvec3 step, Anchor& anchor, Patch& patch, std::int64_t& cost) const;
+
+  Isosurface Surface;
+  const SurfaceProxy& Proxy;
+  ParallelFor Parallel;
+  std::vector<Anchor> Anchors;
+  std::vector<Patch> Patches;
+  std::atomic<std::int64_t> Evaluations{ 0 };
+};
+
+} // namespace hop

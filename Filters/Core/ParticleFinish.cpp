@@ -1,0 +1,135 @@
+#include "ParticleFinish.h"
+
+#include <atomic>
+#include <cmath>
+#include <numeric>
+
+namespace hop
+{
+namespace
+{
+
+class Finish
+{
+public:
+  Finish(MovingParticles& moving, const SpacingLaw& law, const ParallelFor& parallelFor)
+    : Moving(moving)
+    , Law(law)
+    , Parallel(parallelFor)
+    , Pending(moving.count())
+  {
+    this->Result.particles.reserve(moving.size());
+    this->Result.particles.resize(moving.count());
+    this->Result.settled.resize(moving.count(), 0);
+    std::iota(this->Pending.begin(), this->Pending.end(), 0);
+  }
+
+  FinishedParticles run()
+  {
+    constexpr int passes = 3;
+    for (int pass = 0; pass < passes; ++pass)
+    {
+      this->pass();
+    }
+    this->persist();
+    this->Result.evaluations = this->Evaluations;
+    return std::move(this->Result);
+  }
+
+private:
+  void pass();
+  void persist();
+  bool settle(int i, const Location& place, const Jet& jet);
+
+  MovingParticles& Moving;
+  const SpacingLaw& Law;
+  const ParallelFor& Parallel;
+  std::vector<int> Pending;
+  std::atomic<std::int64_t> Evaluations{ 0 };
+  FinishedParticles Result;
+};
+
+/// What there is to say about particle i, if that place lies on the surface to the tolerance.
+bool Finish::settle(int i, const Location& place, const Jet& jet)
+{
+  const Isosurface& surface = this->Moving.surface();
+  const FieldPoint point = fieldPoint(jet, surface.isovalue);
+  const double slope = length(point.gradient);
+  const double residual = std::abs(point.value) / slope;
+  if (point.map.singular || !(residual <= surface.tolerance) || !isNearInReference(point))
+  {
+    return false;
+  }
+  const double spacing =
+    this->Law.angularDensity == 0.0 ? this->Law.spacing : this->Moving.patches()[i].spacing;
+  this->Result.particles[i] = { place, point.map.position, surfaceNormal(point.gradient),
+    curvature(point.gradient, worldHessian(jet, point)), residual, spacing, {}, 0.0 };
+  this->Result.settled[i] = 1;
+  this->Moving.settle(i, point.map.position, surfaceNormal(point.gradient));
+  return true;
+}
+
+/// Evaluates the pending particles where Newton's method takes them. Those on the surface to the
+/// tolerance are finished, the others stay pending.
+void Finish::pass()
+{
+  const ElementMesh& mesh = *this->Moving.surface().mesh;
+  std::vector<int>& pending = this->Pending;
+  std::vector<Location> places(pending.size());
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(pending.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      std::int64_t cost = 0;
+      for (std::ptrdiff_t n = begin; n < end; ++n)
+      {
+        places[n] = this->Moving.onSurface(pending[n], cost);
+      }
+      this->Evaluations += cost;
+    });
+  const std::vector<int> order = orderByElement(places, mesh.elements.size());
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(pending.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      evaluateInOrder(mesh, places, order, begin, end,
+        [&](int n, const Jet& jet)
+        {
+          if (!this->settle(pending[n], places[n], jet))
+          {
+            this->Moving.renew(pending[n], places[n], jet);
+          }
+        });
+      this->Evaluations += end - begin;
+    });
+  pending.erase(std::remove_if(pending.begin(), pending.end(),
+                  [this](int i) { return this->Result.settled[i]; }),
+    pending.end());
+}
+
+/// Follows those that are still pending one by one.
+void Finish::persist()
+{
+  const Isosurface& surface = this->Moving.surface();
+  SurfaceWalker walker(surface);
+  for (const int i : this->Pending)
+  {
+    Evaluated at;
+    const double reach = this->Moving.patches()[i].spacing;
+    if (walker.project(this->Moving.anchors()[i].place, reach, at))
+    {
+      ++this->Evaluations;
+      this->settle(
+        i, at.location, evaluateHessian(surface.mesh->form(at.location.element), at.location.u));
+    }
+  }
+  this->Evaluations += walker.evaluations();
+}
+
+} // namespace
+
+FinishedParticles finishParticles(
+  MovingParticles& moving, const SpacingLaw& law, const ParallelFor& parallelFor)
+{
+  return Finish(moving, law, parallelFor).run();
+}
+
+} // namespace hop

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "Energy.h"
+#include "MovingParticles.h"
+#include "Particles.h"
+
+namespace hop
+{
+
+/// Particles taken to the surface.
+struct FinishedParticles
+{
+  /// One for each that moved; with room for those on rims.
+  std::vector<Particle> particles;
+  /// Which of them lie on the surface to its tolerance. The others are lost.
+  std::vector<char> settled;
+  std::int64_t evaluations = 0;
+};
+
+/// Takes all particles that move to the surface by Newton's method: a few steps for all that need them at
+/// once, then one by one.
+FinishedParticles finishParticles(
+  MovingParticles& moving, const SpacingLaw& law, const ParallelFor& parallelFor);
+
+} // namespace hop

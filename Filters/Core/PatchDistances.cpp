@@ -1,0 +1,163 @@
+#include "PatchDistances.h"
+
+#include "SpacingGrid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hop
+{
+namespace
+{
+
+/// A patch runs through a box if it passes its sample nearer than this, in units of its spacing.
+constexpr float coverOffset = 0.1f;
+
+/// Cells that suit visits around single points, and where most visits find nothing.
+constexpr double cellsPerReach = 0.5;
+constexpr double cellsPerReachOfFew = 0.25;
+
+bool isNear(const Patch& a, const Patch& b, double distance)
+{
+  return glm::distance(a.position, b.position) < distance && glm::dot(a.normal, b.normal) > 0.0f;
+}
+
+/// Whether the surface around a patch runs through a sample.
+bool covers(const Patch& patch, const Patch& sample)
+{
+  const glm::vec3 d(sample.position - patch.position);
+  const float distance = glm::length(d);
+  if (distance > patch.spacing || glm::dot(patch.normal, sample.normal) <= 0.0f)
+  {
+    return false;
+  }
+  const auto tangents = tangentsOf(patch.normal);
+  const glm::vec2 t(glm::dot(d, tangents[0]), glm::dot(d, tangents[1]));
+  const float bend = patch.curvatureMagnitude() * distance;
+  return std::abs(glm::dot(d, patch.normal) + patch.sink(t)) <=
+    (coverOffset + bend * bend) * patch.spacing;
+}
+
+/// test(i) for every i in [0, count), in threads.
+template <class Test>
+std::vector<char> testAll(std::size_t count, const ParallelFor& parallelFor, const Test& test)
+{
+  std::vector<char> results(count);
+  runParallel(parallelFor, static_cast<std::ptrdiff_t>(count),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      for (std::ptrdiff_t i = begin; i < end; ++i)
+      {
+        results[i] = test(static_cast<std::size_t>(i));
+      }
+    });
+  return results;
+}
+
+/// Patches that look for others nearer than a distance, in units of the smaller of their spacings.
+class Crowd
+{
+public:
+  Crowd(const std::vector<Patch>& patches, double distance, const ParallelFor& parallelFor)
+    : Patches(patches)
+    , Distance(distance)
+    , Positions(positionsOf(patches))
+    , Spacings(spacingsOf(patches))
+    , Grid(Positions, Spacings, distance, cellsPerReach, parallelFor)
+  {
+  }
+
+  template <class Use>
+  void visitNear(std::size_t i, const Use& use) const
+  {
+    this->Grid.visit(this->Positions[i], this->Spacings[i],
+      [&](int j)
+      {
+        const double nearest = this->Distance * std::min(this->Spacings[i], this->Spacings[j]);
+        if (static_cast<std::size_t>(j) != i && isNear(this->Patches[i], this->Patches[j], nearest))
+        {
+          use(j);
+        }
+      });
+  }
+
+  bool isAlone(std::size_t i) const
+  {
+    bool alone = true;
+    this->visitNear(i, [&](int) { alone = false; });
+    return alone;
+  }
+
+private:
+  const std::vector<Patch>& Patches;
+  double Distance;
+  std::vector<glm::dvec3> Positions;
+  std::vector<float> Spacings;
+  SpacingGrid Grid;
+};
+
+} // namespace
+
+std::vector<char> keepDistance(const std::vector<Patch>& patches, std::size_t count,
+  const std::vector<Patch>& others, double distance, const ParallelFor& parallelFor)
+{
+  const std::vector<glm::dvec3> positions = positionsOf(others);
+  const std::vector<float> spacings = spacingsOf(others);
+  const SpacingGrid grid(positions, spacings, distance, cellsPerReachOfFew, parallelFor);
+  return testAll(count, parallelFor,
+    [&](std::size_t i)
+    {
+      const Patch& patch = patches[i];
+      bool far = true;
+      grid.visit(patch.position, patch.spacing,
+        [&](int j) { far = far && !isNear(patch, others[j], distance * patch.spacing); });
+      return far;
+    });
+}
+
+std::vector<char> haveDistance(const std::vector<Patch>& patches, std::size_t count,
+  double distance, const ParallelFor& parallelFor)
+{
+  const Crowd crowd(patches, distance, parallelFor);
+  return testAll(count, parallelFor, [&](std::size_t i) { return crowd.isAlone(i); });
+}
+
+std::vector<char> standApart(const std::vector<Patch>& patches, std::size_t count, double distance,
+  const ParallelFor& parallelFor)
+{
+  const Crowd crowd(patches, distance, parallelFor);
+  std::vector<char> kept =
+    testAll(count, parallelFor, [&](std::size_t i) { return crowd.isAlone(i); });
+  kept.resize(patches.size(), 1);
+  // The few that have a neighbour too near, one by one.
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (!kept[i])
+    {
+      bool alone = true;
+      crowd.visitNear(i, [&](int j) { alone = alone && !kept[j]; });
+      kept[i] = alone;
+    }
+  }
+  kept.resize(count);
+  return kept;
+}
+
+std::vector<char> findLonely(const std::vector<SurfaceProxy::Sample>& samples,
+  const std::vector<Patch>& patches, const ParallelFor& parallelFor)
+{
+  const std::vector<glm::dvec3> positions = positionsOf(patches);
+  const std::vector<float> spacings = spacingsOf(patches);
+  const SpacingGrid grid(positions, spacings, 1.0, cellsPerReach, parallelFor);
+  return testAll(samples.size(), parallelFor,
+    [&](std::size_t b)
+    {
+      const Patch& sample = samples[b].patch;
+      bool covered = !samples[b].found;
+      grid.visit(sample.position, sample.spacing,
+        [&](int j) { covered = covered || covers(patches[j], sample); });
+      return !covered;
+    });
+}
+
+} // namespace hop

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "Monitor.h"
+
+#include <atomic>
+#include <thread>
+#include <vector>
+
+namespace hop
+{
+
+/// Runs phases of work one after the other: all pieces of one, in any order, before the first of the next.
+/// Threads are started once for all phases, which pays where a phase takes no longer than that.
+///
+/// Threads take pieces as they come and wait only for pieces that another one is at, so that nothing
+/// depends on how many there are or when they start.
+/// \param pieceCount pieceCount(phase)
+/// \param body body(phase, piece)
+template <class PieceCount, class Body>
+void runPhases(
+  const ParallelFor& parallelFor, int phases, const PieceCount& pieceCount, const Body& body)
+{
+  constexpr std::ptrdiff_t mostThreads = 64;
+  std::vector<std::atomic<std::ptrdiff_t>> taken(phases);
+  std::vector<std::atomic<std::ptrdiff_t>> done(phases);
+  std::atomic<int> current{ 0 };
+  runParallel(parallelFor, mostThreads,
+    [&](std::ptrdiff_t, std::ptrdiff_t)
+    {
+      for (int phase = current; phase < phases; ++phase)
+      {
+        const std::ptrdiff_t count = pieceCount(phase);
+        for (std::ptrdiff_t piece = taken[phase]++; piece < count; piece = taken[phase]++)
+        {
+          body(phase, piece);
+          ++done[phase];
+        }
+        while (done[phase] < count)
+        {
+          std::this_thread::yield();
+        }
+        current = phase + 1;
+      }
+    });
+}
+
+} // namespace hop

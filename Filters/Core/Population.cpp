@@ -1,0 +1,301 @@
+#include "Population.h"
+
+#include "Energy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+namespace hop
+{
+namespace
+{
+
+/// Energy, in units of that of hexagonal packing, from which on a particle is one too many.
+constexpr double crowdedEnergy = 2.5;
+/// Mean energy, in units of that of hexagonal packing, of as many particles in packings as a first round of
+/// relaxation reaches: a quarter of them do not have six neighbours.
+constexpr double typicalEnergy = 1.06;
+/// How far energies are corrected where the number wanted is known, in shares of particles.
+constexpr double largestCorrection = 0.05;
+/// Shares up to this are left alone: what is missing here is too much there.
+constexpr double smallestShare = 0.02;
+/// Largest D h at which energies tell numbers.
+constexpr float largestBend = 1.0f;
+/// Energy, in units of that of hexagonal packing, below which a particle may stand beside a hole; where that
+/// would be, and how far the nearest particles are from its middle, in units of h.
+constexpr double lonelyEnergy = 0.95;
+constexpr float holeDistance = 0.95f;
+constexpr double holeClearance = 0.8;
+/// How far from a doubled particle the new one starts, in units of h.
+constexpr float childDistance = 0.55f;
+
+/// How many particles are missing for one that there is, by their energy in units of the ideal one,
+/// less one. Inverts E(beta (1 + eps)) to second order.
+double missingShare(double excess)
+{
+  const double linear =
+    HexagonalDistance * pairEnergyDerivative(HexagonalDistance) / pairEnergy(HexagonalDistance);
+  const double quadratic = 0.5 * HexagonalDistance * HexagonalDistance *
+    pairEnergySecondDerivative(HexagonalDistance) / pairEnergy(HexagonalDistance);
+  const double first = excess / linear;
+  const double eps = first - quadratic / linear * first * first;
+  return 2.0 * eps + eps * eps;
+}
+
+/// Where a particle stands once it has moved.
+glm::dvec3 movedPosition(const Patch& patch, const glm::vec2& t)
+{
+  const auto tangents = tangentsOf(patch.normal);
+  return patch.position +
+    glm::dvec3(t.x * tangents[0] + t.y * tangents[1] - patch.sink(t) * patch.normal);
+}
+
+class Population
+{
+public:
+  Population(const std::vector<Patch>& patches, const SeenLists& lists,
+    const std::vector<float>& energies, Relaxed& relaxed)
+    : Patches(patches)
+    , Lists(lists)
+    , Energies(energies)
+    , Result(relaxed)
+    , Touched(patches.size(), 0)
+  {
+  }
+
+  /// Removes particles that have far too much energy, and more than all around them.
+  void removeCrowded(const ParallelFor& parallelFor)
+  {
+    std::vector<char> crowded(this->Patches.size());
+    this->forAll(parallelFor, [&](std::size_t i) { crowded[i] = this->isCrowded(i); });
+    for (std::size_t i = 0; i < this->Patches.size(); ++i)
+    {
+      if (crowded[i])
+      {
+        this->remove(static_cast<int>(i));
+      }
+    }
+  }
+
+  /// Doubles and removes particles; energies say where and, unless `missing` does, how many.
+  void balance(const std::optional<double>& missing, const ParallelFor& parallelFor)
+  {
+    std::vector<double> shares(this->Patches.size());
+    this->forAll(parallelFor, [&](std::size_t i) { shares[i] = this->shareMissing(i); });
+    const double total = std::accumulate(shares.begin(), shares.end(), 0.0);
+    const auto counted = static_cast<double>(
+      std::count_if(shares.begin(), shares.end(), [](double share) { return share != 0.0; }));
+    const double correction = missing ? std::clamp((*missing - total) / std::max(counted, 1.0),
+                                          -largestCorrection, largestCorrection)
+                                      : 0.0;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < shares.size(); ++i)
+    {
+      const double share = shares[i] != 0.0 ? shares[i] + correction : 0.0;
+      sum += std::abs(share) > smallestShare ? share : 0.0;
+      if (sum >= 0.5 && share > 0.0)
+      {
+        this->split(this->extreme(i, std::less<>()));
+        sum -= 1.0;
+      }
+      else if (sum <= -0.5 && share < 0.0)
+      {
+        this->remove(this->extreme(i, std::greater<>()));
+        sum += 1.0;
+      }
+    }
+  }
+
+  /// Puts particles where one is missing among its neighbours, which have too little energy then.
+  void fillHoles(const ParallelFor& parallelFor)
+  {
+    const auto lonely = static_cast<float>(lonelyEnergy * idealEnergy());
+    std::vector<FreePlace> places(this->Patches.size());
+    this->forAll(parallelFor,
+      [&](std::size_t i)
+      {
+        const Patch& patch = this->Patches[i];
+        if (this->Energies[i] >= 0.0f && this->Energies[i] < lonely &&
+          patch.curvatureMagnitude() * patch.spacing <= largestBend)
+        {
+          places[i] = this->freePlace(i, holeDistance);
+        }
+      });
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      // All around a hole find it: the first of them fills it.
+      const auto fills = [&](int j)
+      {
+        return j < static_cast<int>(i) && this->Touched[j] &&
+          glm::distance(places[j].position, places[i].position) <
+          holeClearance * this->Patches[i].spacing;
+      };
+      if (places[i].clearance >= holeClearance &&
+        std::none_of(this->Lists.begin(i), this->Lists.end(i), fills))
+      {
+        this->Result.splits.push_back({ static_cast<int>(i), places[i].displacement });
+        this->Touched[i] = 1;
+      }
+    }
+  }
+
+private:
+  template <class Work>
+  void forAll(const ParallelFor& parallelFor, const Work& work) const
+  {
+    runParallel(parallelFor, static_cast<std::ptrdiff_t>(this->Patches.size()),
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+      {
+        for (std::ptrdiff_t i = begin; i < end; ++i)
+        {
+          work(static_cast<std::size_t>(i));
+        }
+      });
+  }
+
+  void remove(int i)
+  {
+    this->Result.kept[i] = 0;
+    this->Touched[i] = 1;
+  }
+
+  void split(int i)
+  {
+    if (!this->Touched[i])
+    {
+      this->Result.splits.push_back({ i, this->freePlace(i, childDistance).displacement });
+      this->Touched[i] = 1;
+    }
+  }
+
+  bool isCrowded(std::size_t i) const
+  {
+    const auto crowded = static_cast<float>(crowdedEnergy * idealEnergy());
+    const float own = this->Energies[i];
+    return own > crowded &&
+      std::none_of(this->Lists.begin(i), this->Lists.end(i),
+        [&](int j) {
+          return this->Energies[j] > own || (this->Energies[j] == own && j < static_cast<int>(i));
+        });
+  }
+
+  /// Among particle i and those that it sees, the one with the least or most energy that nothing was done
+  /// about yet; i if there is none.
+  template <class Compare>
+  int extreme(std::size_t i, const Compare& compare) const
+  {
+    int best = static_cast<int>(i);
+    for (const int* j = this->Lists.begin(i); j != this->Lists.end(i); ++j)
+    {
+      const bool free = this->Energies[*j] >= 0.0f && !this->Touched[*j] &&
+        glm::dot(this->Patches[*j].normal, this->Patches[i].normal) > 0.5f;
+      if (free && (this->Touched[best] || compare(this->Energies[*j], this->Energies[best])))
+      {
+        best = *j;
+      }
+    }
+    return best;
+  }
+
+  /// How many particles are missing around particle i, for one that there is; zero where that cannot be
+  /// told.
+  double shareMissing(std::size_t i) const
+  {
+    const Patch& patch = this->Patches[i];
+    const bool bent = patch.curvatureMagnitude() * patch.spacing > largestBend;
+    if (this->Energies[i] < 0.0f || this->Touched[i] || bent)
+    {
+      return 0.0;
+    }
+    double sum = this->Energies[i];
+    int count = 1;
+    for (const int* j = this->Lists.begin(i); j != this->Lists.end(i); ++j)
+    {
+      if (this->Energies[*j] >= 0.0f && glm::dot(this->Patches[*j].normal, patch.normal) > 0.5f)
+      {
+        sum += this->Energies[*j];
+        ++count;
+      }
+    }
+    return missingShare(sum / (count * typicalEnergy * idealEnergy()) - 1.0);
+  }
+
+  struct FreePlace
+  {
+    /// On the patch of the particle that it is found from.
+    glm::vec2 displacement{ 0.0f };
+    glm::dvec3 position{ 0.0 };
+    /// To the particle nearest to it among those that are seen from there, in units of the spacing.
+    double clearance = -1.0;
+  };
+
+  /// Of some places all around particle i, at that distance in units of its spacing, the one farthest from
+  /// its neighbours.
+  FreePlace freePlace(std::size_t i, float distance) const
+  {
+    constexpr int directions = 12;
+    const Patch& patch = this->Patches[i];
+    std::vector<glm::dvec3> others;
+    others.reserve(this->Lists.count(i));
+    for (const int* j = this->Lists.begin(i); j != this->Lists.end(i); ++j)
+    {
+      others.push_back(movedPosition(this->Patches[*j], this->Result.displacements[*j]));
+    }
+    FreePlace best;
+    for (int n = 0; n < directions; ++n)
+    {
+      const auto angle = static_cast<float>(2.0 * Pi * n / directions);
+      FreePlace place;
+      place.displacement = this->Result.displacements[i] +
+        distance * patch.spacing * glm::vec2(std::cos(angle), std::sin(angle));
+      place.position = movedPosition(patch, place.displacement);
+      place.clearance = distance;
+      for (const glm::dvec3& other : others)
+      {
+        place.clearance =
+          std::min(place.clearance, glm::distance(place.position, other) / patch.spacing);
+        if (place.clearance <= best.clearance)
+        {
+          break;
+        }
+      }
+      if (place.clearance > best.clearance)
+      {
+        best = place;
+      }
+    }
+    return best;
+  }
+
+  const std::vector<Patch>& Patches;
+  const SeenLists& Lists;
+  const std::vector<float>& Energies;
+  Relaxed& Result;
+  /// Particles that were doubled or removed.
+  std::vector<char> Touched;
+};
+
+} // namespace
+
+void balancePopulation(const std::vector<Patch>& patches, const SeenLists& lists,
+  const std::vector<float>& energies, const Balance& balance, const ParallelFor& parallelFor,
+  Relaxed& relaxed)
+{
+  Population population(patches, lists, energies, relaxed);
+  if (balance.extent != Balance::None)
+  {
+    population.removeCrowded(parallelFor);
+  }
+  if (balance.extent == Balance::Defects)
+  {
+    population.fillHoles(parallelFor);
+  }
+  if (balance.extent == Balance::Everywhere)
+  {
+    population.balance(balance.missing, parallelFor);
+  }
+}
+
+} // namespace hop

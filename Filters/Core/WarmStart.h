@@ -1,0 +1,25 @@
+#pragma once
+
+#include "Particles.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace hop
+{
+
+/// A place in a cell of the input, whichever elements a mesh has kept of it.
+struct CellPlace
+{
+  std::int64_t cell = -1;
+  ReferencePoint u;
+};
+
+/// Where the particles of a run stood that moved: those on rims are placed anew.
+std::vector<CellPlace> cellPlaces(const ElementMesh& mesh, const std::vector<Particle>& particles);
+
+/// Those of the places whose cells are elements of this mesh.
+/// \pre elements ascend by cell, as in the input
+std::vector<Location> findPlaces(const ElementMesh& mesh, const std::vector<CellPlace>& places);
+
+} // namespace hop

@@ -1,0 +1,31 @@
+#include "InputBlocks.h"
+
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <utility>
+
+InputBlocks::InputBlocks(std::vector<InputBlock> blocks, int component)
+  : Blocks(std::move(blocks))
+  , Component(component)
+  , FirstCells{ 0 }
+{
+  for (const InputBlock& block : this->Blocks)
+  {
+    this->FirstCells.push_back(this->FirstCells.back() + block.grid->GetNumberOfCells());
+  }
+}
+
+BlockCell InputBlocks::locate(std::int64_t number) const
+{
+  const auto next = std::upper_bound(this->FirstCells.begin(), this->FirstCells.end(), number);
+  const auto block = static_cast<std::size_t>(next - this->FirstCells.begin()) - 1;
+  return { block, number - this->FirstCells[block] };
+}
+
+std::string InputBlocks::describe(std::int64_t number) const
+{
+  const BlockCell where = this->locate(number);
+  const std::string& name = this->Blocks[where.block].name;
+  return "cell " + std::to_string(where.cell) + (name.empty() ? "" : " of " + name);
+}

@@ -1,0 +1,72 @@
+#pragma once
+
+#include "vtkType.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+class vtkDataArray;
+class vtkPolyData;
+class vtkUnstructuredGrid;
+
+/// One grid of the input, and where its particles go.
+struct InputBlock
+{
+  vtkUnstructuredGrid* grid = nullptr;
+  /// The grid's point array to contour by.
+  vtkDataArray* scalars = nullptr;
+  vtkPolyData* particles = nullptr;
+  /// For messages; empty where the input is one grid.
+  std::string name;
+};
+
+/// A cell, by its block and its number there.
+struct BlockCell
+{
+  std::size_t block = 0;
+  vtkIdType cell = 0;
+};
+
+/// Grids that are contoured as one mesh. Their cells are numbered through: those of the first block,
+/// then those of the second, and so on.
+class InputBlocks
+{
+public:
+  static constexpr int Magnitude = -1;
+
+  /// \param blocks at least one, all with scalars of as many components
+  /// \param component of the scalars, or Magnitude
+  InputBlocks(std::vector<InputBlock> blocks, int component);
+
+  std::size_t size() const { return this->Blocks.size(); }
+  const InputBlock& operator[](std::size_t block) const { return this->Blocks[block]; }
+  int component() const { return this->Component; }
+  std::int64_t cellCount() const { return this->FirstCells.back(); }
+  /// The number of a block's first cell; that of block size() is the number of all cells.
+  std::int64_t firstCell(std::size_t block) const { return this->FirstCells[block]; }
+  /// \pre 0 <= number < cellCount()
+  BlockCell locate(std::int64_t number) const;
+  /// "cell 7", or "cell 7 of block 'wing'".
+  std::string describe(std::int64_t number) const;
+
+  /// Calls visit(number, BlockCell) for the cells with numbers from begin to end.
+  template <class Visit>
+  void visit(std::int64_t begin, std::int64_t end, const Visit& visitCell) const
+  {
+    BlockCell where = begin < end ? this->locate(begin) : BlockCell{};
+    for (std::int64_t number = begin; number < end; ++number, ++where.cell)
+    {
+      while (number == this->FirstCells[where.block + 1])
+      {
+        where = { where.block + 1, 0 };
+      }
+      visitCell(number, where);
+    }
+  }
+
+private:
+  std::vector<InputBlock> Blocks;
+  int Component;
+  std::vector<std::int64_t> FirstCells;
+};

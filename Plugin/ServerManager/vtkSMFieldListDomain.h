@@ -1,0 +1,40 @@
+/**
+ * @class vtkSMFieldListDomain
+ * @brief a list of arrays whose default is a field, if there is one
+ *
+ * vtkSMArrayListDomain chooses the active scalars or the first array by name, which may be one that has
+ * no isosurface worth a look. This one passes over arrays that are constant, hold integers (ids, ranks,
+ * ghost levels), are the weights of rational cells, or are deal.II's `subdomain`, as long as there is
+ * another point array. All arrays stay in the list.
+ */
+#ifndef vtkSMFieldListDomain_h
+#define vtkSMFieldListDomain_h
+
+#include "vtkHighOrderParticleServerManagerModule.h" // for the export macro
+#include "vtkSMArrayListDomain.h"
+
+class vtkPVDataInformation;
+
+class VTKHIGHORDERPARTICLESERVERMANAGER_EXPORT vtkSMFieldListDomain : public vtkSMArrayListDomain
+{
+public:
+  static vtkSMFieldListDomain* New();
+  vtkTypeMacro(vtkSMFieldListDomain, vtkSMArrayListDomain);
+
+  /**
+   * Sets the property to the default; 1 if there is one.
+   */
+  int SetDefaultValues(vtkSMProperty* property, bool useUnchecked) override;
+
+protected:
+  vtkSMFieldListDomain();
+  ~vtkSMFieldListDomain() override;
+
+private:
+  vtkSMFieldListDomain(const vtkSMFieldListDomain&) = delete;
+  void operator=(const vtkSMFieldListDomain&) = delete;
+
+  vtkPVDataInformation* GetInputInformation();
+};
+
+#endif

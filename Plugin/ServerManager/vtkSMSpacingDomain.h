@@ -1,0 +1,35 @@
+/**
+ * @class vtkSMSpacingDomain
+ * @brief a bounds domain that has nothing to say about an input which was not read yet
+ *
+ * vtkSMBoundsDomain takes the bounds of such an input, which are empty, for real ones and gives a
+ * length that means nothing: negative up to ParaView 5.13, 0.01 in 6.1. This one stays empty instead, so
+ * that the property keeps the default of its own, with which the filter finds the length when it runs.
+ */
+#ifndef vtkSMSpacingDomain_h
+#define vtkSMSpacingDomain_h
+
+#include "vtkHighOrderParticleServerManagerModule.h" // for the export macro
+#include "vtkSMBoundsDomain.h"
+
+class VTKHIGHORDERPARTICLESERVERMANAGER_EXPORT vtkSMSpacingDomain : public vtkSMBoundsDomain
+{
+public:
+  static vtkSMSpacingDomain* New();
+  vtkTypeMacro(vtkSMSpacingDomain, vtkSMBoundsDomain);
+
+  /**
+   * No range where the bounds of the input are not known.
+   */
+  void Update(vtkSMProperty* property) override;
+
+protected:
+  vtkSMSpacingDomain();
+  ~vtkSMSpacingDomain() override;
+
+private:
+  vtkSMSpacingDomain(const vtkSMSpacingDomain&) = delete;
+  void operator=(const vtkSMSpacingDomain&) = delete;
+};
+
+#endif
