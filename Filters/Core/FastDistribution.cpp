@@ -55,7 +55,7 @@ std::vector<int> sweepsOfRounds(Quality quality, bool isWarm)
       return { 5, 8, 8, 10 };
     default:
       // Where particles of a run before crowd or thin out there is more to do.
-      return isWarm ? std::vector<int>{ 8, 14 } : std::vector<int>{ 6, 12 };
+      return isWarm ? std::vector<int>{ 8, 14 } : std::vector<int>{ 7, 13 };
   }
 }
 
@@ -256,16 +256,21 @@ void FastSystem::continueFrom(const std::vector<Location>& places)
 void FastSystem::makeExactly(std::int64_t count)
 {
   constexpr int tries = 8;
+  const auto missing = [&]() { return count - static_cast<std::int64_t>(this->Moving->size()); };
+  this->makeSeeds(count);
   std::int64_t drawn = count;
-  for (int n = 0; n < tries; ++n)
+  for (int n = 1; n < tries && missing() > 0; ++n)
   {
-    this->makeSeeds(drawn);
-    const auto missing = count - static_cast<std::int64_t>(this->Moving->size());
-    if (missing <= 0)
+    drawn += missing();
+    if (this->Parameters.start.empty())
     {
-      break;
+      this->makeSeeds(drawn);
     }
-    drawn += missing;
+    else
+    {
+      this->Moving->add(this->Proxy->seeds(missing(), 0.5, this->Parallel));
+      this->dropNearRims(seedToRim);
+    }
   }
   const auto moving = static_cast<std::int64_t>(this->Moving->count());
   const auto surplus =

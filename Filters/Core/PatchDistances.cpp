@@ -13,8 +13,9 @@ namespace
 /// A patch runs through a box if it passes its sample nearer than this, in units of its spacing.
 constexpr float coverOffset = 0.1f;
 
-/// Cells that suit visits around single points.
+/// Cells that suit visits around single points, and where most visits find nothing.
 constexpr double cellsPerReach = 0.5;
+constexpr double cellsPerReachOfFew = 0.25;
 
 bool isNear(const Patch& a, const Patch& b, double distance)
 {
@@ -102,7 +103,7 @@ std::vector<char> keepDistance(const std::vector<Patch>& patches, std::size_t co
 {
   const std::vector<glm::dvec3> positions = positionsOf(others);
   const std::vector<float> spacings = spacingsOf(others);
-  const SpacingGrid grid(positions, spacings, distance, cellsPerReach, parallelFor);
+  const SpacingGrid grid(positions, spacings, distance, cellsPerReachOfFew, parallelFor);
   return testAll(count, parallelFor,
     [&](std::size_t i)
     {

@@ -109,6 +109,7 @@ public:
 
 private:
   void makeSeen();
+  void sortByNeighbors(std::vector<int>& particles) const;
   void layOut();
   void fillBlocks();
   void fillNeighbors(const SweepBlock& block);
@@ -189,10 +190,29 @@ void SweepSystem::makeSeen()
     static_cast<float>(4.0 * glm::distance(lower, upper)) + 100.0f / beyond.inverseSpacing;
 }
 
+/// Sorts particles by the number of their neighbours, a few blocks at a time: lists of a block are filled up
+/// to the longest.
+void SweepSystem::sortByNeighbors(std::vector<int>& particles) const
+{
+  constexpr std::size_t window = 16 * SweepLanes;
+  for (std::size_t first = 0; first < particles.size(); first += window)
+  {
+    const std::size_t last = std::min(particles.size(), first + window);
+    std::sort(particles.begin() + first, particles.begin() + last,
+      [this](int a, int b)
+      {
+        const int countA = this->Lists.count(a);
+        const int countB = this->Lists.count(b);
+        return countA != countB ? countA < countB : a < b;
+      });
+  }
+}
+
 /// Makes the blocks of each colour, with their particles and room for their lists.
 void SweepSystem::layOut()
 {
-  const std::vector<std::vector<int>> byColor = colorParticles(this->Patches, this->Lists);
+  std::vector<std::vector<int>> byColor = colorParticles(this->Patches, this->Lists);
+  this->forAll(byColor.size(), [&](std::size_t color) { this->sortByNeighbors(byColor[color]); });
   for (const std::vector<int>& particles : byColor)
   {
     this->ColorStart.push_back(this->ColorStart.back() +
@@ -323,13 +343,6 @@ std::vector<float> spacingsOf(const std::vector<Patch>& patches)
   std::transform(patches.begin(), patches.end(), spacings.begin(),
     [](const Patch& patch) { return patch.spacing; });
   return spacings;
-}
-
-std::array<glm::vec3, 2> tangentsOf(const glm::vec3& normal)
-{
-  const glm::vec3 other = std::abs(normal.x) < 0.6f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
-  const glm::vec3 first = glm::normalize(glm::cross(normal, other));
-  return { first, glm::cross(normal, first) };
 }
 
 Relaxed relaxOnPatches(const std::vector<Patch>& patches, int sweeps, const Balance& balance,

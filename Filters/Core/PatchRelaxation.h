@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -34,7 +35,14 @@ struct Patch
 };
 
 /// Two unit vectors that span the plane normal to a unit vector, right-handed with it.
-std::array<glm::vec3, 2> tangentsOf(const glm::vec3& normal);
+inline std::array<glm::vec3, 2> tangentsOf(const glm::vec3& normal)
+{
+  // Across the normal and an axis that is not near it, written out.
+  const glm::vec3 across = std::abs(normal.x) < 0.6f ? glm::vec3(0.0f, normal.z, -normal.y)
+                                                     : glm::vec3(-normal.z, 0.0f, normal.x);
+  const glm::vec3 first = glm::normalize(across);
+  return { first, glm::cross(normal, first) };
+}
 
 /// As SpacingGrid wants them.
 std::vector<glm::dvec3> positionsOf(const std::vector<Patch>& patches);

@@ -35,9 +35,9 @@ constexpr float childDistance = 0.55f;
 /// less one. Inverts E(beta (1 + eps)) to second order.
 double missingShare(double excess)
 {
-  static const double linear =
+  const double linear =
     HexagonalDistance * pairEnergyDerivative(HexagonalDistance) / pairEnergy(HexagonalDistance);
-  static const double quadratic = 0.5 * HexagonalDistance * HexagonalDistance *
+  const double quadratic = 0.5 * HexagonalDistance * HexagonalDistance *
     pairEnergySecondDerivative(HexagonalDistance) / pairEnergy(HexagonalDistance);
   const double first = excess / linear;
   const double eps = first - quadratic / linear * first * first;
@@ -237,6 +237,12 @@ private:
   {
     constexpr int directions = 12;
     const Patch& patch = this->Patches[i];
+    std::vector<glm::dvec3> others;
+    others.reserve(this->Lists.count(i));
+    for (const int* j = this->Lists.begin(i); j != this->Lists.end(i); ++j)
+    {
+      others.push_back(movedPosition(this->Patches[*j], this->Result.displacements[*j]));
+    }
     FreePlace best;
     for (int n = 0; n < directions; ++n)
     {
@@ -246,11 +252,14 @@ private:
         distance * patch.spacing * glm::vec2(std::cos(angle), std::sin(angle));
       place.position = movedPosition(patch, place.displacement);
       place.clearance = distance;
-      for (const int* j = this->Lists.begin(i); j != this->Lists.end(i); ++j)
+      for (const glm::dvec3& other : others)
       {
-        const glm::dvec3 other = movedPosition(this->Patches[*j], this->Result.displacements[*j]);
         place.clearance =
           std::min(place.clearance, glm::distance(place.position, other) / patch.spacing);
+        if (place.clearance <= best.clearance)
+        {
+          break;
+        }
       }
       if (place.clearance > best.clearance)
       {

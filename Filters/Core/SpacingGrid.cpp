@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace hop
@@ -12,8 +13,7 @@ namespace hop
 namespace
 {
 
-constexpr int bitsPerAxis = 20;
-constexpr std::int64_t cellsPerAxis = std::int64_t{ 1 } << bitsPerAxis;
+constexpr std::int64_t cellsPerAxis = std::int64_t{ 1 } << SpacingGrid::BitsPerAxis;
 /// Levels have four bits of a key.
 constexpr int maximumLevels = 15;
 
@@ -49,13 +49,15 @@ void SpacingGrid::chooseCellSizes(double cellsPerReach)
     upper = glm::max(upper, p);
   }
   const glm::dvec3 extent = upper - this->Origin;
+  constexpr double tiniest = std::numeric_limits<double>::min();
   const double smallestCell = std::max({ extent.x, extent.y, extent.z }) / (cellsPerAxis - 4);
   for (int level = 0; level < this->LevelCount; ++level)
   {
     const double spacing =
       this->LevelCount == 1 ? largestSpacing : std::ldexp(this->SmallestSpacing, level + 1);
     this->LargestSpacings.push_back(spacing);
-    this->CellSizes.push_back(std::max(this->Reach * spacing / cellsPerReach, smallestCell));
+    this->CellsPerLength.push_back(
+      1.0 / std::max({ this->Reach * spacing / cellsPerReach, smallestCell, tiniest }));
   }
 }
 
@@ -111,45 +113,16 @@ int SpacingGrid::levelOf(double spacing) const
 
 SpacingGrid::Cell SpacingGrid::cellOf(const glm::dvec3& position, int level) const
 {
-  const glm::dvec3 cell = glm::floor((position - this->Origin) / this->CellSizes[level]);
-  return Cell(glm::clamp(cell, -1.0, static_cast<double>(cellsPerAxis - 2)));
+  // Cell 0, just outside, exists for queries. Truncation is floor for what is not negative.
+  const glm::dvec3 cell = (position - this->Origin) * this->CellsPerLength[level] + 1.0;
+  return Cell(glm::min(glm::max(cell, 0.0), static_cast<double>(cellsPerAxis - 1)));
 }
 
 std::uint64_t SpacingGrid::keyOf(const Cell& cell, int level)
 {
-  // Cell -1, just outside, exists for queries; shifted by one it is a key like any other.
-  const glm::u64vec3 c(cell + std::int64_t{ 1 });
-  return (static_cast<std::uint64_t>(level) << (3 * bitsPerAxis)) | (c.z << (2 * bitsPerAxis)) |
-    (c.y << bitsPerAxis) | c.x;
-}
-
-/// Cells of a block of 4 x 4 x 4 come next to each other, as they are looked at together.
-std::size_t SpacingGrid::firstSlotOf(std::uint64_t key) const
-{
-  constexpr std::uint64_t low = 3;
-  constexpr std::uint64_t inBlock = low | (low << bitsPerAxis) | (low << (2 * bitsPerAxis));
-  const std::uint64_t cell = (key & low) | ((key >> (bitsPerAxis - 2)) & (low << 2)) |
-    ((key >> (2 * bitsPerAxis - 4)) & (low << 4));
-  // Twice, for the upper bits of a product depend on all bits, the lower ones on few.
-  std::uint64_t block = (key & ~inBlock) * 0x9e3779b97f4a7c15ULL;
-  block = (block ^ (block >> 32)) * 0x9e3779b97f4a7c15ULL;
-  return static_cast<std::size_t>(((block >> 32) << 6) + cell) & (this->Keys.size() - 1);
-}
-
-SpacingGrid::Points SpacingGrid::find(std::uint64_t key) const
-{
-  for (std::size_t slot = this->firstSlotOf(key);; slot = this->nextSlot(slot))
-  {
-    const std::uint64_t found = this->Keys[slot].load(std::memory_order_relaxed);
-    if (found == key)
-    {
-      return this->pointsIn(slot);
-    }
-    if (found == 0)
-    {
-      return { nullptr, nullptr };
-    }
-  }
+  const glm::u64vec3 c(cell);
+  return (static_cast<std::uint64_t>(level) << (3 * BitsPerAxis)) | (c.z << (2 * BitsPerAxis)) |
+    (c.y << BitsPerAxis) | c.x;
 }
 
 std::size_t SpacingGrid::findOrAdd(std::uint64_t key)

@@ -56,6 +56,9 @@ public:
   template <class Use>
   void visitAround(const Points& points, const Use& use) const;
 
+  /// Bits of a cell's key for each coordinate.
+  static constexpr int BitsPerAxis = 20;
+
 private:
   using Cell = glm::i64vec3;
 
@@ -87,7 +90,7 @@ private:
   double SmallestSpacing = 1.0;
   int LevelCount = 0;
   glm::dvec3 Origin{ 0.0 };
-  std::vector<double> CellSizes;
+  std::vector<double> CellsPerLength;
   std::vector<double> LargestSpacings;
   /// Open addressing: the key of the cell in each slot, 0 where there is none. In which of them a cell
   /// ends up may depend on threads, but nothing that is visited does.
@@ -126,6 +129,35 @@ private:
   std::vector<std::vector<int>> Chunks;
 };
 
+/// Cells of a block of 4 x 4 x 4 come next to each other, as they are looked at together.
+inline std::size_t SpacingGrid::firstSlotOf(std::uint64_t key) const
+{
+  constexpr std::uint64_t low = 3;
+  constexpr std::uint64_t inBlock = low | (low << BitsPerAxis) | (low << (2 * BitsPerAxis));
+  const std::uint64_t cell = (key & low) | ((key >> (BitsPerAxis - 2)) & (low << 2)) |
+    ((key >> (2 * BitsPerAxis - 4)) & (low << 4));
+  // Twice, for the upper bits of a product depend on all bits, the lower ones on few.
+  std::uint64_t block = (key & ~inBlock) * 0x9e3779b97f4a7c15ULL;
+  block = (block ^ (block >> 32)) * 0x9e3779b97f4a7c15ULL;
+  return static_cast<std::size_t>(((block >> 32) << 6) + cell) & (this->Keys.size() - 1);
+}
+
+inline SpacingGrid::Points SpacingGrid::find(std::uint64_t key) const
+{
+  for (std::size_t slot = this->firstSlotOf(key);; slot = this->nextSlot(slot))
+  {
+    const std::uint64_t found = this->Keys[slot].load(std::memory_order_relaxed);
+    if (found == key)
+    {
+      return this->pointsIn(slot);
+    }
+    if (found == 0)
+    {
+      return { nullptr, nullptr };
+    }
+  }
+}
+
 template <class Use>
 void SpacingGrid::visitLevel(
   int level, const glm::dvec3& lower, const glm::dvec3& upper, const Use& use) const
@@ -136,9 +168,10 @@ void SpacingGrid::visitLevel(
   {
     for (auto y = first.y; y <= last.y; ++y)
     {
-      for (auto x = first.x; x <= last.x; ++x)
+      std::uint64_t key = keyOf({ first.x, y, z }, level);
+      for (auto x = first.x; x <= last.x; ++x, ++key)
       {
-        for (const int point : this->find(keyOf({ x, y, z }, level)))
+        for (const int point : this->find(key))
         {
           use(point);
         }
