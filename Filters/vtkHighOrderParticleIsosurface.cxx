@@ -6,10 +6,12 @@
 #include "GatherBlocks.h"
 #include "GridElements.h"
 #include "ParticlePacker.h"
+#include "PreviousRun.h"
 #include "Threads.h"
 #include "VtkCompatibility.h"
 
 #include "vtkBoundingBox.h"
+#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCommunicator.h"
 #include "vtkContourValues.h"
@@ -20,6 +22,7 @@
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
@@ -50,6 +53,29 @@ std::int64_t particlesThatFit()
   // 0: the system does not say.
   return available > 0 ? available * megabyte / bytesPerParticle
                        : hop::DistributionParameters().particleLimit;
+}
+
+/// What the data say about a run; the properties say the rest.
+RunOrigin originOf(const InputBlocks& blocks)
+{
+  RunOrigin origin;
+  const char* name = blocks[0].scalars->GetName();
+  origin.array = name ? name : "";
+  origin.component = blocks.component();
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+  {
+    // The grid itself is a new copy each time that ParaView's pipeline looks at it.
+    vtkUnstructuredGrid* grid = blocks[b].grid;
+    for (vtkObject* part : { static_cast<vtkObject*>(grid->GetPoints()),
+           static_cast<vtkObject*>(grid->GetCells()), static_cast<vtkObject*>(blocks[b].scalars) })
+    {
+      origin.dataTime =
+        std::max<std::uint64_t>(origin.dataTime, part ? part->GetMTime() : vtkMTimeType(0));
+    }
+    origin.cells += grid->GetNumberOfCells();
+    origin.points += grid->GetNumberOfPoints();
+  }
+  return origin;
 }
 
 /// The spacing at which all but so small a share of the particles would have D h <= 2, evenly spread.
@@ -154,7 +180,11 @@ std::vector<InputBlock> blocksWithScalars(
 
 vtkStandardNewMacro(vtkHighOrderParticleIsosurface);
 
-vtkHighOrderParticleIsosurface::vtkHighOrderParticleIsosurface() = default;
+vtkHighOrderParticleIsosurface::vtkHighOrderParticleIsosurface()
+  : Previous(std::make_unique<PreviousRun>())
+{
+}
+
 vtkHighOrderParticleIsosurface::~vtkHighOrderParticleIsosurface() = default;
 
 void vtkHighOrderParticleIsosurface::SetValue(int i, double value)
@@ -238,6 +268,10 @@ int vtkHighOrderParticleIsosurface::RequestData(
     gatherBlocks(vtkDataObject::GetData(inputs[0], 0), vtkDataObject::GetData(outputs, 0));
   // Ranks agree on the scale before any of them may return.
   const Scale scale = this->FindScale(gathered.blocks);
+  if (!this->WarmStart)
+  {
+    this->Previous->forget();
+  }
   if (!this->CheckParameters() || this->GetNumberOfContours() == 0)
   {
     return 1;
@@ -253,10 +287,9 @@ int vtkHighOrderParticleIsosurface::RequestData(
     : this->Component < components      ? this->Component
                                         : InputBlocks::Magnitude;
   const auto groups = groupWithoutSharedCells(blocks);
-  const double share = 1.0 / static_cast<double>(groups.size());
   for (std::size_t g = 0; g < groups.size() && !isAborted(this); ++g)
   {
-    this->Process({ groups[g], component }, scale, static_cast<double>(g) * share, share);
+    this->Process({ groups[g], component }, scale, g, groups.size());
   }
   return 1;
 }
@@ -359,9 +392,9 @@ std::vector<InputBlock> vtkHighOrderParticleIsosurface::FindScalars(const Gather
 }
 
 void vtkHighOrderParticleIsosurface::Process(
-  const InputBlocks& blocks, const Scale& scale, double progressBegin, double progressShare)
+  const InputBlocks& blocks, const Scale& scale, std::size_t group, std::size_t groupCount)
 {
-  const vtkIdType isovalueCount = this->GetNumberOfContours();
+  const auto isovalueCount = static_cast<std::size_t>(this->GetNumberOfContours());
   const double* values = this->ContourValues->GetValues();
   const hop::ParallelFor parallelFor = smpParallelFor();
   const auto work = [&]()
@@ -372,26 +405,39 @@ void vtkHighOrderParticleIsosurface::Process(
       buildGridElements(blocks, spacing, { values, values + isovalueCount }, parallelFor);
     this->Review(blocks, elements);
     std::vector<IsovalueParticles> particles;
-    for (vtkIdType i = 0; i < isovalueCount && !isAborted(this); ++i)
+    RunOrigin origin = originOf(blocks);
+    origin.nodeSpacing = this->NodeSpacing;
+    origin.parameters.law = { scale.Spacing, this->AngularDensity };
+    origin.parameters.quality = static_cast<hop::Quality>(this->Quality);
+    origin.parameters.seed = static_cast<std::uint64_t>(this->Seed);
+    origin.parameters.particleCount = this->NumberOfParticles;
+    origin.parameters.particleLimit = particlesThatFit();
+    const bool continues = this->WarmStart && this->Method == FAST;
+    for (std::size_t i = 0; i < isovalueCount && !isAborted(this); ++i)
     {
+      const std::size_t number = group * isovalueCount + i;
       hop::Monitor monitor;
       monitor.report = [&](double fraction)
       {
-        this->UpdateProgress(
-          progressBegin + progressShare * (static_cast<double>(i) + fraction) / isovalueCount);
+        this->UpdateProgress((static_cast<double>(number) + fraction) /
+          static_cast<double>(groupCount * isovalueCount));
         return !isAborted(this);
       };
-      hop::DistributionParameters parameters;
-      parameters.law = { scale.Spacing, this->AngularDensity };
-      parameters.quality = static_cast<hop::Quality>(this->Quality);
-      parameters.seed = static_cast<std::uint64_t>(this->Seed);
-      parameters.particleCount = this->NumberOfParticles;
-      parameters.particleLimit = particlesThatFit();
+      origin.isovalue = values[i];
+      hop::DistributionParameters parameters = origin.parameters;
+      if (continues)
+      {
+        parameters.start = this->Previous->startOf(number, origin, elements.mesh);
+      }
       const auto distribute =
         this->Method == CLASSIC ? hop::distributeClassic : hop::distributeFast;
       particles.push_back({ values[i],
         distribute({ &elements.mesh, elements.fieldIsovalue(values[i]), scale.Tolerance },
           parameters, monitor, parallelFor) });
+      if (continues)
+      {
+        this->Previous->remember(number, origin, elements.mesh, particles.back().distribution);
+      }
       this->Review(blocks, particles.back().distribution, values[i]);
     }
     packParticles(blocks, elements, particles, parallelFor);
@@ -467,6 +513,7 @@ void vtkHighOrderParticleIsosurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Quality: " << this->Quality << "\n";
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "NumberOfParticles: " << this->NumberOfParticles << "\n";
+  os << indent << "WarmStart: " << (this->WarmStart ? "On" : "Off") << "\n";
   os << indent << "ContourValues:\n";
   this->ContourValues->PrintSelf(os, indent.GetNextIndent());
 }

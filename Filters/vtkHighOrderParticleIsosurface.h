@@ -42,7 +42,8 @@
  * `UnresolvedCellIds`, the cells of those parts. In a composite, cells are those of the block, and all
  * other figures those of the whole mesh.
  *
- * The same input and Seed give the same output, bit for bit, for any number of threads.
+ * The same input and Seed give the same output, bit for bit, for any number of threads; where a run
+ * before is continued (WarmStart), the same runs do.
  */
 #ifndef vtkHighOrderParticleIsosurface_h
 #define vtkHighOrderParticleIsosurface_h
@@ -51,9 +52,11 @@
 #include "vtkNew.h"                            // for the isovalues
 #include "vtkPolyDataAlgorithm.h"
 
+#include <memory> // for the run before
 #include <vector> // for the blocks of the input
 
 class InputBlocks;
+class PreviousRun;
 class vtkContourValues;
 struct GatheredBlocks;
 struct GridElements;
@@ -184,6 +187,18 @@ public:
   vtkGetMacro(NumberOfParticles, vtkIdType);
   ///@}
 
+  ///@{
+  /**
+   * Whether particles of the last run go on where only an isovalue or the data changed, from one time
+   * step to the next or while an isovalue is moved: they stay where they can, and what they miss is
+   * added, so that the surface is found and covered as from scratch. Off: the output depends on the
+   * input and the properties only, not on runs before. With method FAST. Default on.
+   */
+  vtkSetMacro(WarmStart, bool);
+  vtkGetMacro(WarmStart, bool);
+  vtkBooleanMacro(WarmStart, bool);
+  ///@}
+
   /**
    * Also counts changes of the isovalues.
    */
@@ -217,7 +232,7 @@ private:
   bool CheckInput(const GatheredBlocks& gathered);
   std::vector<InputBlock> FindScalars(const GatheredBlocks& gathered);
   void Process(
-    const InputBlocks& blocks, const Scale& scale, double progressBegin, double progressShare);
+    const InputBlocks& blocks, const Scale& scale, std::size_t group, std::size_t groupCount);
   void Review(const InputBlocks& blocks, const GridElements& elements);
   void Review(const InputBlocks& blocks, const hop::Distribution& distribution, double isovalue);
 
@@ -231,6 +246,8 @@ private:
   int Quality = STANDARD;
   int Seed = 1;
   vtkIdType NumberOfParticles = 0;
+  bool WarmStart = true;
+  std::unique_ptr<PreviousRun> Previous;
 };
 
 #endif

@@ -83,9 +83,10 @@ void offerRims(const SpacingGrid& grid, const std::vector<RimParticle>& rims, Pa
 class KinkPlanes
 {
 public:
-  KinkPlanes(const ElementMesh& mesh, const std::vector<char>& kinks,
+  KinkPlanes(const Isosurface& surface, const std::vector<char>& kinks,
     const std::vector<Particle>& particles, const std::vector<RimParticle>& rims)
-    : Mesh(mesh)
+    : Mesh(*surface.mesh)
+    , Locator(surface.locator)
     , Kinks(kinks)
   {
     if (std::find(kinks.begin(), kinks.end(), 1) == kinks.end())
@@ -146,19 +147,26 @@ private:
   /// none.
   bool goesOnBehind(const Particle& particle, int face, const WorldPoint& foot) const
   {
-    const int behind = this->Mesh.neighbor(particle.location.element, face).element;
+    const int element = particle.location.element;
+    const int joined = this->Mesh.neighbor(element, face).element;
+    const auto isBehind = [&](int other)
+    {
+      return joined >= 0 ? other == joined
+                         : this->Locator && this->Locator->mayGoOnIn(element, face, other);
+    };
     bool found = false;
     this->Grid->visit(foot.xyz, particle.spacing,
       [&](int j)
       {
         found = found ||
-          (this->Elements[j] == behind &&
-            glm::distance(this->Positions[j], foot.xyz) <= particle.spacing);
+          (glm::distance(this->Positions[j], foot.xyz) <= particle.spacing &&
+            isBehind(this->Elements[j]));
       });
     return found;
   }
 
   const ElementMesh& Mesh;
+  const FaceLocator* Locator;
   const std::vector<char>& Kinks;
   std::vector<glm::dvec3> Positions;
   std::vector<float> Spacings;
@@ -168,7 +176,7 @@ private:
 
 } // namespace
 
-std::int64_t markClipPlanes(const ElementMesh& mesh, const FaceJumps& jumps,
+std::int64_t markClipPlanes(const Isosurface& surface, const FaceJumps& jumps,
   std::vector<RimParticle>& rims, std::vector<Particle>& particles, const ParallelFor& parallelFor)
 {
   std::vector<glm::dvec3> positions;
@@ -179,7 +187,7 @@ std::int64_t markClipPlanes(const ElementMesh& mesh, const FaceJumps& jumps,
     spacings.push_back(rim.patch.spacing);
   }
   const SpacingGrid grid(positions, spacings, ClipReach, 0.5);
-  const KinkPlanes kinks(mesh, jumps.kinks, particles, rims);
+  const KinkPlanes kinks(surface, jumps.kinks, particles, rims);
   std::atomic<std::int64_t> evaluations{ 0 };
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(particles.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)

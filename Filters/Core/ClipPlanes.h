@@ -13,7 +13,7 @@ namespace hop
 /// In corners two planes meet.
 /// \param particles those that are not on rims; particles on rims are marked with them
 /// \return evaluations
-std::int64_t markClipPlanes(const ElementMesh& mesh, const FaceJumps& jumps,
+std::int64_t markClipPlanes(const Isosurface& surface, const FaceJumps& jumps,
   std::vector<RimParticle>& rims, std::vector<Particle>& particles, const ParallelFor& parallelFor);
 
 /// How far from a particle, in units of its spacing, an edge is of interest: splats overlap that far.

@@ -93,7 +93,6 @@ void RimSampler::follow(const FaceCrossing& hint, double nearby)
     return;
   }
   const RimTrace trace = this->Tracer.trace(*start, chordPerSpacing * nearby);
-  this->Result.open += !trace.closed;
   this->sample(trace, nearby);
 }
 

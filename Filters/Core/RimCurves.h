@@ -12,25 +12,23 @@ struct RimParticle
   Particle particle;
   /// Anchored to the wall and fixed.
   Patch patch;
-  /// Unit vector along the surface, out of the domain; zero where the surface goes on, in elements that
-  /// the mesh does not join to this one.
+  /// Unit vector along the surface, out of where it ends; zero where it goes on all the same, less than
+  /// particles' distance away.
   WorldVector outward;
 };
 
-/// The rims {F = c} on boundary faces, as closed curves: they pass from face to face around the edges
-/// of the mesh, always with the domain on the same side.
+/// The rims {F = c} on faces at which the surface ends: they pass from face to face around the edges of
+/// the mesh, always with the domain on the same side. They are closed curves, but for those along jumps
+/// that fade, and beside elements that cover a part of a face.
 struct RimCurves
 {
   std::vector<RimParticle> particles;
   std::int64_t evaluations = 0;
-  /// Curves that could not be followed back to where they began.
-  std::int64_t open = 0;
 };
 
 /// Follows every rim that the boxes of the proxy show, and places particles on it, evenly at the
-/// spacing that the surface wants there, and on its corners. Where two curves run side by side (on the
-/// two sides of faces that are not joined, or where two sides that jump apart elsewhere agree), only one
-/// keeps its particles.
+/// spacing that the surface wants there, and on its corners. Where two curves run side by side (on the two
+/// sides of a jump that is hardly wider than the surface may pass), only one keeps its particles.
 RimCurves findRimCurves(
   const Isosurface& surface, const SurfaceProxy& proxy, const SpacingLaw& law);
 

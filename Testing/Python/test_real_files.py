@@ -196,6 +196,21 @@ def test_zero_of_the_layer_is_nearly_a_sphere(data):
     assert abs(np.mean(support.array_of(particles, "Gauss_Curvature")) - 1 / 0.36) <= 0.05 / 0.36
 
 
+@pytest.mark.parametrize("method, least", [("Fast", 0.75), ("Classic", 0.6)])
+def test_particles_cross_the_faces_of_refined_elements(data, method, least):
+    reader = support.read(data("mfem_amr_hanging_hex_p3.vtu"))
+    particles = support.run_quietly(reader, "u", 0.0, Spacing=0.03, Method=method)
+    # The mesh is a cube without one of its eighths: there alone the surface ends.
+    away = support.points_of(particles).max(axis=1) > 0.12
+    assert 0.7 < away.mean() < 1.0
+    assert support.nearest_neighbors(particles)[away].min() >= least
+    if method == "Fast":
+        ends = support.array_of(particles, "Clip_Distance")[:, 0] == 0
+        normals = np.linalg.norm(support.array_of(particles, "Clip_Normal")[:, :3], axis=1)
+        assert not np.any(ends & (normals > 0) & away)
+        assert np.any(ends & (normals > 0))
+
+
 @pytest.mark.parametrize(
     "file, array, isovalue, field, error",
     [
