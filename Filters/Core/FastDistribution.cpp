@@ -504,6 +504,11 @@ Distribution FastSystem::run()
         this->reach(0.45 + 0.45 * static_cast<double>(n + 1) / static_cast<double>(rounds.size()));
       }
       this->repair();
+      if (!this->countIsGiven())
+      {
+        // Beside another sheet the last particle of a small component may have been taken for one too many.
+        this->coverBoxes();
+      }
       this->finish();
     }
   }
