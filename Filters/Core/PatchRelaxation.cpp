@@ -23,6 +23,9 @@ using kernel::SweepLanes;
 
 /// Two particles interact up to h/beta; what they move in a round is added to that.
 constexpr double listSlack = 0.35;
+/// From so many particles on they are moved tile by tile, so many at a time.
+constexpr std::size_t manyParticles = 150'000;
+constexpr std::size_t particlesPerTile = 2048;
 /// Blocks that a thread moves at a time, and those that are moved before others may interrupt.
 constexpr std::ptrdiff_t blocksPerPiece = 8;
 constexpr std::ptrdiff_t mostBlocksAtOnce = 200'000;
@@ -53,24 +56,43 @@ int lowestFreeColor(const std::vector<int>& colors, const int* begin, const int*
   }
 }
 
-/// Gives each particle that moves the lowest colour that none of those it sees has yet.
-/// \return lists of particles by colour
-std::vector<std::vector<int>> colorParticles(
-  const std::vector<Patch>& patches, const SeenLists& lists)
+/// Gives each particle that moves the lowest colour that none of those it sees has yet; -1 for fixed ones.
+std::vector<int> colorParticles(const std::vector<Patch>& patches, const SeenLists& lists)
 {
-  std::vector<std::vector<int>> byColor;
   std::vector<int> colors(patches.size(), -1);
   for (std::size_t i = 0; i < patches.size(); ++i)
   {
-    if (patches[i].fixed)
+    if (!patches[i].fixed)
     {
-      continue;
+      colors[i] = lowestFreeColor(colors, lists.begin(i), lists.end(i));
     }
-    colors[i] = lowestFreeColor(colors, lists.begin(i), lists.end(i));
-    byColor.resize(std::max<std::size_t>(byColor.size(), colors[i] + 1));
-    byColor[colors[i]].push_back(static_cast<int>(i));
   }
-  return byColor;
+  return colors;
+}
+
+/// Gives each tile of so many particles the lowest colour that no tile has of which it sees a particle.
+std::vector<int> colorTiles(std::size_t tileSize, const SeenLists& lists)
+{
+  const std::size_t count = (lists.size() + tileSize - 1) / tileSize;
+  std::vector<int> colors(count, -1);
+  for (std::size_t tile = 0; tile < count; ++tile)
+  {
+    const std::size_t end = std::min(lists.size(), (tile + 1) * tileSize);
+    std::vector<int> seen;
+    for (std::size_t i = tile * tileSize; i < end; ++i)
+    {
+      for (const int* j = lists.begin(i); j != lists.end(i); ++j)
+      {
+        const int other = static_cast<int>(static_cast<std::size_t>(*j) / tileSize);
+        if (seen.empty() || seen.back() != other)
+        {
+          seen.push_back(other);
+        }
+      }
+    }
+    colors[tile] = lowestFreeColor(colors, seen.data(), seen.data() + seen.size());
+  }
+  return colors;
 }
 
 /// Particles and their neighbours as the sweeps want them: in single precision, about a common centre.
@@ -88,19 +110,22 @@ public:
     this->fillBlocks();
   }
 
-  /// Every particle moves that many times, colour by colour.
+  /// Every particle moves that many times, stage by stage.
   void sweep(int times)
   {
-    const int colors = static_cast<int>(this->ColorStart.size()) - 1;
-    for (int first = 0; first < times * colors;)
+    const int stages = static_cast<int>(this->Stages.size());
+    for (int first = 0; first < times * stages;)
     {
       std::ptrdiff_t blocks = 0;
       int last = first;
-      for (; last < times * colors && blocks <= mostBlocksAtOnce; ++last)
+      for (; last < times * stages && blocks <= mostBlocksAtOnce; ++last)
       {
-        blocks += this->blockCount(last % colors);
+        for (const BlockRange& piece : this->Stages[last % stages])
+        {
+          blocks += piece.end - piece.begin;
+        }
       }
-      this->moveColors(first, last);
+      this->runStages(first, last);
       first = last;
     }
   }
@@ -108,17 +133,20 @@ public:
   Relaxed result(const Balance& balance) const;
 
 private:
+  struct BlockRange
+  {
+    std::ptrdiff_t begin = 0;
+    std::ptrdiff_t end = 0;
+  };
+
   void makeSeen();
   void sortByNeighbors(std::vector<int>& particles) const;
   void layOut();
   void fillBlocks();
   void fillNeighbors(const SweepBlock& block);
   void fillLane(SweepBlock& block, int lane) const;
-  std::ptrdiff_t blockCount(int color) const
-  {
-    return this->ColorStart[color + 1] - this->ColorStart[color];
-  }
-  void moveColors(int first, int last);
+  void makeStages(std::size_t tileSize, std::size_t groupsPerTile);
+  void runStages(int first, int last);
   template <class Work>
   void forAll(std::size_t count, const Work& work) const
   {
@@ -139,27 +167,25 @@ private:
   /// One a particle, and one beyond the sight of all that stands in for neighbours missing in a block.
   Buffer<Seen> SeenParticles;
   Buffer<SweepBlock> Blocks;
-  std::vector<std::ptrdiff_t> ColorStart{ 0 };
+  /// Blocks of particles of one tile and colour follow each other: where each such group starts.
+  std::vector<std::ptrdiff_t> GroupStart{ 0 };
+  /// What may move at the same time: within a piece one block after the other, pieces in threads.
+  std::vector<std::vector<BlockRange>> Stages;
   Buffer<std::int32_t> Neighbors;
 };
 
-/// Colours first to last - 1, in the endless sequence of all colours.
-void SweepSystem::moveColors(int first, int last)
+/// Stages first to last - 1, in the endless sequence of all stages.
+void SweepSystem::runStages(int first, int last)
 {
-  const int colors = static_cast<int>(this->ColorStart.size()) - 1;
   const auto sweepBlocks = kernel::current().sweep;
+  const auto stage = [&](int phase) -> const std::vector<BlockRange>&
+  { return this->Stages[(first + phase) % this->Stages.size()]; };
   runPhases(
     this->Parallel, last - first,
-    [&](int phase)
-    {
-      const std::ptrdiff_t blocks = this->blockCount((first + phase) % colors);
-      return (blocks + blocksPerPiece - 1) / blocksPerPiece;
-    },
+    [&](int phase) { return static_cast<std::ptrdiff_t>(stage(phase).size()); },
     [&](int phase, std::ptrdiff_t piece)
     {
-      const int color = (first + phase) % colors;
-      const std::ptrdiff_t begin = this->ColorStart[color] + piece * blocksPerPiece;
-      const std::ptrdiff_t end = std::min(begin + blocksPerPiece, this->ColorStart[color + 1]);
+      const auto [begin, end] = stage(phase)[piece];
       sweepBlocks(this->Blocks.data() + begin, end - begin, this->Neighbors.data(),
         this->SeenParticles.data());
     });
@@ -208,23 +234,38 @@ void SweepSystem::sortByNeighbors(std::vector<int>& particles) const
   }
 }
 
-/// Makes the blocks of each colour, with their particles and room for their lists.
+/// Makes the blocks, of particles of one colour each, with room for their lists. Where there are many
+/// particles, those of a tile follow each other, colour by colour, so that they stay in the cache while all
+/// of them move.
 void SweepSystem::layOut()
 {
-  std::vector<std::vector<int>> byColor = colorParticles(this->Patches, this->Lists);
-  this->forAll(byColor.size(), [&](std::size_t color) { this->sortByNeighbors(byColor[color]); });
-  for (const std::vector<int>& particles : byColor)
+  const std::size_t count = this->Patches.size();
+  const std::size_t tileSize = count < manyParticles ? count : particlesPerTile;
+  const std::vector<int> colors = colorParticles(this->Patches, this->Lists);
+  const auto colorCount =
+    static_cast<std::size_t>(*std::max_element(colors.begin(), colors.end()) + 1);
+  std::vector<std::vector<int>> groups((count + tileSize - 1) / tileSize * colorCount);
+  for (std::size_t i = 0; i < count; ++i)
   {
-    this->ColorStart.push_back(this->ColorStart.back() +
+    if (colors[i] >= 0)
+    {
+      groups[i / tileSize * colorCount + colors[i]].push_back(static_cast<int>(i));
+    }
+  }
+  this->forAll(groups.size(), [&](std::size_t g) { this->sortByNeighbors(groups[g]); });
+  for (const std::vector<int>& particles : groups)
+  {
+    this->GroupStart.push_back(this->GroupStart.back() +
       static_cast<std::ptrdiff_t>((particles.size() + SweepLanes - 1) / SweepLanes));
   }
-  this->Blocks = Buffer<SweepBlock>(this->ColorStart.back());
+  this->makeStages(tileSize, colorCount);
+  this->Blocks = Buffer<SweepBlock>(this->GroupStart.back());
   this->forAll(this->Blocks.size(),
     [&](std::size_t b)
     {
       const auto next = std::upper_bound(
-        this->ColorStart.begin(), this->ColorStart.end(), static_cast<std::ptrdiff_t>(b));
-      const std::vector<int>& particles = byColor[next - this->ColorStart.begin() - 1];
+        this->GroupStart.begin(), this->GroupStart.end(), static_cast<std::ptrdiff_t>(b));
+      const std::vector<int>& particles = groups[next - this->GroupStart.begin() - 1];
       const std::size_t first = (b - *(next - 1)) * SweepLanes;
       SweepBlock& block = this->Blocks[b];
       block = {};
@@ -237,6 +278,33 @@ void SweepSystem::layOut()
           std::max(block.neighborCount, this->Lists.count(block.particle[lane]));
       }
     });
+}
+
+/// One tile: a stage for each colour. Several: a stage for each colour of tiles.
+void SweepSystem::makeStages(std::size_t tileSize, std::size_t groupsPerTile)
+{
+  const std::size_t groups = this->GroupStart.size() - 1;
+  if (groups <= groupsPerTile)
+  {
+    for (std::size_t color = 0; color < groups; ++color)
+    {
+      this->Stages.emplace_back();
+      const std::ptrdiff_t end = this->GroupStart[color + 1];
+      for (std::ptrdiff_t b = this->GroupStart[color]; b < end; b += blocksPerPiece)
+      {
+        this->Stages.back().push_back({ b, std::min(end, b + blocksPerPiece) });
+      }
+    }
+    return;
+  }
+  const std::vector<int> colors = colorTiles(tileSize, this->Lists);
+  this->Stages.resize(*std::max_element(colors.begin(), colors.end()) + 1);
+  for (std::size_t tile = 0; tile < colors.size(); ++tile)
+  {
+    const std::size_t group = tile * groupsPerTile;
+    this->Stages[colors[tile]].push_back(
+      { this->GroupStart[group], this->GroupStart[group + groupsPerTile] });
+  }
 }
 
 void SweepSystem::fillBlocks()
