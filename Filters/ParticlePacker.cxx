@@ -27,8 +27,8 @@ namespace
 {
 
 const std::set<std::string> ownArrays{ "Normals", "Radius", "Mean_Curvature", "Gauss_Curvature",
-  "Residual", "Clip_Normal", "Clip_Distance", "Jump", "Isovalue", "vtkOriginalCellIds",
-  "ParametricCoordinates" };
+  "Shape_Operator", "Residual", "Clip_Normal", "Clip_Distance", "Jump", "Isovalue",
+  "vtkOriginalCellIds", "ParametricCoordinates" };
 
 class Packer
 {
@@ -190,6 +190,14 @@ void Packer::addOwnArrays()
     [](const ParticleRow& row, double* out) { *out = row.particle->curvature.mean; });
   this->addArray("Gauss_Curvature", 1,
     [](const ParticleRow& row, double* out) { *out = row.particle->curvature.gauss; });
+  this->addArray("Shape_Operator", 6,
+    [](const ParticleRow& row, double* out)
+    {
+      const glm::dmat3& shape = row.particle->curvature.shape;
+      const double components[] = { shape[0][0], shape[1][1], shape[2][2], shape[0][1], shape[1][2],
+        shape[0][2] }; // VTK's order of symmetric tensors
+      std::copy(std::begin(components), std::end(components), out);
+    });
   this->addArray(
     "Residual", 1, [](const ParticleRow& row, double* out) { *out = row.particle->residual; });
   this->addArray("Clip_Normal", 6,

@@ -24,8 +24,9 @@
  *
  * Point data of the output: `Normals` (unit, towards lower values, as Contour orients them),
  * `Radius` (the particle's own spacing, world units), `Mean_Curvature` (with respect to Normals;
- * 1/r on a sphere with high values inside), `Gauss_Curvature`, `Residual` (|F - c|/|grad F|, world
- * units), `Clip_Normal` and `Clip_Distance` (from method FAST: unit normals and distances, in world
+ * 1/r on a sphere with high values inside), `Gauss_Curvature`, `Shape_Operator` (the derivative of Normals
+ * along the surface, a symmetric tensor: xx, yy, zz, xy, yz, xz; 1 / world units), `Residual` (|F - c|/|grad F|,
+ * world units), `Clip_Normal` and `Clip_Distance` (from method FAST: unit normals and distances, in world
  * units, of up to two planes near the particle at which the surface ends or turns sharply: rims, or faces
  * between elements; splats are to be cut there; normal zero: none), `Jump` (on rims where the field jumps from
  * element to element: F - c on the other side; else 0), `Isovalue`, `vtkOriginalCellIds`, `ParametricCoordinates` (of VTK's cell), and every

@@ -89,9 +89,10 @@ void vtkSurfaceSplatBuffers::Upload(
   GLint limit = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
   this->HasClip = !particles.Clip.empty();
+  this->HasShape = !particles.Shape.empty();
   this->HasColor = false;
-  const vtkIdType count =
-    std::min<vtkIdType>(particles.GetNumberOfParticles(), this->HasClip ? limit / 2 : limit);
+  const vtkIdType count = std::min<vtkIdType>(
+    particles.GetNumberOfParticles(), this->HasClip || this->HasShape ? limit / 2 : limit);
   this->NumberOfParticles = count;
   this->Origin = particles.Origin;
   this->MeasureRadii(particles.CentreRadius);
@@ -106,6 +107,10 @@ void vtkSurfaceSplatBuffers::Upload(
   if (this->HasClip)
   {
     this->Clip.Upload(window, first(particles.Clip, 8 * count));
+  }
+  if (this->HasShape)
+  {
+    this->Shape.Upload(window, first(particles.Shape, 8 * count));
   }
   this->PointIds.Upload(window, IdsAsBytes(particles.PointIds, count));
 }
@@ -137,6 +142,10 @@ void vtkSurfaceSplatBuffers::Activate()
   {
     this->Clip.Activate();
   }
+  if (this->HasShape)
+  {
+    this->Shape.Activate();
+  }
   if (this->HasColor)
   {
     this->Color.Activate();
@@ -152,6 +161,10 @@ void vtkSurfaceSplatBuffers::Deactivate()
   {
     this->Clip.Deactivate();
   }
+  if (this->HasShape)
+  {
+    this->Shape.Deactivate();
+  }
   if (this->HasColor)
   {
     this->Color.Deactivate();
@@ -165,6 +178,7 @@ void vtkSurfaceSplatBuffers::SetSamplers(vtkShaderProgram* program)
   this->PointIds.SetSampler(program, "splatPointIds");
   // Samplers that are not read must still name a buffer: drivers check their kind.
   (this->HasClip ? this->Clip : this->CentreRadius).SetSampler(program, "splatClip");
+  (this->HasShape ? this->Shape : this->CentreRadius).SetSampler(program, "splatShape");
   (this->HasColor ? this->Color : this->CentreRadius).SetSampler(program, "splatColor");
   program->SetUniformi("splatHasClip", this->HasClip ? 1 : 0);
 }
@@ -174,6 +188,7 @@ void vtkSurfaceSplatBuffers::ReleaseGraphicsResources(vtkWindow* window)
   this->CentreRadius.ReleaseGraphicsResources(window);
   this->Normal.ReleaseGraphicsResources(window);
   this->Clip.ReleaseGraphicsResources(window);
+  this->Shape.ReleaseGraphicsResources(window);
   this->Color.ReleaseGraphicsResources(window);
   this->PointIds.ReleaseGraphicsResources(window);
   this->NumberOfParticles = 0;

@@ -67,6 +67,9 @@ public:
   /** Whether particles carry clip planes. */
   bool GetHasClip() const { return this->HasClip; }
 
+  /** Whether particles know how the surface bends. */
+  bool GetHasShape() const { return this->HasShape; }
+
   ///@{
   /** Of those particles that are drawn; model coordinates. */
   double GetMeanRadius() const { return this->MeanRadius; }
@@ -92,9 +95,11 @@ private:
   std::array<double, 3> Origin = { 0., 0., 0. };
   vtkSurfaceSplatTexels CentreRadius;
   vtkSurfaceSplatTexels Normal;
-  vtkSurfaceSplatTexels Clip; // two a particle; stays empty without clip planes
+  vtkSurfaceSplatTexels Clip;  // two a particle; stays empty without clip planes
+  vtkSurfaceSplatTexels Shape; // two a particle; stays empty where the surface is nearly flat
   vtkSurfaceSplatTexels Color;
   bool HasClip = false;
+  bool HasShape = false;
   bool HasColor = false;
   vtkSurfaceSplatTexels PointIds; // four bytes, as the selection passes write them
 };

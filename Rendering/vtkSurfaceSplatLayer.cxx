@@ -19,7 +19,9 @@
 #include "vtkSurfaceSplatVisibilityFS.h"
 #include "vtkTextureObject.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <string>
 
 namespace
@@ -32,13 +34,23 @@ constexpr double Thickness = 1.;
 constexpr double LargestPoint = 2.;
 constexpr double LeastPixels = 0.75;
 
+// Mesa's rasterizers in software keep what they have set up of each primitive until they are flushed.
+// As long as that fits into the processor's cache a picture of 10^6 splats takes half the time.
+constexpr vtkIdType SoftwareBatch = 4096;
+
+bool IsDrawnInSoftware()
+{
+  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  return name && (std::strstr(name, "llvmpipe") || std::strstr(name, "softpipe"));
+}
+
 struct Format
 {
   unsigned int Internal, External, Type;
   int Components, VtkType;
 };
 constexpr Format FloatSums = { GL_RGBA32F, GL_RGBA, GL_FLOAT, 4, VTK_FLOAT };
-constexpr Format Byte = { GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1, VTK_UNSIGNED_CHAR };
+constexpr Format TwoBytes = { GL_RG8, GL_RG, GL_UNSIGNED_BYTE, 2, VTK_UNSIGNED_CHAR };
 constexpr Format Count = { GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 1, VTK_UNSIGNED_INT };
 
 void PrepareTexture(
@@ -71,6 +83,20 @@ bool DrawsPoints(const vtkSurfaceSplatDrawing& drawing)
 {
   const double radius = drawing.RadiusScale * drawing.Buffers->GetLargestRadius();
   return drawing.View->GetLargestPixels(radius) <= LargestPoint;
+}
+
+/** Where the weight of a splat has fallen to the least that makes a surface, in radii. */
+double Rim(double sharpness)
+{
+  const double atRim = std::exp(-sharpness);
+  const double least = vtkSurfaceSplatLayer::LeastWeight * (1. - atRim) + atRim;
+  return std::sqrt(-std::log(least) / sharpness);
+}
+
+std::string WithColors(std::string source, const char* code)
+{
+  vtkShaderProgram::Substitute(source, "//Splat::Color::Impl", code);
+  return source;
 }
 
 void SetSampler(vtkShaderProgram* program, const char* name, vtkTextureObject* texture)
@@ -119,9 +145,10 @@ bool vtkSurfaceSplatLayer::NeedsUpdate(const vtkSurfaceSplatDrawing& drawing)
 {
   std::vector<double> key = drawing.Key;
   drawing.View->AppendTo(key);
-  for (double value : { drawing.RadiusScale, drawing.Sharpness, double(drawing.Stride),
-         double(drawing.FacesViewer), double(drawing.HiddenSide), double(drawing.Colors),
-         double(drawing.Strongest), double(drawing.NumberOfClippingPlanes) })
+  for (double value :
+    { drawing.RadiusScale, drawing.Sharpness, double(drawing.Stride), double(drawing.Kind),
+      double(drawing.FacesViewer), double(drawing.HiddenSide), double(drawing.Colors),
+      double(drawing.Strongest), double(drawing.NumberOfClippingPlanes) })
   {
     key.push_back(value);
   }
@@ -140,9 +167,15 @@ bool vtkSurfaceSplatLayer::NeedsUpdate(const vtkSurfaceSplatDrawing& drawing)
 //------------------------------------------------------------------------------
 bool vtkSurfaceSplatLayer::PrepareTextures(const vtkSurfaceSplatDrawing& drawing)
 {
-  int size[2] = { drawing.View->GetWidth(), drawing.View->GetHeight() };
+  const auto padded = [](int size) { return (size + 3) / 4 * 4; }; // to be halved twice
+  int size[2] = { padded(drawing.View->GetWidth()), padded(drawing.View->GetHeight()) };
   PrepareTexture(this->VisibleDepth, drawing.Window, nullptr, size);
-  PrepareTexture(this->SeenFrom, drawing.Window, &Byte, size);
+  PrepareTexture(this->TestedDepth, drawing.Window, nullptr, size);
+  this->Seen->SetMinificationFilter(vtkTextureObject::LinearMipmapNearest);
+  this->Seen->SetWrapS(vtkTextureObject::ClampToEdge);
+  this->Seen->SetWrapT(vtkTextureObject::ClampToEdge);
+  this->Seen->SetMaxLevel(2);
+  PrepareTexture(this->Seen, drawing.Window, &TwoBytes, size);
   PrepareTexture(this->NormalWeight, drawing.Window, &FloatSums, size);
   PrepareTexture(this->OffsetDepth, drawing.Window, &FloatSums, size);
   std::vector<vtkTextureObject*> sums = { this->NormalWeight, this->OffsetDepth };
@@ -151,14 +184,13 @@ bool vtkSurfaceSplatLayer::PrepareTextures(const vtkSurfaceSplatDrawing& drawing
     PrepareTexture(this->ColorSum, drawing.Window, &FloatSums, size);
     sums.push_back(this->ColorSum);
   }
-  this->PrepareFramebuffer(drawing, this->Visibility, { this->SeenFrom }, this->VisibleDepth);
-  this->PrepareFramebuffer(drawing, this->Accumulation, sums, this->VisibleDepth);
+  this->PrepareFramebuffer(drawing, this->Visibility, { this->Seen }, this->VisibleDepth);
+  this->PrepareFramebuffer(drawing, this->Accumulation, sums, this->TestedDepth);
   bool complete = this->Visibility.Complete && this->Accumulation.Complete;
   if (drawing.Strongest)
   {
     PrepareTexture(this->Number, drawing.Window, &Count, size);
-    PrepareTexture(this->WeightDepth, drawing.Window, nullptr, size);
-    this->PrepareFramebuffer(drawing, this->Strongest, { this->Number }, this->WeightDepth);
+    this->PrepareFramebuffer(drawing, this->Strongest, { this->Number }, this->TestedDepth);
     complete = complete && this->Strongest.Complete;
   }
   return complete;
@@ -182,53 +214,93 @@ void vtkSurfaceSplatLayer::PrepareFramebuffer(const vtkSurfaceSplatDrawing& draw
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth->GetHandle(), 0);
   // Not through vtkOpenGLState: it caches draw buffers for one framebuffer only.
   glDrawBuffers(static_cast<GLsizei>(buffers.size()), buffers.data());
+  framebuffer.Colors = static_cast<int>(buffers.size());
   framebuffer.Complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatLayer::ClearColors(const Framebuffer& framebuffer)
+{
+  const float nothing[4] = { 0.f, 0.f, 0.f, 0.f };
+  for (int buffer = 0; buffer < framebuffer.Colors; ++buffer)
+  {
+    glClearBufferfv(GL_COLOR, buffer, nothing);
+  }
 }
 
 //------------------------------------------------------------------------------
 void vtkSurfaceSplatLayer::FindVisible(const vtkSurfaceSplatDrawing& drawing)
 {
+  this->StartWithDepth(drawing, this->Visibility);
+  const double push = this->WhichSide == Front ? Thickness : -Thickness;
+  if (this->ReadyProgram(
+        drawing, { vtkSurfaceSplatVisibilityFS, push, Rim(drawing.Sharpness), false }))
+  {
+    this->DrawSplats(drawing);
+  }
+  this->AverageSeen();
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatLayer::StartWithDepth(
+  const vtkSurfaceSplatDrawing& drawing, const Framebuffer& framebuffer)
+{
   const bool front = this->WhichSide == Front;
   vtkOpenGLState* state = drawing.Window->GetState();
-  state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Visibility.Handle);
+  state->vtkglBindFramebuffer(GL_FRAMEBUFFER, framebuffer.Handle);
   state->vtkglDisable(GL_BLEND);
   state->vtkglDepthMask(GL_TRUE);
   state->vtkglDepthFunc(front ? GL_LESS : GL_GREATER);
   const float depth = front ? 1.f : 0.f;
-  const float nothing[4] = { 0.5f, 0.5f, 0.5f, 0.5f }; // between the sides
   glClearBufferfv(GL_DEPTH, 0, &depth);
-  glClearBufferfv(GL_COLOR, 0, nothing);
-  if (this->ReadyProgram(drawing, vtkSurfaceSplatVisibilityFS, front ? Thickness : -Thickness))
-  {
-    this->DrawSplats(drawing);
-  }
+  ClearColors(framebuffer);
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatLayer::AverageSeen()
+{
+  this->Seen->Activate();
+  glGenerateMipmap(GL_TEXTURE_2D);
+  this->Seen->Deactivate();
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatLayer::CopyVisibleDepth(const vtkSurfaceSplatDrawing& drawing)
+{
+  vtkOpenGLState* state = drawing.Window->GetState();
+  const int right = drawing.View->GetWidth();
+  const int top = drawing.View->GetHeight();
+  state->vtkglBindFramebuffer(GL_READ_FRAMEBUFFER, this->Visibility.Handle);
+  state->vtkglBindFramebuffer(GL_DRAW_FRAMEBUFFER, this->Accumulation.Handle);
+  glBlitFramebuffer(0, 0, right, top, 0, 0, right, top, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
 }
 
 //------------------------------------------------------------------------------
 void vtkSurfaceSplatLayer::Accumulate(const vtkSurfaceSplatDrawing& drawing)
 {
   vtkOpenGLState* state = drawing.Window->GetState();
+  this->CopyVisibleDepth(drawing);
   state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Accumulation.Handle);
   state->vtkglEnable(GL_BLEND);
   state->vtkglBlendEquation(GL_FUNC_ADD);
   state->vtkglBlendFunc(GL_ONE, GL_ONE);
   state->vtkglDepthMask(GL_FALSE);
   state->vtkglDepthFunc(this->WhichSide == Front ? GL_LEQUAL : GL_GEQUAL);
-  const float nothing[4] = { 0.f, 0.f, 0.f, 0.f };
-  for (int buffer = 0; buffer < (drawing.Colors ? 3 : 2); ++buffer)
-  {
-    glClearBufferfv(GL_COLOR, buffer, nothing);
-  }
-  std::string source = vtkSurfaceSplatAccumulationFS;
-  vtkShaderProgram::Substitute(source, "//Splat::Color::Impl",
+  ClearColors(this->Accumulation);
+  const std::string source = WithColors(vtkSurfaceSplatAccumulationFS,
     drawing.Colors ? "gl_FragData[2] = weight * texelFetch(splatColor, splatParticle);" : "");
-  this->SeenFrom->Activate();
-  if (vtkShaderProgram* program = this->ReadyProgram(drawing, source.c_str(), 0.))
+  this->Seen->Activate();
+  this->VisibleDepth->Activate();
+  if (vtkShaderProgram* program =
+        this->ReadyProgram(drawing, { source, 0., 1., DrawsPoints(drawing) }))
   {
-    SetSampler(program, "splatSeenFrom", this->SeenFrom);
+    SetSampler(program, "splatSeen", this->Seen);
+    SetSampler(program, "splatVisibleDepth", this->VisibleDepth);
+    program->SetUniformf("splatNearer", this->WhichSide == Front ? 1.f : -1.f);
     this->DrawSplats(drawing);
   }
-  this->SeenFrom->Deactivate();
+  this->VisibleDepth->Deactivate();
+  this->Seen->Deactivate();
 }
 
 //------------------------------------------------------------------------------
@@ -243,29 +315,33 @@ void vtkSurfaceSplatLayer::FindStrongest(const vtkSurfaceSplatDrawing& drawing)
   const GLuint nothing[4] = { 0, 0, 0, 0 };
   glClearBufferfv(GL_DEPTH, 0, &far);
   glClearBufferuiv(GL_COLOR, 0, nothing);
-  this->SeenFrom->Activate();
+  this->Seen->Activate();
   this->VisibleDepth->Activate();
-  if (vtkShaderProgram* program = this->ReadyProgram(drawing, vtkSurfaceSplatStrongestFS, 0.))
+  if (vtkShaderProgram* program =
+        this->ReadyProgram(drawing, { vtkSurfaceSplatStrongestFS, 0., 1., false }))
   {
-    SetSampler(program, "splatSeenFrom", this->SeenFrom);
+    SetSampler(program, "splatSeen", this->Seen);
     SetSampler(program, "splatVisibleDepth", this->VisibleDepth);
     program->SetUniformf("splatNearer", this->WhichSide == Front ? 1.f : -1.f);
     this->DrawSplats(drawing);
   }
   this->VisibleDepth->Deactivate();
-  this->SeenFrom->Deactivate();
+  this->Seen->Deactivate();
 }
 
 //------------------------------------------------------------------------------
 vtkShaderProgram* vtkSurfaceSplatLayer::ReadyProgram(
-  const vtkSurfaceSplatDrawing& drawing, const char* fragmentSource, double push)
+  const vtkSurfaceSplatDrawing& drawing, const Pass& pass)
 {
   const std::string definitions = "#define SPLAT_POINTS " + std::to_string(DrawsPoints(drawing)) +
     "\n#define SPLAT_LEAST_PIXELS " + std::to_string(LeastPixels) + "\n#define SPLAT_HAS_CLIP " +
-    std::to_string(drawing.Buffers->GetHasClip()) + "\n#define SPLAT_CLIPPING_PLANES " +
-    std::to_string(drawing.NumberOfClippingPlanes) + "\n";
+    std::to_string(drawing.Buffers->GetHasClip()) + "\n#define SPLAT_CURVED " +
+    std::to_string(
+      drawing.Buffers->GetHasShape() && !drawing.FacesViewer && !DrawsPoints(drawing)) +
+    "\n#define SPLAT_SKIPS_HIDDEN " + std::to_string(pass.SkipsHidden) +
+    "\n#define SPLAT_CLIPPING_PLANES " + std::to_string(drawing.NumberOfClippingPlanes) + "\n";
   std::string vertex = vtkSurfaceSplatPassVS;
-  std::string fragment = fragmentSource;
+  std::string fragment = pass.Fragment;
   vtkShaderProgram::Substitute(vertex, "//Splat::Disk::Dec", definitions + vtkSurfaceSplatDisk);
   vtkShaderProgram::Substitute(
     fragment, "//Splat::Fragment::Dec", definitions + vtkSurfaceSplatFragment);
@@ -279,15 +355,16 @@ vtkShaderProgram* vtkSurfaceSplatLayer::ReadyProgram(
   drawing.Buffers->SetSamplers(program);
   drawing.View->SetUniforms(program);
   program->SetUniformf("splatRadiusScale", static_cast<float>(drawing.RadiusScale));
-  const double rim = std::exp(-drawing.Sharpness);
-  const double least = -std::log(LeastWeight * (1. - rim) + rim) / drawing.Sharpness;
-  const float falloff[3] = { static_cast<float>(drawing.Sharpness), static_cast<float>(rim),
-    static_cast<float>(least) };
+  const double rim = Rim(drawing.Sharpness);
+  const float falloff[3] = { static_cast<float>(drawing.Sharpness),
+    static_cast<float>(std::exp(-drawing.Sharpness)), static_cast<float>(rim * rim) };
   program->SetUniform3f("splatFalloff", falloff);
-  program->SetUniformf("splatPush", static_cast<float>(push));
+  program->SetUniformf("splatPush", static_cast<float>(pass.Push));
+  program->SetUniformf("splatReach", static_cast<float>(pass.Reach));
   program->SetUniformf("splatHiddenSide", static_cast<float>(drawing.HiddenSide));
   program->SetUniformi("splatFacesViewer", drawing.FacesViewer ? 1 : 0);
   program->SetUniformi("splatStride", drawing.Stride);
+  program->SetUniformi("splatKind", drawing.Kind);
   program->SetUniform4fv("splatClippingPlane", 6, drawing.ClippingPlanes);
   return program;
 }
@@ -297,20 +374,25 @@ void vtkSurfaceSplatLayer::DrawSplats(const vtkSurfaceSplatDrawing& drawing)
 {
   const vtkIdType count =
     (drawing.Buffers->GetNumberOfParticles() + drawing.Stride - 1) / drawing.Stride;
-  if (DrawsPoints(drawing))
+  const bool points = DrawsPoints(drawing);
+  const int corners = points ? 1 : 3;
+  const vtkIdType batch = IsDrawnInSoftware() ? SoftwareBatch : count;
+  for (vtkIdType first = 0; first < count; first += batch)
   {
-    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(count));
-  }
-  else
-  {
-    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * count));
+    const vtkIdType size = std::min(batch, count - first);
+    glDrawArrays(points ? GL_POINTS : GL_TRIANGLES, static_cast<GLint>(corners * first),
+      static_cast<GLsizei>(corners * size));
+    if (first + size < count)
+    {
+      glFlush();
+    }
   }
 }
 
 //------------------------------------------------------------------------------
 void vtkSurfaceSplatLayer::Activate()
 {
-  for (vtkTextureObject* texture : { this->SeenFrom.Get(), this->NormalWeight.Get(),
+  for (vtkTextureObject* texture : { this->Seen.Get(), this->NormalWeight.Get(),
          this->OffsetDepth.Get(), this->ColorSum.Get(), this->Number.Get() })
   {
     if (texture->GetHandle() != 0)
@@ -322,7 +404,7 @@ void vtkSurfaceSplatLayer::Activate()
 
 void vtkSurfaceSplatLayer::Deactivate()
 {
-  for (vtkTextureObject* texture : { this->SeenFrom.Get(), this->NormalWeight.Get(),
+  for (vtkTextureObject* texture : { this->Seen.Get(), this->NormalWeight.Get(),
          this->OffsetDepth.Get(), this->ColorSum.Get(), this->Number.Get() })
   {
     if (texture->GetHandle() != 0)
@@ -335,14 +417,14 @@ void vtkSurfaceSplatLayer::Deactivate()
 void vtkSurfaceSplatLayer::SetSamplers(
   vtkShaderProgram* program, const vtkSurfaceSplatLayer& front) const
 {
-  SetSampler(program, "splatSeenFrom", this->SeenFrom);
+  SetSampler(program, "splatSeen", this->Seen);
   SetSampler(program, "splatNormalWeight", this->NormalWeight);
   SetSampler(program, "splatOffsetDepth", this->OffsetDepth);
   SetSampler(program, "splatColorSum", this->ColorSum);
   SetSampler(program, "splatStrongest", this->Number);
   SetSampler(program, "splatFrontNormalWeight", front.NormalWeight);
   SetSampler(program, "splatFrontOffsetDepth", front.OffsetDepth);
-  SetSampler(program, "splatFrontSeenFrom", front.SeenFrom);
+  SetSampler(program, "splatFrontSeen", front.Seen);
 }
 
 //------------------------------------------------------------------------------
@@ -357,8 +439,8 @@ void vtkSurfaceSplatLayer::ReleaseGraphicsResources(vtkWindow* window)
     *framebuffer = Framebuffer();
   }
   for (vtkTextureObject* texture :
-    { this->VisibleDepth.Get(), this->SeenFrom.Get(), this->NormalWeight.Get(),
-      this->OffsetDepth.Get(), this->ColorSum.Get(), this->Number.Get(), this->WeightDepth.Get() })
+    { this->VisibleDepth.Get(), this->Seen.Get(), this->NormalWeight.Get(), this->OffsetDepth.Get(),
+      this->ColorSum.Get(), this->Number.Get(), this->TestedDepth.Get() })
   {
     texture->ReleaseGraphicsResources(window);
   }

@@ -14,6 +14,7 @@
 
 #include "vtkNew.h"
 
+#include <string>
 #include <vector>
 
 class vtkOpenGLRenderWindow;
@@ -32,6 +33,7 @@ struct vtkSurfaceSplatDrawing
   const vtkSurfaceSplatView* View = nullptr;
   double RadiusScale = 1.;
   double Sharpness = 2.;
+  int Kind = 2;             // 0: opaque particles; 1: translucent ones; 2: all
   int Stride = 1;           // every how-manieth particle is drawn
   bool FacesViewer = false; // there are no normals
   int HiddenSide = 0;       // 1: splats seen from outward are left out; -1: from inward; 0: none
@@ -76,28 +78,42 @@ private:
   struct Framebuffer
   {
     unsigned int Handle = 0;
+    int Colors = 0;
     bool Complete = false;
+  };
+
+  /** What differs between the passes. */
+  struct Pass
+  {
+    std::string Fragment;     // source of the fragment stage
+    double Push = 0.;         // by how many radii splats are moved away from the eye
+    double Reach = 1.;        // how far they reach, in radii
+    bool SkipsHidden = false; // splats whose middle is hidden are left out
   };
 
   bool PrepareTextures(const vtkSurfaceSplatDrawing& drawing);
   void PrepareFramebuffer(const vtkSurfaceSplatDrawing& drawing, Framebuffer& framebuffer,
     const std::vector<vtkTextureObject*>& colors, vtkTextureObject* depth);
+  static void ClearColors(const Framebuffer& framebuffer);
+  void StartWithDepth(const vtkSurfaceSplatDrawing& drawing, const Framebuffer& framebuffer);
+  void AverageSeen();
   void FindVisible(const vtkSurfaceSplatDrawing& drawing);
+  void CopyVisibleDepth(const vtkSurfaceSplatDrawing& drawing);
   void Accumulate(const vtkSurfaceSplatDrawing& drawing);
   void FindStrongest(const vtkSurfaceSplatDrawing& drawing);
-  vtkShaderProgram* ReadyProgram(
-    const vtkSurfaceSplatDrawing& drawing, const char* fragmentSource, double push);
+  vtkShaderProgram* ReadyProgram(const vtkSurfaceSplatDrawing& drawing, const Pass& pass);
   void DrawSplats(const vtkSurfaceSplatDrawing& drawing);
   bool NeedsUpdate(const vtkSurfaceSplatDrawing& drawing);
 
   const Side WhichSide;
   vtkNew<vtkTextureObject> VisibleDepth;
-  vtkNew<vtkTextureObject> SeenFrom;
+  vtkNew<vtkTextureObject> Seen;
   vtkNew<vtkTextureObject> NormalWeight;
   vtkNew<vtkTextureObject> OffsetDepth;
   vtkNew<vtkTextureObject> ColorSum;
   vtkNew<vtkTextureObject> Number;
-  vtkNew<vtkTextureObject> WeightDepth;
+  vtkNew<vtkTextureObject>
+    TestedDepth; // a copy that is tested against while the first is looked up
   Framebuffer Visibility, Accumulation, Strongest;
   vtkNew<vtkOpenGLVertexArrayObject> VertexArray;
   std::vector<double> Key; // what the textures were drawn from

@@ -2,6 +2,7 @@
 
 #include "vtkSurfaceSplatMapper.h"
 
+#include "vtkCellData.h"
 #include "vtkFloatArray.h"
 #include "vtkHardwareSelector.h"
 #include "vtkImageData.h"
@@ -27,6 +28,7 @@
 #include "vtkSurfaceSplatRay.h"
 #include "vtkSurfaceSplatResolve.h"
 #include "vtkSurfaceSplatResolveVS.h"
+#include "vtkSurfaceSplatTiles.h"
 #include "vtkSurfaceSplatVS.h"
 #include "vtkSurfaceSplatView.h"
 #include "vtkUnsignedCharArray.h"
@@ -46,7 +48,13 @@ enum class ColorSource
   Strongest // one a particle, not to be mixed
 };
 
+// The base class keeps a program for every kind of primitive. Those of triangles and of strips are lit
+// alike; the second one draws outlines if the surface is opaque, else the back layer.
+constexpr int Surface = vtkOpenGLPolyDataMapper::PrimitiveTris;
+constexpr int Extra = vtkOpenGLPolyDataMapper::PrimitiveTriStrips;
+
 constexpr const char* ClipNormalName = "Clip_Normal";
+constexpr const char* ShapeOperatorName = "Shape_Operator";
 constexpr const char* ClipDistanceName = "Clip_Distance";
 }
 
@@ -57,8 +65,12 @@ struct vtkSurfaceSplatMapper::Internals
   vtkSurfaceSplatLayer FrontLayer{ vtkSurfaceSplatLayer::Front };
   vtkSurfaceSplatLayer BackLayer{ vtkSurfaceSplatLayer::Back };
   vtkSurfaceSplatLayer* DrawnLayer = nullptr;
+  int DrawnTiles = 0;
+  int DrawnKind = 2;
+  bool Translucent = false;
   ColorSource Source = ColorSource::Property;
-  bool CannotSplat = false; // the driver has no floating-point targets
+  bool OpacityIsInColors = false; // the property's has no part in it then
+  bool CannotSplat = false;       // the driver has no floating-point targets
 
   std::vector<vtkIdType> PointIds; // of the particles on the GPU, to colour them
   std::vector<vtkIdType> CellIds;
@@ -88,6 +100,7 @@ vtkSurfaceSplatMapper::~vtkSurfaceSplatMapper()
   // The base class would release its own resources only: its destructor no longer sees ours.
   this->ReleaseGraphicsResources(nullptr);
   this->SetRadiusArrayName(nullptr);
+  this->SetCellColorArrayName(nullptr);
 }
 
 //------------------------------------------------------------------------------
@@ -113,6 +126,7 @@ void vtkSurfaceSplatMapper::ShallowCopy(vtkAbstractMapper* mapper)
     this->SetRadiusArrayName(other->GetRadiusArrayName());
     this->SetRadiusScale(other->GetRadiusScale());
     this->SetRadius(other->GetRadius());
+    this->SetCellColorArrayName(other->GetCellColorArrayName());
     this->SetColorByNormalDirection(other->GetColorByNormalDirection());
     this->SetOutwardColor(other->GetOutwardColor());
     this->SetInwardColor(other->GetInwardColor());
@@ -192,19 +206,21 @@ void vtkSurfaceSplatMapper::GetDiskBounds(vtkPolyData* input, double bounds[6])
 void vtkSurfaceSplatMapper::UpdateBufferObjects(vtkRenderer* renderer, vtkActor* actor)
 {
   // The base class would go on to index buffers of the selected cells, which disks do not use.
-  if (this->GetNeedToRebuildBufferObjects(renderer, actor))
+  const bool colorsAreOld = this->GetCellColors(this->CurrentInput) &&
+    this->VBOBuildTime.GetMTime() < actor->GetProperty()->GetMTime();
+  if (colorsAreOld || this->GetNeedToRebuildBufferObjects(renderer, actor))
   {
     this->BuildBufferObjects(renderer, actor);
   }
 }
 
 //------------------------------------------------------------------------------
-void vtkSurfaceSplatMapper::BuildBufferObjects(vtkRenderer* renderer, vtkActor*)
+void vtkSurfaceSplatMapper::BuildBufferObjects(vtkRenderer* renderer, vtkActor* actor)
 {
   vtkPolyData* input = this->CurrentInput;
   this->WarnOfMissingArrays(input);
   this->UploadParticles(renderer, input);
-  this->UploadColors(renderer, input);
+  this->UploadColors(renderer, actor);
 
   // No index buffer is used, but the base class counts primitives by it, for selections.
   for (auto& primitive : this->Primitives)
@@ -255,6 +271,8 @@ void vtkSurfaceSplatMapper::UploadParticles(vtkRenderer* renderer, vtkPolyData* 
   arrays.Normals = data->GetNormals();
   arrays.ClipNormals = data->GetArray(ClipNormalName);
   arrays.ClipDistances = data->GetArray(ClipDistanceName);
+  arrays.ShapeOperators = data->GetArray(ShapeOperatorName);
+  arrays.CellColors = this->GetCellColors(input);
   vtkSurfaceSplatParticles particles = vtkSurfaceSplatParticles::FromPolyData(input, arrays);
   gpu.Buffers.Upload(vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()), particles);
   if (gpu.Buffers.GetNumberOfParticles() < particles.GetNumberOfParticles())
@@ -273,43 +291,105 @@ void vtkSurfaceSplatMapper::UploadParticles(vtkRenderer* renderer, vtkPolyData* 
 }
 
 //------------------------------------------------------------------------------
-void vtkSurfaceSplatMapper::UploadColors(vtkRenderer* renderer, vtkPolyData* input)
+vtkDataArray* vtkSurfaceSplatMapper::GetCellColors(vtkPolyData* input)
 {
-  // Only splats have something between the particles to look colours up for.
+  vtkDataArray* colors = input && this->CellColorArrayName
+    ? input->GetCellData()->GetArray(this->CellColorArrayName)
+    : nullptr;
+  return colors && colors->GetNumberOfComponents() == 4 && colors->GetNumberOfTuples() > 0
+    ? colors
+    : nullptr;
+}
+
+bool vtkSurfaceSplatMapper::HasOpaqueGeometry()
+{
+  vtkDataArray* cellColors = this->GetCellColors(this->GetInput());
+  return !this->Superclass::HasTranslucentPolygonalGeometry() &&
+    (!cellColors || cellColors->GetRange(3)[1] >= 1.);
+}
+
+bool vtkSurfaceSplatMapper::HasTranslucentPolygonalGeometry()
+{
+  vtkDataArray* cellColors = this->GetCellColors(this->GetInput());
+  return this->Superclass::HasTranslucentPolygonalGeometry() ||
+    (cellColors && cellColors->GetRange(3)[0] < 1.);
+}
+
+int vtkSurfaceSplatMapper::GetDrawnKind(vtkRenderer* renderer, vtkActor* actor)
+{
+  constexpr int all = 2;
+  const bool bothPasses = actor->HasOpaqueGeometry() && actor->HasTranslucentPolygonalGeometry() &&
+    !renderer->GetSelector(); // which has one pass for everything
+  return bothPasses ? actor->IsRenderingTranslucentPolygonalGeometry() : all;
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatMapper::UploadColors(vtkRenderer* renderer, vtkActor* actor)
+{
+  // Only splats have something between the particles to look colours up for, and cells' own colours
+  // are not to be looked up.
+  vtkDataArray* cellColors =
+    this->Internal->CellIds.empty() ? nullptr : this->GetCellColors(this->CurrentInput);
   const vtkTypeBool interpolate = this->InterpolateScalarsBeforeMapping;
-  this->InterpolateScalarsBeforeMapping = interpolate && this->DrawsSplats();
+  this->InterpolateScalarsBeforeMapping = interpolate && this->DrawsSplats() && !cellColors;
   int source = 0;
-  vtkUnsignedCharArray* colors = this->MapScalars(input, 1.0, source);
+  vtkUnsignedCharArray* colors = this->MapScalars(this->CurrentInput, 1.0, source);
   this->InterpolateScalarsBeforeMapping = interpolate;
 
-  const ColorSource before = this->Internal->Source;
-  this->Internal->Source = ColorSource::Property;
+  Internals& internal = *this->Internal;
+  const ColorSource sourceBefore = internal.Source;
+  const bool opacityBefore = internal.OpacityIsInColors;
+  internal.Source = ColorSource::Property;
+  internal.OpacityIsInColors = cellColors != nullptr;
   if (this->ColorCoordinates)
   {
     this->UploadLookupCoordinates(renderer);
   }
-  else if (colors && colors->GetNumberOfComponents() == 4 && colors->GetNumberOfTuples() > 0)
+  else
   {
-    this->UploadMappedColors(renderer, colors, source);
+    std::vector<unsigned char> rgba = this->MappedColors(colors, source);
+    if (cellColors)
+    {
+      this->ReplaceByCellColors(rgba, cellColors, actor->GetProperty());
+    }
+    if (!rgba.empty())
+    {
+      const bool categorical = colors && this->LookupTable &&
+        this->LookupTable->GetIndexedLookup() && this->ColorMode != VTK_COLOR_MODE_DIRECT_SCALARS;
+      internal.Source = categorical ? ColorSource::Strongest : ColorSource::Colors;
+      internal.Buffers.UploadColors(
+        vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()), rgba);
+    }
   }
-  if (this->Internal->Source != before)
+  if (internal.Source != sourceBefore || internal.OpacityIsInColors != opacityBefore)
   {
-    this->Primitives[PrimitiveTris].ShaderSourceTime = vtkTimeStamp(); // to be built again
+    this->ForgetShaders();
   }
 }
 
 //------------------------------------------------------------------------------
-void vtkSurfaceSplatMapper::UploadMappedColors(
-  vtkRenderer* renderer, vtkUnsignedCharArray* colors, int source)
+void vtkSurfaceSplatMapper::ForgetShaders()
+{
+  for (int primitive : { Surface, Extra })
+  {
+    this->Primitives[primitive].ShaderSourceTime = vtkTimeStamp(); // to be built again
+  }
+}
+
+//------------------------------------------------------------------------------
+// The colour of every particle that scalars give; empty if they give none.
+std::vector<unsigned char> vtkSurfaceSplatMapper::MappedColors(
+  vtkUnsignedCharArray* colors, int source)
 {
   constexpr int Cells = 1; // what MapScalars() says of the source
   constexpr int Field = 2;
   const std::vector<vtkIdType>& ids =
     source == Cells ? this->Internal->CellIds : this->Internal->PointIds;
   const vtkIdType count = this->Internal->Buffers.GetNumberOfParticles();
-  if (static_cast<vtkIdType>(ids.size()) < count || count == 0)
+  if (!colors || colors->GetNumberOfComponents() != 4 || colors->GetNumberOfTuples() == 0 ||
+    static_cast<vtkIdType>(ids.size()) < count) // cell colours, but no vertex cells
   {
-    return; // cell colours, but no vertex cells
+    return {};
   }
   const bool single = source == Field && this->FieldDataTupleId >= 0;
   const vtkIdType last = colors->GetNumberOfTuples() - 1;
@@ -319,11 +399,30 @@ void vtkSurfaceSplatMapper::UploadMappedColors(
     const vtkIdType id = single ? this->FieldDataTupleId : ids[i];
     colors->GetTypedTuple(std::min(id, last), &rgba[4 * i]);
   }
-  this->Internal->Buffers.UploadColors(
-    vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()), rgba);
-  const bool categorical = this->LookupTable && this->LookupTable->GetIndexedLookup() &&
-    this->ColorMode != VTK_COLOR_MODE_DIRECT_SCALARS;
-  this->Internal->Source = categorical ? ColorSource::Strongest : ColorSource::Colors;
+  return rgba;
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatMapper::ReplaceByCellColors(
+  std::vector<unsigned char>& rgba, vtkDataArray* cellColors, vtkProperty* property)
+{
+  const auto byte = [](double value)
+  { return static_cast<unsigned char>(std::lround(255. * std::clamp(value, 0., 1.))); };
+  const vtkIdType count = this->Internal->Buffers.GetNumberOfParticles();
+  const bool mapped = !rgba.empty();
+  rgba.resize(4 * count, 255);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    double own[4];
+    cellColors->GetTuple(this->Internal->CellIds[i], own);
+    const double* color = own[0] <= 1. ? own : property->GetDiffuseColor();
+    if (own[0] <= 1. || !mapped)
+    {
+      std::transform(color, color + 3, &rgba[4 * i], byte);
+    }
+    const double opacity = own[3] <= 1. ? own[3] : property->GetOpacity();
+    rgba[4 * i + 3] = byte(opacity * rgba[4 * i + 3] / 255.);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -381,6 +480,7 @@ void vtkSurfaceSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* act
   double bounds[6];
   this->GetDiskBounds(this->CurrentInput, bounds);
   internal.View.Update(renderer, actor, internal.Buffers.GetOrigin(), bounds);
+  internal.DrawnKind = this->GetDrawnKind(renderer, actor);
   internal.Buffers.Activate();
   if (!this->DrawsSplats() || !this->DrawSplats(renderer, actor))
   {
@@ -400,9 +500,15 @@ bool vtkSurfaceSplatMapper::DrawSplats(vtkRenderer* renderer, vtkActor* actor)
 {
   // Far to near, for blending without depth peeling.
   std::vector<vtkSurfaceSplatLayer*> layers = { &this->Internal->FrontLayer };
-  if (actor->IsRenderingTranslucentPolygonalGeometry())
+  const bool translucent = actor->IsRenderingTranslucentPolygonalGeometry() != 0;
+  if (translucent)
   {
     layers.insert(layers.begin(), &this->Internal->BackLayer);
+  }
+  if (translucent != this->Internal->Translucent)
+  {
+    this->Internal->Translucent = translucent;
+    this->ForgetShaders();
   }
   vtkSurfaceSplatDrawing drawing;
   this->DescribeDrawing(renderer, actor, drawing);
@@ -413,14 +519,14 @@ bool vtkSurfaceSplatMapper::DrawSplats(vtkRenderer* renderer, vtkActor* actor)
       vtkWarningMacro("This graphics driver cannot draw into floating-point textures: the "
                       "particles are drawn as disks.");
       this->Internal->CannotSplat = true;
-      this->UploadColors(renderer, this->CurrentInput);
-      this->Primitives[PrimitiveTris].ShaderSourceTime = vtkTimeStamp(); // to be built again
+      this->UploadColors(renderer, actor);
+      this->ForgetShaders();
       return false;
     }
   }
   for (vtkSurfaceSplatLayer* layer : layers)
   {
-    this->DrawResolved(*layer, renderer, actor);
+    this->DrawLayer(*layer, renderer, actor);
   }
   return true;
 }
@@ -437,6 +543,7 @@ void vtkSurfaceSplatMapper::DescribeDrawing(
   drawing.RadiusScale = this->GetDrawnRadiusScale();
   drawing.Sharpness = this->Sharpness;
   drawing.Stride = this->Stride;
+  drawing.Kind = this->Internal->DrawnKind;
   drawing.FacesViewer = !this->CurrentInput->GetPointData()->GetNormals();
   drawing.HiddenSide =
     property->GetBackfaceCulling() ? -1 : (property->GetFrontfaceCulling() ? 1 : 0);
@@ -447,30 +554,46 @@ void vtkSurfaceSplatMapper::DescribeDrawing(
 }
 
 //------------------------------------------------------------------------------
-void vtkSurfaceSplatMapper::DrawResolved(
+void vtkSurfaceSplatMapper::DrawLayer(
   vtkSurfaceSplatLayer& layer, vtkRenderer* renderer, vtkActor* actor)
 {
-  vtkOpenGLState* state =
-    vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow())->GetState();
-  vtkOpenGLState::ScopedglEnableDisable cullFace(state, GL_CULL_FACE);
-  state->vtkglDisable(GL_CULL_FACE);
-  this->Internal->FrontLayer.Activate();
-  if (&layer != &this->Internal->FrontLayer)
+  Internals& internal = *this->Internal;
+  const bool front = &layer == &internal.FrontLayer;
+  internal.FrontLayer.Activate();
+  if (!front)
   {
     layer.Activate();
   }
-  this->Internal->DrawnLayer = &layer;
-  vtkOpenGLHelper& rectangle = this->Primitives[PrimitiveTris];
-  this->UpdateShaders(rectangle, renderer, actor);
-  if (rectangle.Program)
+  internal.DrawnLayer = &layer;
+  // Outlines are mixed with what was drawn before, which makes sense for pictures of opaque things.
+  if (renderer->GetSelector() || internal.Translucent)
+  {
+    this->DrawResolved(front ? Surface : Extra,
+      vtkSurfaceSplatTiles::Inside | vtkSurfaceSplatTiles::Edges, renderer, actor);
+  }
+  else
+  {
+    this->DrawResolved(Surface, vtkSurfaceSplatTiles::Inside, renderer, actor);
+    this->DrawResolved(Extra, vtkSurfaceSplatTiles::Edges, renderer, actor);
+  }
+  internal.DrawnLayer = nullptr;
+  layer.Deactivate();
+  internal.FrontLayer.Deactivate();
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatMapper::DrawResolved(
+  int primitive, int tiles, vtkRenderer* renderer, vtkActor* actor)
+{
+  this->Internal->DrawnTiles = tiles;
+  vtkOpenGLHelper& helper = this->Primitives[primitive];
+  this->UpdateShaders(helper, renderer, actor);
+  if (helper.Program)
   {
     // A program that was just built has a new vertex array, which UpdateShaders() may leave unbound.
-    rectangle.VAO->Bind();
-    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    helper.VAO->Bind();
+    vtkSurfaceSplatTiles(this->Internal->View).Draw();
   }
-  this->Internal->DrawnLayer = nullptr;
-  layer.Deactivate();
-  this->Internal->FrontLayer.Deactivate();
 }
 
 //------------------------------------------------------------------------------
@@ -526,6 +649,7 @@ void vtkSurfaceSplatMapper::GetShaderTemplate(
   }
   vtkShader* vertex = shaders[vtkShader::Vertex];
   vertex->SetSource(this->DrawsSplats() ? vtkSurfaceSplatResolveVS : vtkSurfaceSplatVS);
+  Replace(vertex, "SPLAT_TILE_SIZE", std::to_string(vtkSurfaceSplatTiles::Size));
   Replace(vertex, "//Splat::Disk::Dec",
     std::string(vtkSurfaceSplatDisk) +
       "const int splatVerticesAParticle = " + (this->Mode == Points ? "1" : "3") + ";\n");
@@ -537,9 +661,11 @@ void vtkSurfaceSplatMapper::ReplaceShaderColor(
 {
   vtkShader* fragment = shaders[vtkShader::Fragment];
   const ColorSource source = this->Internal->Source;
-  const std::string mixColors = "  ambientColor = ambientIntensity * splatRgba.rgb;\n"
-                                "  diffuseColor = diffuseIntensity * splatRgba.rgb;\n"
-                                "  opacity = opacityUniform * splatRgba.a;\n";
+  const std::string mixColors =
+    std::string("  ambientColor = ambientIntensity * splatRgba.rgb;\n"
+                "  diffuseColor = diffuseIntensity * splatRgba.rgb;\n") +
+    (this->Internal->OpacityIsInColors ? "  opacity = splatRgba.a;\n"
+                                       : "  opacity = opacityUniform * splatRgba.a;\n");
   if (this->DrawsSplats())
   {
     InsertAfter(fragment, "//VTK::Color::Impl", "  opacity *= splat.coverage;\n");
@@ -591,9 +717,12 @@ void vtkSurfaceSplatMapper::ReplaceShaderPositionVC(
   vtkShader* fragment = shaders[vtkShader::Fragment];
   if (this->DrawsSplats())
   {
+    const bool extra = this->LastBoundBO == &this->Primitives[Extra];
     Replace(fragment, "//VTK::PositionVC::Dec",
-      "#define SPLAT_LEAST_WEIGHT " + std::to_string(vtkSurfaceSplatLayer::LeastWeight) + "\n" +
-        vtkSurfaceSplatResolve);
+      "#define SPLAT_LEAST_WEIGHT " + std::to_string(vtkSurfaceSplatLayer::LeastWeight) +
+        "\n#define SPLAT_OUTLINE " + std::to_string(extra && !this->Internal->Translucent) +
+        "\n#define SPLAT_BACK_LAYER " + std::to_string(extra && this->Internal->Translucent) +
+        "\n" + vtkSurfaceSplatResolve);
     Replace(fragment, "//Splat::Ray::Dec", vtkSurfaceSplatRay);
     Replace(fragment, "//Splat::Outline::Dec", vtkSurfaceSplatOutline);
     std::string code = "SplatSurface splat = splatResolve();\n"
@@ -702,18 +831,15 @@ void vtkSurfaceSplatMapper::SetMapperShaderParameters(
   this->Internal->View.SetUniforms(program);
   if (const vtkSurfaceSplatLayer* layer = this->Internal->DrawnLayer)
   {
-    const bool front = layer == &this->Internal->FrontLayer;
     const double diameter = 2. * this->GetDrawnRadiusScale() *
       this->Internal->Buffers.GetMeanRadius() * this->Internal->View.GetScale();
     layer->SetSamplers(program, this->Internal->FrontLayer);
-    program->SetUniformf("splatLayerDistance", front ? -1.f : static_cast<float>(diameter));
-    // Outlines are mixed with what was drawn before, which makes sense for pictures of opaque things.
-    const bool opaque =
-      !renderer->GetSelector() && !actor->IsRenderingTranslucentPolygonalGeometry();
-    program->SetUniformi("splatSmoothOutline", opaque ? 1 : 0);
+    program->SetUniformf("splatLayerDistance", static_cast<float>(diameter));
+    vtkSurfaceSplatTiles(this->Internal->View).SetUniforms(program, this->Internal->DrawnTiles);
   }
   program->SetUniformf("splatRadiusScale", static_cast<float>(this->GetDrawnRadiusScale()));
   program->SetUniformi("splatStride", this->Stride);
+  program->SetUniformi("splatKind", this->Internal->DrawnKind);
   program->SetUniformi(
     "splatFacesViewer", this->CurrentInput->GetPointData()->GetNormals() ? 0 : 1);
   if (this->ColorByNormalDirection)
@@ -769,6 +895,9 @@ void vtkSurfaceSplatMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Sharpness: " << this->Sharpness << "\n";
   os << indent << "Stride: " << this->Stride << "\n";
   os << indent << "RadiusArrayName: " << (this->RadiusArrayName ? this->RadiusArrayName : "(none)")
+     << "\n";
+  os << indent
+     << "CellColorArrayName: " << (this->CellColorArrayName ? this->CellColorArrayName : "(none)")
      << "\n";
   os << indent << "RadiusScale: " << this->RadiusScale << "\n";
   os << indent << "Radius: " << this->Radius << "\n";

@@ -24,6 +24,10 @@
  * components a plane: unit vector to the side that is cut off; zero: no plane) and `Clip_Distance` (1
  * component a plane: distance of the plane from the particle along that vector, >= 0, world units).
  *
+ * Where the surface bends much over one splat, particles that carry its shape operator are drawn as
+ * pieces of paraboloids instead of disks: point array `Shape_Operator` (6 components, the symmetric
+ * derivative of the unit normal along the surface: xx, yy, zz, xy, yz, xz; 1 / world units).
+ *
  * What is missing is borne: without point normals the disks face the viewer, without radii all have
  * the radius `Radius`; both are said in one warning. A particle with a normal, radius or position
  * that is zero, negative or not finite (positions may of course be zero) is skipped. Where the
@@ -44,7 +48,9 @@
 #include "vtkOpenGLPolyDataMapper.h"
 
 #include <memory> // for std::unique_ptr
+#include <vector> // for std::vector
 
+class vtkProperty;
 class vtkSurfaceSplatLayer;
 struct vtkSurfaceSplatDrawing;
 
@@ -140,6 +146,23 @@ public:
   vtkGetVector3Macro(InwardColor, double);
   ///@}
 
+  ///@{
+  /**
+   * Name of a cell array with colours of single particles, which come before scalars and property: red,
+   * green, blue and opacity in [0, 1]. A red above 1 keeps the colour that the particle has anyway, an
+   * opacity above 1 the opacity. Translucent particles are then a surface of their own, behind which
+   * the others are seen. Only for polydata with vertex cells. Default: none.
+   */
+  vtkSetStringMacro(CellColorArrayName);
+  vtkGetStringMacro(CellColorArrayName);
+  ///@}
+
+  ///@{
+  /** Whether some particles are opaque, or some translucent; both may be. */
+  bool HasOpaqueGeometry() override;
+  bool HasTranslucentPolygonalGeometry() override;
+  ///@}
+
   /**
    * Bounds of the disks that an input would be drawn as: of all its points, whether cells use them
    * or not, grown by the largest radius. Uninitialized bounds if there are no points.
@@ -180,6 +203,7 @@ protected:
   double Sharpness = 2.0;
   int Stride = 1;
   char* RadiusArrayName = nullptr;
+  char* CellColorArrayName = nullptr;
   double RadiusScale = 1.0;
   double Radius = 0.0;
   bool ColorByNormalDirection = false;
@@ -195,13 +219,19 @@ private:
   double GetDrawnRadiusScale() const;
   void WarnOfMissingArrays(vtkPolyData* input);
   void UploadParticles(vtkRenderer* renderer, vtkPolyData* input);
-  void UploadColors(vtkRenderer* renderer, vtkPolyData* input);
-  void UploadMappedColors(vtkRenderer* renderer, vtkUnsignedCharArray* colors, int source);
+  void UploadColors(vtkRenderer* renderer, vtkActor* actor);
+  vtkDataArray* GetCellColors(vtkPolyData* input);
+  std::vector<unsigned char> MappedColors(vtkUnsignedCharArray* colors, int source);
+  void ReplaceByCellColors(
+    std::vector<unsigned char>& rgba, vtkDataArray* cellColors, vtkProperty* property);
+  int GetDrawnKind(vtkRenderer* renderer, vtkActor* actor);
   void UploadLookupCoordinates(vtkRenderer* renderer);
 
   bool DrawsSplats() const;
   bool DrawSplats(vtkRenderer* renderer, vtkActor* actor);
-  void DrawResolved(vtkSurfaceSplatLayer& layer, vtkRenderer* renderer, vtkActor* actor);
+  void DrawLayer(vtkSurfaceSplatLayer& layer, vtkRenderer* renderer, vtkActor* actor);
+  void DrawResolved(int primitive, int tiles, vtkRenderer* renderer, vtkActor* actor);
+  void ForgetShaders();
   void DrawPrimitives(vtkRenderer* renderer, vtkActor* actor);
   void DescribeDrawing(vtkRenderer* renderer, vtkActor* actor, vtkSurfaceSplatDrawing& drawing);
   int GetShiftedClippingPlanes(vtkActor* actor, float planes[6][4]);

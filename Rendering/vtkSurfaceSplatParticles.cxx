@@ -81,6 +81,36 @@ bool ReadParticle(vtkPoints* points, vtkIdType id, double radius, vtkDataArray* 
   return true;
 }
 
+// Reads the shape operator; a surface whose bend is not finite is flat.
+void ReadShape(vtkDataArray* shapes, vtkIdType id, float shape[8])
+{
+  double tensor[6];
+  shapes->GetTuple(id, tensor);
+  if (std::all_of(tensor, tensor + 6, [](double value) { return std::isfinite(value); }))
+  {
+    std::copy_n(tensor, 3, shape);
+    std::copy_n(tensor + 3, 3, shape + 4);
+  }
+}
+
+// Whether normals turn by more than an eighth of a radian over one radius, at a hundredth of the
+// particles or more.
+bool IsStronglyBent(const vtkSurfaceSplatParticles& particles)
+{
+  constexpr double bent = 0.125;
+  constexpr double share = 0.01;
+  const vtkIdType count = particles.GetNumberOfParticles();
+  vtkIdType found = 0;
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const float* s = &particles.Shape[8 * i];
+    const double square =
+      s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + 2. * (s[4] * s[4] + s[5] * s[5] + s[6] * s[6]);
+    found += std::sqrt(square) * particles.CentreRadius[4 * i + 3] > bent;
+  }
+  return found > share * count;
+}
+
 // Reads both planes of a particle; planes that are missing or not finite cut nothing off.
 void ReadClipPlanes(const vtkSurfaceSplatArrays& arrays, vtkIdType id, float planes[8])
 {
@@ -116,9 +146,13 @@ vtkSurfaceSplatParticles vtkSurfaceSplatParticles::FromPolyData(
   particles.Origin = MiddleOfFinitePoints(input->GetPoints());
 
   const vtkIdType count = particles.GetNumberOfParticles();
+  const bool colored = arrays.CellColors && !particles.CellIds.empty();
   const bool clipped = arrays.ClipNormals && arrays.ClipDistances;
   particles.CentreRadius.assign(4 * count, 0.f);
   particles.Normal.assign(4 * count, 0.f);
+  const bool shaped =
+    arrays.ShapeOperators && arrays.Normals && arrays.ShapeOperators->GetNumberOfComponents() == 6;
+  particles.Shape.assign(shaped ? 8 * count : 0, 0.f);
   particles.Clip.assign(clipped ? 8 * count : 0, 0.f);
   std::atomic<vtkIdType> skipped(0);
   vtkSMPTools::For(0, count,
@@ -135,6 +169,14 @@ vtkSurfaceSplatParticles vtkSurfaceSplatParticles::FromPolyData(
           particles.Normal[4 * i + 2] = 1.f; // any direction: shaders need not mind a zero one
           ++skipped;
         }
+        if (colored && arrays.CellColors->GetComponent(particles.CellIds[i], 3) < 1.)
+        {
+          particles.Normal[4 * i + 3] = 1.f;
+        }
+        if (shaped)
+        {
+          ReadShape(arrays.ShapeOperators, id, &particles.Shape[8 * i]);
+        }
         if (clipped)
         {
           ReadClipPlanes(arrays, id, &particles.Clip[8 * i]);
@@ -142,5 +184,9 @@ vtkSurfaceSplatParticles vtkSurfaceSplatParticles::FromPolyData(
       }
     });
   particles.Skipped = skipped;
+  if (shaped && !IsStronglyBent(particles))
+  {
+    particles.Shape.clear();
+  }
   return particles;
 }

@@ -34,14 +34,21 @@ struct vtkSurfaceSplatArrays
    */
   vtkDataArray* ClipNormals = nullptr;
   vtkDataArray* ClipDistances = nullptr;
+  vtkDataArray* ShapeOperators = nullptr; ///< dn/dx, 6 components: xx, yy, zz, xy, yz, xz
+  vtkDataArray* CellColors = nullptr;     ///< see vtkSurfaceSplatMapper::SetCellColorArrayName()
 };
 
 struct vtkSurfaceSplatParticles
 {
   std::array<double, 3> Origin = { 0., 0., 0. };
   std::vector<float> CentreRadius; ///< 4 a particle: position - Origin, radius (world units)
-  std::vector<float> Normal;       ///< 4 a particle: unit normal, 0
-  std::vector<float> Clip; ///< 8 a particle: normal and distance of two planes; empty without
+  std::vector<float> Normal; ///< 4 a particle: unit normal, 1 if its cell is translucent else 0
+  std::vector<float> Clip;   ///< 8 a particle: normal and distance of two planes; empty without
+  /**
+   * 8 a particle: shape operator as xx, yy, zz, 0, xy, yz, xz, 0. Empty if the surface bends so little
+   * over a splat that flat disks do as well.
+   */
+  std::vector<float> Shape;
   std::vector<vtkIdType> PointIds; ///< 1 a particle: the point it was made from
   std::vector<vtkIdType> CellIds;  ///< 1 a particle: its vertex cell; empty without vertex cells
   vtkIdType Skipped = 0;           ///< particles that cannot be drawn

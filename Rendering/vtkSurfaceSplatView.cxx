@@ -149,19 +149,11 @@ void vtkSurfaceSplatView::SetUniforms(vtkShaderProgram* program) const
   const float viewport[4] = { static_cast<float>(this->Viewport[0]),
     static_cast<float>(this->Viewport[1]), static_cast<float>(this->Viewport[2]),
     static_cast<float>(this->Viewport[3]) };
-  float rectangle[4];
-  for (int axis = 0; axis < 2; ++axis)
-  {
-    const float scale = 2.f / viewport[2 + axis];
-    rectangle[axis] = scale * this->Rectangle[axis] - 1.f;
-    rectangle[2 + axis] = scale * (this->Rectangle[axis] + this->Rectangle[2 + axis]) - 1.f;
-  }
   // Uniforms that a program lacks are ignored.
   program->SetUniform4f("splatEyeMC", this->Eye.data());
   program->SetUniformi("splatParallel", this->Parallel ? 1 : 0);
   program->SetUniformf("splatPixel", static_cast<float>(this->GetPixelSize()));
   program->SetUniform4f("splatViewport", viewport);
-  program->SetUniform4f("splatRectangleDC", rectangle);
 }
 
 //------------------------------------------------------------------------------

@@ -79,7 +79,7 @@ Curvature curvature(const WorldVector& gradient, const glm::dmat3& hessian)
   const double frobenius2 = glm::dot(g[0], g[0]) + glm::dot(g[1], g[1]) + glm::dot(g[2], g[2]);
   // trace and frobenius2 are k1 + k2 and k1^2 + k2^2 for the normal +grad F; the mean curvature
   // changes its sign with the normal.
-  return { -0.5 * trace, 0.5 * (trace * trace - frobenius2), std::sqrt(frobenius2) };
+  return { -0.5 * trace, 0.5 * (trace * trace - frobenius2), std::sqrt(frobenius2), -1.0 * g };
 }
 
 WorldVector surfaceNormal(const WorldVector& gradient)

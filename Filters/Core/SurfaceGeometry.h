@@ -38,6 +38,8 @@ struct Curvature
   double gauss = 0.0;
   /// The paper's D = sqrt(k1^2 + k2^2).
   double magnitude = 0.0;
+  /// Shape operator dn/dx of that normal, symmetric: how the normal turns along the surface.
+  glm::dmat3 shape{ 0.0 };
 };
 
 FieldPoint fieldPoint(const Jet& jet, double isovalue);

@@ -8,6 +8,7 @@
 #include "vtkCompositeDataSet.h"
 #include "vtkDataAssembly.h"
 #include "vtkDataAssemblyUtilities.h"
+#include "vtkDoubleArray.h"
 #include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
 #include "vtkNew.h"
@@ -17,6 +18,8 @@
 #include "vtkPolyData.h"
 #include "vtkUnsignedIntArray.h"
 
+#include <algorithm>
+#include <map>
 #include <numeric>
 #include <vector>
 
@@ -119,12 +122,50 @@ std::set<unsigned int> SelectedBlocks(
   return blocks;
 }
 
-vtkSmartPointer<vtkPolyData> CompositeAsParticles(
-  vtkCompositeDataSet* input, const std::set<std::string>& blockSelectors)
+constexpr std::array<double, 4> Unchanged = { 2., 2., 2., 2. };
+
+// Colours and opacities by flat index; blocks without either have no entry.
+std::map<unsigned int, std::array<double, 4>> BlockColors(
+  vtkCompositeDataSet* input, const vtkSurfaceSplatInput::Blocks& blocks)
 {
-  const bool all = blockSelectors.count("/") != 0;
+  std::map<unsigned int, std::array<double, 4>> colors;
+  for (const auto& [selector, color] : blocks.Colors)
+  {
+    for (unsigned int block : SelectedBlocks(input, { selector }))
+    {
+      std::copy(color.begin(), color.end(), colors.emplace(block, Unchanged).first->second.begin());
+    }
+  }
+  for (const auto& [selector, opacity] : blocks.Opacities)
+  {
+    for (unsigned int block : SelectedBlocks(input, { selector }))
+    {
+      colors.emplace(block, Unchanged).first->second[3] = opacity;
+    }
+  }
+  return colors;
+}
+
+void GiveColor(vtkPolyData* particles, const std::array<double, 4>& color)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(vtkSurfaceSplatInput::BlockColorName);
+  array->SetNumberOfComponents(4);
+  array->SetNumberOfTuples(particles->GetNumberOfCells());
+  for (int c = 0; c < 4; ++c)
+  {
+    array->FillComponent(c, color[c]);
+  }
+  particles->GetCellData()->AddArray(array);
+}
+
+vtkSmartPointer<vtkPolyData> CompositeAsParticles(
+  vtkCompositeDataSet* input, const vtkSurfaceSplatInput::Blocks& drawing)
+{
+  const bool all = drawing.Drawn.count("/") != 0;
   const std::set<unsigned int> selected =
-    all ? std::set<unsigned int>() : SelectedBlocks(input, blockSelectors);
+    all ? std::set<unsigned int>() : SelectedBlocks(input, drawing.Drawn);
+  const auto colors = BlockColors(input, drawing);
   vtkNew<vtkAppendPolyData> merge;
   vtkSmartPointer<vtkCompositeDataIterator> blocks;
   blocks.TakeReference(input->NewIterator());
@@ -137,6 +178,11 @@ vtkSmartPointer<vtkPolyData> CompositeAsParticles(
     {
       EnsureVertexCells(particles);
       RememberBlock(particles, blocks->GetCurrentFlatIndex());
+      if (!colors.empty())
+      {
+        const auto color = colors.find(blocks->GetCurrentFlatIndex());
+        GiveColor(particles, color != colors.end() ? color->second : Unchanged);
+      }
       merge->AddInputData(particles);
     }
   }
@@ -152,11 +198,11 @@ vtkSmartPointer<vtkPolyData> CompositeAsParticles(
 
 //------------------------------------------------------------------------------
 vtkSmartPointer<vtkPolyData> vtkSurfaceSplatInput::AsParticles(
-  vtkDataObject* data, const std::set<std::string>& blockSelectors)
+  vtkDataObject* data, const Blocks& blocks)
 {
   if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
   {
-    return CompositeAsParticles(composite, blockSelectors);
+    return CompositeAsParticles(composite, blocks);
   }
   auto particles = vtkSmartPointer<vtkPolyData>::New();
   if (auto* polydata = vtkPolyData::SafeDownCast(data))
@@ -176,5 +222,6 @@ vtkSmartPointer<vtkPolyData> vtkSurfaceSplatInput::WithoutBlockIds(vtkPolyData* 
   copy->GetPointData()->RemoveArray(BlockPointIdName);
   copy->GetCellData()->RemoveArray(BlockCellIdName);
   copy->GetCellData()->RemoveArray(BlockIndexName);
+  copy->GetCellData()->RemoveArray(BlockColorName);
   return copy;
 }

@@ -8,8 +8,11 @@
 
 #include "vtkSmartPointer.h"
 
+#include <array>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 class vtkDataObject;
 class vtkPolyData;
@@ -25,14 +28,29 @@ constexpr const char* BlockCellIdName = "SurfaceSplatCellId";
 constexpr const char* BlockIndexName = "SurfaceSplatBlockIndex";
 
 /**
+ * Cell array of a merged input where blocks have colours or opacities of their own, see
+ * vtkSurfaceSplatMapper::SetCellColorArrayName().
+ */
+constexpr const char* BlockColorName = "SurfaceSplatBlockColor";
+
+/**
+ * How the blocks of a composite are drawn. Selectors are in the language of vtkDataAssembly for its
+ * hierarchy; "/" names all. Of colours and opacities the last one that names a block counts.
+ */
+struct Blocks
+{
+  std::set<std::string> Drawn = { "/" };
+  std::vector<std::pair<std::string, std::array<double, 3>>> Colors; ///< RGB in [0, 1]
+  std::vector<std::pair<std::string, double>> Opacities;             ///< in [0, 1]
+};
+
+/**
  * Polydata comes back as a shallow copy, other point sets with their points and vertex cells, the
  * blocks of a composite merged into one, so that their disks meet without seams and the nearest one
  * wins. Of arrays only those common to all blocks are kept. Other data, and nullptr, give a polydata
- * without points. Of a composite only those blocks are taken that one of the selectors names, in
- * the language of vtkDataAssembly for its hierarchy; "/" names all.
+ * without points.
  */
-vtkSmartPointer<vtkPolyData> AsParticles(
-  vtkDataObject* data, const std::set<std::string>& blockSelectors = { "/" });
+vtkSmartPointer<vtkPolyData> AsParticles(vtkDataObject* data, const Blocks& blocks = {});
 
 /** A shallow copy without the arrays named above: what is offered to users. */
 vtkSmartPointer<vtkPolyData> WithoutBlockIds(vtkPolyData* particles);

@@ -17,6 +17,8 @@
 #include "vtkSurfaceSplatMapper.h"
 #include "vtkTransform.h"
 
+#include <algorithm>
+
 vtkStandardNewMacro(vtkSurfaceSplatRepresentation);
 
 namespace
@@ -52,7 +54,7 @@ int vtkSurfaceSplatRepresentation::RequestData(
 {
   const bool hasInput = inputs[0]->GetNumberOfInformationObjects() == 1;
   this->Particles = vtkSurfaceSplatInput::AsParticles(
-    hasInput ? vtkDataObject::GetData(inputs[0], 0) : nullptr, this->BlockSelectors);
+    hasInput ? vtkDataObject::GetData(inputs[0], 0) : nullptr, this->Blocks);
   this->ArraysToColorBy = vtkSurfaceSplatInput::WithoutBlockIds(this->Particles);
   return this->Superclass::RequestData(request, inputs, outputs);
 }
@@ -100,6 +102,7 @@ void vtkSurfaceSplatRepresentation::PrepareMapper(vtkInformation* inInfo)
   this->Mapper->SetPointIdArrayName(merged ? BlockPointIdName : nullptr);
   this->Mapper->SetCellIdArrayName(merged ? BlockCellIdName : nullptr);
   this->Mapper->SetCompositeIdArrayName(merged ? BlockIndexName : nullptr);
+  this->Mapper->SetCellColorArrayName(BlockColorName);
 }
 
 //------------------------------------------------------------------------------
@@ -125,7 +128,9 @@ void vtkSurfaceSplatRepresentation::ProvideParticles(
 bool vtkSurfaceSplatRepresentation::IsTranslucent()
 {
   vtkScalarsToColors* table = this->Mapper->GetLookupTable();
-  return this->Actor->GetProperty()->GetOpacity() < 1. ||
+  const bool blocks = std::any_of(this->Blocks.Opacities.begin(), this->Blocks.Opacities.end(),
+    [](const auto& block) { return block.second < 1.; });
+  return blocks || this->Actor->GetProperty()->GetOpacity() < 1. ||
     (this->Mapper->GetScalarVisibility() && table && !table->IsOpaque());
 }
 
@@ -199,7 +204,7 @@ vtkDataObject* vtkSurfaceSplatRepresentation::GetRenderedDataObject(int)
 //------------------------------------------------------------------------------
 void vtkSurfaceSplatRepresentation::AddBlockSelector(const char* selector)
 {
-  if (selector && this->BlockSelectors.insert(selector).second)
+  if (selector && this->Blocks.Drawn.insert(selector).second)
   {
     this->MarkModified();
   }
@@ -207,9 +212,47 @@ void vtkSurfaceSplatRepresentation::AddBlockSelector(const char* selector)
 
 void vtkSurfaceSplatRepresentation::RemoveAllBlockSelectors()
 {
-  if (!this->BlockSelectors.empty())
+  if (!this->Blocks.Drawn.empty())
   {
-    this->BlockSelectors.clear();
+    this->Blocks.Drawn.clear();
+    this->MarkModified();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatRepresentation::SetBlockColor(
+  const char* selector, double r, double g, double b)
+{
+  if (selector)
+  {
+    this->Blocks.Colors.push_back({ selector, { r, g, b } });
+    this->MarkModified();
+  }
+}
+
+void vtkSurfaceSplatRepresentation::RemoveAllBlockColors()
+{
+  if (!this->Blocks.Colors.empty())
+  {
+    this->Blocks.Colors.clear();
+    this->MarkModified();
+  }
+}
+
+void vtkSurfaceSplatRepresentation::SetBlockOpacity(const char* selector, double opacity)
+{
+  if (selector)
+  {
+    this->Blocks.Opacities.push_back({ selector, opacity });
+    this->MarkModified();
+  }
+}
+
+void vtkSurfaceSplatRepresentation::RemoveAllBlockOpacities()
+{
+  if (!this->Blocks.Opacities.empty())
+  {
+    this->Blocks.Opacities.clear();
     this->MarkModified();
   }
 }
@@ -383,11 +426,19 @@ void vtkSurfaceSplatRepresentation::PrintSelf(ostream& os, vtkIndent indent)
   vtkProperty* property = this->Actor->GetProperty();
   const char* radiusName = this->Mapper->GetRadiusArrayName();
   os << indent << "BlockSelectors:";
-  for (const std::string& selector : this->BlockSelectors)
+  for (const std::string& selector : this->Blocks.Drawn)
   {
     os << " " << selector;
   }
   os << "\n";
+  for (const auto& [selector, color] : this->Blocks.Colors)
+  {
+    print(("BlockColor " + selector).c_str(), color.data(), 3);
+  }
+  for (const auto& [selector, opacity] : this->Blocks.Opacities)
+  {
+    os << indent << "BlockOpacity " << selector << ": " << opacity << "\n";
+  }
   os << indent << "Mode: " << this->Mapper->GetMode() << "\n";
   os << indent << "Sharpness: " << this->Mapper->GetSharpness() << "\n";
   os << indent

@@ -15,10 +15,8 @@
 #include "vtkHighOrderParticleRepresentationModule.h" // for export macro
 #include "vtkNew.h"                                   // for vtkNew
 #include "vtkPVDataRepresentation.h"
-#include "vtkSmartPointer.h" // for vtkSmartPointer
-
-#include <set>    // for std::set
-#include <string> // for std::string
+#include "vtkSmartPointer.h"      // for vtkSmartPointer
+#include "vtkSurfaceSplatInput.h" // for vtkSurfaceSplatInput::Blocks
 
 class vtkActor;
 class vtkPolyData;
@@ -62,6 +60,17 @@ public:
    */
   void AddBlockSelector(const char* selector);
   void RemoveAllBlockSelectors();
+  ///@}
+
+  ///@{
+  /**
+   * Colour (RGB in [0, 1]) and opacity of those blocks of a composite that the selector names, instead
+   * of colours by an array and of the representation's own. Default: none.
+   */
+  void SetBlockColor(const char* selector, double r, double g, double b);
+  void RemoveAllBlockColors();
+  void SetBlockOpacity(const char* selector, double opacity);
+  void RemoveAllBlockOpacities();
   ///@}
 
   /** 400: both sides; 401: only the outward one; 402: only the inward one. */
@@ -113,7 +122,7 @@ private:
 
   vtkNew<vtkSurfaceSplatMapper> Mapper;
   vtkNew<vtkActor> Actor;
-  std::set<std::string> BlockSelectors = { "/" };
+  vtkSurfaceSplatInput::Blocks Blocks;
   vtkSmartPointer<vtkPolyData> Particles;       // of this process; empty where it has no data
   vtkSmartPointer<vtkPolyData> ArraysToColorBy; // the same as far as users care
 };

@@ -7,18 +7,18 @@
 
 //Splat::Fragment::Dec
 
-uniform sampler2D splatSeenFrom;
+uniform sampler2D splatSeen;
 uniform samplerBuffer splatColor; // RGBA, or lookup coordinates (position in the table, row)
 
 void main()
 {
-  float seenFrom = 2.0 * texelFetch(splatSeenFrom, ivec2(gl_FragCoord.xy), 0).r - 1.0;
+  float seenFrom = 2.0 * texelFetch(splatSeen, ivec2(gl_FragCoord.xy), 0).g - 1.0;
   if (splatOutside() || seenFrom * splatSeenFromSide < 0.5)
   {
     discard;
   }
   float weight = splatWeight();
-  gl_FragData[0] = weight * vec4(splatNormalVC, 1.0);
+  gl_FragData[0] = weight * vec4(splatSurfaceNormal(), 1.0);
   gl_FragData[1] = weight * vec4(splatOffsetVC, splatDepthVC);
   //Splat::Color::Impl
 }

@@ -7,12 +7,13 @@
 // vtkSurfaceSplatParticles), VC view, DC device.
 
 uniform samplerBuffer splatCentreRadius; // xyz: centre (MC), w: radius, 0 = draw nothing
-uniform samplerBuffer splatNormal;       // xyz: outward unit normal (MC)
+uniform samplerBuffer splatNormal;       // xyz: outward unit normal (MC), w: 1 if translucent, else 0
 uniform samplerBuffer splatClip; // xyz: unit normal of a plane (MC), w: distance; 2 texels a particle
 uniform int splatHasClip;        // 0: there are no such planes
 uniform float splatRadiusScale;
 uniform int splatFacesViewer; // 1: the particles have no normals, their disks face the eye
 uniform int splatStride;      // every how-manieth particle is drawn
+uniform int splatKind;        // particles drawn: 0: the opaque ones; 1: the translucent ones; 2: all
 uniform vec4 splatEyeMC;      // position of the eye, or, with w = 0, the direction to it
 
 struct SplatDisk
@@ -37,11 +38,12 @@ SplatDisk splatDiskOf(int particle)
   vec4 centreRadius = texelFetch(splatCentreRadius, particle);
   disk.centreMC = centreRadius.xyz;
   vec3 toEyeMC = splatEyeMC.xyz - splatEyeMC.w * disk.centreMC;
-  disk.normalMC =
-    splatFacesViewer == 1 ? normalize(toEyeMC) : texelFetch(splatNormal, particle).xyz;
+  vec4 normal = texelFetch(splatNormal, particle);
+  disk.normalMC = splatFacesViewer == 1 ? normalize(toEyeMC) : normal.xyz;
   // The eye lies on one side of the whole disk, so the centre decides for all its fragments.
   disk.seenFrom = dot(disk.normalMC, toEyeMC) < 0.0 ? -1.0 : 1.0;
-  float radius = centreRadius.w * splatRadiusScale;
+  bool drawn = splatKind == 2 || int(normal.w) == splatKind;
+  float radius = drawn ? centreRadius.w * splatRadiusScale : 0.0;
   disk.tangentMC = radius * splatTangent(disk.normalMC);
   disk.bitangentMC = cross(disk.normalMC, disk.tangentMC);
   return disk;

@@ -3,11 +3,24 @@
 // number of the mapper's).
 
 #if SPLAT_POINTS
-flat in vec3 splatCentreVC;
-flat in vec3 splatTangentDual;
-flat in vec3 splatBitangentDual;
+flat in vec4 splatPixelToDisk;
+flat in vec2 splatCentrePixel;
+flat in vec3 splatDepths;
 vec2 splatDiskCoord;
 vec3 splatOffsetVC;
+float splatDepthVC;
+#elif SPLAT_CURVED
+in vec2 splatPlaneCoord;
+in vec3 splatPlaneOffset;
+flat in vec3 splatDual[2];
+flat in vec3 splatNormalMC;
+flat in vec3 splatBend;
+flat in vec3 splatTurn[2];
+flat in float splatCentreDepth;
+flat in vec2 splatClipDepths;
+vec2 splatDiskCoord;
+float splatBelowDisk; // distance of the bent splat from its disk (MC)
+const vec3 splatOffsetVC = vec3(0.0); // the place found lies on the surface, not above it
 float splatDepthVC;
 #else
 in vec2 splatDiskCoord;
@@ -15,7 +28,8 @@ in vec3 splatOffsetVC;
 in float splatDepthVC;
 #endif
 flat in vec3 splatClipLines[2];
-in vec3 splatPointMC;
+in vec3 splatPointMC; // of the disk
+vec3 splatPlaceMC;    // of the splat
 flat in vec3 splatNormalVC;
 flat in float splatSeenFromSide;
 flat in int splatParticle;
@@ -26,36 +40,94 @@ uniform vec4 splatClippingPlane[6]; // MC
 #if SPLAT_POINTS
 //Splat::Ray::Dec
 
-// Where the pixel's view ray meets the disk's plane.
-void splatMeetDisk()
+// The private framebuffers begin at the viewport's corner.
+vec3 splatBehindPixel(vec2 pixel, float z)
 {
-  // The private framebuffers begin at the viewport's corner.
-  vec2 pixelDC = 2.0 * gl_FragCoord.xy / splatViewport.zw - 1.0;
-  vec3 origin = splatOnRay(pixelDC, 0.0);
-  vec3 direction = splatOnRay(pixelDC, -1.0) - origin;
-  float along = dot(splatNormalVC, splatCentreVC - origin) / dot(splatNormalVC, direction);
-  vec3 place = origin + along * direction;
-  splatOffsetVC = place - splatCentreVC;
-  splatDepthVC = place.z;
-  splatDiskCoord = vec2(dot(splatOffsetVC, splatTangentDual), dot(splatOffsetVC, splatBitangentDual));
+  return splatOnRay(2.0 * pixel / splatViewport.zw - 1.0, z);
+}
+
+// Where the pixel's view ray meets the disk's plane, to first order.
+bool splatMeetRay()
+{
+  splatPlaceMC = splatPointMC;
+  splatDiskCoord = mat2(splatPixelToDisk.xy, splatPixelToDisk.zw) * (gl_FragCoord.xy - splatCentrePixel);
+  splatDepthVC = splatDepths.x + dot(splatDepths.yz, splatDiskCoord);
+  splatOffsetVC = splatBehindPixel(gl_FragCoord.xy, splatDepthVC) -
+    splatBehindPixel(splatCentrePixel, splatDepths.x);
+  return true;
+}
+#endif
+
+#if SPLAT_CURVED
+uniform vec4 splatEyeMC;
+uniform mat4 splatMCVC;
+
+// Where the pixel's view ray meets the splat, bent to the paraboloid at the height -Q(t) / 2 above the
+// disk at disk coordinates t; Q(t) = bend.x t.x^2 + 2 bend.y t.x t.y + bend.z t.y^2. From the place p
+// where the ray meets the plane of the disk the paraboloid is `along` e away, e the way to the eye:
+//   along e.n + Q(p + along e) / 2 = 0,
+// of which the solution on the side that is seen is taken. False if there is none: the ray passes the
+// surface by.
+bool splatMeetRay()
+{
+  vec3 toEyeMC = splatEyeMC.xyz - splatEyeMC.w * splatPointMC;
+  vec2 e = vec2(dot(splatDual[0], toEyeMC), dot(splatDual[1], toEyeMC));
+  mat2 q = mat2(splatBend.x, splatBend.y, splatBend.y, splatBend.z);
+  float atPlace = dot(splatPlaneCoord, q * splatPlaneCoord);
+  float slope = dot(splatNormalMC, toEyeMC) + dot(splatPlaneCoord, q * e);
+  float square = slope * slope - dot(e, q * e) * atPlace;
+  float along = -atPlace / (slope + splatSeenFromSide * sqrt(max(square, 0.0)));
+  splatDiskCoord = splatPlaneCoord + along * e;
+  splatPlaceMC = splatPointMC + along * toEyeMC;
+  splatBelowDisk = -along * dot(splatNormalMC, toEyeMC);
+  splatDepthVC = splatCentreDepth + splatPlaneOffset.z + along * (mat3(splatMCVC) * toEyeMC).z;
+  return square >= 0.0;
+}
+
+vec3 splatSurfaceNormal()
+{
+  return normalize(
+    splatNormalVC + splatDiskCoord.x * splatTurn[0] + splatDiskCoord.y * splatTurn[1]);
+}
+#else
+vec3 splatSurfaceNormal()
+{
+  return splatNormalVC;
+}
+#endif
+
+#if !SPLAT_POINTS && !SPLAT_CURVED
+bool splatMeetRay()
+{
+  splatPlaceMC = splatPointMC;
+  return true;
+}
+#endif
+
+#if SPLAT_HAS_CLIP
+// How far a place lies behind one of the particle's clip planes.
+float splatBehindClip(int plane)
+{
+  float behind = dot(splatClipLines[plane].xy, splatDiskCoord) - splatClipLines[plane].z;
+#if SPLAT_CURVED
+  behind -= splatBelowDisk * splatClipDepths[plane];
+#endif
+  return behind;
 }
 #endif
 
 // Call this first. Whether the fragment is no part of the splat.
 bool splatOutside()
 {
-#if SPLAT_POINTS
-  splatMeetDisk();
-#endif
-  bool outside = !(dot(splatDiskCoord, splatDiskCoord) <= 1.0); // also where there is no such place
+  // Also where there is no such place.
+  bool outside = !splatMeetRay() || !(dot(splatDiskCoord, splatDiskCoord) <= 1.0);
 #if SPLAT_HAS_CLIP
-  outside = outside || dot(splatClipLines[0].xy, splatDiskCoord) > splatClipLines[0].z ||
-    dot(splatClipLines[1].xy, splatDiskCoord) > splatClipLines[1].z;
+  outside = outside || splatBehindClip(0) > 0.0 || splatBehindClip(1) > 0.0;
 #endif
 #if SPLAT_CLIPPING_PLANES
   for (int i = 0; i < SPLAT_CLIPPING_PLANES; ++i)
   {
-    outside = outside || dot(splatClippingPlane[i], vec4(splatPointMC, 1.0)) < 0.0;
+    outside = outside || dot(splatClippingPlane[i], vec4(splatPlaceMC, 1.0)) < 0.0;
   }
 #endif
   return outside;

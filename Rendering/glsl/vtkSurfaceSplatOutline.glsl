@@ -5,8 +5,6 @@
 // R. So cos^2 over its gradient is that distance in pixels, which says how much of a pixel is covered;
 // before the outline and, extrapolated, beyond it.
 
-uniform int splatSmoothOutline; // 1: outlines are smooth, 0: pixels are covered or not
-
 // Pixels with a larger cos^2 are no neighbours of an outline.
 const float splatOutlineLimit = 0.3;
 
@@ -25,18 +23,15 @@ float splatDerivative(float before, float here, float after)
                       : (after < 0.0 ? here - before : 0.5 * (after - before));
 }
 
-bool splatHasSurface(ivec2 texel)
-{
-  return abs(texelFetch(splatSeenFrom, texel, 0).r - 0.5) > 0.25;
-}
-
-// Whether a pixel with surface has a neighbour without, or the other way round.
+// Whether a pixel with surface has a neighbour without, or the other way round. Beyond the viewport
+// the surface goes on.
 bool splatIsAtEdge(ivec2 texel, bool covered)
 {
-  return splatHasSurface(texel + ivec2(1, 0)) != covered ||
-    splatHasSurface(texel - ivec2(1, 0)) != covered ||
-    splatHasSurface(texel + ivec2(0, 1)) != covered ||
-    splatHasSurface(texel - ivec2(0, 1)) != covered;
+  ivec2 last = ivec2(splatViewport.zw) - 1;
+  return splatHasSurface(min(texel + ivec2(1, 0), last)) != covered ||
+    splatHasSurface(max(texel - ivec2(1, 0), 0)) != covered ||
+    splatHasSurface(min(texel + ivec2(0, 1), last)) != covered ||
+    splatHasSurface(max(texel - ivec2(0, 1), 0)) != covered;
 }
 
 // How much of a pixel with surface, at an edge of it, lies inside of the outline.
@@ -91,9 +86,7 @@ ivec2 splatOutlineNeighbor(ivec2 texel, vec3 toEye, out float coverage)
 float splatCoverage(inout ivec2 texel, bool covered, vec3 toEye)
 {
   float coverage = covered ? 1.0 : 0.0;
-  // A loop, because software rasterizers skip loops, but not branches, that no pixel needs.
-  int looks = splatIsAtEdge(texel, covered) ? splatSmoothOutline : 0;
-  for (int look = 0; look < looks; ++look)
+  if (splatIsAtEdge(texel, covered))
   {
     if (covered)
     {

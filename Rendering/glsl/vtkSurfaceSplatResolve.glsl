@@ -1,21 +1,25 @@
-// The resolve pass, inserted into VTK's fragment shader: what the sums say of the surface at a pixel.
+// The resolve pass, inserted into VTK's fragment shader behind definitions of SPLAT_OUTLINE and
+// SPLAT_BACK_LAYER (0 or 1): what the sums say of the surface at a pixel.
 
 //Splat::Ray::Dec
 
 uniform sampler2D splatNormalWeight; // sums of weight * normal (VC, outward), weight
 uniform sampler2D splatOffsetDepth;  // sums of weight * offset from the particle (VC), weight * z
 uniform sampler2D splatColorSum;     // sums of weight * colour or lookup coordinates
-uniform sampler2D splatSeenFrom;
-uniform sampler2D splatFrontNormalWeight; // as above, of the front layer
-uniform sampler2D splatFrontOffsetDepth;
-uniform sampler2D splatFrontSeenFrom;
-uniform float splatLayerDistance; // VC; layers closer than this are one; < 0: this is the front layer
+uniform sampler2D splatSeen;         // r: 1 where there is surface; g: 1 where it is seen from outward
 uniform usampler2D splatStrongest; // number of the particle that counts most, from 1 on
 
 // Pixels with surface have at least twice this summed weight, others none (see the visibility pass).
 const float splatLeastWeight = 0.5 * SPLAT_LEAST_WEIGHT;
 
+bool splatHasSurface(ivec2 texel)
+{
+  return texelFetch(splatSeen, texel, 0).r > 0.5;
+}
+
+#if SPLAT_OUTLINE
 //Splat::Outline::Dec
+#endif
 
 struct SplatSurface
 {
@@ -29,18 +33,21 @@ struct SplatSurface
   float depth;    // for the depth buffer
 };
 
+#if SPLAT_BACK_LAYER
+uniform sampler2D splatFrontNormalWeight; // as above, of the front layer
+uniform sampler2D splatFrontOffsetDepth;
+uniform sampler2D splatFrontSeen;
+uniform float splatLayerDistance; // VC; layers closer than this are one
+
 // Where the view ray meets one surface only, the back layer is the front layer once more.
 bool splatIsFrontLayer(ivec2 texel, float z, float seenFrom, float towardsEye)
 {
-  if (splatLayerDistance < 0.0)
-  {
-    return false;
-  }
   float weight = texelFetch(splatFrontNormalWeight, texel, 0).w;
   float zFront = texelFetch(splatFrontOffsetDepth, texel, 0).w / max(weight, splatLeastWeight);
-  float seenFromFront = texelFetch(splatFrontSeenFrom, texel, 0).r < 0.5 ? -1.0 : 1.0;
+  float seenFromFront = texelFetch(splatFrontSeen, texel, 0).g < 0.5 ? -1.0 : 1.0;
   return seenFrom == seenFromFront && (zFront - z) * max(towardsEye, 0.1) < splatLayerDistance;
 }
+#endif
 
 SplatSurface splatResolve()
 {
@@ -50,7 +57,11 @@ SplatSurface splatResolve()
   vec3 origin = splatOnRay(pixelDC, 0.0);
   vec3 toEye = normalize(origin - splatOnRay(pixelDC, -1.0));
   bool inside = splatHasSurface(surface.texel);
+#if SPLAT_OUTLINE
   surface.coverage = splatCoverage(surface.texel, inside, toEye);
+#else
+  surface.coverage = inside ? 1.0 : 0.0;
+#endif
   surface.covered = surface.coverage > 0.0;
   vec4 normalWeight = texelFetch(splatNormalWeight, surface.texel, 0);
   surface.weight = surface.covered ? normalWeight.w : 1.0;
@@ -64,14 +75,16 @@ SplatSurface splatResolve()
   }
   vec4 offsetDepth = texelFetch(splatOffsetDepth, surface.texel, 0) / surface.weight;
   vec3 normal = normalize(normalWeight.xyz);
-  surface.seenFrom = texelFetch(splatSeenFrom, surface.texel, 0).r < 0.5 ? -1.0 : 1.0;
+  surface.seenFrom = texelFetch(splatSeen, surface.texel, 0).g < 0.5 ? -1.0 : 1.0;
 
   // Disks touch the surface; at an offset d from where disk i touches, the surface lies
   // (n - n_i) . d / 2 below the disk, up to third order, as normals change linearly along d. n_i . d
   // is zero, so the weighted mean needs no more than the mean offset.
   float below = 0.5 * dot(normal, offsetDepth.xyz);
   float towardsEye = surface.seenFrom * dot(normal, toEye);
+#if SPLAT_BACK_LAYER
   surface.covered = !splatIsFrontLayer(surface.texel, offsetDepth.w, surface.seenFrom, towardsEye);
+#endif
   float z = offsetDepth.w - surface.seenFrom * below * toEye.z / max(towardsEye, 0.03);
   surface.positionVC = splatOnRay(pixelDC, z);
   // Beyond the outline the mean may point away, which lights would take for darkness.

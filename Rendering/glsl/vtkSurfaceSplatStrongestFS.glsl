@@ -5,7 +5,7 @@
 
 //Splat::Fragment::Dec
 
-uniform sampler2D splatSeenFrom;
+uniform sampler2D splatSeen;
 uniform sampler2D splatVisibleDepth;
 uniform float splatNearer; // 1: what lies before the visible depth is seen; -1: what lies behind it
 
@@ -14,7 +14,7 @@ out uint splatNumber; // of the particle, from 1 on; 0 where there is none
 void main()
 {
   ivec2 texel = ivec2(gl_FragCoord.xy);
-  float seenFrom = 2.0 * texelFetch(splatSeenFrom, texel, 0).r - 1.0;
+  float seenFrom = 2.0 * texelFetch(splatSeen, texel, 0).g - 1.0;
   float visible = texelFetch(splatVisibleDepth, texel, 0).r;
   if (splatOutside() || seenFrom * splatSeenFromSide < 0.5 ||
     splatNearer * (gl_FragCoord.z - visible) > 0.0)

@@ -69,4 +69,9 @@ void main()
   //VTK::Picking::Impl
 
   //VTK::CustomEnd::Impl
+
+  if (disk.tangentMC == vec3(0.0))
+  {
+    gl_Position = vec4(2.0, 2.0, 2.0, 1.0); // nothing to draw
+  }
 }

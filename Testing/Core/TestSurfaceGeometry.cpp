@@ -134,6 +134,10 @@ TEST_P(UnderABend, SpheresHaveTheirCurvature)
         { 1.0 / r, 1.0 / (r * r), std::sqrt(2.0) / r }, 1e-8 / (r * r));
       const glm::dvec3 outward = (at.point.map.position.xyz - center) / r;
       EXPECT_LE(glm::distance(surfaceNormal(at.point.gradient).xyz, outward), 1e-10);
+      // dn/dx of n = x/r: tangents turn by 1/r of their length, the normal's own direction by nothing.
+      const glm::dmat3 turn = (glm::dmat3(1.0) - glm::outerProduct(outward, outward)) / r;
+      EXPECT_LE(
+        largestEntry(curvature(at.point.gradient, at.hessian).shape - turn), 1e-8 / (r * r));
     }
   }
 }
@@ -150,6 +154,11 @@ TEST_P(UnderABend, CylindersHaveTheirCurvature)
     {
       expectCurvature(
         curvature(at.point.gradient, at.hessian), { 0.5 / r, 0.0, 1.0 / r }, 1e-8 / (r * r));
+      const glm::dvec3 x = at.point.map.position.xyz;
+      const glm::dvec3 around(-x.y / r, x.x / r, 0.0);
+      const glm::dmat3 turn = glm::outerProduct(around, around) / r;
+      EXPECT_LE(
+        largestEntry(curvature(at.point.gradient, at.hessian).shape - turn), 1e-8 / (r * r));
     }
   }
 }

@@ -23,6 +23,7 @@ def particles(center=(0.0, 0.0, 0.0)):
 
 
 def make_view():
+    simple._DisableFirstRenderCameraReset()  # else the first test of a run has another camera
     view = simple.CreateView("RenderView")
     view.ViewSize = [SIZE, SIZE]
     view.OrientationAxesVisibility = 0
@@ -152,6 +153,13 @@ def test_one_side_can_be_culled(view, picture):
     assert np.all(np.argmax(pixels, axis=1) == 0), "the far side from within, red"
 
 
+def two_blocks():
+    group = simple.GroupDatasets(Input=[particles((-0.5, 0, 0)), particles((0.5, 0, 0))])
+    group.UpdatePipeline()
+    hierarchy = group.GetDataInformation().GetHierarchy()
+    return group, [f"/Root/{hierarchy.GetNodeName(i)}" for i in (1, 2)]
+
+
 def test_blocks_of_a_composite_are_drawn(view, picture):
     group = simple.GroupDatasets(Input=[particles((-0.5, 0, 0)), particles((0.5, 0, 0))])
     display = show(group, view)
@@ -164,16 +172,43 @@ def test_blocks_of_a_composite_are_drawn(view, picture):
 
 
 def test_blocks_can_be_hidden(view, picture):
-    group = simple.GroupDatasets(Input=[particles((-0.5, 0, 0)), particles((0.5, 0, 0))])
-    group.UpdatePipeline()
+    group, (_, right) = two_blocks()
     display = show(group, view)
-    names = [group.GetDataInformation().GetHierarchy().GetNodeName(i) for i in (1, 2)]
-    display.BlockSelectors = [f"/Root/{names[1]}"]
+    display.BlockSelectors = [right]
     covered = drawn(picture())
     assert np.all(covered[disk_of_sphere(0.5, 0.49)])
     assert not np.any(covered[:, : SIZE // 2 - 5])
     display.BlockSelectors = ["/"]
     assert np.all(drawn(picture())[disk_of_sphere(-0.5, 0.49) | disk_of_sphere(0.5, 0.49)])
+
+
+def test_blocks_have_colours_of_their_own(view, picture):
+    group, (left, right) = two_blocks()
+    display = show(group, view)
+    display.Ambient, display.Diffuse = 1.0, 0.0
+    display.DiffuseColor = display.AmbientColor = [1, 1, 1]
+    display.BlockColors = [left, "1", "0", "0"]
+    pixels = picture()
+    assert np.all(pixels[disk_of_sphere(-0.5, 0.4)] == (255, 0, 0))
+    assert np.all(pixels[disk_of_sphere(0.5, 0.4)] == (255, 255, 255))
+    display.BlockColors = [left, "1", "0", "0", right, "0", "0", "1"]
+    assert np.all(picture()[disk_of_sphere(0.5, 0.4)] == (0, 0, 255))
+    display.BlockColors = []
+    assert np.all(picture()[disk_of_sphere(-0.5, 0.4)] == (255, 255, 255))
+
+
+def test_blocks_have_opacities_of_their_own(view, picture):
+    group, (left, right) = two_blocks()
+    display = show(group, view)
+    display.Ambient, display.Diffuse = 1.0, 0.0
+    display.DiffuseColor = display.AmbientColor = [1, 0, 0]
+    display.BlockOpacities = [right, "0.4"]
+    pixels = picture()
+    assert np.all(pixels[disk_of_sphere(-0.5, 0.4)] == (255, 0, 0))
+    # Two layers of 0.4 over the background leave 0.36 of it.
+    assert np.all(np.abs(pixels[disk_of_sphere(0.5, 0.4)] - (163, 92, 0)) < 5)
+    display.BlockOpacities = []
+    assert np.all(picture()[disk_of_sphere(0.5, 0.4)] == (255, 0, 0))
 
 
 @pytest.mark.parametrize("mode, share", [("Splats", 1.0), ("Disks", 1.0), ("Points", 0.5)])

@@ -2,6 +2,8 @@
 #include "SplatScene.h"
 
 #include "vtkActor.h"
+#include "vtkAppendPolyData.h"
+#include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkLookupTable.h"
 #include "vtkPointData.h"
@@ -274,5 +276,101 @@ TEST(SplatLayers, ATranslucentSheetIsThereOnce)
       const glm::dvec3 seen = scene.ColorAt(i % SplatScene::Size, i / SplatScene::Size);
       ASSERT_LT(glm::length(seen - RedOverGreen(1)), 4.) << "at pixel " << i;
     }
+  }
+}
+
+namespace
+{
+constexpr double Keep = 2.;
+
+// Vertex cells whose own colours depend on the place of their points.
+void AddCellColors(vtkPolyData* particles, const std::function<glm::dvec4(glm::dvec3)>& colorAt)
+{
+  AddVertexCells(particles);
+  vtkNew<vtkDoubleArray> colors;
+  colors->SetName("Own");
+  colors->SetNumberOfComponents(4);
+  for (vtkIdType i = 0; i < particles->GetNumberOfPoints(); ++i)
+  {
+    glm::dvec3 place;
+    particles->GetPoint(i, &place.x);
+    const glm::dvec4 color = colorAt(place);
+    colors->InsertNextTuple(&color.x);
+  }
+  particles->GetCellData()->AddArray(colors);
+}
+}
+
+TEST_F(SplatColors, CellsMayHaveColorsOfTheirOwn)
+{
+  AddCellColors(this->Sphere,
+    [](glm::dvec3 x) { return x.y > 0. ? glm::dvec4(0., 0., 1., Keep) : glm::dvec4(Keep); });
+  this->Scene.Mapper->SetCellColorArrayName("Own");
+  const auto expect = [this](glm::dvec3 below)
+  {
+    this->Scene.Render();
+    this->Scene.ForEachPixelOnSphere(1., Inside,
+      [&](int x, int y, glm::dvec3 p)
+      {
+        if (std::abs(p.y) > 2. * Spacing)
+        {
+          const glm::dvec3 wanted = p.y > 0. ? glm::dvec3(0., 0., 255.) : below;
+          ASSERT_LT(glm::length(this->Scene.ColorAt(x, y) - wanted), 2.);
+        }
+      });
+  };
+  for (int mode : { vtkSurfaceSplatMapper::Splats, vtkSurfaceSplatMapper::Disks })
+  {
+    this->Scene.Mapper->SetMode(mode);
+    this->Scene.Mapper->ScalarVisibilityOff();
+    for (const glm::dvec3& own : { glm::dvec3(1., 0., 0.), glm::dvec3(0., 1., 0.) })
+    {
+      this->Scene.Actor->GetProperty()->SetColor(own.r, own.g, own.b);
+      expect(255. * own);
+    }
+    this->Scene.Mapper->ScalarVisibilityOn();
+    vtkNew<vtkLookupTable> yellow;
+    yellow->SetNumberOfTableValues(1);
+    yellow->SetTableValue(0, 1., 1., 0.);
+    this->ColorBy([](glm::dvec3 x) { return x.z; }, yellow);
+    expect({ 255., 255., 0. });
+  }
+}
+
+TEST(SplatLayers, OpaqueParticlesAreSeenBehindTranslucentOnes)
+{
+  for (int mode : { vtkSurfaceSplatMapper::Splats, vtkSurfaceSplatMapper::Disks })
+  {
+    vtkNew<vtkAppendPolyData> both;
+    both->AddInputData(FibonacciSphere(Count, 1., Spacing));
+    both->AddInputData(FibonacciSphere(Count, 0.6, Spacing));
+    both->Update();
+    vtkPolyData* spheres = both->GetOutput();
+    AddCellColors(spheres,
+      [](glm::dvec3 x)
+      { return glm::length(x) > 0.8 ? glm::dvec4(1., 0., 0., 0.4) : glm::dvec4(Keep); });
+    SplatScene scene(spheres);
+    scene.Mapper->SetMode(mode);
+    scene.Mapper->SetCellColorArrayName("Own");
+    scene.ShowPlainColors();
+    scene.Renderer->SetBackground(0., 1., 0.);
+    scene.Renderer->SetUseDepthPeeling(true);
+    scene.Window->SetAlphaBitPlanes(1);
+    scene.Actor->GetProperty()->SetColor(0., 0., 1.);
+    scene.LookFrom({ 0.3, 0.2, 1. }, false);
+    scene.Render();
+    int checked = 0;
+    scene.ForEachPixelOnSphere(0.6, Inside,
+      [&](int x, int y, glm::dvec3)
+      {
+        const glm::dvec3 seen = scene.ColorAt(x, y);
+        // Disks overlap, so that several translucent ones may lie before each other.
+        const bool once = mode == vtkSurfaceSplatMapper::Splats;
+        ASSERT_TRUE(once ? glm::length(seen - glm::dvec3(102., 0., 153.)) < 4.
+                         : seen.r > 99. && std::abs(seen.r + seen.b - 255.) < 4.)
+          << "at pixel " << x << ", " << y << ": " << seen.r << " " << seen.g << " " << seen.b;
+        ++checked;
+      });
+    EXPECT_GT(checked, 5000);
   }
 }

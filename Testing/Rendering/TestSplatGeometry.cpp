@@ -167,6 +167,72 @@ INSTANTIATE_TEST_SUITE_P(Views, SplatsOnSphere,
   testing::Values(View{ { 0., 0., 1. }, false }, View{ { 0., 0., 1. }, true },
     View{ { -1., 2., 0.5 }, false }, View{ { 0.3, -1., -2. }, true }));
 
+namespace
+{
+// How the normals of a sphere around the origin turn.
+void AddShapeOfSphere(vtkPolyData* particles, double radius)
+{
+  vtkNew<vtkDoubleArray> shape;
+  shape->SetName("Shape_Operator");
+  shape->SetNumberOfComponents(6);
+  for (vtkIdType i = 0; i < particles->GetNumberOfPoints(); ++i)
+  {
+    glm::dvec3 x;
+    particles->GetPoint(i, &x.x);
+    const glm::dvec3 n = glm::normalize(x);
+    const double turn[6] = { 1. - n.x * n.x, 1. - n.y * n.y, 1. - n.z * n.z, -n.x * n.y, -n.y * n.z,
+      -n.x * n.z };
+    for (int c = 0; c < 6; ++c)
+    {
+      shape->InsertNextValue(turn[c] / radius);
+    }
+  }
+  particles->GetPointData()->AddArray(shape);
+}
+}
+
+TEST(SplatGeometry, SplatsBendWithTheSurface)
+{
+  // Two hundred particles make a sphere whose normals turn by 15 degrees from one to the next. The
+  // outline and the depth are the sphere's only if splats are no flat disks.
+  constexpr double spacing = 0.269;
+  const View views[] = { { { 0.3, -0.5, 1. }, false }, { { 0.3, -0.5, 1. }, true } };
+  for (const View& view : views)
+  {
+    double worst[2] = { 0., 0. }; // flat, bent; share of a spacing
+    int different[2] = { 0, 0 };  // pixels at the outline
+    for (int bent : { 0, 1 })
+    {
+      vtkSmartPointer<vtkPolyData> sphere = FibonacciSphere(200, 1., spacing);
+      if (bent)
+      {
+        AddShapeOfSphere(sphere, 1.);
+      }
+      SplatScene scene(sphere);
+      UseSplats(scene, view);
+      scene.Render();
+      scene.ForEachPixelOnSphere(1., Inside,
+        [&](int x, int y, glm::dvec3 onSphere)
+        {
+          const auto position = scene.PositionAt(x, y);
+          ASSERT_TRUE(position);
+          worst[bent] = std::max(worst[bent], glm::distance(*position, onSphere) / spacing);
+        });
+      for (int i = 0; i < SplatScene::Size * SplatScene::Size; ++i)
+      {
+        const int x = i % SplatScene::Size;
+        const int y = i / SplatScene::Size;
+        different[bent] +=
+          scene.HitSphere(x, y, 1.).has_value() != scene.PositionAt(x, y).has_value();
+      }
+    }
+    EXPECT_LT(worst[1], 0.02) << view;
+    EXPECT_LT(worst[1], 0.5 * worst[0]) << view;
+    EXPECT_LT(different[1], 0.005 * M_PI * 98. * 98.) << view;
+    EXPECT_LT(different[1], 0.5 * different[0]) << view;
+  }
+}
+
 TEST(SplatGeometry, FollowsTheActorsTransformEvenIfItStretches)
 {
   for (double mirror : { 1., -1. })

@@ -1,0 +1,44 @@
+#include "vtkSurfaceSplatGL.h" // before everything that may include an OpenGL header
+
+#include "vtkSurfaceSplatTiles.h"
+
+#include "vtkShaderProgram.h"
+#include "vtkSurfaceSplatView.h"
+
+//------------------------------------------------------------------------------
+vtkSurfaceSplatTiles::vtkSurfaceSplatTiles(const vtkSurfaceSplatView& view)
+{
+  const std::array<int, 2> size = { view.GetWidth(), view.GetHeight() };
+  const std::array<int, 4>& rectangle = view.GetRectangle();
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    // OpenGL drops points whose middle is outside of the viewport, whatever they would cover: where the
+    // last tile would be such a point, all tiles are moved by half of one.
+    const int left = size[axis] % Size;
+    const int shift = left > 0 && left < Size / 2 ? Size / 2 : 0;
+    this->First[axis] = (rectangle[axis] + shift) / Size * Size - shift;
+    this->Count[axis] =
+      (rectangle[axis] + rectangle[2 + axis] - this->First[axis] + Size - 1) / Size;
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatTiles::SetUniforms(vtkShaderProgram* program, int kinds) const
+{
+  program->SetUniform2i("splatFirstTile", this->First.data());
+  program->SetUniformi("splatTilesInRow", this->Count[0]);
+  program->SetUniformi("splatTilesWith", kinds);
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatTiles::Draw() const
+{
+  const bool enabled =
+    glIsEnabled(GL_PROGRAM_POINT_SIZE) != 0; // which vtkOpenGLState does not know
+  glEnable(GL_PROGRAM_POINT_SIZE);
+  glDrawArrays(GL_POINTS, 0, this->Count[0] * this->Count[1]);
+  if (!enabled)
+  {
+    glDisable(GL_PROGRAM_POINT_SIZE);
+  }
+}

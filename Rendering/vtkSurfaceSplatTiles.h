@@ -1,0 +1,43 @@
+/**
+ * @class vtkSurfaceSplatTiles
+ * @brief the part of the picture that splats can reach, in square tiles of which each is one point
+ *
+ * Fragment stages that look up many texels are dear where there is no graphics card, and branches save
+ * nothing there. So the vertex stage (glsl/vtkSurfaceSplatResolveVS.glsl) decides, a tile at a time,
+ * what is worth drawing.
+ */
+
+#ifndef vtkSurfaceSplatTiles_h
+#define vtkSurfaceSplatTiles_h
+
+#include <array>
+
+class vtkShaderProgram;
+class vtkSurfaceSplatView;
+
+class vtkSurfaceSplatTiles
+{
+public:
+  /** Pixels along the side of a tile. Tiles begin at a multiple of 4. */
+  static constexpr int Size = 8;
+
+  /** What a tile must hold to be drawn; may be combined. */
+  enum Kind
+  {
+    Inside = 1, // surface, but no edge of it
+    Edges = 2
+  };
+
+  explicit vtkSurfaceSplatTiles(const vtkSurfaceSplatView& view);
+
+  void SetUniforms(vtkShaderProgram* program, int kinds) const;
+
+  /** With the program that is in use. */
+  void Draw() const;
+
+private:
+  std::array<int, 2> First; // left and bottom, pixels
+  std::array<int, 2> Count; // columns and rows
+};
+
+#endif
