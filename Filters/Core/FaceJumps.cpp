@@ -204,9 +204,8 @@ void JumpFinder::lookAtElement(int element, Walkers& walkers)
 
 FaceJumps JumpFinder::run(const ParallelFor& parallelFor)
 {
-  Isosurface walled = this->Surface;
+  Isosurface walled = this->Surface.withWalls();
   walled.gaps = &this->Everywhere;
-  walled.walled = true;
   // Jumps and kinks are large beside this.
   walled.tolerance = std::max(this->Surface.tolerance, 0.02 * this->Proxy.smallestSpacing());
   std::atomic<std::int64_t> evaluations{ 0 };

@@ -24,12 +24,6 @@ Isosurface roughly(Isosurface surface, double spacing)
   return surface;
 }
 
-Isosurface walled(Isosurface surface)
-{
-  surface.walled = true;
-  return surface;
-}
-
 Isosurface seamless(Isosurface surface)
 {
   surface.gaps = nullptr;
@@ -45,7 +39,7 @@ public:
     , Law(law)
     , Tracer(roughly(surface, proxy.smallestSpacing()))
     , Exact(surface)
-    , Walker(walled(surface))
+    , Walker(surface.withWalls())
     , Passer(seamless(surface))
   {
   }

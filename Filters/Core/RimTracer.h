@@ -54,7 +54,7 @@ class RimTracer
 public:
   explicit RimTracer(const Isosurface& surface)
     : Surface(surface)
-    , Walker(walled(surface))
+    , Walker(surface.withWalls())
     , Passer(surface)
   {
   }
@@ -95,12 +95,6 @@ private:
   Location ontoFace(const Location& location, int face) const;
   int wallOf(const Location& location, int preferred) const;
   WorldVector tangent(const RimPoint& point) const;
-
-  static Isosurface walled(Isosurface surface)
-  {
-    surface.walled = true;
-    return surface;
-  }
 
   Isosurface Surface;
   /// Stays on faces at which the surface may end.

@@ -80,7 +80,7 @@ std::optional<SurfaceWalker::Behind> SurfaceWalker::behind(const Evaluated& here
   const Isosurface& surface = this->Surface;
   const int element = here.location.element;
   const bool mayEnd = surface.mayEnd(element, face);
-  if (mayEnd && !surface.mayGoOnAndEnd(element, face))
+  if (mayEnd && !surface.isUndecided(element, face))
   {
     return std::nullopt;
   }
@@ -104,7 +104,7 @@ std::optional<SurfaceWalker::Behind> SurfaceWalker::behind(const Evaluated& here
 
 std::optional<SurfaceWalker::Behind> SurfaceWalker::behind(const Location& here, int face)
 {
-  const bool matters = this->Surface.mayGoOnAndEnd(here.element, face);
+  const bool matters = this->Surface.isUndecided(here.element, face);
   return this->behind(matters ? this->evaluate(here) : Evaluated{ here, {} }, face);
 }
 

@@ -25,14 +25,21 @@ struct Isosurface
   /// As if the surface ended at every face at which it might.
   bool walled = false;
 
+  Isosurface withWalls() const
+  {
+    Isosurface result = *this;
+    result.walled = true;
+    return result;
+  }
+
   double gap(int element, int face) const
   {
     return this->gaps ? (*this->gaps)[static_cast<std::size_t>(element) * MaximumFaces + face]
                       : std::numeric_limits<double>::infinity();
   }
 
-  /// Whether it is to be looked at whether the surface goes on behind a place on the face.
-  bool mayGoOnAndEnd(int element, int face) const
+  /// Whether the surface may go on behind the face at some places, and end there at others.
+  bool isUndecided(int element, int face) const
   {
     const bool joined = this->mesh->neighbor(element, face).element >= 0;
     const bool open = joined || (this->locator && this->locator->mayGoOn(element, face));

@@ -395,6 +395,35 @@ TEST(SurfaceWalker, NeverReturnsAPointOffTheSurfaceWhateverTheElement)
   }
 }
 
+TEST(SurfaceWalker, PassesAFaceWhereItsSidesMissEachOtherByNoMoreThanTheGap)
+{
+  // Along the face x = 0 the field has slope 0.8, and jumps by 0.04: its sides are 0.05 apart.
+  MeshRecipe left, right;
+  left.field = [](const glm::dvec3& x) { return 0.6 * x.x + 0.8 * x.z; };
+  right.field = [](const glm::dvec3& x) { return 0.6 * x.x + 0.8 * x.z - 0.04; };
+  ElementMesh mesh;
+  appendBox(mesh, left, { -1, -1, -1 }, { 0, 1, 1 });
+  appendBox(mesh, right, { 0, -1, -1 }, { 1, 1, 1 });
+  findFaceNeighbors(mesh, 1e-9);
+  const Location place{ 0, { { 1, 0.3, 0.5 } } };
+  SurfaceWalker seamless({ &mesh, 0.0, 1e-9 });
+  const Evaluated here = seamless.evaluate(place);
+  const auto there = seamless.behind(here, 1);
+  ASSERT_TRUE(there.has_value());
+  EXPECT_NEAR(SurfaceWalker::missBetween(mesh, here, 1, *there), 0.05, 1e-12);
+  for (const float gap : { 0.049f, 0.051f })
+  {
+    const std::vector<float> gaps(2 * MaximumFaces, gap);
+    SurfaceWalker walker({ &mesh, 0.0, 1e-9, nullptr, &gaps });
+    const bool passes = gap > 0.05f;
+    EXPECT_EQ(walker.endsAt(here, 1), !passes);
+    EXPECT_EQ(walker.endCount(place), passes ? 0 : 1);
+    EXPECT_EQ(walker.move(here, { { 0.2, 0, 0 } }).element, passes ? 1 : 0);
+    SurfaceWalker walled(Isosurface{ &mesh, 0.0, 1e-9, nullptr, &gaps }.withWalls());
+    EXPECT_TRUE(walled.endsAt(here, 1));
+  }
+}
+
 TEST(SurfaceWalker, BoundaryFacesOfACornerAnEdgeAWallAndTheInside)
 {
   MeshRecipe recipe;
