@@ -83,6 +83,10 @@ public:
     this->Result.squared = blocks.component() == InputBlocks::Magnitude;
     this->Components = this->Result.squared ? blocks[0].scalars->GetNumberOfComponents() : 1;
     this->Result.census.resize(blocks.size());
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+    {
+      this->Ghosts.push_back(blocks[b].grid->GetCellGhostArray());
+    }
   }
 
   GridElements build();
@@ -108,6 +112,8 @@ private:
   hop::Degrees elementDegrees(const hop::NodalBasis& basis) const;
 
   const InputBlocks& Blocks;
+  /// One a block, or nullptr; grids look theirs up when first asked, which is nothing for threads.
+  std::vector<vtkUnsignedCharArray*> Ghosts;
   hop::NodeSpacing Spacing;
   const std::vector<double>& Isovalues;
   const hop::ParallelFor& Parallel;
@@ -160,7 +166,7 @@ void Builder::judgeCells()
 /// \param basis of the cell, or nullptr
 Verdict Builder::judge(const BlockCell& where, const CellBasis* basis, CellValues& values) const
 {
-  vtkUnsignedCharArray* ghosts = this->Blocks[where.block].grid->GetCellGhostArray();
+  vtkUnsignedCharArray* ghosts = this->Ghosts[where.block];
   if (ghosts && (ghosts->GetValue(where.cell) & vtkDataSetAttributes::HIDDENCELL))
   {
     return Verdict::Hidden;
@@ -499,7 +505,7 @@ void Builder::numberCorners()
 bool Builder::isGhost(const hop::Element& element) const
 {
   const auto [block, cell] = this->Blocks.locate(element.cell);
-  vtkUnsignedCharArray* ghosts = this->Blocks[block].grid->GetCellGhostArray();
+  vtkUnsignedCharArray* ghosts = this->Ghosts[block];
   return ghosts && ghosts->GetValue(cell) != 0;
 }
 

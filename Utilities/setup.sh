@@ -27,7 +27,7 @@ release=$(. /etc/os-release 2>/dev/null && echo "${VERSION_CODENAME:-}")
 case "$release" in
   bookworm) paraview+=("${qt5[@]}" libqt5svg5) ;;
   forky | sid) paraview+=(libvtk9-dev qt6-base-dev qt6-tools-dev qt6-tools-dev-tools xsltproc qt6-svg-plugins) ;;
-  *) paraview+=("${qt5[@]}" qt6-svg-plugins) ;;
+  *) paraview+=("${qt5[@]}" qt6-base-dev qt6-svg-plugins) ;; # trixie: its CMake files want 5, its GUI is 6
 esac
 [ "$release" != bookworm ] || packages+=(clang-format-14)
 if [ "$with_paraview" = ON ]; then packages+=("${paraview[@]}"); else packages+=(libvtk9-dev libglew-dev); fi

@@ -20,6 +20,8 @@ make_root() { # RELEASE ROOT
   debootstrap --variant=minbase "$1" "$2" "$mirror" >"$work/$1.debootstrap" ||
     { tail -n 5 "$work/$1.debootstrap" >&2; return 1; }
   cp /etc/resolv.conf "$2/etc/resolv.conf"
+  # What apt needs to be told here (a proxy, a mirror that lags behind) it needs to be told there.
+  cp -n /etc/apt/apt.conf.d/* "$2/etc/apt/apt.conf.d/"
   git clone --quiet --no-hardlinks "$project" "$2/project"
 }
 

@@ -89,7 +89,7 @@ private:
   bool place(
     const Location& start, double maximumTravel, SurfaceWalker& walker, Mover& mover) const;
   bool displace(const Mover& from, const WorldVector& step, double farthest, Mover& to);
-  bool seed(const SurfaceBox& box, SurfaceWalker& walker, Mover& mover) const;
+  bool seed(const SurfaceBox& box, SurfaceWalker& walker, Mover& mover, std::int64_t& cost) const;
   void addUncovered(const std::vector<Mover>& seeds);
   void relaxLevel(int maximumRounds, bool fixedNumber);
   bool bendsTooFar(const Mover& mover);
@@ -191,15 +191,16 @@ bool ClassicSystem::displace(const Mover& from, const WorldVector& step, double 
 
 /// By Newton's method from the middle of the box, or, should that lead away from it, on the line
 /// between two of its corners.
-bool ClassicSystem::seed(const SurfaceBox& box, SurfaceWalker& walker, Mover& mover) const
+bool ClassicSystem::seed(
+  const SurfaceBox& box, SurfaceWalker& walker, Mover& mover, std::int64_t& cost) const
 {
   const bool found = this->place(box.middle, 2.0 * box.size, walker, mover);
   if ((found && isAtBox(box, mover.at.location)) || !box.straddles)
   {
     return found;
   }
-  return this->place(
-    findBetweenEnds(*this->Surface.mesh, this->Surface.isovalue, box), box.size, walker, mover);
+  return this->place(findBetweenEnds(*this->Surface.mesh, this->Surface.isovalue, box, cost),
+    box.size, walker, mover);
 }
 
 std::vector<Mover> ClassicSystem::makeSeeds(const std::vector<SurfaceBox>& boxes)
@@ -213,8 +214,8 @@ std::vector<Mover> ClassicSystem::makeSeeds(const std::vector<SurfaceBox>& boxes
       for (std::ptrdiff_t b = begin; b < end; ++b)
       {
         SurfaceWalker walker(this->Moving);
-        found[b] = this->seed(boxes[b], walker, seeds[b]);
-        cost[b] = walker.evaluations();
+        found[b] = this->seed(boxes[b], walker, seeds[b], cost[b]);
+        cost[b] += walker.evaluations();
       }
     });
   std::size_t kept = 0;

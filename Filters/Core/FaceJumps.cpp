@@ -127,18 +127,18 @@ std::optional<JumpFinder::Finding> JumpFinder::look(
   {
     return std::nullopt;
   }
-  const FieldPoint& there = behind->at.point;
-  const double slope = length(there.gradient);
+  const double largest = LargestJumpPerSpacing * spacing;
   Finding finding{ slotOf(element, crossing.face),
     slotOf(behind->at.location.element, behind->face) };
-  if (!(std::abs(there.value) <= LargestJumpPerSpacing * spacing * slope))
+  if (!(SurfaceWalker::missBetween(this->Mesh, here, crossing.face, *behind) <= largest))
   {
-    finding.gap = static_cast<float>(LargestJumpPerSpacing * spacing);
+    finding.gap = static_cast<float>(largest);
   }
   else
   {
-    finding.turns =
-      dot(here.point.gradient, there.gradient) < KinkCosine * slope * length(here.point.gradient);
+    const WorldVector& before = here.point.gradient;
+    const WorldVector& after = behind->at.point.gradient;
+    finding.turns = dot(before, after) < KinkCosine * length(after) * length(before);
   }
   return finding;
 }

@@ -30,6 +30,8 @@ constexpr double tetrahedronPerSpacing = 9.0;
 /// Spacing of the first look, in units of the mesh's diagonal. Where more is asked for, the number of
 /// particles cannot get out of hand.
 constexpr double coarseSpacingPerExtent = 0.001;
+/// The first spacing tried where a number of particles is given, in units of the mesh's diagonal.
+constexpr double firstSpacingPerExtent = 0.02;
 /// Seeds nearer to a rim's particle than this, in units of their spacing, are dropped: half the
 /// distance of two rows of hexagonal packing. Those that a round of relaxation squeezed against the rim
 /// are dropped after it.
@@ -88,8 +90,8 @@ private:
   bool tooMany(double count);
   bool estimateCount();
   void lookAtSurface();
-  void makeProxy();
-  void matchCount();
+  double wantedCount() const;
+  void matchCount(std::int64_t count);
   void makeExactly(std::int64_t count);
   void makeRims();
   void dropNearRims(double nearest);
@@ -176,44 +178,57 @@ bool FastSystem::estimateCount()
   return ratio <= 1.0 || !this->tooMany(this->proxyAt(coarse).particleCount() * ratio * ratio);
 }
 
-/// Makes the proxy. From then on the surface ends where its two sides miss each other, and particles are
-/// to stand closer where it turns.
+/// Makes the proxy. From then on the surface ends where its two sides miss each other, particles are to
+/// stand closer where it turns, and those on rims are there.
 void FastSystem::lookAtSurface()
 {
   this->Surface.gaps = nullptr;
   this->Proxy = std::make_unique<SurfaceProxy>(this->proxyAt(this->Law.spacing));
+  this->Work.ask();
   this->Jumps = findFaceJumps(this->Surface, *this->Proxy, this->Parallel);
   std::int64_t cost = this->Jumps.evaluations;
   this->Proxy->limitSpacings(
     findKinkSpacings(this->Surface, *this->Proxy, this->Jumps, this->Parallel, cost),
     this->Parallel);
-  this->Evaluations += cost;
   this->Surface.gaps = &this->Jumps.gaps;
+  this->Work.ask();
+  this->makeRims();
+  this->Evaluations += cost + this->Rims.evaluations;
 }
 
-void FastSystem::makeProxy()
+/// How many particles the surface wants. Those on rims stand for half as much area as others.
+double FastSystem::wantedCount() const
 {
-  this->lookAtSurface();
-  this->matchCount();
-  reportUnresolved(this->Surface, this->Proxy->boxes(), this->Result.report);
+  return this->Proxy->particleCount() + 0.5 * static_cast<double>(this->RimPatches.size());
 }
 
-/// Where the number of particles is given, finds the spacing that goes with it.
-void FastSystem::matchCount()
+/// Finds the spacing that goes with a given number of particles.
+void FastSystem::matchCount(std::int64_t count)
 {
-  constexpr int tries = 6;
+  constexpr int tries = 8;
   constexpr double closeEnough = 0.01;
-  const auto wanted = static_cast<double>(this->Parameters.particleCount);
-  for (int n = 0; n < tries && wanted > 0.0; ++n)
+  this->Law.spacing = meshExtent(this->Mesh) * firstSpacingPerExtent;
+  this->lookAtSurface();
+  for (int n = 1; n < tries; ++n)
   {
-    const double ratio = this->Proxy->particleCount() / wanted;
+    const double ratio = this->wantedCount() / static_cast<double>(count);
     if (!(ratio > 0.0) || std::abs(ratio - 1.0) < closeEnough)
     {
-      return;
+      break;
     }
     this->Law.spacing *= std::sqrt(ratio);
     this->lookAtSurface();
   }
+  // Corners of rims are there at any spacing.
+  const std::size_t rims = this->RimPatches.size();
+  const std::size_t most = std::min(rims, static_cast<std::size_t>(count));
+  std::vector<char> kept(rims, 0);
+  for (std::size_t n = 0; n < most; ++n)
+  {
+    kept[n * rims / most] = 1;
+  }
+  keepMarked(this->Rims.particles, kept);
+  keepMarked(this->RimPatches, kept);
 }
 
 /// Draws that many first places, or as many of them as lie in boxes that the places to start from leave
@@ -294,7 +309,7 @@ void FastSystem::startMoving()
 void FastSystem::makeRims()
 {
   this->Rims = findRimCurves(this->Surface, *this->Proxy, this->Law);
-  this->Evaluations += this->Rims.evaluations;
+  this->RimPatches.clear();
   for (const RimParticle& rim : this->Rims.particles)
   {
     this->RimPatches.push_back(rim.patch);
@@ -340,9 +355,7 @@ void FastSystem::relaxAll(int sweeps, bool isLast)
                                         : Balance::Everywhere;
   if (this->Law.angularDensity == 0.0)
   {
-    // Particles on rims stand for half as much area as others.
-    balance.missing = this->Proxy->particleCount() - static_cast<double>(this->Moving->count()) -
-      0.5 * static_cast<double>(this->RimPatches.size());
+    balance.missing = this->wantedCount() - static_cast<double>(this->Moving->size());
   }
   this->relax(*this->Moving, sweeps, balance);
   if (!this->countIsGiven())
@@ -461,13 +474,19 @@ Distribution FastSystem::run()
     {
       return this->Result;
     }
-    this->makeProxy();
-    this->reach(0.25);
+    if (this->countIsGiven())
+    {
+      this->matchCount(this->Parameters.particleCount);
+    }
+    else
+    {
+      this->lookAtSurface();
+    }
+    reportUnresolved(this->Surface, this->Proxy->boxes(), this->Result.report);
+    this->reach(0.35);
     const double wanted = this->Proxy->particleCount();
     if (wanted > 0.0 && !this->tooMany(wanted))
     {
-      this->makeRims();
-      this->reach(0.35);
       if (this->countIsGiven())
       {
         this->makeExactly(this->Parameters.particleCount);
@@ -485,6 +504,11 @@ Distribution FastSystem::run()
         this->reach(0.45 + 0.45 * static_cast<double>(n + 1) / static_cast<double>(rounds.size()));
       }
       this->repair();
+      if (!this->countIsGiven())
+      {
+        // Beside another sheet the last particle of a small component may have been taken for one too many.
+        this->coverBoxes();
+      }
       this->finish();
     }
   }

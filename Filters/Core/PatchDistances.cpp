@@ -12,6 +12,8 @@ namespace
 
 /// A patch runs through a box if it passes its sample nearer than this, in units of its spacing.
 constexpr float coverOffset = 0.1f;
+/// Two patches farther from each other's surface than this are on different sheets.
+constexpr float sheetOffset = 0.4f;
 
 /// Cells that suit visits around single points, and where most visits find nothing.
 constexpr double cellsPerReach = 0.5;
@@ -22,8 +24,8 @@ bool isNear(const Patch& a, const Patch& b, double distance)
   return glm::distance(a.position, b.position) < distance && glm::dot(a.normal, b.normal) > 0.0f;
 }
 
-/// Whether the surface around a patch runs through a sample.
-bool covers(const Patch& patch, const Patch& sample)
+/// Whether the surface around a patch passes another one nearer than `offset`, in units of its spacing.
+bool covers(const Patch& patch, const Patch& sample, float offset)
 {
   const glm::vec3 d(sample.position - patch.position);
   const float distance = glm::length(d);
@@ -35,7 +37,7 @@ bool covers(const Patch& patch, const Patch& sample)
   const glm::vec2 t(glm::dot(d, tangents[0]), glm::dot(d, tangents[1]));
   const float bend = patch.curvatureMagnitude() * distance;
   return std::abs(glm::dot(d, patch.normal) + patch.sink(t)) <=
-    (coverOffset + bend * bend) * patch.spacing;
+    (offset + bend * bend) * patch.spacing;
 }
 
 /// test(i) for every i in [0, count), in threads.
@@ -54,7 +56,8 @@ std::vector<char> testAll(std::size_t count, const ParallelFor& parallelFor, con
   return results;
 }
 
-/// Patches that look for others nearer than a distance, in units of the smaller of their spacings.
+/// Patches that look for others of their sheet nearer than a distance, in units of the smaller of their
+/// spacings.
 class Crowd
 {
 public:
@@ -73,8 +76,11 @@ public:
     this->Grid.visit(this->Positions[i], this->Spacings[i],
       [&](int j)
       {
-        const double nearest = this->Distance * std::min(this->Spacings[i], this->Spacings[j]);
-        if (static_cast<std::size_t>(j) != i && isNear(this->Patches[i], this->Patches[j], nearest))
+        const Patch& here = this->Patches[i];
+        const Patch& there = this->Patches[j];
+        const double nearest = this->Distance * std::min(here.spacing, there.spacing);
+        if (static_cast<std::size_t>(j) != i && isNear(here, there, nearest) &&
+          covers(here, there, sheetOffset) && covers(there, here, sheetOffset))
         {
           use(j);
         }
@@ -155,7 +161,7 @@ std::vector<char> findLonely(const std::vector<SurfaceProxy::Sample>& samples,
       const Patch& sample = samples[b].patch;
       bool covered = !samples[b].found;
       grid.visit(sample.position, sample.spacing,
-        [&](int j) { covered = covered || covers(patches[j], sample); });
+        [&](int j) { covered = covered || covers(patches[j], sample, coverOffset); });
       return !covered;
     });
 }

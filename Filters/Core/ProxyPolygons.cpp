@@ -69,4 +69,19 @@ void appendProxyTriangles(
   }
 }
 
+ReferencePoint proxyMiddle(Domain domain, const SurfaceBox& box)
+{
+  std::vector<ReferenceTriangle> triangles;
+  appendProxyTriangles(domain, box, triangles);
+  glm::dvec3 sum(0.0);
+  double weights = 0.0;
+  for (const ReferenceTriangle& t : triangles)
+  {
+    const double weight = glm::length(glm::cross(t[1] - t[0], t[2] - t[0]));
+    sum += weight / 3.0 * glm::dvec3(t[0] + t[1] + t[2]);
+    weights += weight;
+  }
+  return weights > 0.0 ? ReferencePoint{ sum / weights } : box.middle.u;
+}
+
 } // namespace hop

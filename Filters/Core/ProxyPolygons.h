@@ -13,4 +13,7 @@ using ReferenceTriangle = std::array<glm::vec3, 3>;
 void appendProxyTriangles(
   Domain domain, const SurfaceBox& box, std::vector<ReferenceTriangle>& triangles);
 
+/// The middle of these triangles; that of the box where there are none.
+ReferencePoint proxyMiddle(Domain domain, const SurfaceBox& box);
+
 } // namespace hop

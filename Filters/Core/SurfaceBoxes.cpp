@@ -387,18 +387,37 @@ bool isAtBox(const SurfaceBox& box, const Location& location)
     glm::distance(location.u.xyz, box.middle.u.xyz) <= box.referenceRadius;
 }
 
-Location findBetweenEnds(const ElementMesh& mesh, double isovalue, const SurfaceBox& box)
+Location findBetweenEnds(
+  const ElementMesh& mesh, double isovalue, const SurfaceBox& box, std::int64_t& evaluations)
 {
-  constexpr int halvings = 50;
+  constexpr int mostSteps = 20;
+  constexpr double nearEnough = 1e-3;
   const BernsteinForm form = mesh.form(box.middle.element);
-  glm::dvec3 below = box.ends[0].xyz;
-  glm::dvec3 above = box.ends[1].xyz;
-  for (int n = 0; n < halvings; ++n)
+  const auto at = [&](double t)
+  { return ReferencePoint{ glm::mix(box.ends[0].xyz, box.ends[1].xyz, t) }; };
+  const auto valueAt = [&](double t)
   {
-    const glm::dvec3 middle = 0.5 * (below + above);
-    (evaluateGradient(form, { middle }).value.w < isovalue ? below : above) = middle;
+    ++evaluations;
+    return evaluateGradient(form, at(t)).value.w - isovalue;
+  };
+  double below = 0.0, above = 1.0;
+  double valueBelow = valueAt(below), valueAbove = valueAt(above);
+  const double enough = nearEnough * (valueAbove - valueBelow);
+  double t = 0.5;
+  for (int n = 0; n < mostSteps; ++n)
+  {
+    t = below + (above - below) * valueBelow / (valueBelow - valueAbove);
+    const double value = valueAt(t);
+    if (!(std::abs(value) > enough))
+    {
+      break;
+    }
+    // The Illinois rule: an end that stays counts half, so that it does not stay for long.
+    (value < 0.0 ? below : above) = t;
+    (value < 0.0 ? valueBelow : valueAbove) = value;
+    (value < 0.0 ? valueAbove : valueBelow) *= 0.5;
   }
-  return { box.middle.element, { 0.5 * (below + above) } };
+  return { box.middle.element, at(t) };
 }
 
 bool findCriticalPoint(

@@ -56,8 +56,11 @@ std::vector<SurfaceBox> findSurfaceBoxes(const ElementMesh& mesh, double isovalu
 /// another component than the box's own.
 bool isAtBox(const SurfaceBox& box, const Location& location);
 
-/// A point of the surface on the line between the ends of a box that straddles it, by bisection.
-Location findBetweenEnds(const ElementMesh& mesh, double isovalue, const SurfaceBox& box);
+/// A point near the surface on the line between the ends of a box that straddles it, by the regula falsi:
+/// F - c is less there than a thousandth of what it differs by between the ends.
+/// \param evaluations what it cost is added
+Location findBetweenEnds(
+  const ElementMesh& mesh, double isovalue, const SurfaceBox& box, std::int64_t& evaluations);
 
 /// A point where the field's gradient vanishes.
 struct CriticalPoint

@@ -77,44 +77,41 @@ bool SurfaceProxy::sampleAt(std::size_t box, const Location& place, const Jet& j
   return sample.found;
 }
 
-/// One Newton step from the middle of each box, along the gradient; all boxes of an element at once.
+/// Newton's method from the middle of the box's triangles, which is near the surface already: where the
+/// first evaluation is not near enough, up to two more steps. All boxes of an element at once.
 void SurfaceProxy::putOnSurface(const ParallelFor& parallelFor)
 {
+  constexpr int mostSteps = 3;
   const ElementMesh& mesh = *this->Surface.mesh;
   std::atomic<std::int64_t> evaluations{ 0 };
   std::vector<Location> places(this->Boxes.size());
-  std::transform(this->Boxes.begin(), this->Boxes.end(), places.begin(),
-    [](const SurfaceBox& box) { return box.middle; });
-  std::vector<int> order(this->Boxes.size());
-  std::iota(order.begin(), order.end(), 0);
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(this->Boxes.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
-      evaluateInOrder(mesh, places, order, begin, end,
-        [&](int b, const Jet& jet)
-        {
-          Sample& sample = this->Samples[b];
-          if (anchorPatch(places[b], jet, this->Surface.isovalue, sample.anchor, sample.patch))
-          {
-            const Location there{ places[b].element,
-              { places[b].u.xyz +
-                glm::dvec3(sample.anchor.pull * (sample.anchor.offset * sample.patch.normal)) } };
-            const Domain domain = mesh.elements[there.element].domain;
-            const bool inBox =
-              isAtBox(this->Boxes[b], there) && insideMargin(domain, there.u) >= 0.0;
-            places[b] = inBox ? there : places[b];
-          }
-        });
-      std::int64_t count = 2 * (end - begin);
+      std::int64_t count = 0;
+      std::vector<int> pending(end - begin);
+      std::iota(pending.begin(), pending.end(), static_cast<int>(begin));
+      for (const int b : pending)
+      {
+        const int element = this->Boxes[b].middle.element;
+        places[b] = { element, proxyMiddle(mesh.elements[element].domain, this->Boxes[b]) };
+      }
       std::vector<int> missed;
-      evaluateInOrder(mesh, places, order, begin, end,
-        [&](int b, const Jet& jet)
-        {
-          if (!this->sampleAt(b, places[b], jet))
+      for (int step = 0; step < mostSteps && !pending.empty(); ++step)
+      {
+        std::vector<int> next;
+        evaluateInOrder(mesh, places, pending, 0, static_cast<std::ptrdiff_t>(pending.size()),
+          [&](int b, const Jet& jet)
           {
-            missed.push_back(b);
-          }
-        });
+            if (!this->sampleAt(b, places[b], jet))
+            {
+              (this->stepInBox(b, places[b]) ? next : missed).push_back(b);
+            }
+          });
+        count += static_cast<std::int64_t>(pending.size());
+        pending = std::move(next);
+      }
+      missed.insert(missed.end(), pending.begin(), pending.end());
       for (const int b : missed)
       {
         this->samplePatiently(b, count);
@@ -124,24 +121,48 @@ void SurfaceProxy::putOnSurface(const ParallelFor& parallelFor)
   this->Evaluations = evaluations;
 }
 
-/// Newton's method to the end from the middle of the box or, should that lead away from it, from a
-/// point between two of its corners.
+/// Takes a place to where one Newton step leads from the sample there.
+/// \return whether that is in the box
+bool SurfaceProxy::stepInBox(std::size_t b, Location& place) const
+{
+  const Anchor& anchor = this->Samples[b].anchor;
+  if (anchor.place.element < 0)
+  {
+    return false; // no patch could be had
+  }
+  const glm::vec3 step = anchor.pull * (anchor.offset * this->Samples[b].patch.normal);
+  place.u.xyz += glm::dvec3(step);
+  const Domain domain = this->Surface.mesh->elements[place.element].domain;
+  return isAtBox(this->Boxes[b], place) && insideMargin(domain, place.u) >= 0.0;
+}
+
+/// A point between two corners of the box or, where that is not near enough yet or there is none, Newton's
+/// method to the end.
 bool SurfaceProxy::samplePatiently(std::size_t b, std::int64_t& evaluations)
 {
   const SurfaceBox& box = this->Boxes[b];
   const ElementMesh& mesh = *this->Surface.mesh;
+  const auto sample = [&](const Location& place)
+  {
+    ++evaluations;
+    return this->sampleAt(b, place, evaluateHessian(mesh.form(place.element), place.u));
+  };
+  Location start = box.middle;
+  if (box.straddles)
+  {
+    start = findBetweenEnds(mesh, this->Surface.isovalue, box, evaluations);
+    if (sample(start))
+    {
+      return true;
+    }
+  }
   Isosurface roughly = this->Surface;
   roughly.tolerance = std::max(this->Surface.tolerance, 0.5 * sampleOffset * box.size);
   SurfaceWalker walker(roughly);
   Evaluated at;
-  bool found = walker.project(box.middle, 2.0 * box.size, at);
-  if ((!found || !isAtBox(box, at.location)) && box.straddles)
-  {
-    found = walker.project(findBetweenEnds(mesh, this->Surface.isovalue, box), box.size, at);
-  }
-  evaluations += walker.evaluations() + 1;
-  return found &&
-    this->sampleAt(b, at.location, evaluateHessian(mesh.form(at.location.element), at.location.u));
+  const bool found = walker.project(start, 2.0 * box.size, at);
+  evaluations += walker.evaluations();
+  return found && sample(at.location);
 }
 
 /// Dijkstra's method: from the smallest spacing on, each sample, and each limit, limits those around it.

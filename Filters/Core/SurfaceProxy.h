@@ -26,8 +26,8 @@ public:
     bool found = false;
   };
 
-  /// Puts a point on the surface in each box; costs two evaluations a box, more where Newton's method
-  /// has to be helped. Then no spacing exceeds another by more than GradationSlope times their
+  /// Puts a point near the surface in each box; costs one evaluation a box, more where the field is far from
+  /// linear in it. Then no spacing exceeds another by more than GradationSlope times their
   /// distance: neighbours can only pack evenly if their spacings differ little.
   SurfaceProxy(const Isosurface& surface, const SpacingLaw& law, std::vector<SurfaceBox> boxes,
     const ParallelFor& parallelFor);
@@ -81,6 +81,7 @@ private:
   };
 
   void putOnSurface(const ParallelFor& parallelFor);
+  bool stepInBox(std::size_t box, Location& place) const;
   bool samplePatiently(std::size_t box, std::int64_t& evaluations);
   bool sampleAt(std::size_t box, const Location& place, const Jet& jet);
   void gradeSpacings(const std::vector<SpacingLimit>& limits);

@@ -21,6 +21,15 @@ bool isOnFace(const ElementMesh& mesh, const Location& location, int face)
 /// not keep each other off.
 constexpr double sameSheet = 0.5;
 
+/// How fast the field changes along a face.
+double slopeAlong(const ElementMesh& mesh, const Evaluated& at, int face)
+{
+  const Face& which = facts(mesh.elements[at.location.element].domain).faces[face];
+  const WorldVector inward{ glm::transpose(at.point.map.inverse) * which.inward.xyz };
+  const WorldVector& gradient = at.point.gradient;
+  return length(gradient - (dot(gradient, inward) / dot(inward, inward)) * inward);
+}
+
 int faceCountOf(const ElementMesh& mesh, const Location& location)
 {
   return static_cast<int>(facts(mesh.elements[location.element].domain).faces.size());
@@ -57,6 +66,15 @@ std::optional<LocatedPlace> SurfaceWalker::placeBehind(const Evaluated& here, in
     here.point.map.position, element, face, surface.gap(element, face), this->Evaluations);
 }
 
+double SurfaceWalker::missBetween(
+  const ElementMesh& mesh, const Evaluated& here, int face, const Behind& there)
+{
+  const double slope =
+    std::min(slopeAlong(mesh, here, face), slopeAlong(mesh, there.at, there.face));
+  const double jump = std::abs(there.at.point.value - here.point.value);
+  return jump > 0.0 ? jump / slope : 0.0;
+}
+
 std::optional<SurfaceWalker::Behind> SurfaceWalker::behind(const Evaluated& here, int face)
 {
   const Isosurface& surface = this->Surface;
@@ -79,9 +97,8 @@ std::optional<SurfaceWalker::Behind> SurfaceWalker::behind(const Evaluated& here
   }
   const WorldVector& before = here.point.gradient;
   const WorldVector& after = there.at.point.gradient;
-  const double slope = length(after);
-  const bool agrees = std::abs(there.at.point.value - here.point.value) <= gap * slope &&
-    dot(before, after) >= sameSheet * slope * length(before);
+  const bool agrees = missBetween(*surface.mesh, here, face, there) <= gap &&
+    dot(before, after) >= sameSheet * length(after) * length(before);
   return agrees ? std::optional<Behind>(there) : std::nullopt;
 }
 

@@ -83,6 +83,11 @@ public:
   /// The same; the place is evaluated only if that matters.
   std::optional<Behind> behind(const Location& here, int face);
 
+  /// Distance along the face between the two curves in which the surface comes to it from either side, by
+  /// the field's values and slopes at a place; infinite or NaN where a slope is zero.
+  static double missBetween(
+    const ElementMesh& mesh, const Evaluated& here, int face, const Behind& there);
+
   /// Whether a place lies on that face of its element, and the surface ends there.
   bool endsAt(const Evaluated& here, int face);
 

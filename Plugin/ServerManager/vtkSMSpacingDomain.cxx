@@ -3,6 +3,7 @@
 #include "vtkMath.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVDataInformation.h"
+#include "vtkSMPropertyHelper.h"
 
 vtkStandardNewMacro(vtkSMSpacingDomain);
 
@@ -20,4 +21,17 @@ void vtkSMSpacingDomain::Update(vtkSMProperty* property)
   {
     this->SetEntries({});
   }
+}
+
+int vtkSMSpacingDomain::SetDefaultValues(vtkSMProperty* property, bool useUnchecked)
+{
+  constexpr double shareOfRange = 0.1;
+  if (!this->GetMaximumExists(0))
+  {
+    return 0;
+  }
+  vtkSMPropertyHelper spacing(property);
+  spacing.SetUseUnchecked(useUnchecked);
+  spacing.Set(shareOfRange * this->GetMaximum(0));
+  return 1;
 }

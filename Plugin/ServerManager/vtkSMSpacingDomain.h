@@ -1,6 +1,9 @@
 /**
  * @class vtkSMSpacingDomain
- * @brief a bounds domain that has nothing to say about an input which was not read yet
+ * @brief a range of spacings, from bounds; nothing for an input which was not read yet
+ *
+ * The range, which is that of the slider, is 0 to a share of the longest side of the bounds, in XML
+ * `mode="scaled_extent"` and `scale_factor`; the default is a tenth of that share.
  *
  * vtkSMBoundsDomain takes the bounds of such an input, which are empty, for real ones and gives a
  * length that means nothing: negative up to ParaView 5.13, 0.01 in 6.1. This one stays empty instead, so
@@ -22,6 +25,11 @@ public:
    * No range where the bounds of the input are not known.
    */
   void Update(vtkSMProperty* property) override;
+
+  /**
+   * Sets the property to the default; 0, and leaves it alone, where there is no range.
+   */
+  int SetDefaultValues(vtkSMProperty* property, bool useUnchecked) override;
 
 protected:
   vtkSMSpacingDomain();

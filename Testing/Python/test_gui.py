@@ -45,13 +45,16 @@ def pixels_of(path):
 
 
 def watch(process, screen_file, seconds):
-    """The picture that stood longest on the screen in the last seconds of the process."""
+    """The picture that stood longest on the screen in the last seconds of the window."""
     seen = []
     end = time.monotonic() + seconds
     while process.poll() is None:
         assert time.monotonic() < end, "ParaView's window did not close in time"
-        seen = (seen + [screen_file.read_bytes()])[-12:]
+        screen = screen_file.read_bytes()
+        if screen.count(0) < 0.9 * len(screen):  # a bare screen is black: the process outlives its window
+            seen = (seen + [screen])[-12:]
         time.sleep(0.25)
+    assert seen, "no window"
     screen_file.write_bytes(max(seen, key=seen.count))
     return pixels_of(screen_file)
 

