@@ -16,6 +16,7 @@
 #include "vtkProperty.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
+#include "vtkShaderProperty.h"
 #include "vtkSurfaceSplatMapper.h"
 
 #include <gtest/gtest.h>
@@ -121,6 +122,12 @@ void SplatScene::ShowPlainColors()
   this->Actor->GetProperty()->SetDiffuse(0.);
 }
 
+void SplatScene::ShowNormals()
+{
+  this->Actor->GetShaderProperty()->AddFragmentShaderReplacement("//VTK::Light::Impl", false,
+    "//VTK::Light::Impl\n  gl_FragData[0] = vec4(0.5 * normalVCVSOutput + 0.5, 1.0);\n", false);
+}
+
 namespace
 {
 // Drivers report what was wrong here, and glGetError() would say only that something was.
@@ -189,6 +196,12 @@ glm::dvec3 SplatScene::ColorAt(int x, int y) const
 {
   const unsigned char* pixel = &this->Color[3 * (y * Size + x)];
   return { pixel[0], pixel[1], pixel[2] };
+}
+
+glm::dvec3 SplatScene::NormalAt(int x, int y) const
+{
+  const glm::dvec3 n = this->ColorAt(x, y) / 127.5 - 1.;
+  return glm::normalize(n.x * this->Right + n.y * this->Up + n.z * this->Back);
 }
 
 int SplatScene::CountDrawnPixels() const

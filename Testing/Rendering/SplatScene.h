@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <optional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,19 @@ vtkSmartPointer<vtkPolyData> Disks(
 // Adds one vertex cell a point: `order[cell]` is the point of the cell, or the cell's number.
 void AddVertexCells(vtkPolyData* particles, const std::vector<vtkIdType>& order = {});
 
+// Where a scene is looked at from.
+struct SplatView
+{
+  glm::dvec3 Direction;
+  bool Parallel;
+
+  friend std::ostream& operator<<(std::ostream& os, const SplatView& view)
+  {
+    return os << (view.Parallel ? "parallel" : "perspective") << " from " << view.Direction.x << " "
+              << view.Direction.y << " " << view.Direction.z;
+  }
+};
+
 class SplatScene
 {
 public:
@@ -46,12 +60,16 @@ public:
   // Unlit, so that colours come out as they are.
   void ShowPlainColors();
 
+  // The normals that VTK's lighting uses instead of colours: read them with NormalAt().
+  void ShowNormals();
+
   // Draws and reads the picture; fails the test on an OpenGL error.
   void Render();
 
   // After Render(): what is seen at a pixel, or nothing where it is background.
   std::optional<glm::dvec3> PositionAt(int x, int y) const;
-  glm::dvec3 ColorAt(int x, int y) const; // 0 to 255
+  glm::dvec3 ColorAt(int x, int y) const;  // 0 to 255
+  glm::dvec3 NormalAt(int x, int y) const; // unit, of the side that is seen
   int CountDrawnPixels() const;
 
   // Direction from a point to the eye, and where the ray of a pixel enters a sphere around the centre.

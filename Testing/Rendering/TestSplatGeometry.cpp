@@ -9,14 +9,13 @@
 #include "vtkProperty.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
-#include "vtkShaderProperty.h"
 #include "vtkSurfaceSplatMapper.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <ostream>
 
 namespace
 {
@@ -24,23 +23,11 @@ constexpr int Count = 5000;
 constexpr double Spacing = 0.0539; // of 5,000 particles on the unit sphere; the filter's radius
 constexpr double Inside = 0.3;     // cosine: away from the outline
 
-struct View
-{
-  glm::dvec3 Direction;
-  bool Parallel;
-
-  friend std::ostream& operator<<(std::ostream& os, const View& view)
-  {
-    return os << (view.Parallel ? "parallel" : "perspective") << " from " << view.Direction.x << " "
-              << view.Direction.y << " " << view.Direction.z;
-  }
-};
-
-class SplatsOnSphere : public testing::TestWithParam<View>
+class SplatsOnSphere : public testing::TestWithParam<SplatView>
 {
 };
 
-void UseSplats(SplatScene& scene, View view)
+void UseSplats(SplatScene& scene, SplatView view)
 {
   scene.Mapper->SetModeToSplats();
   scene.LookFrom(view.Direction, view.Parallel);
@@ -101,20 +88,13 @@ TEST_P(SplatsOnSphere, NormalsAreTheSpheres)
 {
   SplatScene scene(FibonacciSphere(Count, 1., Spacing));
   UseSplats(scene, GetParam());
-  // The normal that VTK's lighting uses, as a colour.
-  scene.Actor->GetShaderProperty()->AddFragmentShaderReplacement("//VTK::Light::Impl", false,
-    "//VTK::Light::Impl\n  gl_FragData[0] = vec4(0.5 * normalVCVSOutput + 0.5, 1.0);\n", false);
+  scene.ShowNormals();
   scene.Render();
 
-  const glm::dvec3 back = glm::normalize(GetParam().Direction);
-  const glm::dvec3 right = glm::normalize(
-    glm::cross(std::abs(back.y) < 0.9 ? glm::dvec3(0., 1., 0.) : glm::dvec3(1., 0., 0.), back));
-  const glm::dvec3 up = glm::cross(back, right);
   scene.ForEachPixelOnSphere(1., Inside,
     [&](int x, int y, glm::dvec3 expected)
     {
-      const glm::dvec3 seen = scene.ColorAt(x, y) / 127.5 - 1.;
-      const glm::dvec3 normal = glm::normalize(seen.x * right + seen.y * up + seen.z * back);
+      const glm::dvec3 normal = scene.NormalAt(x, y);
       const double angle = std::acos(std::clamp(glm::dot(normal, expected), -1., 1.));
       ASSERT_LT(glm::degrees(angle), 1.2) << "at pixel " << x << ", " << y;
     });
@@ -164,8 +144,8 @@ TEST_P(SplatsOnSphere, ClippingPlanesCutThroughSplats)
 }
 
 INSTANTIATE_TEST_SUITE_P(Views, SplatsOnSphere,
-  testing::Values(View{ { 0., 0., 1. }, false }, View{ { 0., 0., 1. }, true },
-    View{ { -1., 2., 0.5 }, false }, View{ { 0.3, -1., -2. }, true }));
+  testing::Values(SplatView{ { 0., 0., 1. }, false }, SplatView{ { 0., 0., 1. }, true },
+    SplatView{ { -1., 2., 0.5 }, false }, SplatView{ { 0.3, -1., -2. }, true }));
 
 namespace
 {
@@ -196,8 +176,8 @@ TEST(SplatGeometry, SplatsBendWithTheSurface)
   // Two hundred particles make a sphere whose normals turn by 15 degrees from one to the next. The
   // outline and the depth are the sphere's only if splats are no flat disks.
   constexpr double spacing = 0.269;
-  const View views[] = { { { 0.3, -0.5, 1. }, false }, { { 0.3, -0.5, 1. }, true } };
-  for (const View& view : views)
+  const SplatView views[] = { { { 0.3, -0.5, 1. }, false }, { { 0.3, -0.5, 1. }, true } };
+  for (const SplatView& view : views)
   {
     double worst[2] = { 0., 0. }; // flat, bent; share of a spacing
     int different[2] = { 0, 0 };  // pixels at the outline
@@ -285,6 +265,23 @@ TEST(SplatGeometry, OneSplatMayFillTheWindow)
       }
     }
     EXPECT_GT(covered, 0.95 * SplatScene::Size * SplatScene::Size);
+  }
+}
+
+TEST(SplatGeometry, WindowsOfAnySizeAreDrawnToTheirEdges)
+{
+  SplatScene scene(FibonacciSphere(Count, 1., Spacing));
+  scene.Mapper->SetModeToSplats();
+  scene.ShowPlainColors();
+  scene.LookFrom({ 0., 0., 1. }, false, 0.3, 0.3); // from within
+  for (int size = 100; size < 109; ++size)
+  {
+    scene.Window->SetSize(size + 3, size);
+    scene.Window->Render();
+    vtkNew<vtkUnsignedCharArray> pixels;
+    scene.Window->GetPixelData(0, 0, size + 2, size - 1, 0, pixels);
+    EXPECT_EQ(pixels->GetNumberOfTuples(), size * (size + 3));
+    EXPECT_GT(pixels->GetRange(0)[0], 250.) << size;
   }
 }
 
