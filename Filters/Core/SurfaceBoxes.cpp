@@ -53,6 +53,8 @@ std::vector<std::pair<int, int>> edgesAlong(Domain domain, const LatticePoint& d
 
 /// Levels of fewer pieces are not worth waking threads for.
 constexpr std::size_t fewPieces = 32;
+/// Levels of so many pieces keep threads busy, whichever of them take long.
+constexpr std::size_t manyPieces = 256;
 /// Fewer elements than this are split one after the other, each in threads.
 constexpr std::size_t fewElements = 64;
 /// Halving adds rounding errors of the order of eps times the values themselves.
@@ -82,12 +84,15 @@ public:
     while (!level.empty())
     {
       const bool tooMany = this->undecided(level) > MaximumPieces;
+      // Pieces of high degree are large: once there are enough for all threads, certified ones are
+      // followed to their boxes one by one.
+      const bool toTheEnd = level.size() >= manyPieces;
       std::vector<Outcome> outcomes(level.size());
       const auto decide = [&](std::ptrdiff_t begin, std::ptrdiff_t end)
       {
         for (std::ptrdiff_t n = begin; n < end; ++n)
         {
-          outcomes[n] = this->decide(element, level[n], tooMany);
+          outcomes[n] = this->decide(element, level[n], tooMany, toTheEnd);
         }
       };
       runParallel(level.size() < fewPieces ? ParallelFor() : parallelFor,
@@ -95,11 +100,8 @@ public:
       std::vector<Piece> next;
       for (std::size_t n = 0; n < level.size(); ++n)
       {
-        if (outcomes[n].verdict == Verdict::Box)
-        {
-          boxes.push_back(outcomes[n].box);
-        }
-        else if (outcomes[n].verdict == Verdict::Halved)
+        boxes.insert(boxes.end(), outcomes[n].boxes.begin(), outcomes[n].boxes.end());
+        if (outcomes[n].isHalved)
         {
           next.push_back(std::move(outcomes[n].second));
           next.push_back(std::move(level[n]));
@@ -110,28 +112,27 @@ public:
   }
 
 private:
-  enum class Verdict : char
-  {
-    Drop,
-    Box,
-    Halved
-  };
-
+  /// What becomes of a piece: nothing, boxes, or two halves, of which it keeps the first.
   struct Outcome
   {
-    Verdict verdict = Verdict::Drop;
-    SurfaceBox box;
+    std::vector<SurfaceBox> boxes;
+    bool isHalved = false;
     Piece second;
   };
 
-  /// What becomes of a piece: nothing, a box, or two halves, of which it keeps the first.
-  Outcome decide(int element, Piece& piece, bool tooMany) const
+  Outcome decide(int element, Piece& piece, bool tooMany, bool toTheEnd) const
   {
+    Outcome outcome;
     if (!this->mayHoldSurface(piece))
     {
-      return {};
+      return outcome;
     }
     piece.certified = piece.certified || this->isOneSheet(piece);
+    if (piece.certified && toTheEnd)
+    {
+      this->followToBoxes(element, piece, outcome.boxes);
+      return outcome;
+    }
     const double size = this->worldSize(piece);
     const bool last = piece.bisections == MaximumBisections;
     const bool isDone =
@@ -139,9 +140,32 @@ private:
     if (isDone)
     {
       piece.certified = piece.certified || this->Monotone.rises(valuesOf(piece));
-      return { Verdict::Box, this->boxOf(piece, element, size), {} };
+      outcome.boxes.push_back(this->boxOf(piece, element, size));
     }
-    return { Verdict::Halved, {}, this->halve(piece) };
+    else
+    {
+      outcome.isHalved = true;
+      outcome.second = this->halve(piece);
+    }
+    return outcome;
+  }
+
+  /// Splits a certified piece until its parts are small enough.
+  void followToBoxes(int element, Piece& piece, std::vector<SurfaceBox>& boxes) const
+  {
+    if (!this->mayHoldSurface(piece))
+    {
+      return;
+    }
+    const double size = this->worldSize(piece);
+    if (piece.bisections == MaximumBisections || this->IsSmall({ element, middle(piece) }, size))
+    {
+      boxes.push_back(this->boxOf(piece, element, size));
+      return;
+    }
+    Piece second = this->halve(piece);
+    this->followToBoxes(element, second, boxes);
+    this->followToBoxes(element, piece, boxes);
   }
 
   void begin(int element)
