@@ -62,6 +62,7 @@ def test_what_did_not_change_gives_the_same_again(hexahedron):
     surface, _ = make_filter(hexahedron, "u", 0.2, Spacing=SPACING)
     first = contents(output_of(surface))
     surface.GetClientSideObject().Modified()
+    surface.GetClientSideObject().Update()
     assert contents(output_of(surface)) == first
     surface.Spacing = 2 * SPACING
     assert len(contents(output_of(surface))["points"]) < len(first["points"])
