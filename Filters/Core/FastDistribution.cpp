@@ -80,6 +80,7 @@ public:
   Distribution run();
 
 private:
+  void make();
   /// Reports how far the work is; may throw Interrupted.
   void reach(double fraction)
   {
@@ -308,7 +309,7 @@ void FastSystem::startMoving()
 
 void FastSystem::makeRims()
 {
-  this->Rims = findRimCurves(this->Surface, *this->Proxy, this->Law);
+  this->Rims = findRimCurves(this->Surface, *this->Proxy, this->Law, this->Parallel);
   this->RimPatches.clear();
   for (const RimParticle& rim : this->Rims.particles)
   {
@@ -462,6 +463,52 @@ void FastSystem::finish()
     [](const Particle& p) { return p.curvature.magnitude * p.spacing > 2.0; });
 }
 
+/// The road of the data, as long as nobody interrupts.
+void FastSystem::make()
+{
+  if (!this->estimateCount())
+  {
+    return;
+  }
+  if (this->countIsGiven())
+  {
+    this->matchCount(this->Parameters.particleCount);
+  }
+  else
+  {
+    this->lookAtSurface();
+  }
+  reportUnresolved(this->Surface, this->Proxy->boxes(), this->Result.report);
+  this->reach(0.35);
+  const double wanted = this->Proxy->particleCount();
+  if (wanted > 0.0 && !this->tooMany(wanted))
+  {
+    if (this->countIsGiven())
+    {
+      this->makeExactly(this->Parameters.particleCount);
+    }
+    else
+    {
+      this->makeSeeds(std::llround(wanted));
+    }
+    this->reach(0.45);
+    const std::vector<int> rounds =
+      sweepsOfRounds(this->Parameters.quality, !this->Parameters.start.empty());
+    for (std::size_t n = 0; n < rounds.size(); ++n)
+    {
+      this->relaxAll(rounds[n], n + 1 == rounds.size());
+      this->reach(0.45 + 0.45 * static_cast<double>(n + 1) / static_cast<double>(rounds.size()));
+    }
+    this->repair();
+    if (!this->countIsGiven())
+    {
+      // Beside another sheet the last particle of a small component may have been taken for one too many.
+      this->coverBoxes();
+    }
+    this->finish();
+  }
+}
+
 Distribution FastSystem::run()
 {
   if (this->Mesh.elements.empty())
@@ -470,47 +517,7 @@ Distribution FastSystem::run()
   }
   try
   {
-    if (!this->estimateCount())
-    {
-      return this->Result;
-    }
-    if (this->countIsGiven())
-    {
-      this->matchCount(this->Parameters.particleCount);
-    }
-    else
-    {
-      this->lookAtSurface();
-    }
-    reportUnresolved(this->Surface, this->Proxy->boxes(), this->Result.report);
-    this->reach(0.35);
-    const double wanted = this->Proxy->particleCount();
-    if (wanted > 0.0 && !this->tooMany(wanted))
-    {
-      if (this->countIsGiven())
-      {
-        this->makeExactly(this->Parameters.particleCount);
-      }
-      else
-      {
-        this->makeSeeds(std::llround(wanted));
-      }
-      this->reach(0.45);
-      const std::vector<int> rounds =
-        sweepsOfRounds(this->Parameters.quality, !this->Parameters.start.empty());
-      for (std::size_t n = 0; n < rounds.size(); ++n)
-      {
-        this->relaxAll(rounds[n], n + 1 == rounds.size());
-        this->reach(0.45 + 0.45 * static_cast<double>(n + 1) / static_cast<double>(rounds.size()));
-      }
-      this->repair();
-      if (!this->countIsGiven())
-      {
-        // Beside another sheet the last particle of a small component may have been taken for one too many.
-        this->coverBoxes();
-      }
-      this->finish();
-    }
+    this->make();
   }
   catch (const Interrupted&)
   {

@@ -3,10 +3,12 @@
 #include "ActiveFaces.h"
 #include "FaceCrossings.h"
 #include "FaceJumps.h"
+#include "KeepMarked.h"
 #include "RimTracer.h"
 #include "SpacingGrid.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace hop
@@ -30,6 +32,48 @@ Isosurface seamless(Isosurface surface)
   return surface;
 }
 
+/// Where a particle is to stand on a rim, nearly.
+struct RimPlace
+{
+  Location location;
+  int face = -1;
+  /// A spacing wanted nearby.
+  double spacing = 0.0;
+};
+
+/// Makes particles of such places; one a thread.
+class RimFinisher
+{
+public:
+  RimFinisher(const Isosurface& surface, const SurfaceProxy& proxy, const SpacingLaw& law)
+    : Surface(surface)
+    , Proxy(proxy)
+    , Law(law)
+    , Exact(surface)
+    , Passer(seamless(surface))
+  {
+  }
+
+  /// \return whether there is a rim
+  bool finish(const RimPlace& place, RimParticle& rim);
+
+  std::int64_t evaluations() const
+  {
+    return this->Evaluations + this->Exact.evaluations() + this->Passer.evaluations();
+  }
+
+private:
+  double jumpAt(const Location& location);
+
+  const Isosurface& Surface;
+  const SurfaceProxy& Proxy;
+  const SpacingLaw& Law;
+  RimTracer Exact;
+  /// Goes on wherever there is something to go on in.
+  SurfaceWalker Passer;
+  std::int64_t Evaluations = 0;
+};
+
 class RimSampler
 {
 public:
@@ -38,32 +82,26 @@ public:
     , Proxy(proxy)
     , Law(law)
     , Tracer(roughly(surface, proxy.smallestSpacing()))
-    , Exact(surface)
     , Walker(surface.withWalls())
-    , Passer(seamless(surface))
   {
   }
 
-  RimCurves run();
+  RimCurves run(const ParallelFor& parallelFor);
 
 private:
   void follow(const FaceCrossing& hint, double nearby);
   void sample(const RimTrace& trace, double nearby);
   void sampleStretch(const std::vector<RimVertex>& vertices, bool withEnd, double nearby);
   double spacingAt(const RimPoint& point, double nearby);
-  void addParticle(const Location& place, int face, double nearby);
-  double jumpAt(const Location& location);
+  void finish(const ParallelFor& parallelFor);
   void thinOut();
 
   Isosurface Surface;
   const SurfaceProxy& Proxy;
   SpacingLaw Law;
   RimTracer Tracer;
-  /// For the particles, when the way is known.
-  RimTracer Exact;
   SurfaceWalker Walker;
-  /// Goes on wherever there is something to go on in.
-  SurfaceWalker Passer;
+  std::vector<RimPlace> Places;
   RimCurves Result;
 };
 
@@ -142,36 +180,35 @@ void RimSampler::sampleStretch(const std::vector<RimVertex>& vertices, bool with
     if (from.at.location.element == to.at.location.element)
     {
       const glm::dvec3 u = (1.0 - t) * from.at.location.u.xyz + t * to.at.location.u.xyz;
-      this->addParticle({ from.at.location.element, { u } }, from.face, nearby);
+      this->Places.push_back({ { from.at.location.element, { u } }, from.face, nearby });
     }
     else
     {
       const WorldVector step = t * (to.at.point.map.position - from.at.point.map.position);
-      this->addParticle(this->Walker.move(from.at, step), from.face, nearby);
+      this->Places.push_back({ this->Walker.move(from.at, step), from.face, nearby });
     }
   }
 }
 
-void RimSampler::addParticle(const Location& place, int face, double nearby)
+bool RimFinisher::finish(const RimPlace& place, RimParticle& rim)
 {
-  const auto point = this->Exact.project(place, face, nearby);
+  const auto point = this->Exact.project(place.location, place.face, place.spacing);
   if (!point || !this->Exact.isOnRim(*point))
   {
-    return;
+    return false;
   }
   const ElementMesh& mesh = *this->Surface.mesh;
   const Location& location = point->at.location;
   const Jet jet = evaluateHessian(mesh.form(location.element), location.u);
-  ++this->Result.evaluations;
+  ++this->Evaluations;
   const FieldPoint field = fieldPoint(jet, this->Surface.isovalue);
   Anchor anchor;
-  RimParticle rim;
   if (!anchorPatch(location, jet, this->Surface.isovalue, anchor, rim.patch))
   {
-    return;
+    return false;
   }
   rim.patch.spacing = this->Proxy.spacingAt(
-    rim.patch.position, rim.patch.curvatureMagnitude(), static_cast<float>(nearby));
+    rim.patch.position, rim.patch.curvatureMagnitude(), static_cast<float>(place.spacing));
   rim.patch.fixed = true;
   const WorldVector normal = surfaceNormal(field.gradient);
   rim.particle = { location, field.map.position, normal,
@@ -183,11 +220,11 @@ void RimSampler::addParticle(const Location& place, int face, double nearby)
   const glm::dvec3 along = inward - glm::dot(inward, normal.xyz) * normal.xyz;
   rim.outward = { glm::length(along) > 0.0 ? -glm::normalize(along) : glm::dvec3(0.0) };
   rim.particle.jump = this->jumpAt(location);
-  this->Result.particles.push_back(rim);
+  return true;
 }
 
 /// F - c on the other side of the face on which a place lies; zero where there is no other side.
-double RimSampler::jumpAt(const Location& location)
+double RimFinisher::jumpAt(const Location& location)
 {
   double jump = 0.0;
   const auto& faces = facts(this->Surface.mesh->elements[location.element].domain).faces;
@@ -200,6 +237,26 @@ double RimSampler::jumpAt(const Location& location)
     }
   }
   return jump;
+}
+
+void RimSampler::finish(const ParallelFor& parallelFor)
+{
+  std::vector<RimParticle>& rims = this->Result.particles;
+  rims.resize(this->Places.size());
+  std::vector<char> found(rims.size());
+  std::atomic<std::int64_t> evaluations{ 0 };
+  runParallel(parallelFor, static_cast<std::ptrdiff_t>(rims.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      RimFinisher finisher(this->Surface, this->Proxy, this->Law);
+      for (std::ptrdiff_t n = begin; n < end; ++n)
+      {
+        found[n] = finisher.finish(this->Places[n], rims[n]);
+      }
+      evaluations += finisher.evaluations();
+    });
+  keepMarked(rims, found);
+  this->Result.evaluations += evaluations;
 }
 
 /// Of particles that are as near as particles of one surface never are, the first stays. Where two sheets
@@ -235,22 +292,17 @@ void RimSampler::thinOut()
         }
       });
   }
-  std::size_t next = 0;
   for (std::size_t i = 0; i < rims.size(); ++i)
   {
-    if (kept[i])
+    if (seam[i])
     {
-      if (seam[i])
-      {
-        rims[i].outward = {};
-      }
-      rims[next++] = rims[i];
+      rims[i].outward = {};
     }
   }
-  rims.resize(next);
+  keepMarked(rims, kept);
 }
 
-RimCurves RimSampler::run()
+RimCurves RimSampler::run(const ParallelFor& parallelFor)
 {
   for (std::size_t b = 0; b < this->Proxy.boxes().size(); ++b)
   {
@@ -262,17 +314,18 @@ RimCurves RimSampler::run()
       [&](int face) { return this->Surface.mayEnd(box.middle.element, face); },
       [&](const FaceCrossing& crossing) { this->follow(crossing, nearby); });
   }
+  this->finish(parallelFor);
   this->thinOut();
-  this->Result.evaluations += this->Tracer.evaluations() + this->Exact.evaluations() +
-    this->Walker.evaluations() + this->Passer.evaluations();
+  this->Result.evaluations += this->Tracer.evaluations() + this->Walker.evaluations();
   return std::move(this->Result);
 }
 
 } // namespace
 
-RimCurves findRimCurves(const Isosurface& surface, const SurfaceProxy& proxy, const SpacingLaw& law)
+RimCurves findRimCurves(const Isosurface& surface, const SurfaceProxy& proxy, const SpacingLaw& law,
+  const ParallelFor& parallelFor)
 {
-  return RimSampler(surface, proxy, law).run();
+  return RimSampler(surface, proxy, law).run(parallelFor);
 }
 
 } // namespace hop

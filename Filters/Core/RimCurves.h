@@ -29,7 +29,7 @@ struct RimCurves
 /// Follows every rim that the boxes of the proxy show, and places particles on it, evenly at the
 /// spacing that the surface wants there, and on its corners. Where two curves run side by side (on the two
 /// sides of a jump that is hardly wider than the surface may pass), only one keeps its particles.
-RimCurves findRimCurves(
-  const Isosurface& surface, const SurfaceProxy& proxy, const SpacingLaw& law);
+RimCurves findRimCurves(const Isosurface& surface, const SurfaceProxy& proxy, const SpacingLaw& law,
+  const ParallelFor& parallelFor);
 
 } // namespace hop
