@@ -6,7 +6,7 @@ from paraview import simple
 from paraview.vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.util.misc import calldata_type
 from vtkmodules.vtkCommonCore import VTK_STRING, reference, vtkIdList, vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkStaticPointLocator, vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkStaticPointLocator, vtkUnstructuredGrid
 from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkContourFilter, vtkFeatureEdges, vtkMassProperties, vtkTriangleFilter
 
 
@@ -124,6 +124,25 @@ def longest_side(data):
 def diagonal(data):
     lower, upper = bounds_of(data)
     return np.linalg.norm(upper - lower)
+
+
+def leaves_of(composite):
+    """(flat index, name, leaf) of every leaf, empty ones included."""
+    iterator = composite.NewTreeIterator()
+    iterator.VisitOnlyLeavesOn()
+    iterator.SkipEmptyNodesOff()
+    iterator.InitTraversal()
+    leaves = []
+    while not iterator.IsDoneWithTraversal():
+        name = iterator.GetCurrentMetaData().Get(vtkCompositeDataSet.NAME()) if iterator.HasCurrentMetaData() else None
+        leaves.append((iterator.GetCurrentFlatIndex(), name, iterator.GetCurrentDataObject()))
+        iterator.GoToNextItem()
+    return leaves
+
+
+def middles_of(grid):
+    cells = range(grid.GetNumberOfCells())
+    return np.array([np.mean(np.reshape(grid.GetCell(i).GetBounds(), (3, 2)), axis=1) for i in cells])
 
 
 # Second opinions
@@ -295,3 +314,16 @@ def grid_of_cells(points, cells):
     for cell_type, ids in cells:
         grid.InsertNextCell(cell_type, len(ids), [int(i) for i in ids])
     return grid
+
+
+def cells_of(grid, ids):
+    """These cells of a grid as one of their own, in this order, with the array u and nodes of their own."""
+    cells, nodes = [], []
+    for id in ids:
+        cell = grid.GetCell(int(id))
+        count = cell.GetNumberOfPoints()
+        cells.append((cell.GetCellType(), range(len(nodes), len(nodes) + count)))
+        nodes += [cell.GetPointId(n) for n in range(count)]
+    part = grid_of_cells(points_of(grid)[nodes], cells)
+    add_point_array(part, "u", array_of(grid, "u")[nodes])
+    return part

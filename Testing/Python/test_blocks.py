@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from paraview.vtk.util.numpy_support import numpy_to_vtk
 from support import (
-    add_cell_array, add_point_array, array_names, array_of, contents, grid_of_cells, nearest_neighbors, output_of,
-    points_of, read, run, run_quietly)
+    add_cell_array, add_point_array, array_names, array_of, cells_of, contents, grid_of_cells, leaves_of, middles_of,
+    nearest_neighbors, output_of, points_of, read, run, run_quietly)
 from vtkmodules.vtkCommonDataModel import (
     VTK_HEXAHEDRON, vtkCompositeDataSet, vtkDataAssembly, vtkImageData, vtkMultiBlockDataSet, vtkPartitionedDataSet, vtkPartitionedDataSetCollection,
     vtkPolyData, vtkUnstructuredGrid)
@@ -21,27 +21,9 @@ def whole(data):
     return output_of(read(data("dolfinx_tet_p3.vtu")))
 
 
-def cells_of(grid, ids):
-    """These cells as a grid of their own, in this order, with the array u; nodes are their own too."""
-    cells, nodes = [], []
-    for id in ids:
-        cell = grid.GetCell(int(id))
-        count = cell.GetNumberOfPoints()
-        cells.append((cell.GetCellType(), range(len(nodes), len(nodes) + count)))
-        nodes += [cell.GetPointId(n) for n in range(count)]
-    part = grid_of_cells(points_of(grid)[nodes], cells)
-    add_point_array(part, "u", array_of(grid, "u")[nodes])
-    return part
-
-
 def halves_of(grid):
     middle = grid.GetNumberOfCells() // 2
     return cells_of(grid, range(middle)), cells_of(grid, range(middle, grid.GetNumberOfCells()))
-
-
-def middles_of(grid):
-    cells = range(grid.GetNumberOfCells())
-    return np.array([np.mean(np.reshape(grid.GetCell(i).GetBounds(), (3, 2)), axis=1) for i in cells])
 
 
 def multiblock(*blocks, names=()):
@@ -66,20 +48,6 @@ def collection(*blocks):
     for i, block in enumerate(blocks):
         composite.SetPartition(i, 0, block)
     return composite
-
-
-def leaves_of(composite):
-    """(flat index, name, leaf) of every leaf, empty ones included."""
-    iterator = composite.NewTreeIterator()
-    iterator.VisitOnlyLeavesOn()
-    iterator.SkipEmptyNodesOff()
-    iterator.InitTraversal()
-    leaves = []
-    while not iterator.IsDoneWithTraversal():
-        name = iterator.GetCurrentMetaData().Get(NAME) if iterator.HasCurrentMetaData() else None
-        leaves.append((iterator.GetCurrentFlatIndex(), name, iterator.GetCurrentDataObject()))
-        iterator.GoToNextItem()
-    return leaves
 
 
 def together(composite):

@@ -332,7 +332,7 @@ def test_an_aborted_run_ends_early_and_leaves_a_valid_output(channel, as_multibl
     assert after < max(0.5 * until, 0.5)
     output = algorithm.GetOutputDataObject(0)
     assert output.IsA("vtkMultiBlockDataSet" if as_multiblock else "vtkPolyData")
-    for leaf in [block for _, _, block in blocks_of(output)] if as_multiblock else [output]:
+    for leaf in [block for _, _, block in support.leaves_of(output)] if as_multiblock else [output]:
         # ParaView empties what an aborted filter leaves behind; VTK may not.
         points = leaf.GetNumberOfPoints() if leaf else 0
         assert points == (leaf.GetNumberOfVerts() if leaf else 0)
@@ -347,20 +347,6 @@ def test_an_aborted_run_ends_early_and_leaves_a_valid_output(channel, as_multibl
 
 
 # Composites, ghosts, seams
-
-
-def blocks_of(composite):
-    """(flat index, name, leaf) of every leaf, empty ones included."""
-    iterator = composite.NewTreeIterator()
-    iterator.VisitOnlyLeavesOn()
-    iterator.SkipEmptyNodesOff()
-    iterator.InitTraversal()
-    leaves = []
-    while not iterator.IsDoneWithTraversal():
-        name = iterator.GetCurrentMetaData().Get(BLOCK_NAME) if iterator.HasCurrentMetaData() else None
-        leaves.append((iterator.GetCurrentFlatIndex(), name, iterator.GetCurrentDataObject()))
-        iterator.GoToNextItem()
-    return leaves
 
 
 def test_multiblock_keeps_its_structure(data):
@@ -379,8 +365,8 @@ def test_multiblock_keeps_its_structure(data):
 
     output = support.run_quietly(outer, "F", 0.3, Spacing=0.08)
     assert output.IsA("vtkMultiBlockDataSet")
-    leaves = blocks_of(output)
-    assert [(index, name) for index, name, _ in leaves] == [(i, name) for i, name, _ in blocks_of(outer)]
+    leaves = support.leaves_of(output)
+    assert [(index, name) for index, name, _ in leaves] == [(i, name) for i, name, _ in support.leaves_of(outer)]
     assert [leaf is None for _, _, leaf in leaves] == [False, True, False]
     alone = [support.run_quietly(grid, "F", 0.3, Spacing=0.08, Tolerance=1e-12) for grid in (torus, bump)]
     for single, (_, _, leaf) in zip(alone, (leaves[0], leaves[2])):

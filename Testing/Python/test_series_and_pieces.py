@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from paraview import simple
 from support import (
-    add_cell_array, add_point_array, array_of, contents, grid_of_cells, longest_side, make_filter, nearest_neighbors,
-    output_of, points_of, read, run_quietly)
+    add_cell_array, cells_of, contents, longest_side, make_filter, middles_of, nearest_neighbors, output_of,
+    points_of, read, run_quietly)
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 FILES = ["mfem_dg_advection_0.vtu", "mfem_dg_advection_2.vtu", "mfem_dg_advection_4.vtu"]
@@ -24,24 +24,6 @@ def test_every_step_of_a_series_is_what_its_file_is_alone(data):
         assert step.GetNumberOfPoints() > 300
         assert contents(step) == contents(alone)
     assert messages.errors == []
-
-
-def cells_of(grid, ids):
-    """These cells of a grid, with the array u, each with nodes of its own."""
-    cells, nodes = [], []
-    for id in ids:
-        cell = grid.GetCell(int(id))
-        count = cell.GetNumberOfPoints()
-        cells.append((cell.GetCellType(), range(len(nodes), len(nodes) + count)))
-        nodes += [cell.GetPointId(n) for n in range(count)]
-    part = grid_of_cells(points_of(grid)[nodes], cells)
-    add_point_array(part, "u", array_of(grid, "u")[nodes])
-    return part
-
-
-def middles_of(grid):
-    cells = range(grid.GetNumberOfCells())
-    return np.array([np.mean(np.reshape(grid.GetCell(i).GetBounds(), (3, 2)), axis=1) for i in cells])
 
 
 def write_in_pieces(grid, owner, folder, ghosts):
