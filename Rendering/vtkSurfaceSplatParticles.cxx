@@ -6,6 +6,7 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSMPTools.h"
+#include "vtkSurfaceSplatShapes.h"
 
 #include <algorithm>
 #include <atomic>
@@ -184,7 +185,11 @@ vtkSurfaceSplatParticles vtkSurfaceSplatParticles::FromPolyData(
       }
     });
   particles.Skipped = skipped;
-  if (shaped && !IsStronglyBent(particles))
+  if (shaped && IsStronglyBent(particles))
+  {
+    vtkSurfaceSplatFitShapes(particles);
+  }
+  else
   {
     particles.Shape.clear();
   }

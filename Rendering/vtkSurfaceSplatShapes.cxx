@@ -1,0 +1,194 @@
+#include "vtkSurfaceSplatShapes.h"
+
+#include "vtkIdList.h"
+#include "vtkMath.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkSMPThreadLocalObject.h"
+#include "vtkSMPTools.h"
+#include "vtkStaticPointLocator.h"
+#include "vtkSurfaceSplatParticles.h"
+#include "vtkVector.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace
+{
+// Neighbours count up to this many radii away.
+constexpr double Reach = 1.5;
+// What the particle's own shape operator counts, beside a neighbour as near as can be.
+constexpr double OwnWeight = 0.01;
+
+/**
+ * Least squares for a symmetric 2 x 2 matrix (xx, xy, yy).
+ */
+class SymmetricFit
+{
+public:
+  void Add(const vtkVector3d& row, double wanted, double weight)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      for (int j = 0; j < 3; ++j)
+      {
+        this->Matrix[i][j] += weight * row[i] * row[j];
+      }
+      this->Right[i] += weight * row[i] * wanted;
+    }
+  }
+
+  vtkVector3d Solve() const
+  {
+    vtkVector3d solution;
+    vtkMath::LinearSolve3x3(this->Matrix, this->Right, solution.GetData());
+    return solution;
+  }
+
+private:
+  double Matrix[3][3] = {};
+  double Right[3] = {};
+};
+
+vtkVector3d VectorAt(const std::vector<float>& values, vtkIdType first)
+{
+  return vtkVector3d(values[first], values[first + 1], values[first + 2]);
+}
+
+vtkVector3d Times(const float shape[8], const vtkVector3d& v)
+{
+  return vtkVector3d(shape[0] * v[0] + shape[4] * v[1] + shape[6] * v[2],
+    shape[4] * v[0] + shape[1] * v[1] + shape[5] * v[2],
+    shape[6] * v[0] + shape[5] * v[1] + shape[2] * v[2]);
+}
+
+// Particles of a rim lie on each other's planes, more or less: `margin` is what does not count.
+bool IsBehindClip(
+  const std::vector<float>& clip, vtkIdType particle, const vtkVector3d& offset, double margin)
+{
+  const auto isBehind = [&](vtkIdType plane)
+  { return VectorAt(clip, plane).Dot(offset) > clip[plane + 3] + margin; };
+  return !clip.empty() && (isBehind(8 * particle) || isBehind(8 * particle + 4));
+}
+
+/** The shape operator of one particle, in the plane of its disk and in units of 1 / radius. */
+class ParticleFit
+{
+public:
+  ParticleFit(const vtkSurfaceSplatParticles& particles, vtkIdType particle)
+    : Particles(particles)
+    , Particle(particle)
+    , Place(VectorAt(particles.CentreRadius, 4 * particle))
+    , Radius(particles.CentreRadius[4 * particle + 3])
+    , Normal(VectorAt(particles.Normal, 4 * particle))
+  {
+    vtkMath::Perpendiculars(
+      this->Normal.GetData(), this->Tangent.GetData(), this->Bitangent.GetData(), 0.);
+    const float* shape = &particles.Shape[8 * particle];
+    const vtkVector3d turn = Times(shape, this->Tangent);
+    const vtkVector3d biturn = Times(shape, this->Bitangent);
+    this->Fit.Add({ 1., 0., 0. }, this->Radius * turn.Dot(this->Tangent), OwnWeight);
+    this->Fit.Add({ 0., 1., 0. }, this->Radius * turn.Dot(this->Bitangent), 2. * OwnWeight);
+    this->Fit.Add({ 0., 0., 1. }, this->Radius * biturn.Dot(this->Bitangent), OwnWeight);
+  }
+
+  void AddNeighbor(vtkIdType neighbor)
+  {
+    vtkVector3d offset = VectorAt(this->Particles.CentreRadius, 4 * neighbor);
+    vtkMath::Subtract(offset, this->Place, offset);
+    const vtkVector3d normal = VectorAt(this->Particles.Normal, 4 * neighbor);
+    const double height = offset.Dot(this->Normal) / this->Radius;
+    const double x = offset.Dot(this->Tangent) / this->Radius;
+    const double y = offset.Dot(this->Bitangent) / this->Radius;
+    const double cosine = normal.Dot(this->Normal);
+    const double square = x * x + y * y;
+    if (cosine < 0.5 || 3. * height * height > square || // more than 30 degrees above the disk
+      IsBehindClip(this->Particles.Clip, this->Particle, offset, 0.1 * this->Radius))
+    {
+      return;
+    }
+    // At the height -Q(t) / 2 over the disk the normal is n + Q t, not normalized.
+    const double weight = std::exp(-2. * square);
+    this->Fit.Add({ x, y, 0. }, normal.Dot(this->Tangent) / cosine, weight);
+    this->Fit.Add({ 0., x, y }, normal.Dot(this->Bitangent) / cosine, weight);
+    this->Fit.Add({ 0.5 * x * x, x * y, 0.5 * y * y }, -height, weight);
+  }
+
+  /** In model coordinates: xx, yy, zz, 0, xy, yz, xz, 0. */
+  void Write(float shape[8]) const
+  {
+    const vtkVector3d found = this->Fit.Solve();
+    const auto entry = [&](int i, int j)
+    {
+      const double mixed = this->Tangent[i] * this->Bitangent[j] + this->Bitangent[i] * this->Tangent[j];
+      return static_cast<float>((found[0] * this->Tangent[i] * this->Tangent[j] + found[1] * mixed +
+                                  found[2] * this->Bitangent[i] * this->Bitangent[j]) /
+        this->Radius);
+    };
+    const float entries[8] = { entry(0, 0), entry(1, 1), entry(2, 2), 0.f, entry(0, 1), entry(1, 2),
+      entry(0, 2), 0.f };
+    std::copy_n(entries, 8, shape);
+  }
+
+private:
+  const vtkSurfaceSplatParticles& Particles;
+  const vtkIdType Particle;
+  const vtkVector3d Place;
+  const double Radius;
+  vtkVector3d Normal, Tangent, Bitangent;
+  SymmetricFit Fit;
+};
+
+vtkNew<vtkPolyData> PointsOf(const vtkSurfaceSplatParticles& particles)
+{
+  vtkNew<vtkPoints> points;
+  points->SetNumberOfPoints(particles.GetNumberOfParticles());
+  for (vtkIdType i = 0; i < particles.GetNumberOfParticles(); ++i)
+  {
+    points->SetPoint(i, &particles.CentreRadius[4 * i]);
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  return data;
+}
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatFitShapes(vtkSurfaceSplatParticles& particles)
+{
+  const vtkNew<vtkPolyData> points = PointsOf(particles);
+  vtkNew<vtkStaticPointLocator> locator;
+  locator->SetDataSet(points);
+  locator->BuildLocator();
+  std::vector<float> shapes = particles.Shape;
+  vtkSMPThreadLocalObject<vtkIdList> found;
+  vtkSMPTools::For(0, particles.GetNumberOfParticles(),
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      vtkIdList* around = found.Local();
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        const double radius = particles.CentreRadius[4 * i + 3];
+        if (radius == 0.)
+        {
+          continue;
+        }
+        ParticleFit fit(particles, i);
+        double place[3];
+        points->GetPoint(i, place);
+        locator->FindPointsWithinRadius(Reach * radius, place, around);
+        // In an order that does not depend on threads.
+        std::sort(around->begin(), around->end());
+        for (vtkIdType neighbor : *around)
+        {
+          if (neighbor != i && particles.CentreRadius[4 * neighbor + 3] > 0.f)
+          {
+            fit.AddNeighbor(neighbor);
+          }
+        }
+        fit.Write(&shapes[8 * i]);
+      }
+    });
+  particles.Shape = std::move(shapes);
+}
