@@ -121,7 +121,8 @@ public:
     const vtkVector3d found = this->Fit.Solve();
     const auto entry = [&](int i, int j)
     {
-      const double mixed = this->Tangent[i] * this->Bitangent[j] + this->Bitangent[i] * this->Tangent[j];
+      const double mixed =
+        this->Tangent[i] * this->Bitangent[j] + this->Bitangent[i] * this->Tangent[j];
       return static_cast<float>((found[0] * this->Tangent[i] * this->Tangent[j] + found[1] * mixed +
                                   found[2] * this->Bitangent[i] * this->Bitangent[j]) /
         this->Radius);

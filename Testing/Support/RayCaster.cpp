@@ -1,5 +1,6 @@
 #include "RayCaster.h"
 
+#include "ActiveFaces.h"
 #include "SurfaceBoxes.h"
 #include "SurfaceGeometry.h"
 
@@ -47,6 +48,8 @@ namespace
 {
 
 constexpr double BoxPixels = 3.0;
+/// Slits between elements up to this many pixels wide, on either side, are closed.
+constexpr double SlitPixels = 0.2;
 constexpr int MaximumSteps = 20;
 
 bool isInBall(const SurfaceBox& box, const ReferencePoint& u, double scale)
@@ -54,11 +57,32 @@ bool isInBall(const SurfaceBox& box, const ReferencePoint& u, double scale)
   return glm::distance(u.xyz, box.middle.u.xyz) <= 1.000001 * scale * box.referenceRadius;
 }
 
+/// How far outside of its element a place is, world units, to first order; 0 inside.
+double distanceBeyond(Domain domain, const ReferencePoint& u, const LocalMap& map)
+{
+  double beyond = 0.0;
+  for (const Face& face : facts(domain).faces)
+  {
+    const double slope = glm::length(glm::transpose(map.inverse) * face.inward.xyz);
+    beyond = std::max(beyond, -faceMargin(face, u) / slope);
+  }
+  return insideMargin(domain, u) > -1e-9 ? 0.0 : beyond;
+}
+
+/// Where a ray meets the surface of an element, continued beyond it.
+struct Root
+{
+  SeenPoint seen;
+  int element = -1;
+  /// How far outside of the element.
+  double beyond = 0.0;
+};
+
 /// Newton's method for x(u) = origin + t direction, F(u) = isovalue. The tangent plane of F at u
-/// gives the next t, the Jacobian then the next u. Only roots in the box's ball and in its element
-/// count; the balls of all boxes hold the whole surface.
+/// gives the next t, the Jacobian then the next u. Only roots in the box's ball, and in its element or
+/// less than `slit` beyond, count; the balls of all boxes hold the whole surface.
 bool meet(const ElementMesh& mesh, double isovalue, const PictureCamera::Ray& ray,
-  const SurfaceBox& box, ReferencePoint u, SeenPoint& seen)
+  const SurfaceBox& box, double slit, ReferencePoint u, Root& root)
 {
   const BernsteinForm form = mesh.form(box.middle.element);
   for (int step = 0; step < MaximumSteps; ++step)
@@ -74,8 +98,10 @@ bool meet(const ElementMesh& mesh, double isovalue, const PictureCamera::Ray& ra
     const WorldVector move{ t * ray.direction - fromOrigin };
     if (length(move) < 1e-9 * box.size)
     {
-      seen = { t, surfaceNormal(at.gradient).xyz };
-      return t > 0.0 && isInBall(box, u, 1.0) && insideMargin(form.domain, u) > -1e-9;
+      root.seen = { t, surfaceNormal(at.gradient).xyz };
+      root.element = box.middle.element;
+      root.beyond = distanceBeyond(form.domain, u, at.map);
+      return t > 0.0 && isInBall(box, u, root.beyond > 0.0 ? 1.5 : 1.0) && root.beyond <= slit;
     }
     u = u + at.map.pull(move);
     if (!isInBall(box, u, 4.0))
@@ -86,16 +112,42 @@ bool meet(const ElementMesh& mesh, double isovalue, const PictureCamera::Ray& ra
   return false;
 }
 
-/// Keeps the nearest root that any of the starts leads to.
+/// What was found at a pixel so far.
+struct Pixel
+{
+  SeenPoint nearest;
+  /// The nearest root just outside of its element.
+  Root miss;
+};
+
+/// Keeps the nearest root. Fields that differ a little at a face leave a slit between the ends of the
+/// surface there, much narrower than a pixel, through which single rays pass: a ray that just misses
+/// the surface of two elements at about the same depth meets it.
+void keep(const Root& root, double slit, Pixel& pixel)
+{
+  const bool inSlit = root.beyond > 0.0 && pixel.miss.element >= 0 &&
+    pixel.miss.element != root.element &&
+    std::abs(pixel.miss.seen.depth - root.seen.depth) < 5.0 * slit;
+  if ((root.beyond == 0.0 || inSlit) && root.seen.depth < pixel.nearest.depth)
+  {
+    pixel.nearest = root.seen;
+  }
+  if (root.beyond > 0.0 && root.seen.depth < pixel.miss.seen.depth)
+  {
+    pixel.miss = root;
+  }
+}
+
+/// Keeps what any of the starts leads to.
 void look(const ElementMesh& mesh, double isovalue, const PictureCamera::Ray& ray,
-  const SurfaceBox& box, const std::vector<ReferencePoint>& starts, SeenPoint& nearest)
+  const SurfaceBox& box, const std::vector<ReferencePoint>& starts, double slit, Pixel& pixel)
 {
   for (const ReferencePoint& start : starts)
   {
-    SeenPoint seen;
-    if (meet(mesh, isovalue, ray, box, start, seen) && seen.depth < nearest.depth)
+    Root root;
+    if (meet(mesh, isovalue, ray, box, slit, start, root))
     {
-      nearest = seen;
+      keep(root, slit, pixel);
     }
   }
 }
@@ -135,7 +187,7 @@ std::vector<SeenPoint> castRays(const ElementMesh& mesh, double isovalue,
 {
   const std::vector<SurfaceBox> boxes =
     findSurfaceBoxes(mesh, isovalue, BoxPixels * camera.pixel(), parallelFor);
-  std::vector<SeenPoint> picture(camera.size * camera.size);
+  std::vector<Pixel> pixels(camera.size * camera.size);
   // Bands of the picture, so that no two threads write to one pixel.
   constexpr int bandHeight = 16;
   const int bands = (camera.size + bandHeight - 1) / bandHeight;
@@ -159,7 +211,7 @@ std::vector<SeenPoint> castRays(const ElementMesh& mesh, double isovalue,
         for (int x = range.left; x < range.right; ++x)
         {
           look(mesh, isovalue, camera.ray(x + 0.5, y + 0.5), box, starts,
-            picture[y * camera.size + x]);
+            SlitPixels * camera.pixel(), pixels[y * camera.size + x]);
         }
       }
     }
@@ -172,6 +224,12 @@ std::vector<SeenPoint> castRays(const ElementMesh& mesh, double isovalue,
         castBand(static_cast<int>(band));
       }
     });
+  std::vector<SeenPoint> picture;
+  picture.reserve(pixels.size());
+  for (const Pixel& pixel : pixels)
+  {
+    picture.push_back(pixel.nearest);
+  }
   return picture;
 }
 
