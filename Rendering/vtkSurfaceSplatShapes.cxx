@@ -18,11 +18,12 @@ namespace
 {
 // Neighbours count up to this many radii away.
 constexpr double Reach = 1.5;
-// What the particle's own shape operator counts, beside a neighbour as near as can be.
-constexpr double OwnWeight = 0.01;
+// By how much a normal may miss a neighbour's for the particle's own shape operator to count as much as
+// all neighbours together, radians.
+constexpr double OwnError = 0.01;
 
 /**
- * Least squares for a symmetric 2 x 2 matrix (xx, xy, yy).
+ * Least squares for a symmetric 2 x 2 matrix (xx, xy, yy), near one that is known.
  */
 class SymmetricFit
 {
@@ -37,18 +38,39 @@ public:
       }
       this->Right[i] += weight * row[i] * wanted;
     }
+    this->Squares += weight * wanted * wanted;
+    this->Weight += weight;
   }
 
-  vtkVector3d Solve() const
+  vtkVector3d SolveNear(const vtkVector3d& known)
   {
+    // The mean squared error is SquaredError() / Weight. Without neighbours there is only what is known.
+    constexpr double tiny = 1e-6;
+    const double all = OwnError * this->Weight;
+    const double weight = (tiny + all * all) / (tiny + this->SquaredError(known));
+    this->Add({ 1., 0., 0. }, known[0], weight);
+    this->Add({ 0., 1., 0. }, known[1], 2. * weight);
+    this->Add({ 0., 0., 1. }, known[2], weight);
     vtkVector3d solution;
     vtkMath::LinearSolve3x3(this->Matrix, this->Right, solution.GetData());
     return solution;
   }
 
 private:
+  double SquaredError(const vtkVector3d& q) const
+  {
+    double sum = this->Squares - 2. * q.Dot(vtkVector3d(this->Right));
+    for (int i = 0; i < 3; ++i)
+    {
+      sum += q[i] * q.Dot(vtkVector3d(this->Matrix[i]));
+    }
+    return sum;
+  }
+
   double Matrix[3][3] = {};
   double Right[3] = {};
+  double Squares = 0.;
+  double Weight = 0.;
 };
 
 vtkVector3d VectorAt(const std::vector<float>& values, vtkIdType first)
@@ -88,9 +110,8 @@ public:
     const float* shape = &particles.Shape[8 * particle];
     const vtkVector3d turn = Times(shape, this->Tangent);
     const vtkVector3d biturn = Times(shape, this->Bitangent);
-    this->Fit.Add({ 1., 0., 0. }, this->Radius * turn.Dot(this->Tangent), OwnWeight);
-    this->Fit.Add({ 0., 1., 0. }, this->Radius * turn.Dot(this->Bitangent), 2. * OwnWeight);
-    this->Fit.Add({ 0., 0., 1. }, this->Radius * biturn.Dot(this->Bitangent), OwnWeight);
+    this->Own = vtkVector3d(this->Radius * turn.Dot(this->Tangent),
+      this->Radius * turn.Dot(this->Bitangent), this->Radius * biturn.Dot(this->Bitangent));
   }
 
   void AddNeighbor(vtkIdType neighbor)
@@ -116,9 +137,9 @@ public:
   }
 
   /** In model coordinates: xx, yy, zz, 0, xy, yz, xz, 0. */
-  void Write(float shape[8]) const
+  void Write(float shape[8])
   {
-    const vtkVector3d found = this->Fit.Solve();
+    const vtkVector3d found = this->Fit.SolveNear(this->Own);
     const auto entry = [&](int i, int j)
     {
       const double mixed =
@@ -137,7 +158,7 @@ private:
   const vtkIdType Particle;
   const vtkVector3d Place;
   const double Radius;
-  vtkVector3d Normal, Tangent, Bitangent;
+  vtkVector3d Normal, Tangent, Bitangent, Own;
   SymmetricFit Fit;
 };
 

@@ -20,7 +20,7 @@ flat in float splatCentreDepth;
 flat in vec2 splatClipDepths;
 vec2 splatDiskCoord;
 float splatBelowDisk; // distance of the bent splat from its disk (MC)
-const vec3 splatOffsetVC = vec3(0.0); // the place found lies on the surface, not above it
+vec3 splatOffsetVC;
 float splatDepthVC;
 #else
 in vec2 splatDiskCoord;
@@ -62,6 +62,12 @@ bool splatMeetRay()
 uniform vec4 splatEyeMC;
 uniform mat4 splatMCVC;
 
+vec3 splatSurfaceNormal()
+{
+  return normalize(
+    splatNormalVC + splatDiskCoord.x * splatTurn[0] + splatDiskCoord.y * splatTurn[1]);
+}
+
 // Where the pixel's view ray meets the splat, bent to the paraboloid at the height -Q(t) / 2 above the
 // disk at disk coordinates t; Q(t) = bend.x t.x^2 + 2 bend.y t.x t.y + bend.z t.y^2. From the place p
 // where the ray meets the plane of the disk the paraboloid is `along` e away, e the way to the eye:
@@ -80,14 +86,10 @@ bool splatMeetRay()
   splatDiskCoord = splatPlaneCoord + along * e;
   splatPlaceMC = splatPointMC + along * toEyeMC;
   splatBelowDisk = -along * dot(splatNormalMC, toEyeMC);
-  splatDepthVC = splatCentreDepth + splatPlaneOffset.z + along * (mat3(splatMCVC) * toEyeMC).z;
+  splatOffsetVC = splatPlaneOffset + along * (mat3(splatMCVC) * toEyeMC);
+  splatDepthVC = splatCentreDepth + splatOffsetVC.z;
+  splatOffsetVC -= dot(splatOffsetVC, splatSurfaceNormal()) * splatSurfaceNormal();
   return square >= 0.0;
-}
-
-vec3 splatSurfaceNormal()
-{
-  return normalize(
-    splatNormalVC + splatDiskCoord.x * splatTurn[0] + splatDiskCoord.y * splatTurn[1]);
 }
 #else
 vec3 splatSurfaceNormal()

@@ -1,0 +1,160 @@
+// How splats bend: shape operators fitted to the particles around.
+#include "vtkSurfaceSplatParticles.h"
+#include "vtkSurfaceSplatShapes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace
+{
+constexpr double Spacing = 0.1;
+
+// A surface that bends along x only: its slope dz/dx and curvature, as functions of x.
+struct Profile
+{
+  std::function<double(double)> Height, Slope, Bend;
+};
+
+// A circle of curvature 4.
+Profile Circle()
+{
+  const auto across = [](double x) { return std::sqrt(1. / 16. - x * x); };
+  return { [across](double x) { return across(x) - 0.25; },
+    [across](double x) { return -x / across(x); }, [](double) { return 4.; } };
+}
+
+// Flat up to x = 0, then a parabola of curvature 4 in its middle: the curvature jumps. What a particle
+// at the jump knows of it is that of one side.
+Profile HalfFlat()
+{
+  return { [](double x) { return x > 0. ? -2. * x * x : 0.; },
+    [](double x) { return x > 0. ? -4. * x : 0.; },
+    [](double x) { return x >= 0. ? 4. / std::pow(1. + 16. * x * x, 1.5) : 0.; } };
+}
+
+// Flat up to x = 0, then falling at 17 degrees.
+Profile Edge()
+{
+  return { [](double x) { return x > 0. ? -0.3 * x : 0.; },
+    [](double x) { return x > 0. ? -0.3 : 0.; }, [](double) { return 0.; } };
+}
+
+void Append(vtkSurfaceSplatParticles& particles, const Profile& profile, double x, double y)
+{
+  const double slope = profile.Slope(x);
+  const double length = std::hypot(1., slope);
+  const double bend = profile.Bend(x);
+  const float values[] = { float(x), float(y), float(profile.Height(x)), float(Spacing) };
+  const float normal[] = { float(-slope / length), 0.f, float(1. / length), 0.f };
+  // The tangent is (1, 0, slope) / length.
+  const double xx = bend / (length * length);
+  const float shape[] = { float(xx), 0.f, float(xx * slope * slope), 0.f, 0.f, 0.f,
+    float(xx * slope), 0.f };
+  particles.CentreRadius.insert(particles.CentreRadius.end(), values, values + 4);
+  particles.Normal.insert(particles.Normal.end(), normal, normal + 4);
+  particles.Shape.insert(particles.Shape.end(), shape, shape + 8);
+  particles.PointIds.push_back(static_cast<vtkIdType>(particles.PointIds.size()));
+}
+
+// Five by five particles; the one in the middle, number 12, at x = 0.
+constexpr vtkIdType Middle = 12;
+
+vtkSurfaceSplatParticles ParticlesOn(const Profile& profile)
+{
+  vtkSurfaceSplatParticles particles;
+  for (int row = -2; row <= 2; ++row)
+  {
+    for (int column = -2; column <= 2; ++column)
+    {
+      Append(particles, profile, Spacing * column, Spacing * row);
+    }
+  }
+  return particles;
+}
+
+double BendOfMiddle(const vtkSurfaceSplatParticles& particles)
+{
+  return particles.Shape[8 * Middle];
+}
+
+// The largest distance from the profile of a paraboloid in its middle, along x, up to a radius.
+double LargestError(const Profile& profile, double bend)
+{
+  double error = 0.;
+  for (int i = -10; i <= 10; ++i)
+  {
+    const double x = 0.1 * i * Spacing;
+    error = std::max(error, std::abs(-0.5 * bend * x * x - profile.Height(x)));
+  }
+  return error;
+}
+}
+
+TEST(SplatShapes, OfACircleAreNearlyItsOwn)
+{
+  vtkSurfaceSplatParticles particles = ParticlesOn(Circle());
+  const double own = BendOfMiddle(particles);
+  vtkSurfaceSplatFitShapes(particles);
+  // A parabola that stays near the circle bends a little more than it.
+  EXPECT_GT(BendOfMiddle(particles), own);
+  EXPECT_LT(BendOfMiddle(particles), 1.1 * own);
+  EXPECT_LT(LargestError(Circle(), BendOfMiddle(particles)), LargestError(Circle(), own));
+  for (int entry : { 1, 2, 4, 5, 6 })
+  {
+    EXPECT_NEAR(particles.Shape[8 * Middle + entry], 0., 0.01) << entry;
+  }
+}
+
+TEST(SplatShapes, FitBothSidesWhereTheCurvatureJumps)
+{
+  vtkSurfaceSplatParticles particles = ParticlesOn(HalfFlat());
+  const double own = BendOfMiddle(particles);
+  vtkSurfaceSplatFitShapes(particles);
+  EXPECT_LT(LargestError(HalfFlat(), BendOfMiddle(particles)), 0.6 * LargestError(HalfFlat(), own));
+}
+
+TEST(SplatShapes, DoNotBendAroundAnEdgeThatParticlesKnowOf)
+{
+  vtkSurfaceSplatParticles unaware = ParticlesOn(Edge());
+  vtkSurfaceSplatFitShapes(unaware);
+  EXPECT_GT(BendOfMiddle(unaware), 0.5);
+
+  vtkSurfaceSplatParticles aware = ParticlesOn(Edge());
+  aware.Clip.assign(8 * aware.GetNumberOfParticles(), 0.f);
+  aware.Clip[8 * Middle] = 1.f; // x > 0 is cut off
+  vtkSurfaceSplatFitShapes(aware);
+  EXPECT_NEAR(BendOfMiddle(aware), 0., 1e-5);
+}
+
+TEST(SplatShapes, DoNotSeeAnotherSheet)
+{
+  vtkSurfaceSplatParticles alone = ParticlesOn(Circle());
+  vtkSurfaceSplatParticles two = alone;
+  Profile above = Circle();
+  above.Height = [](double x) { return Circle().Height(x) + Spacing; };
+  Append(two, above, 0., 0.);
+  vtkSurfaceSplatFitShapes(alone);
+  vtkSurfaceSplatFitShapes(two);
+  EXPECT_FLOAT_EQ(BendOfMiddle(alone), BendOfMiddle(two));
+}
+
+TEST(SplatShapes, OfAParticleWithoutNeighborsAreItsOwn)
+{
+  vtkSurfaceSplatParticles particles;
+  Append(particles, Circle(), 0., 0.);
+  vtkSurfaceSplatFitShapes(particles);
+  EXPECT_FLOAT_EQ(particles.Shape[0], 4.f);
+  EXPECT_FLOAT_EQ(particles.Shape[1], 0.f);
+}
+
+TEST(SplatShapes, OfParticlesThatAreNotDrawnStayAsTheyAre)
+{
+  vtkSurfaceSplatParticles particles = ParticlesOn(HalfFlat());
+  particles.CentreRadius[4 * Middle + 3] = 0.f;
+  const double own = BendOfMiddle(particles);
+  vtkSurfaceSplatFitShapes(particles);
+  EXPECT_EQ(BendOfMiddle(particles), own);
+}
