@@ -22,9 +22,11 @@
 #include "vtkShaderProperty.h"
 #include "vtkSurfaceSplatBuffers.h"
 #include "vtkSurfaceSplatDisk.h"
+#include "vtkSurfaceSplatDrawing.h"
 #include "vtkSurfaceSplatLayer.h"
 #include "vtkSurfaceSplatOutline.h"
 #include "vtkSurfaceSplatParticles.h"
+#include "vtkSurfaceSplatPrimitives.h"
 #include "vtkSurfaceSplatRay.h"
 #include "vtkSurfaceSplatResolve.h"
 #include "vtkSurfaceSplatResolveVS.h"
@@ -62,8 +64,8 @@ struct vtkSurfaceSplatMapper::Internals
 {
   vtkSurfaceSplatBuffers Buffers;
   vtkSurfaceSplatView View;
-  vtkSurfaceSplatLayer FrontLayer{ vtkSurfaceSplatLayer::Front };
-  vtkSurfaceSplatLayer BackLayer{ vtkSurfaceSplatLayer::Back };
+  vtkSurfaceSplatLayer FrontLayer{ vtkSurfaceSplatSide::Front };
+  vtkSurfaceSplatLayer BackLayer{ vtkSurfaceSplatSide::Back };
   vtkSurfaceSplatLayer* DrawnLayer = nullptr;
   int DrawnTiles = 0;
   int DrawnKind = 2;
@@ -719,7 +721,7 @@ void vtkSurfaceSplatMapper::ReplaceShaderPositionVC(
   {
     const bool extra = this->LastBoundBO == &this->Primitives[Extra];
     Replace(fragment, "//VTK::PositionVC::Dec",
-      "#define SPLAT_LEAST_WEIGHT " + std::to_string(vtkSurfaceSplatLayer::LeastWeight) +
+      "#define SPLAT_LEAST_WEIGHT " + std::to_string(vtkSurfaceSplatPrimitives::LeastWeight) +
         "\n#define SPLAT_OUTLINE " + std::to_string(extra && !this->Internal->Translucent) +
         "\n#define SPLAT_BACK_LAYER " + std::to_string(extra && this->Internal->Translucent) +
         "\n" + vtkSurfaceSplatResolve);

@@ -1,0 +1,77 @@
+#include "vtkSurfaceSplatGL.h" // before everything that may include an OpenGL header
+
+#include "vtkSurfaceSplatAccumulationPass.h"
+
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLState.h"
+#include "vtkShaderProgram.h"
+#include "vtkSurfaceSplatAccumulationFS.h"
+#include "vtkSurfaceSplatDrawing.h"
+#include "vtkSurfaceSplatPrimitives.h"
+#include "vtkSurfaceSplatVisibilityPass.h"
+#include "vtkTextureObject.h"
+
+vtkSurfaceSplatAccumulationPass::vtkSurfaceSplatAccumulationPass(
+  vtkSurfaceSplatSide side, vtkSurfaceSplatVisibilityPass& visibility)
+  : vtkSurfaceSplatPass(side)
+  , Visibility(visibility)
+{
+  this->Outputs = { { "NormalWeight", this->NormalWeight }, { "OffsetDepth", this->OffsetDepth },
+    { "ColorSum", this->ColorSum } };
+}
+
+vtkSurfaceSplatAccumulationPass::~vtkSurfaceSplatAccumulationPass() = default;
+
+//------------------------------------------------------------------------------
+bool vtkSurfaceSplatAccumulationPass::Prepare(const vtkSurfaceSplatDrawing& drawing)
+{
+  std::vector<vtkTextureObject*> sums = { this->NormalWeight, this->OffsetDepth };
+  if (drawing.Colors)
+  {
+    sums.push_back(this->ColorSum);
+  }
+  for (vtkTextureObject* sum : sums)
+  {
+    PrepareTexture(drawing, sum, { GL_RGBA32F, GL_RGBA, GL_FLOAT, 4, VTK_FLOAT });
+  }
+  PrepareDepth(drawing, this->Depth);
+  return this->PrepareFramebuffer(drawing, sums, this->Depth);
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatAccumulationPass::Draw(
+  const vtkSurfaceSplatDrawing& drawing, vtkSurfaceSplatPrimitives& primitives)
+{
+  vtkOpenGLState* state = drawing.Window->GetState();
+  state->vtkglBindFramebuffer(GL_DRAW_FRAMEBUFFER, this->Framebuffer);
+  this->Visibility.CopyDepth(drawing);
+  state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Framebuffer);
+  state->vtkglEnable(GL_BLEND);
+  state->vtkglBlendEquation(GL_FUNC_ADD);
+  state->vtkglBlendFunc(GL_ONE, GL_ONE);
+  state->vtkglDepthMask(GL_FALSE);
+  state->vtkglDepthFunc(this->IsFront() ? GL_LEQUAL : GL_GEQUAL);
+  const float nothing[4] = { 0.f, 0.f, 0.f, 0.f };
+  for (int sum = 0; sum < (drawing.Colors ? 3 : 2); ++sum)
+  {
+    glClearBufferfv(GL_COLOR, sum, nothing);
+  }
+  vtkSurfaceSplatPrimitives::Style style;
+  style.Fragment = vtkSurfaceSplatAccumulationFS;
+  style.SkipsHidden = true;
+  vtkShaderProgram::Substitute(style.Fragment, "//Splat::Color::Impl",
+    drawing.Colors ? "gl_FragData[2] = weight * texelFetch(splatColor, splatParticle);" : "");
+  this->Visibility.Activate();
+  if (vtkShaderProgram* program = primitives.Use(drawing, style))
+  {
+    this->Visibility.SetUniforms(program);
+    primitives.Draw(drawing);
+  }
+  this->Visibility.Deactivate();
+}
+
+void vtkSurfaceSplatAccumulationPass::ReleaseGraphicsResources(vtkWindow* window)
+{
+  this->vtkSurfaceSplatPass::ReleaseGraphicsResources(window);
+  this->Depth->ReleaseGraphicsResources(window);
+}

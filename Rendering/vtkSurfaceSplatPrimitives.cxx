@@ -1,0 +1,123 @@
+#include "vtkSurfaceSplatGL.h" // before everything that may include an OpenGL header
+
+#include "vtkSurfaceSplatPrimitives.h"
+
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLShaderCache.h"
+#include "vtkOpenGLVertexArrayObject.h"
+#include "vtkShaderProgram.h"
+#include "vtkSurfaceSplatBuffers.h"
+#include "vtkSurfaceSplatDisk.h"
+#include "vtkSurfaceSplatDrawing.h"
+#include "vtkSurfaceSplatFragment.h"
+#include "vtkSurfaceSplatPassVS.h"
+#include "vtkSurfaceSplatRay.h"
+#include "vtkSurfaceSplatView.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace
+{
+// From middle to rim, splats cover at least that many pixels.
+constexpr double LeastPixels = 0.75;
+
+// Mesa's rasterizers in software keep what they have set up of each primitive until they are flushed.
+// As long as that fits into the processor's cache a picture of 10^6 splats takes half the time.
+constexpr vtkIdType SoftwareBatch = 4096;
+
+bool IsDrawnInSoftware()
+{
+  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  return name && (std::strstr(name, "llvmpipe") || std::strstr(name, "softpipe"));
+}
+
+/** Where the weight of a splat has fallen to the least that makes a surface, in radii. */
+double Rim(double sharpness)
+{
+  const double atRim = std::exp(-sharpness);
+  const double least = vtkSurfaceSplatPrimitives::LeastWeight * (1. - atRim) + atRim;
+  return std::sqrt(-std::log(least) / sharpness);
+}
+
+std::string Define(const std::string& name, const std::string& value)
+{
+  return "#define " + name + " " + value + "\n";
+}
+
+std::string Definitions(const vtkSurfaceSplatDrawing& drawing, bool skipsHidden)
+{
+  return Define("SPLAT_POINTS", std::to_string(drawing.DrawsPoints())) +
+    Define("SPLAT_LEAST_PIXELS", std::to_string(LeastPixels)) +
+    Define("SPLAT_HAS_CLIP", std::to_string(drawing.Buffers->GetHasClip())) +
+    Define("SPLAT_CURVED", std::to_string(drawing.DrawsCurved())) +
+    Define("SPLAT_SKIPS_HIDDEN", std::to_string(skipsHidden && drawing.DrawsPoints())) +
+    Define("SPLAT_CLIPPING_PLANES", std::to_string(drawing.NumberOfClippingPlanes));
+}
+}
+
+vtkSurfaceSplatPrimitives::vtkSurfaceSplatPrimitives() = default;
+
+vtkSurfaceSplatPrimitives::~vtkSurfaceSplatPrimitives() = default;
+
+//------------------------------------------------------------------------------
+vtkShaderProgram* vtkSurfaceSplatPrimitives::Use(
+  const vtkSurfaceSplatDrawing& drawing, const Style& style)
+{
+  const std::string definitions = Definitions(drawing, style.SkipsHidden);
+  std::string vertex = vtkSurfaceSplatPassVS;
+  std::string fragment = style.Fragment;
+  vtkShaderProgram::Substitute(vertex, "//Splat::Disk::Dec", definitions + vtkSurfaceSplatDisk);
+  vtkShaderProgram::Substitute(
+    fragment, "//Splat::Fragment::Dec", definitions + vtkSurfaceSplatFragment);
+  vtkShaderProgram::Substitute(fragment, "//Splat::Ray::Dec", vtkSurfaceSplatRay);
+  vtkShaderProgram* program =
+    drawing.Window->GetShaderCache()->ReadyShaderProgram(vertex.c_str(), fragment.c_str(), "");
+  if (!program)
+  {
+    return nullptr;
+  }
+  drawing.Buffers->SetSamplers(program);
+  drawing.View->SetUniforms(program);
+  program->SetUniformf("splatRadiusScale", static_cast<float>(drawing.RadiusScale));
+  const double rim = Rim(drawing.Sharpness);
+  const float falloff[3] = { static_cast<float>(drawing.Sharpness),
+    static_cast<float>(std::exp(-drawing.Sharpness)), static_cast<float>(rim * rim) };
+  program->SetUniform3f("splatFalloff", falloff);
+  program->SetUniformf("splatPush", static_cast<float>(style.Push));
+  program->SetUniformf("splatReach", static_cast<float>(style.OnlyInside ? rim : 1.));
+  program->SetUniformf("splatHiddenSide", static_cast<float>(drawing.HiddenSide));
+  program->SetUniformi("splatFacesViewer", drawing.FacesViewer ? 1 : 0);
+  program->SetUniformi("splatStride", drawing.Stride);
+  program->SetUniformi("splatKind", drawing.Kind);
+  program->SetUniform4fv("splatClippingPlane", 6, drawing.ClippingPlanes);
+  return program;
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatPrimitives::Draw(const vtkSurfaceSplatDrawing& drawing)
+{
+  const vtkIdType count =
+    (drawing.Buffers->GetNumberOfParticles() + drawing.Stride - 1) / drawing.Stride;
+  const bool points = drawing.DrawsPoints();
+  const int corners = points ? 1 : 3;
+  const vtkIdType batch = IsDrawnInSoftware() ? SoftwareBatch : count;
+  this->VertexArray->Bind(); // empty, but OpenGL wants one
+  for (vtkIdType first = 0; first < count; first += batch)
+  {
+    const vtkIdType size = std::min(batch, count - first);
+    glDrawArrays(points ? GL_POINTS : GL_TRIANGLES, static_cast<GLint>(corners * first),
+      static_cast<GLsizei>(corners * size));
+    if (first + size < count)
+    {
+      glFlush();
+    }
+  }
+  this->VertexArray->Release();
+}
+
+void vtkSurfaceSplatPrimitives::ReleaseGraphicsResources()
+{
+  this->VertexArray->ReleaseGraphicsResources();
+}

@@ -1,0 +1,53 @@
+/**
+ * @class vtkSurfaceSplatPrimitives
+ * @brief all splats as triangles or points: what is the same in every pass
+ */
+
+#ifndef vtkSurfaceSplatPrimitives_h
+#define vtkSurfaceSplatPrimitives_h
+
+#include "vtkNew.h"
+
+#include <string>
+
+class vtkOpenGLVertexArrayObject;
+class vtkShaderProgram;
+struct vtkSurfaceSplatDrawing;
+
+class vtkSurfaceSplatPrimitives
+{
+public:
+  vtkSurfaceSplatPrimitives();
+  ~vtkSurfaceSplatPrimitives();
+
+  /** Of the weights that a splat has, 1 in its middle, the smallest that makes a surface. */
+  static constexpr double LeastWeight = 0.05;
+
+  /** What differs between the passes. */
+  struct Style
+  {
+    std::string Fragment;     // source of the fragment stage
+    double Push = 0.;         // by how many radii splats are moved away from the eye
+    bool OnlyInside = false;  // splats end where they count too little to be seen alone
+    bool SkipsHidden = false; // splats whose middle is hidden are left out, where they are points
+  };
+
+  /**
+   * Puts the program of a style in use, with all uniforms but those of the pass's own. nullptr if the
+   * driver does not take it; the shader cache has said why then.
+   */
+  vtkShaderProgram* Use(const vtkSurfaceSplatDrawing& drawing, const Style& style);
+
+  /** Draws, with the program in use. */
+  void Draw(const vtkSurfaceSplatDrawing& drawing);
+
+  void ReleaseGraphicsResources();
+
+private:
+  vtkSurfaceSplatPrimitives(const vtkSurfaceSplatPrimitives&) = delete;
+  void operator=(const vtkSurfaceSplatPrimitives&) = delete;
+
+  vtkNew<vtkOpenGLVertexArrayObject> VertexArray;
+};
+
+#endif

@@ -1,0 +1,80 @@
+#include "vtkSurfaceSplatGL.h" // before everything that may include an OpenGL header
+
+#include "vtkSurfaceSplatVisibilityPass.h"
+
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLState.h"
+#include "vtkShaderProgram.h"
+#include "vtkSurfaceSplatDrawing.h"
+#include "vtkSurfaceSplatPrimitives.h"
+#include "vtkSurfaceSplatView.h"
+#include "vtkSurfaceSplatVisibilityFS.h"
+#include "vtkTextureObject.h"
+
+namespace
+{
+// Splats whose depths along the view ray differ by less than this many radii are of one surface.
+constexpr double Thickness = 1.;
+}
+
+vtkSurfaceSplatVisibilityPass::vtkSurfaceSplatVisibilityPass(vtkSurfaceSplatSide side)
+  : vtkSurfaceSplatPass(side)
+{
+  this->Outputs = { { "Seen", this->Seen }, { "VisibleDepth", this->VisibleDepth } };
+}
+
+vtkSurfaceSplatVisibilityPass::~vtkSurfaceSplatVisibilityPass() = default;
+
+//------------------------------------------------------------------------------
+bool vtkSurfaceSplatVisibilityPass::Prepare(const vtkSurfaceSplatDrawing& drawing)
+{
+  // With averages over 4 x 4 pixels, by which tiles are told apart.
+  this->Seen->SetMinificationFilter(vtkTextureObject::LinearMipmapNearest);
+  this->Seen->SetWrapS(vtkTextureObject::ClampToEdge);
+  this->Seen->SetWrapT(vtkTextureObject::ClampToEdge);
+  this->Seen->SetMaxLevel(2);
+  PrepareTexture(drawing, this->Seen, { GL_RG8, GL_RG, GL_UNSIGNED_BYTE, 2, VTK_UNSIGNED_CHAR });
+  PrepareDepth(drawing, this->VisibleDepth);
+  return this->PrepareFramebuffer(drawing, { this->Seen }, this->VisibleDepth);
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatVisibilityPass::Draw(
+  const vtkSurfaceSplatDrawing& drawing, vtkSurfaceSplatPrimitives& primitives)
+{
+  vtkOpenGLState* state = drawing.Window->GetState();
+  state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Framebuffer);
+  state->vtkglDisable(GL_BLEND);
+  state->vtkglDepthMask(GL_TRUE);
+  state->vtkglDepthFunc(this->IsFront() ? GL_LESS : GL_GREATER);
+  const float farthest = this->IsFront() ? 1.f : 0.f;
+  const float nothing[4] = { 0.f, 0.f, 0.f, 0.f };
+  glClearBufferfv(GL_DEPTH, 0, &farthest);
+  glClearBufferfv(GL_COLOR, 0, nothing);
+  vtkSurfaceSplatPrimitives::Style style;
+  style.Fragment = vtkSurfaceSplatVisibilityFS;
+  style.Push = this->IsFront() ? Thickness : -Thickness;
+  style.OnlyInside = true;
+  if (primitives.Use(drawing, style))
+  {
+    primitives.Draw(drawing);
+  }
+  this->Seen->Activate();
+  glGenerateMipmap(GL_TEXTURE_2D);
+  this->Seen->Deactivate();
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatVisibilityPass::CopyDepth(const vtkSurfaceSplatDrawing& drawing) const
+{
+  const int right = drawing.View->GetWidth();
+  const int top = drawing.View->GetHeight();
+  drawing.Window->GetState()->vtkglBindFramebuffer(GL_READ_FRAMEBUFFER, this->Framebuffer);
+  glBlitFramebuffer(0, 0, right, top, 0, 0, right, top, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+}
+
+void vtkSurfaceSplatVisibilityPass::SetUniforms(vtkShaderProgram* program) const
+{
+  this->SetSamplers(program);
+  program->SetUniformf("splatNearer", this->IsFront() ? 1.f : -1.f);
+}
