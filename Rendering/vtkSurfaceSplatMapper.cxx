@@ -21,6 +21,7 @@
 #include "vtkShaderProgram.h"
 #include "vtkShaderProperty.h"
 #include "vtkSurfaceSplatBuffers.h"
+#include "vtkSurfaceSplatColors.h"
 #include "vtkSurfaceSplatDisk.h"
 #include "vtkSurfaceSplatDrawing.h"
 #include "vtkSurfaceSplatLayer.h"
@@ -352,7 +353,8 @@ void vtkSurfaceSplatMapper::UploadColors(vtkRenderer* renderer, vtkActor* actor)
     std::vector<unsigned char> rgba = this->MappedColors(colors, source);
     if (cellColors)
     {
-      this->ReplaceByCellColors(rgba, cellColors, actor->GetProperty());
+      vtkSurfaceSplatReplaceColors(rgba, cellColors, internal.CellIds,
+        internal.Buffers.GetNumberOfParticles(), actor->GetProperty());
     }
     if (!rgba.empty())
     {
@@ -388,43 +390,9 @@ std::vector<unsigned char> vtkSurfaceSplatMapper::MappedColors(
   const std::vector<vtkIdType>& ids =
     source == Cells ? this->Internal->CellIds : this->Internal->PointIds;
   const vtkIdType count = this->Internal->Buffers.GetNumberOfParticles();
-  if (!colors || colors->GetNumberOfComponents() != 4 || colors->GetNumberOfTuples() == 0 ||
-    static_cast<vtkIdType>(ids.size()) < count) // cell colours, but no vertex cells
-  {
-    return {};
-  }
   const bool single = source == Field && this->FieldDataTupleId >= 0;
-  const vtkIdType last = colors->GetNumberOfTuples() - 1;
-  std::vector<unsigned char> rgba(4 * count);
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    const vtkIdType id = single ? this->FieldDataTupleId : ids[i];
-    colors->GetTypedTuple(std::min(id, last), &rgba[4 * i]);
-  }
-  return rgba;
-}
-
-//------------------------------------------------------------------------------
-void vtkSurfaceSplatMapper::ReplaceByCellColors(
-  std::vector<unsigned char>& rgba, vtkDataArray* cellColors, vtkProperty* property)
-{
-  const auto byte = [](double value)
-  { return static_cast<unsigned char>(std::lround(255. * std::clamp(value, 0., 1.))); };
-  const vtkIdType count = this->Internal->Buffers.GetNumberOfParticles();
-  const bool mapped = !rgba.empty();
-  rgba.resize(4 * count, 255);
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    double own[4];
-    cellColors->GetTuple(this->Internal->CellIds[i], own);
-    const double* color = own[0] <= 1. ? own : property->GetDiffuseColor();
-    if (own[0] <= 1. || !mapped)
-    {
-      std::transform(color, color + 3, &rgba[4 * i], byte);
-    }
-    const double opacity = own[3] <= 1. ? own[3] : property->GetOpacity();
-    rgba[4 * i + 3] = byte(opacity * rgba[4 * i + 3] / 255.);
-  }
+  return vtkSurfaceSplatGatherColors(
+    colors, single ? std::vector<vtkIdType>(count, this->FieldDataTupleId) : ids, count);
 }
 
 //------------------------------------------------------------------------------
@@ -436,20 +404,9 @@ void vtkSurfaceSplatMapper::UploadLookupCoordinates(vtkRenderer* renderer)
   {
     return;
   }
-  // VTK marks values that are no numbers by the second coordinate. They have no part in the mean.
-  std::vector<float> texels(4 * count, 0.f);
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    float coordinate[2] = { 0.f, 0.f };
-    coordinates->GetTypedTuple(this->Internal->PointIds[i], coordinate);
-    if (coordinate[1] < 0.75f)
-    {
-      texels[4 * i] = coordinate[0];
-      texels[4 * i + 1] = 1.f;
-    }
-  }
   this->Internal->Buffers.UploadColors(
-    vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()), texels);
+    vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()),
+    vtkSurfaceSplatLookupTexels(coordinates, this->Internal->PointIds, count));
   this->Internal->Source = ColorSource::Lookup;
 
   // The base class binds this texture, of one colour a column, whenever there is a ColorTextureMap.

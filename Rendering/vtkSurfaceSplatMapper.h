@@ -50,7 +50,6 @@
 #include <memory> // for std::unique_ptr
 #include <vector> // for std::vector
 
-class vtkProperty;
 class vtkSurfaceSplatLayer;
 struct vtkSurfaceSplatDrawing;
 
@@ -222,8 +221,6 @@ private:
   void UploadColors(vtkRenderer* renderer, vtkActor* actor);
   vtkDataArray* GetCellColors(vtkPolyData* input);
   std::vector<unsigned char> MappedColors(vtkUnsignedCharArray* colors, int source);
-  void ReplaceByCellColors(
-    std::vector<unsigned char>& rgba, vtkDataArray* cellColors, vtkProperty* property);
   int GetDrawnKind(vtkRenderer* renderer, vtkActor* actor);
   void UploadLookupCoordinates(vtkRenderer* renderer);
 
