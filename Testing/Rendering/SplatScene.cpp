@@ -11,6 +11,7 @@
 #include "vtkCamera.h"
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
+#include "vtkPlane.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
@@ -250,6 +251,114 @@ int SplatScene::ForEachPixelOnSphere(double radius, double minimalCosine,
     }
   }
   return count;
+}
+
+int SplatScene::ForEachDrawnPixel(
+  const std::function<void(int x, int y, glm::dvec3 position)>& check) const
+{
+  int count = 0;
+  for (int y = 0; y < Size; ++y)
+  {
+    for (int x = 0; x < Size; ++x)
+    {
+      if (const auto position = this->PositionAt(x, y))
+      {
+        check(x, y, *position);
+        ++count;
+      }
+    }
+  }
+  return count;
+}
+
+//------------------------------------------------------------------------------
+void ForEachPlaceOnSphere(const SplatScene& scene,
+  const std::function<void(glm::dvec3 seen, glm::dvec3 onSphere)>& check, int atLeast)
+{
+  const int pixels = scene.ForEachPixelOnSphere(1., Inside,
+    [&](int x, int y, glm::dvec3 onSphere)
+    {
+      SCOPED_TRACE(testing::Message() << "pixel " << x << ", " << y);
+      const auto position = scene.PositionAt(x, y);
+      ASSERT_TRUE(position) << "a hole";
+      check(*position, onSphere);
+    });
+  ASSERT_GT(pixels, atLeast);
+}
+
+void ExpectClippingPlaneCuts(
+  SplatScene& scene, const SplatView& view, glm::dvec3 centre, double margin, double tolerance)
+{
+  scene.LookFrom(view.Direction, view.Parallel);
+  // Keeps what lies 0.2 or more towards the viewer's upper right, whatever the view.
+  const glm::dvec3 axis = glm::normalize(glm::cross(view.Direction, glm::dvec3(0.3, 0.9, 0.31)));
+  const glm::dvec3 origin = centre + 0.2 * axis;
+  vtkNew<vtkPlane> plane;
+  plane->SetNormal(axis.x, axis.y, axis.z);
+  plane->SetOrigin(origin.x, origin.y, origin.z);
+  scene.Mapper->AddClippingPlane(plane);
+  scene.Render();
+  int kept = 0;
+  int cut = 0;
+  scene.ForEachPixelOnSphere(1., Inside,
+    [&](int x, int y, glm::dvec3 onSphere)
+    {
+      const double side = glm::dot(onSphere, axis) - 0.2;
+      const auto position = scene.PositionAt(x, y);
+      if (side > margin)
+      {
+        ASSERT_TRUE(position);
+        ASSERT_LT(glm::distance(*position, onSphere), tolerance);
+        ++kept;
+      }
+      else if (side < -margin)
+      {
+        ASSERT_FALSE(position && glm::distance(*position, onSphere) < 0.01);
+        ++cut;
+      }
+    });
+  EXPECT_GT(kept, 3000);
+  EXPECT_GT(cut, 3000);
+  scene.Mapper->RemoveAllClippingPlanes();
+}
+
+void ExpectBothSidesUnlessCulled(SplatScene& scene, int atLeast, int atMost)
+{
+  const auto expectDrawn = [&]()
+  {
+    scene.Render();
+    EXPECT_GE(scene.CountDrawnPixels(), atLeast);
+    EXPECT_LE(scene.CountDrawnPixels(), atMost);
+  };
+  for (bool parallel : { false, true })
+  {
+    scene.LookFrom({ 0., 0., -1. }, parallel);
+    scene.Actor->GetProperty()->BackfaceCullingOff();
+    expectDrawn();
+    scene.Actor->GetProperty()->BackfaceCullingOn();
+    scene.Render();
+    EXPECT_EQ(scene.CountDrawnPixels(), 0);
+    scene.LookFrom({ 0., 0., 1. }, parallel);
+    expectDrawn();
+  }
+}
+
+void ExpectStretchedSphere(
+  SplatScene& scene, glm::dvec3 scale, double atLeast, double atMost, int pixels)
+{
+  const glm::dvec3 place(0.1, 0., -0.1);
+  scene.LookFrom({ 1., 1., 2. }, false);
+  scene.Actor->SetScale(scale.x, scale.y, scale.z);
+  scene.Actor->SetPosition(place.x, place.y, place.z);
+  scene.Render();
+  const int drawn = scene.ForEachDrawnPixel(
+    [&](int x, int y, glm::dvec3 position)
+    {
+      const double distance = glm::length((position - place) / scale);
+      ASSERT_GT(distance, atLeast) << "at pixel " << x << ", " << y;
+      ASSERT_LT(distance, atMost) << "at pixel " << x << ", " << y;
+    });
+  EXPECT_GT(drawn, pixels);
 }
 
 //------------------------------------------------------------------------------

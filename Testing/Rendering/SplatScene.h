@@ -81,6 +81,9 @@ public:
   int ForEachPixelOnSphere(double radius, double minimalCosine,
     const std::function<void(int x, int y, glm::dvec3 onSphere)>& check) const;
 
+  // Calls for every pixel that is not background. Returns how many there were.
+  int ForEachDrawnPixel(const std::function<void(int x, int y, glm::dvec3 position)>& check) const;
+
   vtkNew<vtkSurfaceSplatMapper> Mapper;
   vtkNew<vtkActor> Actor;
   vtkNew<vtkRenderer> Renderer;
@@ -105,6 +108,32 @@ private:
   std::vector<float> Depth;
   std::vector<unsigned char> Color;
 };
+
+// Of the spheres that tests draw: particles on them, and where they are looked at from.
+constexpr int Count = 5000;
+inline const SplatView SphereViews[] = { { { 0., 0., 1. }, false }, { { 0., 0., 1. }, true },
+  { { -1., 2., 0.5 }, false }, { { 0.3, -1., -2. }, true } };
+
+// Pixels that see a sphere at more than this cosine are away from its outline.
+constexpr double Inside = 0.3;
+
+// Fails the test unless something is seen at every pixel of the unit sphere away from its outline, and
+// there are enough of these. Calls with what is seen, and with the sphere's place.
+void ForEachPlaceOnSphere(const SplatScene& scene,
+  const std::function<void(glm::dvec3 seen, glm::dvec3 onSphere)>& check, int atLeast = 15000);
+
+// Cuts the unit sphere by a clipping plane. What lies before it by more than `margin` is to be seen, at
+// most `tolerance` from the sphere, what lies behind it by as much is not. `centre` is the scene's.
+void ExpectClippingPlaneCuts(
+  SplatScene& scene, const SplatView& view, glm::dvec3 centre, double margin, double tolerance);
+
+// One disk, seen from both sides, covers so many pixels, and none if backfaces are culled and its
+// normal points away.
+void ExpectBothSidesUnlessCulled(SplatScene& scene, int atLeast, int atMost);
+
+// Stretches and moves the unit sphere: what is seen has these distances from its middle before that.
+void ExpectStretchedSphere(
+  SplatScene& scene, glm::dvec3 scale, double atLeast, double atMost, int pixels);
 
 // Counts the warnings of an object and keeps the last one's text; errors count as well.
 class WarningCounter

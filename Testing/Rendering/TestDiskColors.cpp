@@ -20,9 +20,7 @@
 
 namespace
 {
-constexpr int Count = 5000;
 constexpr double DiskRadius = 0.04;
-constexpr double Inside = 0.3;
 const glm::dvec3 Blue(0., 0., 255.);
 const glm::dvec3 Red(255., 0., 0.);
 

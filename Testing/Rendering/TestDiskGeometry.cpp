@@ -3,9 +3,7 @@
 
 #include "vtkActor.h"
 #include "vtkLight.h"
-#include "vtkPlane.h"
 #include "vtkPolyData.h"
-#include "vtkProperty.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkSurfaceSplatMapper.h"
@@ -17,12 +15,9 @@
 
 namespace
 {
-constexpr int Count = 5000;
 constexpr double DiskRadius = 0.04; // 0.74 of the spacing of 5,000 particles on the unit sphere
 // A disk touches the sphere in its middle and is this far outside at its rim.
 const double RimHeight = std::sqrt(1. + DiskRadius * DiskRadius) - 1.;
-// Away from the outline by more than the disks that stand over it, seen from the side.
-constexpr double Inside = 0.3;
 
 class DisksOnSphere : public testing::TestWithParam<SplatView>
 {
@@ -31,17 +26,14 @@ class DisksOnSphere : public testing::TestWithParam<SplatView>
 // The sphere's pixels must be on the sphere, at most a rim's height outside, and none missing.
 void ExpectUnitSphere(const SplatScene& scene)
 {
-  const int pixels = scene.ForEachPixelOnSphere(1., Inside,
-    [&](int x, int y, glm::dvec3 onSphere)
+  ForEachPlaceOnSphere(scene,
+    [](glm::dvec3 seen, glm::dvec3 onSphere)
     {
-      const auto position = scene.PositionAt(x, y);
-      ASSERT_TRUE(position) << "hole at pixel " << x << ", " << y;
-      const double height = glm::length(*position) - 1.;
-      ASSERT_GT(height, -2e-5) << "at pixel " << x << ", " << y;
-      ASSERT_LT(height, RimHeight + 2e-5) << "at pixel " << x << ", " << y;
-      ASSERT_LT(glm::distance(*position, onSphere), (RimHeight + 4e-5) / Inside);
+      const double height = glm::length(seen) - 1.;
+      ASSERT_GT(height, -2e-5);
+      ASSERT_LT(height, RimHeight + 2e-5);
+      ASSERT_LT(glm::distance(seen, onSphere), (RimHeight + 4e-5) / Inside);
     });
-  ASSERT_GT(pixels, 15000);
 }
 }
 
@@ -88,66 +80,16 @@ TEST_P(DisksOnSphere, ClippingPlaneCutsThroughDisks)
   for (const glm::dvec3& centre : { glm::dvec3(0.), glm::dvec3(1e6, -2e6, 3e6) })
   {
     SplatScene scene(FibonacciSphere(Count, 1., DiskRadius, centre), centre);
-    scene.LookFrom(GetParam().Direction, GetParam().Parallel);
-    // Keeps what lies 0.2 or more towards the viewer's upper right, whatever the view.
-    const glm::dvec3 axis =
-      glm::normalize(glm::cross(GetParam().Direction, glm::dvec3(0.3, 0.9, 0.31)));
-    const glm::dvec3 origin = centre + 0.2 * axis;
-    vtkNew<vtkPlane> plane;
-    plane->SetNormal(axis.x, axis.y, axis.z);
-    plane->SetOrigin(origin.x, origin.y, origin.z);
-    scene.Mapper->AddClippingPlane(plane);
-    scene.Render();
-    int kept = 0;
-    int cut = 0;
-    scene.ForEachPixelOnSphere(1., Inside,
-      [&](int x, int y, glm::dvec3 onSphere)
-      {
-        const double side = glm::dot(onSphere, axis) - 0.2;
-        const auto position = scene.PositionAt(x, y);
-        if (side > 0.01)
-        {
-          ASSERT_TRUE(position);
-          ASSERT_LT(glm::distance(*position, onSphere), 0.01);
-          ++kept;
-        }
-        else if (side < -0.01)
-        {
-          ASSERT_FALSE(position && glm::distance(*position, onSphere) < 0.01);
-          ++cut;
-        }
-      });
-    EXPECT_GT(kept, 3000);
-    EXPECT_GT(cut, 3000);
+    ExpectClippingPlaneCuts(scene, GetParam(), centre, 0.01, 0.01);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Views, DisksOnSphere,
-  testing::Values(SplatView{ { 0., 0., 1. }, false }, SplatView{ { 0., 0., 1. }, true },
-    SplatView{ { -1., 2., 0.5 }, false }, SplatView{ { 0.3, -1., -2. }, true }));
+INSTANTIATE_TEST_SUITE_P(Views, DisksOnSphere, testing::ValuesIn(SphereViews));
 
 TEST(DiskGeometry, FollowsTheActorsTransform)
 {
   SplatScene scene(FibonacciSphere(Count, 1., DiskRadius));
-  scene.LookFrom({ 1., 1., 2. }, false);
-  scene.Actor->SetScale(0.5, 1., 0.8);
-  scene.Actor->SetPosition(0.1, 0., -0.1);
-  scene.Render();
-  int pixels = 0;
-  for (int y = 0; y < SplatScene::Size; ++y)
-  {
-    for (int x = 0; x < SplatScene::Size; ++x)
-    {
-      if (const auto position = scene.PositionAt(x, y))
-      {
-        const glm::dvec3 model = (*position - glm::dvec3(0.1, 0., -0.1)) / glm::dvec3(0.5, 1., 0.8);
-        ASSERT_GT(glm::length(model), 1. - 1e-4);
-        ASSERT_LT(glm::length(model), 1. + RimHeight + 1e-4);
-        ++pixels;
-      }
-    }
-  }
-  EXPECT_GT(pixels, 8000);
+  ExpectStretchedSphere(scene, { 0.5, 1., 0.8 }, 1. - 1e-4, 1. + RimHeight + 1e-4, 8000);
 }
 
 TEST(DiskGeometry, ALightFromTheSideShadesByItsAngle)
@@ -214,21 +156,8 @@ TEST(DiskGeometry, ADiskHasItsRadiusAndTilt)
 TEST(DiskGeometry, BothSidesAreVisibleUnlessCulled)
 {
   SplatScene scene(Disks({ { 0., 0., 0. } }, { { 0., 0., 1. } }, 0.5));
-  for (bool parallel : { false, true })
-  {
-    scene.LookFrom({ 0., 0., -1. }, parallel);
-    scene.Actor->GetProperty()->BackfaceCullingOff();
-    scene.Render();
-    EXPECT_NEAR(scene.CountDrawnPixels(), PixelsOfADisk(0.5), 0.01 * PixelsOfADisk(0.5));
-
-    scene.Actor->GetProperty()->BackfaceCullingOn();
-    scene.Render();
-    EXPECT_EQ(scene.CountDrawnPixels(), 0);
-
-    scene.LookFrom({ 0., 0., 1. }, parallel);
-    scene.Render();
-    EXPECT_NEAR(scene.CountDrawnPixels(), PixelsOfADisk(0.5), 0.01 * PixelsOfADisk(0.5));
-  }
+  ExpectBothSidesUnlessCulled(scene, static_cast<int>(0.99 * PixelsOfADisk(0.5)),
+    static_cast<int>(1.01 * PixelsOfADisk(0.5)));
 }
 
 TEST(DiskGeometry, BoundsIncludeTheDisksAndNeedNoCells)

@@ -15,7 +15,6 @@
 
 namespace
 {
-constexpr int Count = 5000;
 constexpr double DiskRadius = 0.04;
 
 // Whether anything is drawn within half a disk of a place in a parallel view along -z.

@@ -15,7 +15,6 @@
 
 namespace
 {
-constexpr int Count = 5000;
 constexpr double DiskRadius = 0.04;
 
 // The particle under one pixel, -1 for none.

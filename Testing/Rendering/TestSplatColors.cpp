@@ -22,9 +22,7 @@
 
 namespace
 {
-constexpr int Count = 5000;
 constexpr double Spacing = 0.0539;
-constexpr double Inside = 0.3;
 
 class SplatColors : public testing::Test
 {

@@ -3,10 +3,8 @@
 
 #include "vtkActor.h"
 #include "vtkDoubleArray.h"
-#include "vtkPlane.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
-#include "vtkProperty.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkSurfaceSplatMapper.h"
@@ -19,9 +17,7 @@
 
 namespace
 {
-constexpr int Count = 5000;
 constexpr double Spacing = 0.0539; // of 5,000 particles on the unit sphere; the filter's radius
-constexpr double Inside = 0.3;     // cosine: away from the outline
 
 class SplatsOnSphere : public testing::TestWithParam<SplatView>
 {
@@ -36,15 +32,11 @@ void UseSplats(SplatScene& scene, SplatView view)
 // The pixels of a sphere are on it to 0.02 spacings along the view ray, and none is missing.
 void ExpectSphere(const SplatScene& scene, int atLeast = 15000)
 {
-  const int pixels = scene.ForEachPixelOnSphere(1., Inside,
-    [&](int x, int y, glm::dvec3 onSphere)
-    {
-      const auto position = scene.PositionAt(x, y);
-      ASSERT_TRUE(position) << "hole at pixel " << x << ", " << y;
-      ASSERT_LT(glm::distance(*position, onSphere), 0.02 * Spacing)
-        << "at pixel " << x << ", " << y;
-    });
-  ASSERT_GT(pixels, atLeast);
+  ForEachPlaceOnSphere(
+    scene,
+    [](glm::dvec3 seen, glm::dvec3 onSphere)
+    { ASSERT_LT(glm::distance(seen, onSphere), 0.02 * Spacing); },
+    atLeast);
 }
 }
 
@@ -105,47 +97,15 @@ TEST_P(SplatsOnSphere, ClippingPlanesCutThroughSplats)
   for (const glm::dvec3& centre : { glm::dvec3(0.), glm::dvec3(1e6, -2e6, 3e6) })
   {
     SplatScene scene(FibonacciSphere(Count, 1., Spacing, centre), centre);
-    UseSplats(scene, GetParam());
-    const glm::dvec3 axis =
-      glm::normalize(glm::cross(GetParam().Direction, glm::dvec3(0.3, 0.9, 0.31)));
-    const glm::dvec3 origin = centre + 0.2 * axis;
-    vtkNew<vtkPlane> plane;
-    plane->SetNormal(axis.x, axis.y, axis.z);
-    plane->SetOrigin(origin.x, origin.y, origin.z);
-    scene.Mapper->AddClippingPlane(plane);
-    scene.Render();
-    int kept = 0;
-    int cut = 0;
-    scene.ForEachPixelOnSphere(1., Inside,
-      [&](int x, int y, glm::dvec3 onSphere)
-      {
-        const double side = glm::dot(onSphere, axis) - 0.2;
-        const auto position = scene.PositionAt(x, y);
-        if (side > 0.005)
-        {
-          ASSERT_TRUE(position);
-          ASSERT_LT(glm::distance(*position, onSphere), 0.02 * Spacing);
-          ++kept;
-        }
-        else if (side < -0.005)
-        {
-          ASSERT_FALSE(position && glm::distance(*position, onSphere) < 0.01);
-          ++cut;
-        }
-      });
-    EXPECT_GT(kept, 3000);
-    EXPECT_GT(cut, 3000);
-
-    // The plane moves, the camera does not.
-    scene.Mapper->RemoveAllClippingPlanes();
+    scene.Mapper->SetModeToSplats();
+    ExpectClippingPlaneCuts(scene, GetParam(), centre, 0.005, 0.02 * Spacing);
+    // The plane is gone, the camera stands still.
     scene.Render();
     ExpectSphere(scene);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Views, SplatsOnSphere,
-  testing::Values(SplatView{ { 0., 0., 1. }, false }, SplatView{ { 0., 0., 1. }, true },
-    SplatView{ { -1., 2., 0.5 }, false }, SplatView{ { 0.3, -1., -2. }, true }));
+INSTANTIATE_TEST_SUITE_P(Views, SplatsOnSphere, testing::ValuesIn(SphereViews));
 
 namespace
 {
@@ -218,25 +178,9 @@ TEST(SplatGeometry, FollowsTheActorsTransformEvenIfItStretches)
   for (double mirror : { 1., -1. })
   {
     SplatScene scene(FibonacciSphere(Count, 1., Spacing));
-    UseSplats(scene, { { 1., 1., 2. }, false });
-    scene.Actor->SetScale(0.3 * mirror, 1., 0.8);
-    scene.Actor->SetPosition(0.1, 0., -0.1);
-    scene.Render();
-    int pixels = 0;
-    for (int y = 0; y < SplatScene::Size; ++y)
-    {
-      for (int x = 0; x < SplatScene::Size; ++x)
-      {
-        if (const auto position = scene.PositionAt(x, y))
-        {
-          const glm::dvec3 model =
-            (*position - glm::dvec3(0.1, 0., -0.1)) / glm::dvec3(0.3, 1., 0.8);
-          ASSERT_NEAR(glm::length(model), 1., 0.1 * Spacing) << "at pixel " << x << ", " << y;
-          ++pixels;
-        }
-      }
-    }
-    EXPECT_GT(pixels, 5000);
+    scene.Mapper->SetModeToSplats();
+    ExpectStretchedSphere(
+      scene, { 0.3 * mirror, 1., 0.8 }, 1. - 0.1 * Spacing, 1. + 0.1 * Spacing, 5000);
   }
 }
 
@@ -298,19 +242,8 @@ TEST(SplatGeometry, AHundredSplatsMayShareAPixel)
 TEST(SplatGeometry, BothSidesAreVisibleUnlessCulled)
 {
   SplatScene scene(Disks({ { 0., 0., 0. } }, { { 0., 0., 1. } }, 0.5));
-  for (bool parallel : { false, true })
-  {
-    UseSplats(scene, { { 0., 0., -1. }, parallel });
-    scene.Actor->GetProperty()->BackfaceCullingOff();
-    scene.Render();
-    EXPECT_GT(scene.CountDrawnPixels(), 5000);
-    scene.Actor->GetProperty()->BackfaceCullingOn();
-    scene.Render();
-    EXPECT_EQ(scene.CountDrawnPixels(), 0);
-    UseSplats(scene, { { 0., 0., 1. }, parallel });
-    scene.Render();
-    EXPECT_GT(scene.CountDrawnPixels(), 5000);
-  }
+  scene.Mapper->SetModeToSplats();
+  ExpectBothSidesUnlessCulled(scene, 5000, SplatScene::Size * SplatScene::Size / 4);
 }
 
 TEST(SplatGeometry, EveryFourthParticleStillShowsTheSurface)
@@ -319,13 +252,9 @@ TEST(SplatGeometry, EveryFourthParticleStillShowsTheSurface)
   UseSplats(scene, { { 1., 1., 2. }, false });
   scene.Mapper->SetStride(4);
   scene.Render();
-  scene.ForEachPixelOnSphere(1., Inside,
-    [&](int x, int y, glm::dvec3 onSphere)
-    {
-      const auto position = scene.PositionAt(x, y);
-      ASSERT_TRUE(position);
-      ASSERT_LT(glm::distance(*position, onSphere), 0.2 * Spacing);
-    });
+  ForEachPlaceOnSphere(scene,
+    [](glm::dvec3 seen, glm::dvec3 onSphere)
+    { ASSERT_LT(glm::distance(seen, onSphere), 0.2 * Spacing); });
   scene.Mapper->SetStride(1);
   scene.Render();
   ExpectSphere(scene);

@@ -34,7 +34,6 @@
 
 namespace
 {
-constexpr int Count = 5000;
 constexpr double Spacing = 0.0539;
 
 // The part of OpenGL's state that drawing has to do with. The program and the texture unit in use are
