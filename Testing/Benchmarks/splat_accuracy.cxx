@@ -3,7 +3,8 @@
 //   splat_accuracy [--size PIXELS] [--pictures FOLDER] [CASE...]
 //
 // Five views of every case (SurfaceCases.h) in both projections, held against a ray caster that finds
-// the true polynomial surface (RayCaster.h). Prints the worst view of each. Wants a display.
+// the true polynomial surface (RayCaster.h). Prints the worst view of each. Pictures are rays, splats and
+// Contour side by side. Wants a display.
 
 #include "SurfaceCases.h"
 #include "SurfacePicture.h"
@@ -80,10 +81,8 @@ void Measure(const std::string& name, int size, const std::string& pictures)
       if (!pictures.empty())
       {
         const std::string path = pictures + "/" + name +
-          (parallel ? "_parallel_" : "_perspective_") + std::to_string(++view);
-        WriteShade(reference, camera, path + "_rays.png");
-        WriteShade(bySplats, camera, path + "_splats.png");
-        WriteShade(byContour, camera, path + "_contour.png");
+          (parallel ? "_parallel_" : "_perspective_") + std::to_string(++view) + ".png";
+        WriteShades({ reference, bySplats, byContour }, camera, path);
       }
     }
     const std::string label = name + (parallel ? ", parallel" : ", perspective");

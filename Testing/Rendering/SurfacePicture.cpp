@@ -138,14 +138,23 @@ SurfacePicture CastSurface(const SurfaceCase& surface, const PictureCamera& came
   return picture;
 }
 
-void WriteShade(const SurfacePicture& picture, const PictureCamera& camera, const std::string& path)
+void WriteShades(
+  const std::vector<SurfacePicture>& pictures, const PictureCamera& camera, const std::string& path)
 {
+  const int count = static_cast<int>(pictures.size());
   vtkNew<vtkImageData> image;
-  image->SetDimensions(camera.size, camera.size, 1);
+  image->SetDimensions(count * camera.size, camera.size, 1);
   image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
-  auto* pixels = static_cast<unsigned char*>(image->GetScalarPointer());
-  std::transform(picture.Shade.begin(), picture.Shade.end(), pixels,
-    [](double shade) { return static_cast<unsigned char>(std::lround(255. * shade)); });
+  auto* pixel = static_cast<unsigned char*>(image->GetScalarPointer());
+  for (int y = 0; y < camera.size; ++y)
+  {
+    for (const SurfacePicture& picture : pictures)
+    {
+      const auto row = picture.Shade.begin() + static_cast<std::ptrdiff_t>(y) * camera.size;
+      pixel = std::transform(row, row + camera.size, pixel,
+        [](double shade) { return static_cast<unsigned char>(std::lround(255. * shade)); });
+    }
+  }
   vtkNew<vtkPNGWriter> writer;
   writer->SetInputData(image);
   writer->SetFileName(path.c_str());

@@ -21,9 +21,9 @@ SurfacePicture DrawSurface(vtkPolyDataMapper* mapper, const hop::testing::Pictur
 // The same as rays see it: normals point to the eye.
 SurfacePicture CastSurface(const SurfaceCase& surface, const hop::testing::PictureCamera& camera);
 
-// Writes the brightness as a picture file (PNG).
-void WriteShade(const SurfacePicture& picture, const hop::testing::PictureCamera& camera,
-  const std::string& path);
+// Writes the brightness of pictures, side by side, as a picture file (PNG).
+void WriteShades(const std::vector<SurfacePicture>& pictures,
+  const hop::testing::PictureCamera& camera, const std::string& path);
 
 struct PictureFigures
 {
