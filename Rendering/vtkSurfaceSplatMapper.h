@@ -26,7 +26,8 @@
  *
  * Where the surface bends much over one splat, particles that carry its shape operator are drawn as
  * pieces of paraboloids instead of disks: point array `Shape_Operator` (6 components, the symmetric
- * derivative of the unit normal along the surface: xx, yy, zz, xy, yz, xz; 1 / world units).
+ * derivative of the unit normal along the surface: xx, yy, zz, xy, yz, xz; 1 / world units). They are
+ * fitted to the particles around, as the surface may bend differently there.
  *
  * What is missing is borne: without point normals the disks face the viewer, without radii all have
  * the radius `Radius`; both are said in one warning. A particle with a normal, radius or position

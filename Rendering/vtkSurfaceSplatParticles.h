@@ -45,8 +45,9 @@ struct vtkSurfaceSplatParticles
   std::vector<float> Normal; ///< 4 a particle: unit normal, 1 if its cell is translucent else 0
   std::vector<float> Clip;   ///< 8 a particle: normal and distance of two planes; empty without
   /**
-   * 8 a particle: shape operator as xx, yy, zz, 0, xy, yz, xz, 0. Empty if the surface bends so little
-   * over a splat that flat disks do as well.
+   * 8 a particle: shape operator as xx, yy, zz, 0, xy, yz, xz, 0, fitted to the particles around
+   * (vtkSurfaceSplatShapes.h). Empty if the surface bends so little over a splat that flat disks do as
+   * well.
    */
   std::vector<float> Shape;
   std::vector<vtkIdType> PointIds; ///< 1 a particle: the point it was made from
