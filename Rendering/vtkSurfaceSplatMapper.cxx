@@ -55,6 +55,8 @@ enum class ColorSource
 // alike; the second one draws outlines if the surface is opaque, else the back layer.
 constexpr int Surface = vtkOpenGLPolyDataMapper::PrimitiveTris;
 constexpr int Extra = vtkOpenGLPolyDataMapper::PrimitiveTriStrips;
+// Outlines in front of the surface itself. Lines are lit where there are normals.
+constexpr int Folds = vtkOpenGLPolyDataMapper::PrimitiveLines;
 
 constexpr const char* ClipNormalName = "Clip_Normal";
 constexpr const char* ShapeOperatorName = "Shape_Operator";
@@ -150,23 +152,15 @@ double vtkSurfaceSplatMapper::GetFallbackRadius(vtkPolyData* input)
   {
     return this->Radius;
   }
-  double size[3] = { 0., 0., 0. };
+  double bounds[6];
   for (int axis = 0; axis < 3; ++axis)
   {
-    double range[2];
-    input->GetPoints()->GetData()->GetFiniteRange(range, axis);
-    size[axis] = std::max(range[1] - range[0], 0.);
+    input->GetPoints()->GetData()->GetFiniteRange(bounds + 2 * axis, axis);
   }
-  const double area = 2. * (size[0] * size[1] + size[1] * size[2] + size[2] * size[0]);
-  const double length = size[0] + size[1] + size[2];
-  const double count = static_cast<double>(input->GetNumberOfPoints());
-  if (area > 0.)
-  {
-    // Hexagons of spacing h have the area (sqrt(3)/2) h^2 and are covered from 0.577 h on; three
-    // quarters leave some room for unevenness.
-    return 0.75 * std::sqrt(2. * area / (std::sqrt(3.) * count));
-  }
-  return length > 0. ? length / count : 1.;
+  const double distance =
+    vtkSurfaceSplatParticles::EstimateDistance(bounds, input->GetNumberOfPoints());
+  // Hexagons are covered from 0.577 of their distance on; three quarters leave some room for unevenness.
+  return distance > 0. ? 0.75 * distance : 1.;
 }
 
 //------------------------------------------------------------------------------
@@ -374,7 +368,7 @@ void vtkSurfaceSplatMapper::UploadColors(vtkRenderer* renderer, vtkActor* actor)
 //------------------------------------------------------------------------------
 void vtkSurfaceSplatMapper::ForgetShaders()
 {
-  for (int primitive : { Surface, Extra })
+  for (int primitive : { Surface, Extra, Folds })
   {
     this->Primitives[primitive].ShaderSourceTime = vtkTimeStamp(); // to be built again
   }
@@ -534,10 +528,26 @@ void vtkSurfaceSplatMapper::DrawLayer(
   {
     this->DrawResolved(Surface, vtkSurfaceSplatTiles::Inside, renderer, actor);
     this->DrawResolved(Extra, vtkSurfaceSplatTiles::Edges, renderer, actor);
+    this->DrawFolds(renderer, actor);
   }
   internal.DrawnLayer = nullptr;
   layer.Deactivate();
   internal.FrontLayer.Deactivate();
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatMapper::DrawFolds(vtkRenderer* renderer, vtkActor* actor)
+{
+  if (!this->CurrentInput->GetPointData()->GetNormals() ||
+    actor->GetProperty()->GetInterpolation() == VTK_FLAT)
+  {
+    return; // VTK would not light them
+  }
+  vtkOpenGLState* state =
+    vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow())->GetState();
+  vtkOpenGLState::ScopedglDepthMask depthMask(state);
+  state->vtkglDepthMask(GL_FALSE);
+  this->DrawResolved(Folds, vtkSurfaceSplatTiles::Inside, renderer, actor);
 }
 
 //------------------------------------------------------------------------------
@@ -609,6 +619,7 @@ void vtkSurfaceSplatMapper::GetShaderTemplate(
   vtkShader* vertex = shaders[vtkShader::Vertex];
   vertex->SetSource(this->DrawsSplats() ? vtkSurfaceSplatResolveVS : vtkSurfaceSplatVS);
   Replace(vertex, "SPLAT_TILE_SIZE", std::to_string(vtkSurfaceSplatTiles::Size));
+  Replace(vertex, "SPLAT_FOLDS", std::to_string(this->LastBoundBO == &this->Primitives[Folds]));
   Replace(vertex, "//Splat::Disk::Dec",
     std::string(vtkSurfaceSplatDisk) +
       "const int splatVerticesAParticle = " + (this->Mode == Points ? "1" : "3") + ";\n");
@@ -677,11 +688,13 @@ void vtkSurfaceSplatMapper::ReplaceShaderPositionVC(
   if (this->DrawsSplats())
   {
     const bool extra = this->LastBoundBO == &this->Primitives[Extra];
+    const bool folds = this->LastBoundBO == &this->Primitives[Folds];
     Replace(fragment, "//VTK::PositionVC::Dec",
       "#define SPLAT_LEAST_WEIGHT " + std::to_string(vtkSurfaceSplatPrimitives::LeastWeight) +
-        "\n#define SPLAT_OUTLINE " + std::to_string(extra && !this->Internal->Translucent) +
-        "\n#define SPLAT_BACK_LAYER " + std::to_string(extra && this->Internal->Translucent) +
-        "\n" + vtkSurfaceSplatResolve);
+        "\n#define SPLAT_OUTLINE " +
+        std::to_string(folds || (extra && !this->Internal->Translucent)) +
+        "\n#define SPLAT_FOLDS " + std::to_string(folds) + "\n#define SPLAT_BACK_LAYER " +
+        std::to_string(extra && this->Internal->Translucent) + "\n" + vtkSurfaceSplatResolve);
     Replace(fragment, "//Splat::Ray::Dec", vtkSurfaceSplatRay);
     Replace(fragment, "//Splat::Outline::Dec", vtkSurfaceSplatOutline);
     std::string code = "SplatSurface splat = splatResolve();\n"

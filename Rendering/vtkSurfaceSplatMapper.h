@@ -228,6 +228,7 @@ private:
   bool DrawsSplats() const;
   bool DrawSplats(vtkRenderer* renderer, vtkActor* actor);
   void DrawLayer(vtkSurfaceSplatLayer& layer, vtkRenderer* renderer, vtkActor* actor);
+  void DrawFolds(vtkRenderer* renderer, vtkActor* actor);
   void DrawResolved(int primitive, int tiles, vtkRenderer* renderer, vtkActor* actor);
   void ForgetShaders();
   void DrawPrimitives(vtkRenderer* renderer, vtkActor* actor);

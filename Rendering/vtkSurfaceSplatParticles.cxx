@@ -135,6 +135,20 @@ void ReadClipPlanes(const vtkSurfaceSplatArrays& arrays, vtkIdType id, float pla
 }
 
 //------------------------------------------------------------------------------
+double vtkSurfaceSplatParticles::EstimateDistance(const double bounds[6], vtkIdType count)
+{
+  double size[3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    size[axis] = std::max(bounds[2 * axis + 1] - bounds[2 * axis], 0.);
+  }
+  const double area = 2. * (size[0] * size[1] + size[1] * size[2] + size[2] * size[0]);
+  // Hexagons of spacing h have the area (sqrt(3)/2) h^2.
+  return area > 0. ? std::sqrt(2. * area / (std::sqrt(3.) * static_cast<double>(count)))
+                   : (size[0] + size[1] + size[2]) / static_cast<double>(count);
+}
+
+//------------------------------------------------------------------------------
 vtkSurfaceSplatParticles vtkSurfaceSplatParticles::FromPolyData(
   vtkPolyData* input, const vtkSurfaceSplatArrays& arrays)
 {

@@ -56,6 +56,12 @@ struct vtkSurfaceSplatParticles
 
   vtkIdType GetNumberOfParticles() const { return static_cast<vtkIdType>(this->PointIds.size()); }
 
+  /**
+   * How far apart that many points are if they are spread evenly over the sides of a box, as hexagons; or
+   * along it, if it is a line. 0 if it is a point.
+   */
+  static double EstimateDistance(const double bounds[6], vtkIdType count);
+
   /** Reads the particles of a polydata. */
   static vtkSurfaceSplatParticles FromPolyData(
     vtkPolyData* input, const vtkSurfaceSplatArrays& arrays);

@@ -5,7 +5,6 @@
 #include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkSMPThreadLocalObject.h"
 #include "vtkSMPTools.h"
 #include "vtkStaticPointLocator.h"
 #include "vtkSurfaceSplatParticles.h"
@@ -16,8 +15,11 @@
 
 namespace
 {
-// Neighbours count up to this many radii away.
+// Neighbours count up to this many radii away, and up to this many times the distance that so many
+// particles have if they are spread over the sides of their bounding box: radii may be anything.
 constexpr double Reach = 1.5;
+constexpr double LongestReach = 4.;
+
 // By how much a normal may miss a neighbour's for the particle's own shape operator to count as much as
 // all neighbours together, radians.
 constexpr double OwnError = 0.01;
@@ -124,7 +126,9 @@ public:
     const double y = offset.Dot(this->Bitangent) / this->Radius;
     const double cosine = normal.Dot(this->Normal);
     const double square = x * x + y * y;
-    if (cosine < 0.5 || 3. * height * height > square || // more than 30 degrees above the disk
+    const bool isDrawn = this->Particles.CentreRadius[4 * neighbor + 3] > 0.f;
+    if (neighbor == this->Particle || !isDrawn || cosine < 0.5 ||
+      3. * height * height > square || // more than 30 degrees above the disk
       IsBehindClip(this->Particles.Clip, this->Particle, offset, 0.1 * this->Radius))
     {
       return;
@@ -174,21 +178,43 @@ vtkNew<vtkPolyData> PointsOf(const vtkSurfaceSplatParticles& particles)
   data->SetPoints(points);
   return data;
 }
+
+// VTK's own choice of buckets is for points that fill a volume: of a surface each would hold hundreds.
+void BuildLocator(vtkStaticPointLocator* locator, vtkPolyData* points, double distance)
+{
+  constexpr double finest = 200.;
+  double bounds[6];
+  points->GetBounds(bounds);
+  int divisions[3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double length = bounds[2 * axis + 1] - bounds[2 * axis];
+    divisions[axis] = static_cast<int>(std::clamp(0.5 * length / distance, 1., finest));
+  }
+  locator->SetDataSet(points);
+  locator->AutomaticOff();
+  locator->SetDivisions(divisions);
+  locator->BuildLocator();
+}
 }
 
 //------------------------------------------------------------------------------
 void vtkSurfaceSplatFitShapes(vtkSurfaceSplatParticles& particles)
 {
   const vtkNew<vtkPolyData> points = PointsOf(particles);
+  const double distance =
+    vtkSurfaceSplatParticles::EstimateDistance(points->GetBounds(), points->GetNumberOfPoints());
+  if (distance == 0.)
+  {
+    return; // all in one place
+  }
   vtkNew<vtkStaticPointLocator> locator;
-  locator->SetDataSet(points);
-  locator->BuildLocator();
+  BuildLocator(locator, points, distance);
   std::vector<float> shapes = particles.Shape;
-  vtkSMPThreadLocalObject<vtkIdList> found;
   vtkSMPTools::For(0, particles.GetNumberOfParticles(),
     [&](vtkIdType begin, vtkIdType end)
     {
-      vtkIdList* around = found.Local();
+      vtkNew<vtkIdList> around;
       for (vtkIdType i = begin; i < end; ++i)
       {
         const double radius = particles.CentreRadius[4 * i + 3];
@@ -199,15 +225,13 @@ void vtkSurfaceSplatFitShapes(vtkSurfaceSplatParticles& particles)
         ParticleFit fit(particles, i);
         double place[3];
         points->GetPoint(i, place);
-        locator->FindPointsWithinRadius(Reach * radius, place, around);
+        locator->FindPointsWithinRadius(
+          std::min(Reach * radius, LongestReach * distance), place, around);
         // In an order that does not depend on threads.
         std::sort(around->begin(), around->end());
         for (vtkIdType neighbor : *around)
         {
-          if (neighbor != i && particles.CentreRadius[4 * neighbor + 3] > 0.f)
-          {
-            fit.AddNeighbor(neighbor);
-          }
+          fit.AddNeighbor(neighbor);
         }
         fit.Write(&shapes[8 * i]);
       }

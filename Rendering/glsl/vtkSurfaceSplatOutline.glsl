@@ -8,12 +8,32 @@
 // Pixels with a larger cos^2 are no neighbours of an outline.
 const float splatOutlineLimit = 0.3;
 
+#if SPLAT_FOLDS
+// Neighbours whose depths differ by more are no neighbours on the surface.
+float splatJump()
+{
+  return 5.0 * splatLayerDistance;
+}
+
+// Mean z (VC) of the surface at a pixel, before any correction.
+float splatMeanDepth(ivec2 texel)
+{
+  return texelFetch(splatOffsetDepth, texel, 0).w / texelFetch(splatNormalWeight, texel, 0).w;
+}
+
+float splatDepthOfInterest; // of the surface whose outline is looked at
+#endif
+
 // cos^2, or -1 where there is no surface.
 float splatFacing(ivec2 texel, vec3 toEye)
 {
   vec4 normalWeight = texelFetch(splatNormalWeight, texel, 0);
   float cosine = dot(normalize(normalWeight.xyz), toEye);
-  return normalWeight.w > splatLeastWeight ? cosine * cosine : -1.0;
+  bool there = normalWeight.w > splatLeastWeight;
+#if SPLAT_FOLDS
+  there = there && abs(splatMeanDepth(texel) - splatDepthOfInterest) < splatJump();
+#endif
+  return there ? cosine * cosine : -1.0;
 }
 
 // Derivative between two neighbours of a pixel, as far as there is surface.
@@ -64,6 +84,35 @@ float splatOuterCoverage(ivec2 texel, ivec2 step, vec3 toEye)
   return here > 0.0 ? 0.0 : max(0.5 + here / max(length(vec2(far - near, along)), 1e-6), 0.0);
 }
 
+#if SPLAT_FOLDS
+// Where the surface lies in front of itself: how much of the surface at a neighbour is to be mixed in, of
+// one in front that reaches into this pixel, or of one behind where that in front ends. 0 elsewhere;
+// `texel` becomes the neighbour.
+float splatCoverage(inout ivec2 texel, bool covered, vec3 toEye)
+{
+  float here = splatMeanDepth(texel);
+  float coverage = 0.0;
+  ivec2 best = texel;
+  for (int i = 0; i < 4; ++i)
+  {
+    ivec2 step = ivec2(i == 0 ? 1 : (i == 1 ? -1 : 0), i == 2 ? 1 : (i == 3 ? -1 : 0));
+    float there = splatMeanDepth(texel + step);
+    float found = 0.0;
+    if (covered && splatHasSurface(texel + step) && abs(there - here) > splatJump())
+    {
+      splatDepthOfInterest = max(here, there);
+      found = there > here ? splatOuterCoverage(texel, step, toEye) : 1.0 - splatInnerCoverage(texel, toEye);
+    }
+    if (found > coverage)
+    {
+      coverage = found;
+      best = texel + step;
+    }
+  }
+  texel = best;
+  return coverage;
+}
+#else
 // The neighbour that knows most of the outline at a pixel without surface, and the coverage.
 ivec2 splatOutlineNeighbor(ivec2 texel, vec3 toEye, out float coverage)
 {
@@ -99,3 +148,4 @@ float splatCoverage(inout ivec2 texel, bool covered, vec3 toEye)
   }
   return coverage;
 }
+#endif

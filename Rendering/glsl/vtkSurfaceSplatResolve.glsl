@@ -1,5 +1,6 @@
-// The resolve pass, inserted into VTK's fragment shader behind definitions of SPLAT_OUTLINE and
-// SPLAT_BACK_LAYER (0 or 1): what the sums say of the surface at a pixel.
+// The resolve pass, inserted into VTK's fragment shader behind definitions of SPLAT_OUTLINE,
+// SPLAT_FOLDS (only with the former) and SPLAT_BACK_LAYER (0 or 1): what the sums say of the surface at a
+// pixel.
 
 //Splat::Ray::Dec
 
@@ -16,6 +17,8 @@ bool splatHasSurface(ivec2 texel)
 {
   return texelFetch(splatSeen, texel, 0).r > 0.5;
 }
+
+uniform float splatLayerDistance; // VC; layers closer than this are one
 
 #if SPLAT_OUTLINE
 //Splat::Outline::Dec
@@ -37,7 +40,6 @@ struct SplatSurface
 uniform sampler2D splatFrontNormalWeight; // as above, of the front layer
 uniform sampler2D splatFrontOffsetDepth;
 uniform sampler2D splatFrontSeen;
-uniform float splatLayerDistance; // VC; layers closer than this are one
 
 // Where the view ray meets one surface only, the back layer is the front layer once more.
 bool splatIsFrontLayer(ivec2 texel, float z, float seenFrom, float towardsEye)
@@ -57,6 +59,9 @@ SplatSurface splatResolve()
   vec3 origin = splatOnRay(pixelDC, 0.0);
   vec3 toEye = normalize(origin - splatOnRay(pixelDC, -1.0));
   bool inside = splatHasSurface(surface.texel);
+#if SPLAT_FOLDS
+  ivec2 own = surface.texel;
+#endif
 #if SPLAT_OUTLINE
   surface.coverage = splatCoverage(surface.texel, inside, toEye);
 #else
@@ -93,6 +98,11 @@ SplatSurface splatResolve()
   // What is mixed in beyond the outline hides nothing that is drawn later.
   surface.depth =
     inside ? clamp(0.5 * positionDC.z / positionDC.w + 0.5, 0.0, 1.0) : 1.0;
+#if SPLAT_FOLDS
+  // Mixed into what this pixel shows: hidden by what is nearer than that, which is not written again.
+  vec4 ownDC = splatVCDC * vec4(splatOnRay(pixelDC, splatMeanDepth(own) + 0.5 * splatLayerDistance), 1.0);
+  surface.depth = clamp(0.5 * ownDC.z / ownDC.w + 0.5, 0.0, 1.0);
+#endif
   return surface;
 }
 

@@ -2,7 +2,8 @@
 
 // Vertex stage of the resolve pass, inside VTK's template for polygonal data: the picture in square
 // tiles, each a point, of which those are left out that have nothing to draw. Outlines are looked for
-// in tiles around them only, for they cost more than all the rest.
+// in tiles around them only, for they cost more than all the rest; where the surface lies in front of
+// itself (SPLAT_FOLDS 1) that are tiles in which its depth jumps.
 
 uniform sampler2D splatSeen;  // r: 1 where there is surface; with two levels of averages
 uniform vec4 splatViewport;   // left, bottom, width, height in pixels
@@ -26,12 +27,46 @@ int splatTileKind(vec2 low)
   return covered == 0.0 ? 0 : (covered > 3.999 ? 1 : 2);
 }
 
+#if SPLAT_FOLDS
+uniform sampler2D splatVisibleDepth;
+uniform mat4 splatVCDC;
+uniform float splatLayerDistance; // VC
+
+// z (VC) of a depth of the depth buffer.
+float splatDepthOf(float depth)
+{
+  float z = 2.0 * depth - 1.0;
+  return (splatVCDC[3][2] - z * splatVCDC[3][3]) / (z * splatVCDC[2][3] - splatVCDC[2][2]);
+}
+
+// Whether depths in a tile and right beside it differ by more than those of one surface do.
+bool splatHasJump(vec2 low)
+{
+  ivec2 last = textureSize(splatVisibleDepth, 0) - 1;
+  float nearest = -1e30;
+  float farthest = 1e30;
+  for (int sample = 0; sample < 16; ++sample)
+  {
+    ivec2 offset = ivec2(sample % 4, sample / 4) * (SPLAT_TILE_SIZE + 1) / 3 - 1;
+    float depth = texelFetch(splatVisibleDepth, clamp(ivec2(low) + offset, ivec2(0), last), 0).r;
+    float z = splatDepthOf(depth);
+    nearest = depth < 1.0 ? max(nearest, z) : nearest;
+    farthest = depth < 1.0 ? min(farthest, z) : farthest;
+  }
+  return nearest - farthest > 5.0 * splatLayerDistance;
+}
+#endif
+
 void main()
 {
   ivec2 tile = ivec2(gl_VertexID % splatTilesInRow, gl_VertexID / splatTilesInRow);
   vec2 low = vec2(splatFirstTile) + SPLAT_TILE_SIZE * vec2(tile);
   vec2 middleDC = 2.0 * (low + 0.5 * SPLAT_TILE_SIZE) / splatViewport.zw - 1.0;
+#if SPLAT_FOLDS
+  bool drawn = splatHasJump(low);
+#else
   bool drawn = (splatTileKind(low) & splatTilesWith) != 0;
+#endif
   gl_Position = drawn ? vec4(middleDC, 0.0, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
   gl_PointSize = SPLAT_TILE_SIZE;
 }

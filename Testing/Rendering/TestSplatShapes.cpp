@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <functional>
 
@@ -148,6 +149,33 @@ TEST(SplatShapes, OfAParticleWithoutNeighborsAreItsOwn)
   vtkSurfaceSplatFitShapes(particles);
   EXPECT_FLOAT_EQ(particles.Shape[0], 4.f);
   EXPECT_FLOAT_EQ(particles.Shape[1], 0.f);
+}
+
+TEST(SplatShapes, AreFoundInTimeWhateverTheRadii)
+{
+  // Radii of a hundred spacings: looking at all that they hold takes minutes.
+  vtkSurfaceSplatParticles particles;
+  for (int i = 0; i < 40000; ++i)
+  {
+    Append(particles, Circle(), 1e-3 * (i % 200 - 100), 1e-3 * (i / 200));
+    particles.CentreRadius.back() = 0.1f;
+  }
+  const auto start = std::chrono::steady_clock::now();
+  vtkSurfaceSplatFitShapes(particles);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+  constexpr int middle = 100 * 200 + 100;
+  EXPECT_NEAR(particles.Shape[8 * middle], 4., 0.01);
+}
+
+TEST(SplatShapes, OfParticlesInOnePlaceAreTheirOwn)
+{
+  vtkSurfaceSplatParticles particles;
+  for (int i = 0; i < 1000; ++i)
+  {
+    Append(particles, Circle(), 0., 0.);
+  }
+  vtkSurfaceSplatFitShapes(particles);
+  EXPECT_FLOAT_EQ(particles.Shape[0], 4.f);
 }
 
 TEST(SplatShapes, OfParticlesThatAreNotDrawnStayAsTheyAre)
