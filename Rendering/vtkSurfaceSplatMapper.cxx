@@ -547,7 +547,7 @@ void vtkSurfaceSplatMapper::DrawFolds(vtkRenderer* renderer, vtkActor* actor)
     vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow())->GetState();
   vtkOpenGLState::ScopedglDepthMask depthMask(state);
   state->vtkglDepthMask(GL_FALSE);
-  this->DrawResolved(Folds, vtkSurfaceSplatTiles::Inside, renderer, actor);
+  this->DrawResolved(Folds, vtkSurfaceSplatTiles::Folds, renderer, actor);
 }
 
 //------------------------------------------------------------------------------
@@ -807,6 +807,7 @@ void vtkSurfaceSplatMapper::SetMapperShaderParameters(
       this->Internal->Buffers.GetMeanRadius() * this->Internal->View.GetScale();
     layer->SetSamplers(program, this->Internal->FrontLayer);
     program->SetUniformf("splatLayerDistance", static_cast<float>(diameter));
+    program->SetUniformf("splatJump", static_cast<float>(5. * diameter));
     vtkSurfaceSplatTiles(this->Internal->View).SetUniforms(program, this->Internal->DrawnTiles);
   }
   program->SetUniformf("splatRadiusScale", static_cast<float>(this->GetDrawnRadiusScale()));

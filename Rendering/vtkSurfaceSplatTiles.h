@@ -25,7 +25,8 @@ public:
   enum Kind
   {
     Inside = 1, // surface, but no edge of it
-    Edges = 2
+    Edges = 2,
+    Folds = 4 // for programs that look for these only: the surface in front of itself
   };
 
   explicit vtkSurfaceSplatTiles(const vtkSurfaceSplatView& view);

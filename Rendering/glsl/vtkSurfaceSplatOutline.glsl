@@ -9,11 +9,7 @@
 const float splatOutlineLimit = 0.3;
 
 #if SPLAT_FOLDS
-// Neighbours whose depths differ by more are no neighbours on the surface.
-float splatJump()
-{
-  return 5.0 * splatLayerDistance;
-}
+uniform float splatJump; // VC; neighbours whose depths differ by more are no neighbours on the surface
 
 // Mean z (VC) of the surface at a pixel, before any correction.
 float splatMeanDepth(ivec2 texel)
@@ -31,7 +27,7 @@ float splatFacing(ivec2 texel, vec3 toEye)
   float cosine = dot(normalize(normalWeight.xyz), toEye);
   bool there = normalWeight.w > splatLeastWeight;
 #if SPLAT_FOLDS
-  there = there && abs(splatMeanDepth(texel) - splatDepthOfInterest) < splatJump();
+  there = there && abs(splatMeanDepth(texel) - splatDepthOfInterest) < splatJump;
 #endif
   return there ? cosine * cosine : -1.0;
 }
@@ -98,7 +94,7 @@ float splatCoverage(inout ivec2 texel, bool covered, vec3 toEye)
     ivec2 step = ivec2(i == 0 ? 1 : (i == 1 ? -1 : 0), i == 2 ? 1 : (i == 3 ? -1 : 0));
     float there = splatMeanDepth(texel + step);
     float found = 0.0;
-    if (covered && splatHasSurface(texel + step) && abs(there - here) > splatJump())
+    if (covered && splatHasSurface(texel + step) && abs(there - here) > splatJump)
     {
       splatDepthOfInterest = max(here, there);
       found = there > here ? splatOuterCoverage(texel, step, toEye) : 1.0 - splatInnerCoverage(texel, toEye);

@@ -18,8 +18,6 @@ bool splatHasSurface(ivec2 texel)
   return texelFetch(splatSeen, texel, 0).r > 0.5;
 }
 
-uniform float splatLayerDistance; // VC; layers closer than this are one
-
 #if SPLAT_OUTLINE
 //Splat::Outline::Dec
 #endif
@@ -40,6 +38,7 @@ struct SplatSurface
 uniform sampler2D splatFrontNormalWeight; // as above, of the front layer
 uniform sampler2D splatFrontOffsetDepth;
 uniform sampler2D splatFrontSeen;
+uniform float splatLayerDistance; // VC; layers closer than this are one
 
 // Where the view ray meets one surface only, the back layer is the front layer once more.
 bool splatIsFrontLayer(ivec2 texel, float z, float seenFrom, float towardsEye)
@@ -100,7 +99,7 @@ SplatSurface splatResolve()
     inside ? clamp(0.5 * positionDC.z / positionDC.w + 0.5, 0.0, 1.0) : 1.0;
 #if SPLAT_FOLDS
   // Mixed into what this pixel shows: hidden by what is nearer than that, which is not written again.
-  vec4 ownDC = splatVCDC * vec4(splatOnRay(pixelDC, splatMeanDepth(own) + 0.5 * splatLayerDistance), 1.0);
+  vec4 ownDC = splatVCDC * vec4(splatOnRay(pixelDC, splatMeanDepth(own) + 0.1 * splatJump), 1.0);
   surface.depth = clamp(0.5 * ownDC.z / ownDC.w + 0.5, 0.0, 1.0);
 #endif
   return surface;

@@ -30,7 +30,7 @@ int splatTileKind(vec2 low)
 #if SPLAT_FOLDS
 uniform sampler2D splatVisibleDepth;
 uniform mat4 splatVCDC;
-uniform float splatLayerDistance; // VC
+uniform float splatJump; // VC; depths of one surface differ by less in a tile
 
 // z (VC) of a depth of the depth buffer.
 float splatDepthOf(float depth)
@@ -53,7 +53,7 @@ bool splatHasJump(vec2 low)
     nearest = depth < 1.0 ? max(nearest, z) : nearest;
     farthest = depth < 1.0 ? min(farthest, z) : farthest;
   }
-  return nearest - farthest > 5.0 * splatLayerDistance;
+  return nearest - farthest > splatJump;
 }
 #endif
 
