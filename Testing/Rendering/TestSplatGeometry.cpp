@@ -292,6 +292,20 @@ void ExpectSmoothOutline(const SplatScene& scene)
   EXPECT_LT(sum / partly, 0.14); // 0.25 with pixels that are covered or not
 }
 
+// Of a white unit sphere on black, lit from the eye.
+void ExpectDarkOutline(const SplatScene& scene)
+{
+  for (int y = 0; y < SplatScene::Size; ++y)
+  {
+    for (int x = 0; x < SplatScene::Size; ++x)
+    {
+      const auto hit = scene.HitSphere(x, y, 1.);
+      const double facing = hit ? glm::dot(*hit, scene.ToEye(*hit)) : 0.;
+      ASSERT_LT(scene.ColorAt(x, y).r / 255., facing + 0.3) << "at pixel " << x << ", " << y;
+    }
+  }
+}
+
 // The unit sphere, white, and a black wall that faces the viewer behind it.
 vtkSmartPointer<vtkPolyData> SphereBeforeWall(glm::dvec3 toViewer)
 {
@@ -337,9 +351,10 @@ TEST(SplatGeometry, OutlinesBeforeTheSurfaceItselfAreSmooth)
   {
     SplatScene scene(SphereBeforeWall(direction));
     UseSplats(scene, { direction, parallel });
-    scene.ShowPlainColors();
-    scene.Mapper->ScalarVisibilityOn();
     scene.Mapper->SetColorModeToDirectScalars();
+    scene.Render();
+    ExpectDarkOutline(scene);
+    scene.ShowPlainColors();
     scene.Render();
     ExpectSmoothOutline(scene);
     ExpectSphere(scene); // what is mixed leaves the depth as it was
