@@ -97,9 +97,11 @@ SurfacePicture DrawSurface(vtkPolyDataMapper* mapper, const PictureCamera& camer
   std::vector<float> depth(camera.size * camera.size);
   window.Render->GetZbufferData(0, 0, camera.size - 1, camera.size - 1, depth.data());
 
-  // The normal that VTK's lighting uses, as a colour.
+  // The normal that VTK's lighting uses, as a colour; at outlines that of the surface that covers more.
   window.Actor->GetShaderProperty()->AddFragmentShaderReplacement("//VTK::Light::Impl", false,
-    "//VTK::Light::Impl\n  gl_FragData[0] = vec4(0.5 * normalVCVSOutput + 0.5, 1.0);\n", false);
+    "//VTK::Light::Impl\n"
+    "  gl_FragData[0] = vec4(0.5 * normalVCVSOutput + 0.5, opacity > 0.5 ? 1.0 : 0.0);\n",
+    false);
   const std::vector<glm::dvec3> normals = window.Colors(camera.size);
   for (std::size_t i = 0; i < depth.size(); ++i)
   {
