@@ -1,6 +1,7 @@
 #include "ParticlePacker.h"
 
 #include "PointArrays.h"
+#include "SortedBy.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -337,22 +338,17 @@ void Packer::addReport(const std::vector<IsovalueParticles>& isovalues)
 void addRows(const InputBlocks& blocks, const hop::ElementMesh& mesh, const IsovalueParticles& some,
   std::vector<std::vector<ParticleRow>>& rowsOfBlocks)
 {
-  std::vector<ParticleRow> rows;
-  rows.reserve(some.distribution.particles.size());
-  for (const hop::Particle& particle : some.distribution.particles)
+  const std::vector<hop::Particle>& particles = some.distribution.particles;
+  const std::vector<int> order = hop::sortedBy(particles, mesh.elements.size(),
+    [](const hop::Particle& particle) { return particle.location.element; });
+  for (const int i : order)
   {
-    rows.push_back({ &particle, some.isovalue });
-  }
-  std::stable_sort(rows.begin(), rows.end(),
-    [](const ParticleRow& a, const ParticleRow& b)
-    { return a.particle->location.element < b.particle->location.element; });
-  for (const ParticleRow& row : rows)
-  {
-    const auto [block, cell] = blocks.locate(mesh.elements[row.particle->location.element].cell);
+    const hop::Particle& particle = particles[i];
+    const auto [block, cell] = blocks.locate(mesh.elements[particle.location.element].cell);
     vtkUnsignedCharArray* ghosts = blocks[block].grid->GetCellGhostArray();
     if (!ghosts || ghosts->GetValue(cell) == 0)
     {
-      rowsOfBlocks[block].push_back(row);
+      rowsOfBlocks[block].push_back({ &particle, some.isovalue });
     }
   }
 }

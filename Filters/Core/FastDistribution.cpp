@@ -561,7 +561,7 @@ Distribution FastSystem::run()
   }
   this->Result.report.evaluations = this->Evaluations +
     (this->Moving ? this->Moving->evaluations() : 0) + this->Locator.evaluations();
-  return this->Result;
+  return std::move(this->Result);
 }
 
 } // namespace
