@@ -5,6 +5,7 @@
 #include "FastDistribution.h"
 #include "GatherBlocks.h"
 #include "GridElements.h"
+#include "Interruptible.h"
 #include "ParticlePacker.h"
 #include "PreviousRun.h"
 #include "Threads.h"
@@ -32,6 +33,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -40,6 +42,9 @@ namespace
 
 constexpr double automaticSpacingPerSide = 0.01;
 constexpr double warnUndersampledShare = 0.01;
+/// Where a run's progress stands when cells are converted, and when particles are done.
+constexpr double convertedShare = 0.05;
+constexpr double distributedShare = 0.95;
 /// Peak of the whole filter, measured at 0.93 to 1.1 kB with one point array.
 constexpr std::int64_t bytesPerParticle = 1280;
 
@@ -289,7 +294,18 @@ int vtkHighOrderParticleIsosurface::RequestData(
   const auto groups = groupWithoutSharedCells(blocks);
   for (std::size_t g = 0; g < groups.size() && !isAborted(this); ++g)
   {
-    this->Process({ groups[g], component }, scale, g, groups.size());
+    const InputBlocks group(groups[g], component);
+    try
+    {
+      withThreads([&]() { this->Process(group, scale, g, groups.size()); });
+    }
+    catch (const hop::Interrupted&)
+    {
+      for (const InputBlock& block : groups[g])
+      {
+        block.particles->Initialize();
+      }
+    }
   }
   return 1;
 }
@@ -391,58 +407,80 @@ std::vector<InputBlock> vtkHighOrderParticleIsosurface::FindScalars(const Gather
   return found;
 }
 
+/// What a run is made of, but for its isovalue.
+RunOrigin vtkHighOrderParticleIsosurface::OriginOf(
+  const InputBlocks& blocks, const Scale& scale) const
+{
+  RunOrigin origin = originOf(blocks);
+  origin.nodeSpacing = this->NodeSpacing;
+  origin.parameters.law = { scale.Spacing, this->AngularDensity };
+  origin.parameters.quality = static_cast<hop::Quality>(this->Quality);
+  origin.parameters.seed = static_cast<std::uint64_t>(this->Seed);
+  origin.parameters.particleCount = this->NumberOfParticles;
+  origin.parameters.particleLimit = particlesThatFit();
+  return origin;
+}
+
+/// Reports part of the work on a group as part of the run, and learns whether to go on.
+hop::Monitor vtkHighOrderParticleIsosurface::MonitorOf(double begin, double end)
+{
+  return { [this, begin, end](double fraction)
+    {
+      this->UpdateProgress(begin + (end - begin) * fraction);
+      return !isAborted(this);
+    } };
+}
+
+/// Particles of all isovalues in one group of blocks.
+/// \throw hop::Interrupted
 void vtkHighOrderParticleIsosurface::Process(
   const InputBlocks& blocks, const Scale& scale, std::size_t group, std::size_t groupCount)
 {
   const auto isovalueCount = static_cast<std::size_t>(this->GetNumberOfContours());
   const double* values = this->ContourValues->GetValues();
-  const hop::ParallelFor parallelFor = smpParallelFor();
-  const auto work = [&]()
+  const auto monitorOf = [&](double begin, double end)
   {
-    const auto spacing = this->NodeSpacing == UNIFORM ? hop::NodeSpacing::Uniform
-                                                      : hop::NodeSpacing::GaussLobattoLegendre;
-    const GridElements elements =
-      buildGridElements(blocks, spacing, { values, values + isovalueCount }, parallelFor);
-    this->Review(blocks, elements);
-    std::vector<IsovalueParticles> particles;
-    RunOrigin origin = originOf(blocks);
-    origin.nodeSpacing = this->NodeSpacing;
-    origin.parameters.law = { scale.Spacing, this->AngularDensity };
-    origin.parameters.quality = static_cast<hop::Quality>(this->Quality);
-    origin.parameters.seed = static_cast<std::uint64_t>(this->Seed);
-    origin.parameters.particleCount = this->NumberOfParticles;
-    origin.parameters.particleLimit = particlesThatFit();
-    const bool continues = this->WarmStart && this->Method == FAST;
-    for (std::size_t i = 0; i < isovalueCount && !isAborted(this); ++i)
-    {
-      const std::size_t number = group * isovalueCount + i;
-      hop::Monitor monitor;
-      monitor.report = [&](double fraction)
-      {
-        this->UpdateProgress((static_cast<double>(number) + fraction) /
-          static_cast<double>(groupCount * isovalueCount));
-        return !isAborted(this);
-      };
-      origin.isovalue = values[i];
-      hop::DistributionParameters parameters = origin.parameters;
-      if (continues)
-      {
-        parameters.start = this->Previous->startOf(number, origin, elements.mesh);
-      }
-      const auto distribute =
-        this->Method == CLASSIC ? hop::distributeClassic : hop::distributeFast;
-      particles.push_back({ values[i],
-        distribute({ &elements.mesh, elements.fieldIsovalue(values[i]), scale.Tolerance },
-          parameters, monitor, parallelFor) });
-      if (continues)
-      {
-        this->Previous->remember(number, origin, elements.mesh, particles.back().distribution);
-      }
-      this->Review(blocks, particles.back().distribution, values[i]);
-    }
-    packParticles(blocks, elements, particles, parallelFor);
+    const auto ofRun = [&](double share)
+    { return (static_cast<double>(group) + share) / static_cast<double>(groupCount); };
+    return this->MonitorOf(ofRun(begin), ofRun(end));
   };
-  withThreads(work);
+  const hop::ParallelFor parallelFor = smpParallelFor();
+  const hop::Monitor converting = monitorOf(0.0, convertedShare);
+  hop::Interruptible conversion(converting, parallelFor);
+  const auto spacing = this->NodeSpacing == UNIFORM ? hop::NodeSpacing::Uniform
+                                                    : hop::NodeSpacing::GaussLobattoLegendre;
+  const GridElements elements =
+    buildGridElements(blocks, spacing, { values, values + isovalueCount }, std::ref(conversion));
+  this->Review(blocks, elements);
+
+  std::vector<IsovalueParticles> particles;
+  RunOrigin origin = this->OriginOf(blocks, scale);
+  const bool continues = this->WarmStart && this->Method == FAST;
+  const double shareOfIsovalue =
+    (distributedShare - convertedShare) / static_cast<double>(isovalueCount);
+  for (std::size_t i = 0; i < isovalueCount && !isAborted(this); ++i)
+  {
+    const std::size_t number = group * isovalueCount + i;
+    origin.isovalue = values[i];
+    hop::DistributionParameters parameters = origin.parameters;
+    if (continues)
+    {
+      parameters.start = this->Previous->startOf(number, origin, elements.mesh);
+    }
+    const auto distribute = this->Method == CLASSIC ? hop::distributeClassic : hop::distributeFast;
+    const double begin = convertedShare + static_cast<double>(i) * shareOfIsovalue;
+    particles.push_back({ values[i],
+      distribute({ &elements.mesh, elements.fieldIsovalue(values[i]), scale.Tolerance }, parameters,
+        monitorOf(begin, begin + shareOfIsovalue), parallelFor) });
+    if (continues)
+    {
+      this->Previous->remember(number, origin, elements.mesh, particles.back().distribution);
+    }
+    this->Review(blocks, particles.back().distribution, values[i]);
+  }
+  const hop::Monitor packing = monitorOf(distributedShare, 1.0);
+  hop::Interruptible pack(packing, parallelFor);
+  packParticles(blocks, elements, particles, pack);
 }
 
 /// Tells the user which cells are not as they should be.

@@ -62,10 +62,12 @@ class vtkContourValues;
 struct GatheredBlocks;
 struct GridElements;
 struct InputBlock;
+struct RunOrigin;
 
 namespace hop
 {
 struct Distribution;
+struct Monitor;
 }
 
 class VTKHIGHORDERPARTICLEFILTERS_EXPORT vtkHighOrderParticleIsosurface
@@ -232,6 +234,8 @@ private:
   bool CheckParameters();
   bool CheckInput(const GatheredBlocks& gathered);
   std::vector<InputBlock> FindScalars(const GatheredBlocks& gathered);
+  RunOrigin OriginOf(const InputBlocks& blocks, const Scale& scale) const;
+  hop::Monitor MonitorOf(double begin, double end);
   void Process(
     const InputBlocks& blocks, const Scale& scale, std::size_t group, std::size_t groupCount);
   void Review(const InputBlocks& blocks, const GridElements& elements);

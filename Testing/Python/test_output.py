@@ -306,8 +306,10 @@ def test_progress_rises_to_one(channel):
     assert 0 <= seen[0] and seen[-1] <= 1
 
 
+# While particles are relaxed, and while arrays are written.
+@pytest.mark.parametrize("share", [0.2, 0.94])
 @pytest.mark.parametrize("as_multiblock", [False, True])
-def test_an_aborted_run_ends_early_and_leaves_a_valid_output(channel, as_multiblock):
+def test_an_aborted_run_ends_early_and_leaves_a_valid_output(channel, as_multiblock, share):
     """As ParaView's button does from within a progress event, in the newest versions."""
     grid = support.output_of(channel)
     if as_multiblock:
@@ -319,23 +321,19 @@ def test_an_aborted_run_ends_early_and_leaves_a_valid_output(channel, as_multibl
     stop = getattr(algorithm, "SetAbortExecuteAndUpdateTime", lambda: algorithm.SetAbortExecute(1))
     stopped = []
 
-    def halfway_through_the_first(caller, event):
-        if caller.GetProgress() > 0.2 and not stopped:
+    def stop_there(caller, event):
+        if caller.GetProgress() > share and not stopped:
             stop()
             stopped.append(time.monotonic())
 
-    observer = algorithm.AddObserver("ProgressEvent", halfway_through_the_first)
-    begin = time.monotonic()
+    observer = algorithm.AddObserver("ProgressEvent", stop_there)
     proxy.UpdatePipeline()
     assert len(stopped) == 1
-    until, after = stopped[0] - begin, time.monotonic() - stopped[0]
-    assert after < max(0.5 * until, 0.5)
+    assert time.monotonic() - stopped[0] < 0.5
     output = algorithm.GetOutputDataObject(0)
     assert output.IsA("vtkMultiBlockDataSet" if as_multiblock else "vtkPolyData")
     for leaf in [block for _, _, block in support.leaves_of(output)] if as_multiblock else [output]:
-        # ParaView empties what an aborted filter leaves behind; VTK may not.
-        points = leaf.GetNumberOfPoints() if leaf else 0
-        assert points == (leaf.GetNumberOfVerts() if leaf else 0)
+        assert not leaf or leaf.GetNumberOfPoints() == leaf.GetNumberOfVerts() == 0
 
     algorithm.RemoveObserver(observer)
     algorithm.SetAbortExecute(0)
