@@ -1,6 +1,5 @@
 """What the filter writes: arrays, structure, order, and that it depends on the input and the seed only."""
 
-import os
 import shutil
 import subprocess
 import time
@@ -607,13 +606,11 @@ with open(f"{folder}/rank{rank}.txt", "w") as file:
 
 def run_batch(launcher, plugin, path, folder, spacing):
     """SCRIPT's particles and cells, (ranks, 2)."""
-    # This process may be an MPI program itself; its children must not take themselves for its ranks.
-    environment = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_", "PMIX_", "PRTE_"))}
-    environment.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     script = folder / "script.py"
     script.write_text(SCRIPT.replace("SPACING", str(spacing)))
     command = [*launcher, str(script), str(plugin), path, str(folder)]
-    done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=200)
+    done = subprocess.run(
+        command, env=support.environment_of_ranks(), capture_output=True, text=True, timeout=200)
     said = done.stdout + done.stderr
     assert done.returncode == 0, said
     assert "ERR|" not in said and "WARN|" not in said, said
