@@ -146,6 +146,15 @@ std::vector<std::string> pointArraysOf(const std::vector<InputBlock>& blocks)
   return names;
 }
 
+/// The time step that is asked for, 0 if none is.
+double timeOf(vtkInformationVector* outputs)
+{
+  vtkInformation* output = outputs->GetInformationObject(0);
+  return output->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP())
+    ? output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP())
+    : 0.0;
+}
+
 /// Name of the array that was asked for, empty for the active scalars.
 std::string chosenArray(vtkInformation* choice)
 {
@@ -237,7 +246,31 @@ int vtkHighOrderParticleIsosurface::ProcessRequest(
   {
     return this->RequestDataObject(request, inputs, outputs);
   }
-  return this->Superclass::ProcessRequest(request, inputs, outputs);
+  if (!request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
+  {
+    return this->Superclass::ProcessRequest(request, inputs, outputs);
+  }
+  if (this->IsAskedForMore(outputs))
+  {
+    this->AbortExecute = 0;
+  }
+  const int success = this->Superclass::ProcessRequest(request, inputs, outputs);
+  this->LastAbort = vtkTimeStamp();
+  if (this->AbortExecute)
+  {
+    this->LastAbort.Modified();
+    this->AbortedTime = timeOf(outputs);
+  }
+  return success;
+}
+
+/// Whether a property here or upstream, or the time step, has changed since an abort.
+bool vtkHighOrderParticleIsosurface::IsAskedForMore(vtkInformationVector* outputs)
+{
+  auto* executive = vtkDemandDrivenPipeline::SafeDownCast(this->GetExecutive());
+  return this->LastAbort.GetMTime() > 0 &&
+    (timeOf(outputs) != this->AbortedTime ||
+      (executive && executive->GetPipelineMTime() > this->LastAbort.GetMTime()));
 }
 
 /// vtkPolyData for a grid, a composite of the input's own kind for a composite.

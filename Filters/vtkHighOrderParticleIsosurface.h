@@ -52,6 +52,7 @@
 #include "vtkHighOrderParticleFiltersModule.h" // for the export macro
 #include "vtkNew.h"                            // for the isovalues
 #include "vtkPolyDataAlgorithm.h"
+#include "vtkTimeStamp.h" // for the last abort
 
 #include <memory> // for the run before
 #include <vector> // for the blocks of the input
@@ -230,6 +231,7 @@ private:
     double Spacing = 0.0;
     double Tolerance = 0.0;
   };
+  bool IsAskedForMore(vtkInformationVector* outputs);
   Scale FindScale(const std::vector<InputBlock>& blocks);
   bool CheckParameters();
   bool CheckInput(const GatheredBlocks& gathered);
@@ -253,6 +255,10 @@ private:
   vtkIdType NumberOfParticles = 0;
   bool WarmStart = true;
   std::unique_ptr<PreviousRun> Previous;
+  /** An abort ends the run it came in, and every repetition of it: ParaView asks for an aborted output again
+   * and again. Once something has changed the flag is lowered; ParaView 6.1 never does so. */
+  vtkTimeStamp LastAbort;
+  double AbortedTime = 0.0;
 };
 
 #endif
