@@ -45,6 +45,10 @@
  *
  * The same input and Seed give the same output, bit for bit, for any number of threads; where a run
  * before is continued (WarmStart), the same runs do.
+ *
+ * Progress is reported, and AbortExecute looked at, some twenty times a second. An aborted run leaves an
+ * empty output, and so do later ones as long as the flag is up. The filter lowers it itself in the first run
+ * after a property, here or upstream, or the time step has changed.
  */
 #ifndef vtkHighOrderParticleIsosurface_h
 #define vtkHighOrderParticleIsosurface_h
