@@ -43,7 +43,7 @@ namespace
 constexpr double automaticSpacingPerSide = 0.01;
 constexpr double warnUndersampledShare = 0.01;
 /// Where a run's progress stands when cells are converted, and when particles are done.
-constexpr double convertedShare = 0.05;
+constexpr double convertedShare = 0.1;
 constexpr double distributedShare = 0.95;
 /// Peak of the whole filter, measured at 0.93 to 1.1 kB with one point array.
 constexpr std::int64_t bytesPerParticle = 1280;
@@ -454,7 +454,7 @@ RunOrigin vtkHighOrderParticleIsosurface::OriginOf(
   return origin;
 }
 
-/// Reports part of the work on a group as part of the run, and learns whether to go on.
+/// Reports part of the run, from `begin` to `end` of it, and learns whether to go on.
 hop::Monitor vtkHighOrderParticleIsosurface::MonitorOf(double begin, double end)
 {
   return { [this, begin, end](double fraction)
@@ -469,51 +469,72 @@ hop::Monitor vtkHighOrderParticleIsosurface::MonitorOf(double begin, double end)
 void vtkHighOrderParticleIsosurface::Process(
   const InputBlocks& blocks, const Scale& scale, std::size_t group, std::size_t groupCount)
 {
-  const auto isovalueCount = static_cast<std::size_t>(this->GetNumberOfContours());
-  const double* values = this->ContourValues->GetValues();
   const auto monitorOf = [&](double begin, double end)
   {
     const auto ofRun = [&](double share)
     { return (static_cast<double>(group) + share) / static_cast<double>(groupCount); };
     return this->MonitorOf(ofRun(begin), ofRun(end));
   };
-  const hop::ParallelFor parallelFor = smpParallelFor();
-  const hop::Monitor converting = monitorOf(0.0, convertedShare);
-  hop::Interruptible conversion(converting, parallelFor);
-  const auto spacing = this->NodeSpacing == UNIFORM ? hop::NodeSpacing::Uniform
-                                                    : hop::NodeSpacing::GaussLobattoLegendre;
-  const GridElements elements =
-    buildGridElements(blocks, spacing, { values, values + isovalueCount }, std::ref(conversion));
-  this->Review(blocks, elements);
-
-  std::vector<IsovalueParticles> particles;
-  RunOrigin origin = this->OriginOf(blocks, scale);
-  const bool continues = this->WarmStart && this->Method == FAST;
+  const auto isovalueCount = static_cast<std::size_t>(this->GetNumberOfContours());
   const double shareOfIsovalue =
     (distributedShare - convertedShare) / static_cast<double>(isovalueCount);
+  const GridElements elements = this->Convert(blocks, monitorOf(0.0, convertedShare));
+  RunOrigin origin = this->OriginOf(blocks, scale);
+  std::vector<IsovalueParticles> particles;
   for (std::size_t i = 0; i < isovalueCount && !isAborted(this); ++i)
   {
-    const std::size_t number = group * isovalueCount + i;
-    origin.isovalue = values[i];
-    hop::DistributionParameters parameters = origin.parameters;
-    if (continues)
-    {
-      parameters.start = this->Previous->startOf(number, origin, elements.mesh);
-    }
-    const auto distribute = this->Method == CLASSIC ? hop::distributeClassic : hop::distributeFast;
+    origin.isovalue = this->ContourValues->GetValue(static_cast<int>(i));
     const double begin = convertedShare + static_cast<double>(i) * shareOfIsovalue;
-    particles.push_back({ values[i],
-      distribute({ &elements.mesh, elements.fieldIsovalue(values[i]), scale.Tolerance }, parameters,
-        monitorOf(begin, begin + shareOfIsovalue), parallelFor) });
-    if (continues)
-    {
-      this->Previous->remember(number, origin, elements.mesh, particles.back().distribution);
-    }
-    this->Review(blocks, particles.back().distribution, values[i]);
+    particles.push_back({ origin.isovalue,
+      this->Distribute(elements, scale, origin, group * isovalueCount + i,
+        monitorOf(begin, begin + shareOfIsovalue)) });
+    this->Review(blocks, particles.back().distribution, origin.isovalue);
   }
   const hop::Monitor packing = monitorOf(distributedShare, 1.0);
-  hop::Interruptible pack(packing, parallelFor);
-  packParticles(blocks, elements, particles, pack);
+  const hop::ParallelFor parallelFor = smpParallelFor();
+  hop::Interruptible work(packing, parallelFor);
+  packParticles(blocks, elements, particles, work);
+}
+
+/// \throw hop::Interrupted
+GridElements vtkHighOrderParticleIsosurface::Convert(
+  const InputBlocks& blocks, const hop::Monitor& monitor)
+{
+  const hop::ParallelFor parallelFor = smpParallelFor();
+  hop::Interruptible work(monitor, parallelFor);
+  const auto reached = [&](double share)
+  {
+    work.raiseFraction(share);
+    work.ask();
+  };
+  const auto spacing = this->NodeSpacing == UNIFORM ? hop::NodeSpacing::Uniform
+                                                    : hop::NodeSpacing::GaussLobattoLegendre;
+  const double* values = this->ContourValues->GetValues();
+  GridElements elements = buildGridElements(
+    blocks, spacing, { values, values + this->GetNumberOfContours() }, std::ref(work), reached);
+  this->Review(blocks, elements);
+  return elements;
+}
+
+/// \param number tells the isosurfaces of a run from one another
+hop::Distribution vtkHighOrderParticleIsosurface::Distribute(const GridElements& elements,
+  const Scale& scale, const RunOrigin& origin, std::size_t number, const hop::Monitor& monitor)
+{
+  const bool continues = this->WarmStart && this->Method == FAST;
+  hop::DistributionParameters parameters = origin.parameters;
+  if (continues)
+  {
+    parameters.start = this->Previous->startOf(number, origin, elements.mesh);
+  }
+  const auto distribute = this->Method == CLASSIC ? hop::distributeClassic : hop::distributeFast;
+  hop::Distribution distribution =
+    distribute({ &elements.mesh, elements.fieldIsovalue(origin.isovalue), scale.Tolerance },
+      parameters, monitor, smpParallelFor());
+  if (continues)
+  {
+    this->Previous->remember(number, origin, elements.mesh, distribution);
+  }
+  return distribution;
 }
 
 /// Tells the user which cells are not as they should be.

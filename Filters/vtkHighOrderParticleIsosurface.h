@@ -244,6 +244,9 @@ private:
   hop::Monitor MonitorOf(double begin, double end);
   void Process(
     const InputBlocks& blocks, const Scale& scale, std::size_t group, std::size_t groupCount);
+  GridElements Convert(const InputBlocks& blocks, const hop::Monitor& monitor);
+  hop::Distribution Distribute(const GridElements& elements, const Scale& scale,
+    const RunOrigin& origin, std::size_t number, const hop::Monitor& monitor);
   void Review(const InputBlocks& blocks, const GridElements& elements);
   void Review(const InputBlocks& blocks, const hop::Distribution& distribution, double isovalue);
 

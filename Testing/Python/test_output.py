@@ -305,8 +305,8 @@ def test_progress_rises_to_one(channel):
     assert 0 <= seen[0] and seen[-1] <= 1
 
 
-# While particles are relaxed, and while arrays are written.
-@pytest.mark.parametrize("share", [0.2, 0.94])
+# While cells are converted, particles are relaxed, and arrays are written.
+@pytest.mark.parametrize("share", [0.01, 0.2, 0.94])
 @pytest.mark.parametrize("as_multiblock", [False, True])
 def test_an_aborted_run_ends_early_and_leaves_a_valid_output(channel, as_multiblock, share):
     """As ParaView's button does from within a progress event, in the newest versions."""
