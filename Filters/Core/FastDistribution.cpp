@@ -44,8 +44,12 @@ constexpr double smallestSpacing = 0.82;
 constexpr double repairReach = 3.0;
 constexpr int repairRounds = 2;
 constexpr int repairSweeps = 8;
-/// A particle of a run before has arrived if it is nearer to the surface than this, in units of its
+/// The first round may start from patches that were evaluated that far from the surface, in units of the
 /// spacing.
+constexpr float seedOffset = 0.25f;
+/// Particles of a run before come from no farther off than the first, and have arrived if they are nearer to
+/// the surface than the second, in units of their spacing.
+constexpr float farthestStart = 2.0f;
 constexpr float arrivedOffset = 0.1f;
 
 std::vector<int> sweepsOfRounds(Quality quality, bool isWarm)
@@ -98,6 +102,8 @@ private:
   void makeRims();
   void dropNearRims(double nearest);
   void startMoving();
+  void addSeeds(std::int64_t count, double phase, const std::vector<char>& only = {});
+  void addSamples(const std::vector<int>& boxes);
   void makeSeeds(std::int64_t count);
   void continueFrom(const std::vector<Location>& places);
   bool countIsGiven() const { return this->Parameters.particleCount > 0; }
@@ -237,6 +243,27 @@ void FastSystem::matchCount(std::int64_t count)
   keepMarked(this->RimPatches, kept);
 }
 
+/// Particles where seeds are drawn, or, in boxes that get one only, where their samples are known to lie.
+void FastSystem::addSeeds(std::int64_t count, double phase, const std::vector<char>& only)
+{
+  const SurfaceProxy::Seeds seeds = this->Proxy->seeds(count, phase, this->Parallel, only);
+  this->Moving->add(seeds.places);
+  this->Moving->approach(seedOffset);
+  this->addSamples(seeds.samples);
+}
+
+void FastSystem::addSamples(const std::vector<int>& boxes)
+{
+  std::vector<Anchor> anchors;
+  std::vector<Patch> patches;
+  for (const int b : boxes)
+  {
+    anchors.push_back(this->Proxy->samples()[b].anchor);
+    patches.push_back(this->Proxy->samples()[b].patch);
+  }
+  this->Moving->add(anchors, patches);
+}
+
 /// Draws that many first places, or as many of them as lie in boxes that the places to start from leave
 /// alone.
 void FastSystem::makeSeeds(std::int64_t count)
@@ -245,14 +272,14 @@ void FastSystem::makeSeeds(std::int64_t count)
   const double phase = Random(this->Parameters.seed).uniform();
   if (this->Parameters.start.empty())
   {
-    this->Moving->add(this->Proxy->seeds(count, phase, this->Parallel));
+    this->addSeeds(count, phase);
   }
   else
   {
     this->continueFrom(this->Parameters.start);
     const std::vector<char> lonely =
       findLonely(this->Proxy->samples(), this->Moving->patches(), this->Parallel);
-    this->Moving->add(this->Proxy->seeds(count, phase, this->Parallel, lonely));
+    this->addSeeds(count, phase, lonely);
     this->Moving->keep(
       standApart(this->Moving->patches(), this->Moving->count(), squeezed, this->Parallel));
   }
@@ -260,16 +287,23 @@ void FastSystem::makeSeeds(std::int64_t count)
   this->coverBoxes();
 }
 
-/// Takes particles from places near the surface to it; those that do not arrive are dropped.
+/// Takes particles from places near the surface to it; those that come from far off or do not arrive are
+/// dropped.
 void FastSystem::continueFrom(const std::vector<Location>& places)
 {
+  const auto keepThoseWithin = [this](float farthest)
+  {
+    std::vector<char> kept(this->Moving->count());
+    std::transform(this->Moving->anchors().begin(), this->Moving->anchors().end(),
+      this->Moving->patches().begin(), kept.begin(),
+      [farthest](const Anchor& anchor, const Patch& patch)
+      { return std::abs(anchor.offset) <= farthest * patch.spacing; });
+    this->Moving->keep(kept);
+  };
   this->Moving->add(places);
-  std::vector<char> arrived(this->Moving->count());
-  std::transform(this->Moving->anchors().begin(), this->Moving->anchors().end(),
-    this->Moving->patches().begin(), arrived.begin(),
-    [](const Anchor& anchor, const Patch& patch)
-    { return std::abs(anchor.offset) <= arrivedOffset * patch.spacing; });
-  this->Moving->keep(arrived);
+  keepThoseWithin(farthestStart);
+  this->Moving->approach(arrivedOffset);
+  keepThoseWithin(arrivedOffset);
 }
 
 /// The first places of a given number of particles: more are drawn until those that rims push aside are
@@ -289,7 +323,7 @@ void FastSystem::makeExactly(std::int64_t count)
     }
     else
     {
-      this->Moving->add(this->Proxy->seeds(missing(), 0.5, this->Parallel));
+      this->addSeeds(missing(), 0.5);
       this->dropNearRims(seedToRim);
     }
   }
@@ -423,22 +457,22 @@ void FastSystem::coverBoxes()
 {
   const auto& samples = this->Proxy->samples();
   const std::vector<char> lonely = findLonely(samples, this->Moving->patches(), this->Parallel);
-  std::vector<Anchor> anchors;
-  std::vector<Patch> patches;
+  std::vector<int> added;
   for (std::size_t b = 0; b < samples.size(); ++b)
   {
-    const auto covers = [&sample = samples[b].patch](const Patch& patch)
+    const auto covers = [&](int other)
     {
+      const Patch& sample = samples[b].patch;
+      const Patch& patch = samples[other].patch;
       return glm::distance(patch.position, sample.position) <= 0.7 * patch.spacing &&
         glm::dot(patch.normal, sample.normal) > 0.0f;
     };
-    if (lonely[b] && std::none_of(patches.begin(), patches.end(), covers))
+    if (lonely[b] && std::none_of(added.begin(), added.end(), covers))
     {
-      anchors.push_back(samples[b].anchor);
-      patches.push_back(samples[b].patch);
+      added.push_back(static_cast<int>(b));
     }
   }
-  this->Moving->add(anchors, patches);
+  this->addSamples(added);
 }
 
 /// Takes all particles to the tolerance and says what there is to say about them.
@@ -458,8 +492,9 @@ void FastSystem::finish()
   std::vector<Particle>& particles = this->Result.particles;
   particles = std::move(finished.particles);
   keepMarked(particles, kept);
-  this->Evaluations +=
-    markClipPlanes(this->Surface, this->Jumps, this->Rims.particles, particles, this->Parallel);
+  this->Moving->keep(kept);
+  markClipPlanes(this->Surface, this->Jumps, this->Rims.particles, particles,
+    this->Moving->anchors(), this->Parallel);
   for (const RimParticle& rim : this->Rims.particles)
   {
     particles.push_back(rim.particle);
