@@ -234,7 +234,7 @@ void Builder::makeElements(
 Verdict Builder::read(const BlockCell& where, const CellBasis& basis, CellValues& values) const
 {
   const InputBlock& block = this->Blocks[where.block];
-  block.grid->GetCells()->GetCellAtId(where.cell, values.count, values.ids, values.copiedIds);
+  cellPoints(block.grid->GetCells(), where.cell, values.count, values.ids, values.copiedIds);
   const vtkIdType points = block.grid->GetNumberOfPoints();
   const auto isOutside = [points](vtkIdType id) { return id < 0 || id >= points; };
   if (std::any_of(values.ids, values.ids + values.count, isOutside))
