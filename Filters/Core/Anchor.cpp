@@ -1,31 +1,13 @@
 #include "Anchor.h"
 
+#include "SortedBy.h"
+
 #include <cmath>
-#include <numeric>
 
 namespace hop
 {
 namespace
 {
-
-/// Indices of items sorted by a number below `count`, stably.
-template <class Item, class NumberOf>
-std::vector<int> sortedBy(
-  const std::vector<Item>& items, std::size_t count, const NumberOf& numberOf)
-{
-  std::vector<int> next(count + 1, 0);
-  for (const Item& item : items)
-  {
-    ++next[numberOf(item) + 1];
-  }
-  std::partial_sum(next.begin(), next.end(), next.begin());
-  std::vector<int> order(items.size());
-  for (std::size_t i = 0; i < items.size(); ++i)
-  {
-    order[next[numberOf(items[i])]++] = static_cast<int>(i);
-  }
-  return order;
-}
 
 /// The root s near zero of newton - s + s^2 bend/2: where the field, to second order, takes its value on a
 /// line on which its slope is -1. Newton's step itself where there is none near.

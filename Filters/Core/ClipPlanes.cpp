@@ -83,7 +83,8 @@ class KinkPlanes
 {
 public:
   KinkPlanes(const Isosurface& surface, const std::vector<char>& kinks,
-    const std::vector<Particle>& particles, const std::vector<RimParticle>& rims)
+    const std::vector<Particle>& particles, const std::vector<RimParticle>& rims,
+    const ParallelFor& parallelFor)
     : Mesh(*surface.mesh)
     , Locator(surface.locator)
     , Kinks(kinks)
@@ -100,7 +101,8 @@ public:
     {
       this->add(rim.particle);
     }
-    this->Grid = std::make_unique<SpacingGrid>(this->Positions, this->Spacings, ClipReach, 0.5);
+    this->Grid =
+      std::make_unique<SpacingGrid>(this->Positions, this->Spacings, ClipReach, 0.5, parallelFor);
   }
 
   /// \param pull the inverse Jacobian of the particle's element there
@@ -179,7 +181,7 @@ void markClipPlanes(const Isosurface& surface, const FaceJumps& jumps,
     spacings.push_back(rim.patch.spacing);
   }
   const SpacingGrid grid(positions, spacings, ClipReach, 0.5);
-  const KinkPlanes kinks(surface, jumps.kinks, particles, rims);
+  const KinkPlanes kinks(surface, jumps.kinks, particles, rims, parallelFor);
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(particles.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {

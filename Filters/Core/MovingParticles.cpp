@@ -214,8 +214,8 @@ void MovingParticles::commit(const std::vector<glm::vec2>& displacements)
   std::iota(all.begin(), all.end(), 0);
   this->step(all, displacements);
   const std::vector<int> order = orderByElement(this->Anchors, this->Surface.mesh->elements.size());
-  permute(this->Anchors, order);
-  permute(this->Patches, order);
+  permute(this->Anchors, order, this->Parallel);
+  permute(this->Patches, order, this->Parallel);
 }
 
 Location MovingParticles::onSurface(std::size_t i, std::int64_t& cost) const
