@@ -132,7 +132,7 @@ def test_integer_and_unsigned_arrays_are_evaluated_too(channel):
     x = support.points_of(grid)[:, 0]
     support.add_point_array(grid, "whole", np.full(len(x), 7, dtype=np.int32))
     support.add_point_array(grid, "small", np.full(len(x), 200, dtype=np.uint8))
-    particles = support.run_quietly(grid, "pressure", 0.6, Spacing=0.05)
+    particles = support.run_quietly(grid, "pressure", 0.6, Spacing=0.04)
     np.testing.assert_allclose(support.array_of(particles, "whole"), 7, rtol=1e-13)
     np.testing.assert_allclose(support.array_of(particles, "small"), 200, rtol=1e-13)
 
@@ -141,16 +141,16 @@ def test_an_input_array_of_one_of_the_filters_names_gives_way(channel):
     grid = vtkUnstructuredGrid()
     grid.ShallowCopy(support.output_of(channel))
     support.add_point_array(grid, "Radius", np.full(grid.GetNumberOfPoints(), 99.0))
-    particles = support.run_quietly(grid, "pressure", 0.6, Spacing=0.05)
-    assert np.all(support.array_of(particles, "Radius") == 0.05)
+    particles = support.run_quietly(grid, "pressure", 0.6, Spacing=0.04)
+    assert np.all(support.array_of(particles, "Radius") == 0.04)
 
 
 def test_single_precision_values_are_contoured_as_double(channel):
     grid = vtkUnstructuredGrid()
     grid.ShallowCopy(support.output_of(channel))
     support.add_point_array(grid, "single", support.array_of(grid, "pressure").astype(np.float32))
-    exact = support.run_quietly(grid, "pressure", 0.6, Spacing=0.05)
-    single = support.run_quietly(grid, "single", 0.6, Spacing=0.05)
+    exact = support.run_quietly(grid, "pressure", 0.6, Spacing=0.04)
+    single = support.run_quietly(grid, "single", 0.6, Spacing=0.04)
     assert abs(single.GetNumberOfPoints() / exact.GetNumberOfPoints() - 1) < 0.05
     assert support.array_of(single, "Residual").max() <= 1.001e-8 * support.diagonal(grid)
 
