@@ -35,14 +35,14 @@ class Packer
 {
 public:
   Packer(const InputBlocks& blocks, std::size_t block, const GridElements& elements,
-    std::vector<ParticleRow> rows, const hop::ParallelFor& parallelFor)
+    std::vector<ParticleRow> rows, hop::Interruptible& work)
     : Blocks(blocks)
     , Grid(blocks[block].grid)
     , Scalars(blocks[block].scalars)
     , FirstCell(blocks.firstCell(block))
     , Elements(elements)
     , Census(elements.census[block])
-    , Parallel(parallelFor)
+    , Work(work)
     , Output(blocks[block].particles)
     , Rows(std::move(rows))
   {
@@ -57,6 +57,7 @@ private:
   void addPointArrays();
   void addCellIds();
   void addCellArrays();
+  void copyCellData(vtkIdType begin, vtkIdType end);
   void addReport(const std::vector<IsovalueParticles>& isovalues);
   vtkSmartPointer<vtkDoubleArray> newArray(const std::string& name, int components) const;
   template <class Write>
@@ -77,7 +78,7 @@ private:
   std::int64_t FirstCell;
   const GridElements& Elements;
   const CellCensus& Census;
-  const hop::ParallelFor& Parallel;
+  hop::Interruptible& Work;
   vtkPolyData* Output;
   std::vector<ParticleRow> Rows;
   /// What writes rows begin to end - 1 of some array.
@@ -115,7 +116,7 @@ void Packer::fillWith(const Write& write)
 void Packer::fillRows()
 {
   constexpr std::ptrdiff_t rowsAtOnce = 128;
-  hop::runParallel(this->Parallel, this->rowCount(),
+  this->Work(this->rowCount(),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       for (; begin < end; begin += rowsAtOnce)
@@ -126,7 +127,8 @@ void Packer::fillRows()
         }
       }
     });
-  evaluatePointArrays(this->Blocks, this->Elements, this->Evaluated, this->Rows, this->Parallel);
+  evaluatePointArrays(
+    this->Blocks, this->Elements, this->Evaluated, this->Rows, std::ref(this->Work));
 }
 
 void Packer::addPoints()
@@ -279,16 +281,24 @@ void Packer::addCellArrays()
   target->CopyHigherOrderDegreesOff(); // particles have none
   target->CopyFieldOff(vtkDataSetAttributes::GhostArrayName());
   target->CopyAllocate(source, this->rowCount());
+  constexpr vtkIdType rowsAtOnce = 65536;
+  for (vtkIdType begin = 0; begin < this->rowCount(); begin += rowsAtOnce)
+  {
+    this->Work.ask();
+    this->copyCellData(begin, std::min(this->rowCount(), begin + rowsAtOnce));
+  }
+}
+
+void Packer::copyCellData(vtkIdType begin, vtkIdType end)
+{
   vtkNew<vtkIdList> cells;
   vtkNew<vtkIdList> rows;
-  cells->SetNumberOfIds(this->rowCount());
-  rows->SetNumberOfIds(this->rowCount());
-  for (vtkIdType i = 0; i < this->rowCount(); ++i)
+  for (vtkIdType i = begin; i < end; ++i)
   {
-    cells->SetId(i, this->cellOf(this->Rows[i]));
-    rows->SetId(i, i);
+    cells->InsertNextId(this->cellOf(this->Rows[i]));
+    rows->InsertNextId(i);
   }
-  target->CopyData(source, cells, rows);
+  this->Output->GetCellData()->CopyData(this->Grid->GetCellData(), cells, rows);
 }
 
 void Packer::addReport(const std::vector<IsovalueParticles>& isovalues)
@@ -356,15 +366,18 @@ void addRows(const InputBlocks& blocks, const hop::ElementMesh& mesh, const Isov
 } // namespace
 
 void packParticles(const InputBlocks& blocks, const GridElements& elements,
-  const std::vector<IsovalueParticles>& isovalues, const hop::ParallelFor& parallelFor)
+  const std::vector<IsovalueParticles>& isovalues, hop::Interruptible& work)
 {
   std::vector<std::vector<ParticleRow>> rows(blocks.size());
   for (const IsovalueParticles& some : isovalues)
   {
+    work.ask();
     addRows(blocks, elements.mesh, some, rows);
   }
   for (std::size_t b = 0; b < blocks.size(); ++b)
   {
-    Packer(blocks, b, elements, std::move(rows[b]), parallelFor).pack(isovalues);
+    work.raiseFraction(static_cast<double>(b) / static_cast<double>(blocks.size()));
+    work.ask();
+    Packer(blocks, b, elements, std::move(rows[b]), work).pack(isovalues);
   }
 }

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <utility>
 
 namespace hop
 {
@@ -88,10 +89,10 @@ private:
   /// Reports how far the work is; may throw Interrupted.
   void reach(double fraction)
   {
-    this->Work.setFraction(fraction);
+    this->Work.raiseFraction(fraction);
     this->Work.ask();
   }
-  SurfaceProxy proxyAt(double spacing);
+  SurfaceProxy proxyAt(double spacing, double shareOfRun);
   bool tooMany(double count);
   bool estimateCount();
   void lookAtSurface();
@@ -128,7 +129,8 @@ private:
   Distribution Result;
 };
 
-SurfaceProxy FastSystem::proxyAt(double spacing)
+/// \param shareOfRun how far the run is when the surface is found
+SurfaceProxy FastSystem::proxyAt(double spacing, double shareOfRun)
 {
   SpacingLaw law = this->Law;
   law.spacing = spacing;
@@ -154,8 +156,10 @@ SurfaceProxy FastSystem::proxyAt(double spacing)
     }
     return size <= perSpacing * law.at(patch.curvatureMagnitude());
   };
+  const auto found = [&](double share) { this->Work.raiseFraction(shareOfRun * share); };
   SurfaceProxy proxy(this->Surface, law,
-    findSurfaceBoxes(this->Mesh, this->Surface.isovalue, isSmall, this->Parallel), this->Parallel);
+    findSurfaceBoxes(this->Mesh, this->Surface.isovalue, isSmall, this->Parallel, found),
+    this->Parallel);
   this->Evaluations += proxy.evaluations();
   return proxy;
 }
@@ -182,7 +186,8 @@ bool FastSystem::estimateCount()
   }
   const double coarse = meshExtent(this->Mesh) * coarseSpacingPerExtent;
   const double ratio = coarse / this->Law.spacing;
-  return ratio <= 1.0 || !this->tooMany(this->proxyAt(coarse).particleCount() * ratio * ratio);
+  return ratio <= 1.0 ||
+    !this->tooMany(this->proxyAt(coarse, 0.05).particleCount() * ratio * ratio);
 }
 
 /// Makes the proxy. From then on the surface ends where its two sides miss each other, particles are to
@@ -190,7 +195,7 @@ bool FastSystem::estimateCount()
 void FastSystem::lookAtSurface()
 {
   this->Surface.gaps = nullptr;
-  this->Proxy = std::make_unique<SurfaceProxy>(this->proxyAt(this->Law.spacing));
+  this->Proxy = std::make_unique<SurfaceProxy>(this->proxyAt(this->Law.spacing, 0.3));
   this->Work.ask();
   this->Jumps = findFaceJumps(this->Surface, *this->Proxy, this->Parallel);
   std::int64_t cost = this->Jumps.evaluations;
