@@ -52,6 +52,10 @@ constexpr float seedOffset = 0.25f;
 constexpr float farthestStart = 2.0f;
 constexpr float arrivedOffset = 0.1f;
 
+/// Shares of the run that are over with seeding and relaxation.
+constexpr double seededFraction = 0.45;
+constexpr double relaxedFraction = 0.9;
+
 std::vector<int> sweepsOfRounds(Quality quality, bool isWarm)
 {
   switch (quality)
@@ -65,6 +69,14 @@ std::vector<int> sweepsOfRounds(Quality quality, bool isWarm)
       return isWarm ? std::vector<int>{ 8, 14 } : std::vector<int>{ 7, 13 };
   }
 }
+
+/// A part of the run, as far as progress is concerned.
+struct Section
+{
+  double begin = 0.0, end = 0.0;
+
+  double at(double share) const { return this->begin + share * (this->end - this->begin); }
+};
 
 class FastSystem
 {
@@ -108,8 +120,8 @@ private:
   void continueFrom(const std::vector<Location>& places);
   bool countIsGiven() const { return this->Parameters.particleCount > 0; }
   void coverBoxes();
-  void relax(MovingParticles& moving, int sweeps, const Balance& balance);
-  void relaxAll(int sweeps, bool isLast);
+  void relax(MovingParticles& moving, int sweeps, const Balance& balance, const Section& section);
+  void relaxAll(int sweeps, bool isLast, const Section& section);
   void repair();
   void finish();
 
@@ -364,9 +376,11 @@ void FastSystem::dropNearRims(double nearest)
 }
 
 /// Sweeps, what they tell about the number of particles, and one evaluation each.
-void FastSystem::relax(MovingParticles& moving, int sweeps, const Balance& balance)
+void FastSystem::relax(
+  MovingParticles& moving, int sweeps, const Balance& balance, const Section& section)
 {
-  Relaxed relaxed = relaxOnPatches(moving.patches(), sweeps, balance, this->Parallel);
+  const auto reached = [&](double share) { this->Work.raiseFraction(section.at(share)); };
+  Relaxed relaxed = relaxOnPatches(moving.patches(), sweeps, balance, this->Parallel, reached);
   std::vector<glm::vec2>& displacements = relaxed.displacements;
   std::vector<Anchor> anchors;
   std::vector<Patch> patches;
@@ -387,7 +401,7 @@ void FastSystem::relax(MovingParticles& moving, int sweeps, const Balance& balan
 
 /// One round. Where a number is not given, so many are added or removed everywhere before the last round that
 /// their number is as wanted; the last one mends single defects.
-void FastSystem::relaxAll(int sweeps, bool isLast)
+void FastSystem::relaxAll(int sweeps, bool isLast, const Section& section)
 {
   Balance balance;
   balance.extent = this->countIsGiven() ? Balance::None
@@ -397,7 +411,7 @@ void FastSystem::relaxAll(int sweeps, bool isLast)
   {
     balance.missing = this->wantedCount() - static_cast<double>(this->Moving->size());
   }
-  this->relax(*this->Moving, sweeps, balance);
+  this->relax(*this->Moving, sweeps, balance, section);
   if (!this->countIsGiven())
   {
     this->dropNearRims(squeezed);
@@ -443,7 +457,7 @@ void FastSystem::repair()
   {
     Balance balance;
     balance.extent = this->countIsGiven() ? Balance::None : Balance::Defects;
-    this->relax(part, repairSweeps, balance);
+    this->relax(part, repairSweeps, balance, { relaxedFraction, relaxedFraction });
   }
   moved = part.patches();
   moved.resize(part.count());
@@ -531,13 +545,16 @@ void FastSystem::make()
     {
       this->makeSeeds(std::llround(wanted));
     }
-    this->reach(0.45);
     const std::vector<int> rounds =
       sweepsOfRounds(this->Parameters.quality, !this->Parameters.start.empty());
+    const Section all{ seededFraction, relaxedFraction };
+    this->reach(all.begin);
     for (std::size_t n = 0; n < rounds.size(); ++n)
     {
-      this->relaxAll(rounds[n], n + 1 == rounds.size());
-      this->reach(0.45 + 0.45 * static_cast<double>(n + 1) / static_cast<double>(rounds.size()));
+      const auto count = static_cast<double>(rounds.size());
+      const Section round{ all.at(n / count), all.at((n + 1) / count) };
+      this->relaxAll(rounds[n], n + 1 == rounds.size(), round);
+      this->reach(round.end);
     }
     this->repair();
     if (!this->countIsGiven())
