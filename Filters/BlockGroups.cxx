@@ -1,5 +1,7 @@
 #include "BlockGroups.h"
 
+#include "VtkCompatibility.h"
+
 #include "vtkCellArray.h"
 #include "vtkGenericCell.h"
 #include "vtkIdList.h"
@@ -58,7 +60,7 @@ std::array<double, 3> placeOf(vtkUnstructuredGrid* grid, vtkIdType cell, vtkIdLi
   constexpr vtkIdType mostCorners = 8;
   vtkIdType count = 0;
   const vtkIdType* ids = nullptr;
-  grid->GetCells()->GetCellAtId(cell, count, ids, room);
+  cellPoints(grid->GetCells(), cell, count, ids, room);
   std::array<double, 3> place{};
   for (vtkIdType i = 0; i < std::min(count, mostCorners); ++i)
   {

@@ -74,11 +74,12 @@ class Builder
 {
 public:
   Builder(const InputBlocks& blocks, hop::NodeSpacing spacing, const std::vector<double>& isovalues,
-    const hop::ParallelFor& parallelFor)
+    const hop::ParallelFor& parallelFor, const std::function<void(double)>& reached)
     : Blocks(blocks)
     , Spacing(spacing)
     , Isovalues(isovalues)
     , Parallel(parallelFor)
+    , Reached(reached)
   {
     this->Result.squared = blocks.component() == InputBlocks::Magnitude;
     this->Components = this->Result.squared ? blocks[0].scalars->GetNumberOfComponents() : 1;
@@ -102,6 +103,7 @@ private:
   hop::JacobianSign convert(int element, CellValues& values);
   std::vector<double> controlValues(
     vtkUnstructuredGrid* grid, const CellBasis& cell, const CellValues& values) const;
+  vtkSmartPointer<vtkPoints> collectCorners();
   void numberCorners();
   void dropDoubledGhosts();
   void dropCollapsed();
@@ -117,6 +119,7 @@ private:
   hop::NodeSpacing Spacing;
   const std::vector<double>& Isovalues;
   const hop::ParallelFor& Parallel;
+  const std::function<void(double)>& Reached;
   int Components = 1;
   GridElements Result;
   std::vector<hop::JacobianSign> Signs;
@@ -126,9 +129,12 @@ private:
 GridElements Builder::build()
 {
   this->judgeCells();
+  this->Reached(0.2);
   this->convertElements();
+  this->Reached(0.3);
   this->dropCollapsed();
   this->numberCorners();
+  this->Reached(0.9);
   this->dropDoubledGhosts();
   hop::findFaceNeighbors(this->Result.mesh, this->Tolerance, this->Parallel);
   return std::move(this->Result);
@@ -228,7 +234,7 @@ void Builder::makeElements(
 Verdict Builder::read(const BlockCell& where, const CellBasis& basis, CellValues& values) const
 {
   const InputBlock& block = this->Blocks[where.block];
-  block.grid->GetCells()->GetCellAtId(where.cell, values.count, values.ids, values.copiedIds);
+  cellPoints(block.grid->GetCells(), where.cell, values.count, values.ids, values.copiedIds);
   const vtkIdType points = block.grid->GetNumberOfPoints();
   const auto isOutside = [points](vtkIdType id) { return id < 0 || id >= points; };
   if (std::any_of(values.ids, values.ids + values.count, isOutside))
@@ -453,11 +459,11 @@ void Builder::dropCollapsed()
   this->Result.bases.resize(kept);
 }
 
-/// Equal numbers for coincident corners: most solvers write every cell with points of its own.
-void Builder::numberCorners()
+/// Of all elements, one after the other. Finds out how near to each other coincident ones are, too.
+vtkSmartPointer<vtkPoints> Builder::collectCorners()
 {
-  hop::ElementMesh& mesh = this->Result.mesh;
-  vtkNew<vtkPoints> corners;
+  const hop::ElementMesh& mesh = this->Result.mesh;
+  auto corners = vtkSmartPointer<vtkPoints>::New();
   corners->SetDataTypeToDouble();
   double largest = 0.0;
   double shortestEdge = std::numeric_limits<double>::infinity();
@@ -477,23 +483,30 @@ void Builder::numberCorners()
       previous = x;
     }
   }
-  if (mesh.elements.empty())
-  {
-    return;
-  }
   // Files may hold single precision or six decimal digits, whatever the type of their arrays; but
   // corners of one element must stay apart.
   this->Tolerance = std::min(1e-5 * largest, 1e-2 * shortestEdge);
+  return corners;
+}
 
+/// Equal numbers for coincident corners: most solvers write every cell with points of its own.
+void Builder::numberCorners()
+{
+  if (this->Result.mesh.elements.empty())
+  {
+    return;
+  }
+  const vtkSmartPointer<vtkPoints> corners = this->collectCorners();
   vtkNew<vtkPolyData> cloud;
   cloud->SetPoints(corners);
   vtkNew<vtkStaticPointLocator> locator;
   locator->SetDataSet(cloud);
   locator->BuildLocator();
+  this->Reached(0.6);
   std::vector<vtkIdType> merged(corners->GetNumberOfPoints());
   mergePoints(locator, this->Tolerance, merged.data());
   auto next = merged.begin();
-  for (hop::Element& element : mesh.elements)
+  for (hop::Element& element : this->Result.mesh.elements)
   {
     element.corners.fill(-1);
     const std::size_t count = hop::facts(element.domain).corners.size();
@@ -602,7 +615,8 @@ std::string CellCensus::describe() const
 }
 
 GridElements buildGridElements(const InputBlocks& blocks, hop::NodeSpacing spacing,
-  const std::vector<double>& isovalues, const hop::ParallelFor& parallelFor)
+  const std::vector<double>& isovalues, const hop::ParallelFor& parallelFor,
+  const std::function<void(double)>& reached)
 {
-  return Builder(blocks, spacing, isovalues, parallelFor).build();
+  return Builder(blocks, spacing, isovalues, parallelFor, reached).build();
 }

@@ -5,6 +5,7 @@
 #include "InputBlocks.h"
 #include "Monitor.h"
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -65,5 +66,7 @@ struct GridElements
 };
 
 /// \param isovalues of the chosen scalar, at least one
-GridElements buildGridElements(const InputBlocks& blocks, hop::NodeSpacing spacing,
-  const std::vector<double>& isovalues, const hop::ParallelFor& parallelFor);
+/// \param reached is told what share of the work is done, 0 to 1; may throw to end it early
+GridElements buildGridElements(
+  const InputBlocks& blocks, hop::NodeSpacing spacing, const std::vector<double>& isovalues,
+  const hop::ParallelFor& parallelFor, const std::function<void(double)>& reached = [](double) {});

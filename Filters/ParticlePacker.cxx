@@ -1,6 +1,7 @@
 #include "ParticlePacker.h"
 
 #include "PointArrays.h"
+#include "SortedBy.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -34,14 +35,14 @@ class Packer
 {
 public:
   Packer(const InputBlocks& blocks, std::size_t block, const GridElements& elements,
-    std::vector<ParticleRow> rows, const hop::ParallelFor& parallelFor)
+    std::vector<ParticleRow> rows, hop::Interruptible& work)
     : Blocks(blocks)
     , Grid(blocks[block].grid)
     , Scalars(blocks[block].scalars)
     , FirstCell(blocks.firstCell(block))
     , Elements(elements)
     , Census(elements.census[block])
-    , Parallel(parallelFor)
+    , Work(work)
     , Output(blocks[block].particles)
     , Rows(std::move(rows))
   {
@@ -56,6 +57,7 @@ private:
   void addPointArrays();
   void addCellIds();
   void addCellArrays();
+  void copyCellData(vtkIdType begin, vtkIdType end);
   void addReport(const std::vector<IsovalueParticles>& isovalues);
   vtkSmartPointer<vtkDoubleArray> newArray(const std::string& name, int components) const;
   template <class Write>
@@ -76,7 +78,7 @@ private:
   std::int64_t FirstCell;
   const GridElements& Elements;
   const CellCensus& Census;
-  const hop::ParallelFor& Parallel;
+  hop::Interruptible& Work;
   vtkPolyData* Output;
   std::vector<ParticleRow> Rows;
   /// What writes rows begin to end - 1 of some array.
@@ -114,7 +116,7 @@ void Packer::fillWith(const Write& write)
 void Packer::fillRows()
 {
   constexpr std::ptrdiff_t rowsAtOnce = 128;
-  hop::runParallel(this->Parallel, this->rowCount(),
+  this->Work(this->rowCount(),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       for (; begin < end; begin += rowsAtOnce)
@@ -125,7 +127,8 @@ void Packer::fillRows()
         }
       }
     });
-  evaluatePointArrays(this->Blocks, this->Elements, this->Evaluated, this->Rows, this->Parallel);
+  evaluatePointArrays(
+    this->Blocks, this->Elements, this->Evaluated, this->Rows, std::ref(this->Work));
 }
 
 void Packer::addPoints()
@@ -278,16 +281,24 @@ void Packer::addCellArrays()
   target->CopyHigherOrderDegreesOff(); // particles have none
   target->CopyFieldOff(vtkDataSetAttributes::GhostArrayName());
   target->CopyAllocate(source, this->rowCount());
+  constexpr vtkIdType rowsAtOnce = 65536;
+  for (vtkIdType begin = 0; begin < this->rowCount(); begin += rowsAtOnce)
+  {
+    this->Work.ask();
+    this->copyCellData(begin, std::min(this->rowCount(), begin + rowsAtOnce));
+  }
+}
+
+void Packer::copyCellData(vtkIdType begin, vtkIdType end)
+{
   vtkNew<vtkIdList> cells;
   vtkNew<vtkIdList> rows;
-  cells->SetNumberOfIds(this->rowCount());
-  rows->SetNumberOfIds(this->rowCount());
-  for (vtkIdType i = 0; i < this->rowCount(); ++i)
+  for (vtkIdType i = begin; i < end; ++i)
   {
-    cells->SetId(i, this->cellOf(this->Rows[i]));
-    rows->SetId(i, i);
+    cells->InsertNextId(this->cellOf(this->Rows[i]));
+    rows->InsertNextId(i);
   }
-  target->CopyData(source, cells, rows);
+  this->Output->GetCellData()->CopyData(this->Grid->GetCellData(), cells, rows);
 }
 
 void Packer::addReport(const std::vector<IsovalueParticles>& isovalues)
@@ -337,22 +348,17 @@ void Packer::addReport(const std::vector<IsovalueParticles>& isovalues)
 void addRows(const InputBlocks& blocks, const hop::ElementMesh& mesh, const IsovalueParticles& some,
   std::vector<std::vector<ParticleRow>>& rowsOfBlocks)
 {
-  std::vector<ParticleRow> rows;
-  rows.reserve(some.distribution.particles.size());
-  for (const hop::Particle& particle : some.distribution.particles)
+  const std::vector<hop::Particle>& particles = some.distribution.particles;
+  const std::vector<int> order = hop::sortedBy(particles, mesh.elements.size(),
+    [](const hop::Particle& particle) { return particle.location.element; });
+  for (const int i : order)
   {
-    rows.push_back({ &particle, some.isovalue });
-  }
-  std::stable_sort(rows.begin(), rows.end(),
-    [](const ParticleRow& a, const ParticleRow& b)
-    { return a.particle->location.element < b.particle->location.element; });
-  for (const ParticleRow& row : rows)
-  {
-    const auto [block, cell] = blocks.locate(mesh.elements[row.particle->location.element].cell);
+    const hop::Particle& particle = particles[i];
+    const auto [block, cell] = blocks.locate(mesh.elements[particle.location.element].cell);
     vtkUnsignedCharArray* ghosts = blocks[block].grid->GetCellGhostArray();
     if (!ghosts || ghosts->GetValue(cell) == 0)
     {
-      rowsOfBlocks[block].push_back(row);
+      rowsOfBlocks[block].push_back({ &particle, some.isovalue });
     }
   }
 }
@@ -360,15 +366,18 @@ void addRows(const InputBlocks& blocks, const hop::ElementMesh& mesh, const Isov
 } // namespace
 
 void packParticles(const InputBlocks& blocks, const GridElements& elements,
-  const std::vector<IsovalueParticles>& isovalues, const hop::ParallelFor& parallelFor)
+  const std::vector<IsovalueParticles>& isovalues, hop::Interruptible& work)
 {
   std::vector<std::vector<ParticleRow>> rows(blocks.size());
   for (const IsovalueParticles& some : isovalues)
   {
+    work.ask();
     addRows(blocks, elements.mesh, some, rows);
   }
   for (std::size_t b = 0; b < blocks.size(); ++b)
   {
-    Packer(blocks, b, elements, std::move(rows[b]), parallelFor).pack(isovalues);
+    work.raiseFraction(static_cast<double>(b) / static_cast<double>(blocks.size()));
+    work.ask();
+    Packer(blocks, b, elements, std::move(rows[b]), work).pack(isovalues);
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "GridElements.h"
+#include "Interruptible.h"
 #include "Particles.h"
 
 /// Particles of one isovalue.
@@ -14,5 +15,6 @@ struct IsovalueParticles
 /// point arrays of the block's grid evaluated and its cell arrays copied. Particles in ghost cells are
 /// left out: they belong to another rank. See vtkHighOrderParticleIsosurface for names and meaning of
 /// the arrays.
+/// \throw hop::Interrupted if work's monitor asks for an early end; the outputs are unfinished then
 void packParticles(const InputBlocks& blocks, const GridElements& elements,
-  const std::vector<IsovalueParticles>& isovalues, const hop::ParallelFor& parallelFor);
+  const std::vector<IsovalueParticles>& isovalues, hop::Interruptible& work);

@@ -2,6 +2,7 @@
 
 #include "BatchEvaluator.h"
 #include "GatherValues.h"
+#include "VtkCompatibility.h"
 
 #include "vtkCellArray.h"
 #include "vtkDataArray.h"
@@ -78,7 +79,7 @@ private:
     const vtkIdType* ids = nullptr;
     const auto [block, cell] = this->Blocks.locate(e.cell);
     vtkUnstructuredGrid* grid = this->Blocks[block].grid;
-    grid->GetCells()->GetCellAtId(cell, count, ids, this->CopiedIds);
+    cellPoints(grid->GetCells(), cell, count, ids, this->CopiedIds);
     this->Nodal.resize(static_cast<std::size_t>(nodes) * this->width());
     double* column = this->Nodal.data();
     for (const EvaluatedArray& array : this->Arrays)

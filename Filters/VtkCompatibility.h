@@ -3,6 +3,8 @@
 // What differs between VTK 9.1 and 9.6, and ParaView's snapshots of VTK in between.
 
 #include "vtkAlgorithm.h"
+#include "vtkCellArray.h"
+#include "vtkIdList.h"
 #include "vtkStaticPointLocator.h"
 #include "vtkVersionMacros.h"
 
@@ -25,6 +27,20 @@ inline bool isAborted(vtkAlgorithm* algorithm)
   return algorithm->CheckAbort(); // also looks upstream
 #else
   return algorithm->GetAbortExecute() != 0;
+#endif
+}
+
+/// The ids of a cell's points: count, and where they stand, which may be in `copied`. For several threads, each
+/// with a list of its own.
+inline void cellPoints(
+  vtkCellArray* cells, vtkIdType cell, vtkIdType& count, const vtkIdType*& ids, vtkIdList* copied)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20220801)
+  cells->GetCellAtId(cell, count, ids, copied);
+#else
+  cells->GetCellAtId(cell, copied);
+  count = copied->GetNumberOfIds();
+  ids = copied->GetPointer(0);
 #endif
 }
 

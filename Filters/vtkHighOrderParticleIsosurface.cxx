@@ -5,6 +5,7 @@
 #include "FastDistribution.h"
 #include "GatherBlocks.h"
 #include "GridElements.h"
+#include "Interruptible.h"
 #include "ParticlePacker.h"
 #include "PreviousRun.h"
 #include "Threads.h"
@@ -32,6 +33,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -40,6 +42,9 @@ namespace
 
 constexpr double automaticSpacingPerSide = 0.01;
 constexpr double warnUndersampledShare = 0.01;
+/// Where a run's progress stands when cells are converted, and when particles are done.
+constexpr double convertedShare = 0.1;
+constexpr double distributedShare = 0.95;
 /// Peak of the whole filter, measured at 0.93 to 1.1 kB with one point array.
 constexpr std::int64_t bytesPerParticle = 1280;
 
@@ -141,6 +146,15 @@ std::vector<std::string> pointArraysOf(const std::vector<InputBlock>& blocks)
   return names;
 }
 
+/// The time step that is asked for, 0 if none is.
+double timeOf(vtkInformationVector* outputs)
+{
+  vtkInformation* output = outputs->GetInformationObject(0);
+  return output->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP())
+    ? output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP())
+    : 0.0;
+}
+
 /// Name of the array that was asked for, empty for the active scalars.
 std::string chosenArray(vtkInformation* choice)
 {
@@ -232,7 +246,31 @@ int vtkHighOrderParticleIsosurface::ProcessRequest(
   {
     return this->RequestDataObject(request, inputs, outputs);
   }
-  return this->Superclass::ProcessRequest(request, inputs, outputs);
+  if (!request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
+  {
+    return this->Superclass::ProcessRequest(request, inputs, outputs);
+  }
+  if (this->IsAskedForMore(outputs))
+  {
+    this->AbortExecute = 0;
+  }
+  const int success = this->Superclass::ProcessRequest(request, inputs, outputs);
+  this->LastAbort = vtkTimeStamp();
+  if (this->AbortExecute)
+  {
+    this->LastAbort.Modified();
+    this->AbortedTime = timeOf(outputs);
+  }
+  return success;
+}
+
+/// Whether a property here or upstream, or the time step, has changed since an abort.
+bool vtkHighOrderParticleIsosurface::IsAskedForMore(vtkInformationVector* outputs)
+{
+  auto* executive = vtkDemandDrivenPipeline::SafeDownCast(this->GetExecutive());
+  return this->LastAbort.GetMTime() > 0 &&
+    (timeOf(outputs) != this->AbortedTime ||
+      (executive && executive->GetPipelineMTime() > this->LastAbort.GetMTime()));
 }
 
 /// vtkPolyData for a grid, a composite of the input's own kind for a composite.
@@ -289,7 +327,18 @@ int vtkHighOrderParticleIsosurface::RequestData(
   const auto groups = groupWithoutSharedCells(blocks);
   for (std::size_t g = 0; g < groups.size() && !isAborted(this); ++g)
   {
-    this->Process({ groups[g], component }, scale, g, groups.size());
+    const InputBlocks group(groups[g], component);
+    try
+    {
+      withThreads([&]() { this->Process(group, scale, g, groups.size()); });
+    }
+    catch (const hop::Interrupted&)
+    {
+      for (const InputBlock& block : groups[g])
+      {
+        block.particles->Initialize();
+      }
+    }
   }
   return 1;
 }
@@ -391,58 +440,101 @@ std::vector<InputBlock> vtkHighOrderParticleIsosurface::FindScalars(const Gather
   return found;
 }
 
+/// What a run is made of, but for its isovalue.
+RunOrigin vtkHighOrderParticleIsosurface::OriginOf(
+  const InputBlocks& blocks, const Scale& scale) const
+{
+  RunOrigin origin = originOf(blocks);
+  origin.nodeSpacing = this->NodeSpacing;
+  origin.parameters.law = { scale.Spacing, this->AngularDensity };
+  origin.parameters.quality = static_cast<hop::Quality>(this->Quality);
+  origin.parameters.seed = static_cast<std::uint64_t>(this->Seed);
+  origin.parameters.particleCount = this->NumberOfParticles;
+  origin.parameters.particleLimit = particlesThatFit();
+  return origin;
+}
+
+/// Reports part of the run, from `begin` to `end` of it, and learns whether to go on.
+hop::Monitor vtkHighOrderParticleIsosurface::MonitorOf(double begin, double end)
+{
+  return { [this, begin, end](double fraction)
+    {
+      this->UpdateProgress(begin + (end - begin) * fraction);
+      return !isAborted(this);
+    } };
+}
+
+/// Particles of all isovalues in one group of blocks.
+/// \throw hop::Interrupted
 void vtkHighOrderParticleIsosurface::Process(
   const InputBlocks& blocks, const Scale& scale, std::size_t group, std::size_t groupCount)
 {
-  const auto isovalueCount = static_cast<std::size_t>(this->GetNumberOfContours());
-  const double* values = this->ContourValues->GetValues();
-  const hop::ParallelFor parallelFor = smpParallelFor();
-  const auto work = [&]()
+  const auto monitorOf = [&](double begin, double end)
   {
-    const auto spacing = this->NodeSpacing == UNIFORM ? hop::NodeSpacing::Uniform
-                                                      : hop::NodeSpacing::GaussLobattoLegendre;
-    const GridElements elements =
-      buildGridElements(blocks, spacing, { values, values + isovalueCount }, parallelFor);
-    this->Review(blocks, elements);
-    std::vector<IsovalueParticles> particles;
-    RunOrigin origin = originOf(blocks);
-    origin.nodeSpacing = this->NodeSpacing;
-    origin.parameters.law = { scale.Spacing, this->AngularDensity };
-    origin.parameters.quality = static_cast<hop::Quality>(this->Quality);
-    origin.parameters.seed = static_cast<std::uint64_t>(this->Seed);
-    origin.parameters.particleCount = this->NumberOfParticles;
-    origin.parameters.particleLimit = particlesThatFit();
-    const bool continues = this->WarmStart && this->Method == FAST;
-    for (std::size_t i = 0; i < isovalueCount && !isAborted(this); ++i)
-    {
-      const std::size_t number = group * isovalueCount + i;
-      hop::Monitor monitor;
-      monitor.report = [&](double fraction)
-      {
-        this->UpdateProgress((static_cast<double>(number) + fraction) /
-          static_cast<double>(groupCount * isovalueCount));
-        return !isAborted(this);
-      };
-      origin.isovalue = values[i];
-      hop::DistributionParameters parameters = origin.parameters;
-      if (continues)
-      {
-        parameters.start = this->Previous->startOf(number, origin, elements.mesh);
-      }
-      const auto distribute =
-        this->Method == CLASSIC ? hop::distributeClassic : hop::distributeFast;
-      particles.push_back({ values[i],
-        distribute({ &elements.mesh, elements.fieldIsovalue(values[i]), scale.Tolerance },
-          parameters, monitor, parallelFor) });
-      if (continues)
-      {
-        this->Previous->remember(number, origin, elements.mesh, particles.back().distribution);
-      }
-      this->Review(blocks, particles.back().distribution, values[i]);
-    }
-    packParticles(blocks, elements, particles, parallelFor);
+    const auto ofRun = [&](double share)
+    { return (static_cast<double>(group) + share) / static_cast<double>(groupCount); };
+    return this->MonitorOf(ofRun(begin), ofRun(end));
   };
-  withThreads(work);
+  const auto isovalueCount = static_cast<std::size_t>(this->GetNumberOfContours());
+  const double shareOfIsovalue =
+    (distributedShare - convertedShare) / static_cast<double>(isovalueCount);
+  const GridElements elements = this->Convert(blocks, monitorOf(0.0, convertedShare));
+  RunOrigin origin = this->OriginOf(blocks, scale);
+  std::vector<IsovalueParticles> particles;
+  for (std::size_t i = 0; i < isovalueCount && !isAborted(this); ++i)
+  {
+    origin.isovalue = this->ContourValues->GetValue(static_cast<int>(i));
+    const double begin = convertedShare + static_cast<double>(i) * shareOfIsovalue;
+    particles.push_back({ origin.isovalue,
+      this->Distribute(elements, scale, origin, group * isovalueCount + i,
+        monitorOf(begin, begin + shareOfIsovalue)) });
+    this->Review(blocks, particles.back().distribution, origin.isovalue);
+  }
+  const hop::Monitor packing = monitorOf(distributedShare, 1.0);
+  const hop::ParallelFor parallelFor = smpParallelFor();
+  hop::Interruptible work(packing, parallelFor);
+  packParticles(blocks, elements, particles, work);
+}
+
+/// \throw hop::Interrupted
+GridElements vtkHighOrderParticleIsosurface::Convert(
+  const InputBlocks& blocks, const hop::Monitor& monitor)
+{
+  const hop::ParallelFor parallelFor = smpParallelFor();
+  hop::Interruptible work(monitor, parallelFor);
+  const auto reached = [&](double share)
+  {
+    work.raiseFraction(share);
+    work.ask();
+  };
+  const auto spacing = this->NodeSpacing == UNIFORM ? hop::NodeSpacing::Uniform
+                                                    : hop::NodeSpacing::GaussLobattoLegendre;
+  const double* values = this->ContourValues->GetValues();
+  GridElements elements = buildGridElements(
+    blocks, spacing, { values, values + this->GetNumberOfContours() }, std::ref(work), reached);
+  this->Review(blocks, elements);
+  return elements;
+}
+
+/// \param number tells the isosurfaces of a run from one another
+hop::Distribution vtkHighOrderParticleIsosurface::Distribute(const GridElements& elements,
+  const Scale& scale, const RunOrigin& origin, std::size_t number, const hop::Monitor& monitor)
+{
+  const bool continues = this->WarmStart && this->Method == FAST;
+  hop::DistributionParameters parameters = origin.parameters;
+  if (continues)
+  {
+    parameters.start = this->Previous->startOf(number, origin, elements.mesh);
+  }
+  const auto distribute = this->Method == CLASSIC ? hop::distributeClassic : hop::distributeFast;
+  hop::Distribution distribution =
+    distribute({ &elements.mesh, elements.fieldIsovalue(origin.isovalue), scale.Tolerance },
+      parameters, monitor, smpParallelFor());
+  if (continues)
+  {
+    this->Previous->remember(number, origin, elements.mesh, distribution);
+  }
+  return distribution;
 }
 
 /// Tells the user which cells are not as they should be.

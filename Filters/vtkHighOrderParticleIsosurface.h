@@ -45,6 +45,10 @@
  *
  * The same input and Seed give the same output, bit for bit, for any number of threads; where a run
  * before is continued (WarmStart), the same runs do.
+ *
+ * Progress is reported, and AbortExecute looked at, some twenty times a second. An aborted run leaves an
+ * empty output, and so do later ones as long as the flag is up. The filter lowers it itself in the first run
+ * after a property, here or upstream, or the time step has changed.
  */
 #ifndef vtkHighOrderParticleIsosurface_h
 #define vtkHighOrderParticleIsosurface_h
@@ -52,6 +56,7 @@
 #include "vtkHighOrderParticleFiltersModule.h" // for the export macro
 #include "vtkNew.h"                            // for the isovalues
 #include "vtkPolyDataAlgorithm.h"
+#include "vtkTimeStamp.h" // for the last abort
 
 #include <memory> // for the run before
 #include <vector> // for the blocks of the input
@@ -62,10 +67,12 @@ class vtkContourValues;
 struct GatheredBlocks;
 struct GridElements;
 struct InputBlock;
+struct RunOrigin;
 
 namespace hop
 {
 struct Distribution;
+struct Monitor;
 }
 
 class VTKHIGHORDERPARTICLEFILTERS_EXPORT vtkHighOrderParticleIsosurface
@@ -228,12 +235,18 @@ private:
     double Spacing = 0.0;
     double Tolerance = 0.0;
   };
+  bool IsAskedForMore(vtkInformationVector* outputs);
   Scale FindScale(const std::vector<InputBlock>& blocks);
   bool CheckParameters();
   bool CheckInput(const GatheredBlocks& gathered);
   std::vector<InputBlock> FindScalars(const GatheredBlocks& gathered);
+  RunOrigin OriginOf(const InputBlocks& blocks, const Scale& scale) const;
+  hop::Monitor MonitorOf(double begin, double end);
   void Process(
     const InputBlocks& blocks, const Scale& scale, std::size_t group, std::size_t groupCount);
+  GridElements Convert(const InputBlocks& blocks, const hop::Monitor& monitor);
+  hop::Distribution Distribute(const GridElements& elements, const Scale& scale,
+    const RunOrigin& origin, std::size_t number, const hop::Monitor& monitor);
   void Review(const InputBlocks& blocks, const GridElements& elements);
   void Review(const InputBlocks& blocks, const hop::Distribution& distribution, double isovalue);
 
@@ -249,6 +262,10 @@ private:
   vtkIdType NumberOfParticles = 0;
   bool WarmStart = true;
   std::unique_ptr<PreviousRun> Previous;
+  /** An abort ends the run it came in, and every repetition of it: ParaView asks for an aborted output again
+   * and again. Once something has changed the flag is lowered; ParaView 6.1 never does so. */
+  vtkTimeStamp LastAbort;
+  double AbortedTime = 0.0;
 };
 
 #endif

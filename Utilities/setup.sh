@@ -23,10 +23,10 @@ paraview=(
 )
 qt5=(qtbase5-dev qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools)
 release=$(. /etc/os-release 2>/dev/null && echo "${VERSION_CODENAME:-}")
-# The GUI's buttons are blank without Qt's plugin for SVG.
+# The GUI's buttons are blank without Qt's plugin for SVG. xdotool clicks in a test, where a click has an effect.
 case "$release" in
   bookworm) paraview+=("${qt5[@]}" libqt5svg5) ;;
-  forky | sid) paraview+=(libvtk9-dev qt6-base-dev qt6-tools-dev qt6-tools-dev-tools xsltproc qt6-svg-plugins) ;;
+  forky | sid) paraview+=(libvtk9-dev qt6-base-dev qt6-tools-dev qt6-tools-dev-tools xsltproc qt6-svg-plugins xdotool) ;;
   *) paraview+=("${qt5[@]}" qt6-base-dev qt6-svg-plugins) ;; # trixie: its CMake files want 5, its GUI is 6
 esac
 [ "$release" != bookworm ] || packages+=(clang-format-14)

@@ -1,30 +1,20 @@
 #include "Anchor.h"
 
+#include "SortedBy.h"
+
 #include <cmath>
-#include <numeric>
 
 namespace hop
 {
 namespace
 {
 
-/// Indices of items sorted by a number below `count`, stably.
-template <class Item, class NumberOf>
-std::vector<int> sortedBy(
-  const std::vector<Item>& items, std::size_t count, const NumberOf& numberOf)
+/// The root s near zero of newton - s + s^2 bend/2: where the field, to second order, takes its value on a
+/// line on which its slope is -1. Newton's step itself where there is none near.
+double offsetAlong(double newton, double bend)
 {
-  std::vector<int> next(count + 1, 0);
-  for (const Item& item : items)
-  {
-    ++next[numberOf(item) + 1];
-  }
-  std::partial_sum(next.begin(), next.end(), next.begin());
-  std::vector<int> order(items.size());
-  for (std::size_t i = 0; i < items.size(); ++i)
-  {
-    order[next[numberOf(items[i])]++] = static_cast<int>(i);
-  }
-  return order;
+  const double product = newton * bend;
+  return std::abs(product) <= 0.5 ? 2.0 * newton / (1.0 + std::sqrt(1.0 - 2.0 * product)) : newton;
 }
 
 } // namespace
@@ -33,6 +23,23 @@ bool anchorPatch(
   const Location& place, const Jet& jet, double isovalue, Anchor& anchor, Patch& patch)
 {
   const FieldPoint point = fieldPoint(jet, isovalue);
+  if (!anchorPatch({ place, point, worldHessian(jet, point) }, anchor, patch))
+  {
+    return false;
+  }
+  // The particle will follow the line's image under the map, a straight one in reference space.
+  const double slope = length(point.gradient);
+  const glm::dvec3 d = point.map.inverse * (point.gradient.xyz / -slope);
+  const auto second = [&jet](int n) { return jet.second[n].w; };
+  const double bend = d.x * d.x * second(0) + d.y * d.y * second(3) + d.z * d.z * second(5) +
+    2.0 * (d.x * d.y * second(1) + d.x * d.z * second(2) + d.y * d.z * second(4));
+  anchor.offset = static_cast<float>(offsetAlong(point.value / slope, bend / slope));
+  return true;
+}
+
+bool anchorPatch(const Evaluated& at, Anchor& anchor, Patch& patch)
+{
+  const FieldPoint& point = at.point;
   const double slope = length(point.gradient);
   const double offset = point.value / slope;
   if (point.map.singular || !(slope > 0.0) || !std::isfinite(slope) || !std::isfinite(offset))
@@ -40,15 +47,16 @@ bool anchorPatch(
     return false;
   }
   const glm::dvec3 normal = point.gradient.xyz / -slope;
-  const glm::dmat3 bend = worldHessian(jet, point) / -slope;
-  patch.position = point.map.position.xyz + offset * normal;
+  const glm::dmat3 bend = at.hessian / -slope;
+  const double distance = offsetAlong(offset, -glm::dot(normal, bend * normal));
+  patch.position = point.map.position.xyz + distance * normal;
   patch.normal = glm::vec3(normal);
   const auto tangents = tangentsOf(patch.normal);
   const glm::dvec3 e1(tangents[0]);
   const glm::dvec3 e2(tangents[1]);
   patch.shape = { static_cast<float>(glm::dot(e1, bend * e1)),
     static_cast<float>(glm::dot(e1, bend * e2)), static_cast<float>(glm::dot(e2, bend * e2)) };
-  anchor = { place, glm::mat3(point.map.inverse), static_cast<float>(offset) };
+  anchor = { at.location, glm::mat3(point.map.inverse), static_cast<float>(distance) };
   return true;
 }
 

@@ -17,7 +17,7 @@ struct Anchor
   /// K = J^-1 there, in single precision: it turns steps of the size of a spacing into reference
   /// coordinates, and what it misses the next evaluation sees.
   glm::mat3 pull{ 0.0f };
-  /// Distance from the place to the surface along the patch's normal, by one Newton step.
+  /// Distance from the place to the surface along the patch's normal, to second order in the field.
   float offset = 0.0f;
 };
 
@@ -26,6 +26,8 @@ struct Anchor
 ///   anything is not finite
 bool anchorPatch(
   const Location& place, const Jet& jet, double isovalue, Anchor& anchor, Patch& patch);
+/// \param at with its Hessian
+bool anchorPatch(const Evaluated& at, Anchor& anchor, Patch& patch);
 
 /// Indices of places, or of anchors, sorted by element, stably.
 std::vector<int> orderByElement(const std::vector<Location>& places, std::size_t elementCount);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <new>
 #include <type_traits>
 
 namespace hop
@@ -13,11 +14,11 @@ template <class T>
 class Buffer
 {
 public:
-  static_assert(std::is_trivially_default_constructible_v<T>);
+  static_assert(std::is_trivially_copyable_v<T>);
 
   Buffer() = default;
   explicit Buffer(std::size_t size)
-    : Values(new T[size])
+    : Values(static_cast<T*>(::operator new(size * sizeof(T), Alignment)))
     , Size(size)
   {
   }
@@ -34,7 +35,14 @@ public:
   const T* end() const { return this->data() + this->Size; }
 
 private:
-  std::unique_ptr<T[]> Values;
+  static constexpr std::align_val_t Alignment{ alignof(T) };
+
+  struct Free
+  {
+    void operator()(T* values) const { ::operator delete(values, Alignment); }
+  };
+
+  std::unique_ptr<T[], Free> Values;
   std::size_t Size = 0;
 };
 

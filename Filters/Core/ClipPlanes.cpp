@@ -4,7 +4,6 @@
 #include "SpacingGrid.h"
 
 #include <algorithm>
-#include <atomic>
 #include <memory>
 
 namespace hop
@@ -84,7 +83,8 @@ class KinkPlanes
 {
 public:
   KinkPlanes(const Isosurface& surface, const std::vector<char>& kinks,
-    const std::vector<Particle>& particles, const std::vector<RimParticle>& rims)
+    const std::vector<Particle>& particles, const std::vector<RimParticle>& rims,
+    const ParallelFor& parallelFor)
     : Mesh(*surface.mesh)
     , Locator(surface.locator)
     , Kinks(kinks)
@@ -101,28 +101,22 @@ public:
     {
       this->add(rim.particle);
     }
-    this->Grid = std::make_unique<SpacingGrid>(this->Positions, this->Spacings, ClipReach, 0.5);
+    this->Grid =
+      std::make_unique<SpacingGrid>(this->Positions, this->Spacings, ClipReach, 0.5, parallelFor);
   }
 
-  /// \return evaluations
-  int offerTo(Particle& particle) const
+  /// \param pull the inverse Jacobian of the particle's element there
+  void offerTo(Particle& particle, const glm::mat3& pull) const
   {
     const Location& location = particle.location;
     const auto& faces = facts(this->Mesh.elements[location.element].domain).faces;
-    LocalMap map;
-    int evaluations = 0;
     for (int f = 0; this->Grid && f < static_cast<int>(faces.size()); ++f)
     {
       if (!this->Kinks[static_cast<std::size_t>(location.element) * MaximumFaces + f])
       {
         continue;
       }
-      if (evaluations == 0)
-      {
-        map = fieldPoint(evaluateGradient(this->Mesh.form(location.element), location.u), 0.0).map;
-        evaluations = 1;
-      }
-      const glm::dvec3 inward = glm::transpose(map.inverse) * faces[f].inward.xyz;
+      const glm::dvec3 inward = glm::transpose(glm::dmat3(pull)) * faces[f].inward.xyz;
       const double slope = glm::length(inward);
       const double distance = std::max(0.0, faceMargin(faces[f], location.u) / slope);
       const WorldVector outward{ inward / -slope };
@@ -132,7 +126,6 @@ public:
         offer(particle, { outward, distance });
       }
     }
-    return evaluations;
   }
 
 private:
@@ -176,8 +169,9 @@ private:
 
 } // namespace
 
-std::int64_t markClipPlanes(const Isosurface& surface, const FaceJumps& jumps,
-  std::vector<RimParticle>& rims, std::vector<Particle>& particles, const ParallelFor& parallelFor)
+void markClipPlanes(const Isosurface& surface, const FaceJumps& jumps,
+  std::vector<RimParticle>& rims, std::vector<Particle>& particles,
+  const std::vector<Anchor>& anchors, const ParallelFor& parallelFor)
 {
   std::vector<glm::dvec3> positions;
   std::vector<float> spacings;
@@ -187,25 +181,21 @@ std::int64_t markClipPlanes(const Isosurface& surface, const FaceJumps& jumps,
     spacings.push_back(rim.patch.spacing);
   }
   const SpacingGrid grid(positions, spacings, ClipReach, 0.5);
-  const KinkPlanes kinks(surface, jumps.kinks, particles, rims);
-  std::atomic<std::int64_t> evaluations{ 0 };
+  const KinkPlanes kinks(surface, jumps.kinks, particles, rims, parallelFor);
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(particles.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
-      std::int64_t cost = 0;
       for (std::ptrdiff_t i = begin; i < end; ++i)
       {
         offerRims(grid, rims, particles[i]);
-        cost += kinks.offerTo(particles[i]);
+        kinks.offerTo(particles[i], anchors[i].pull);
       }
-      evaluations += cost;
     });
   for (RimParticle& rim : rims)
   {
     offerRims(grid, rims, rim.particle);
-    evaluations += kinks.offerTo(rim.particle);
+    kinks.offerTo(rim.particle, rim.pull);
   }
-  return evaluations;
 }
 
 } // namespace hop

@@ -12,9 +12,10 @@ namespace hop
 /// beyond that plane is to be cut off there.
 /// In corners two planes meet.
 /// \param particles those that are not on rims; particles on rims are marked with them
-/// \return evaluations
-std::int64_t markClipPlanes(const Isosurface& surface, const FaceJumps& jumps,
-  std::vector<RimParticle>& rims, std::vector<Particle>& particles, const ParallelFor& parallelFor);
+/// \param anchors where these particles lie, one for each
+void markClipPlanes(const Isosurface& surface, const FaceJumps& jumps,
+  std::vector<RimParticle>& rims, std::vector<Particle>& particles,
+  const std::vector<Anchor>& anchors, const ParallelFor& parallelFor);
 
 /// How far from a particle, in units of its spacing, an edge is of interest: splats overlap that far.
 constexpr double ClipReach = 1.5;

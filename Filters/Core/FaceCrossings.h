@@ -12,6 +12,9 @@ struct FaceCrossing
 {
   Location location;
   int face = -1;
+  /// The corners of a box between which it lies, and by how much F differs between them.
+  std::array<glm::dvec3, 2> ends{};
+  double rise = 0.0;
 };
 
 /// Calls use(crossing) for places on faces of the box's element that are part of the box: between two
@@ -48,9 +51,11 @@ void visitFaceCrossings(
         if ((box.values[a] > 0.0f) != (box.values[b] > 0.0f))
         {
           const double t = box.values[a] / (box.values[a] - box.values[b]);
-          glm::dvec3 u = (1.0 - t) * glm::dvec3(box.corners[a]) + t * glm::dvec3(box.corners[b]);
+          const std::array<glm::dvec3, 2> ends{ box.corners[a], box.corners[b] };
+          glm::dvec3 u = glm::mix(ends[0], ends[1], t);
           u -= (margin(u) / glm::dot(inward, inward)) * inward;
-          use(FaceCrossing{ { element, { u } }, f });
+          use(FaceCrossing{ { element, { u } }, f, ends,
+            std::abs(static_cast<double>(box.values[a]) - box.values[b]) });
         }
       }
     }

@@ -12,43 +12,111 @@ namespace hop
 namespace
 {
 
+/// What the two sides of a face do on the surface they also do nearer to it than this, in units of the
+/// spacing.
+constexpr double nearSurface = 0.2;
+/// Cosine of the largest angle between the normals of smooth sheets, 4 degrees: kinks turn more.
+constexpr double smoothCosine = 0.9976;
+/// Sides that miss each other by less than this, in units of the largest jump that may be passed, as
+/// estimated from what they differ by on the whole face, are taken to agree.
+constexpr double smallJump = 0.5;
+
 std::size_t slotOf(int element, int face)
 {
   return static_cast<std::size_t>(element) * MaximumFaces + face;
 }
 
-/// Whether two elements may disagree on the face between them.
-bool mayJump(const ElementMesh& mesh, int element, int face)
+/// The lattice of an element's face: from its first corner along the edges to the second and to the last.
+struct FaceLattice
 {
-  // What rounding to single precision leaves of equal values.
-  constexpr double rounding = 1e-6;
-  const FaceNeighbor& neighbor = mesh.neighbor(element, face);
-  const BernsteinForm here = mesh.form(element);
-  const BernsteinForm there = mesh.form(neighbor.element);
-  if (here.domain != there.domain || here.degrees != there.degrees)
+  FaceLattice(const Element& element, const std::array<int, 3>& corners)
+    : Domain(element.domain)
+    , Degrees(element.degrees)
   {
-    return true;
-  }
-  const auto cornerValue = [](const BernsteinForm& form, int corner)
-  {
-    return controlPoint(form,
-      coefficientIndex(
-        form.domain, form.degrees, cornerLatticePoint(form.domain, form.degrees, corner)))
-      .w;
-  };
-  const Range range = fieldRange(here);
-  const double scale = std::max(std::abs(range.lower), std::abs(range.upper));
-  const Face& which = facts(here.domain).faces[face];
-  for (int c = 0; c < which.cornerCount; ++c)
-  {
-    const double jump =
-      cornerValue(here, which.corners[c]) - cornerValue(there, neighbor.corners[c]);
-    if (!(std::abs(jump) <= rounding * scale))
+    for (int c = 0; c < 3; ++c)
     {
-      return true;
+      const LatticePoint at = cornerLatticePoint(this->Domain, this->Degrees, corners[c]);
+      this->Corners[c] = { at.i, at.j, at.k };
     }
   }
-  return false;
+
+  glm::ivec3 along(int edge) const { return this->Corners[edge] - this->Corners[0]; }
+  int steps(int edge) const
+  {
+    const glm::ivec3 size = glm::abs(this->along(edge));
+    return std::max({ size.x, size.y, size.z });
+  }
+
+  /// Index of the coefficient that many steps along the two edges.
+  int index(int first, int second) const
+  {
+    const glm::ivec3 at = this->Corners[0] + first * this->along(1) / this->steps(1) +
+      second * this->along(2) / this->steps(2);
+    return coefficientIndex(this->Domain, this->Degrees, { at.x, at.y, at.z });
+  }
+
+  hop::Domain Domain;
+  hop::Degrees Degrees;
+  std::array<glm::ivec3, 3> Corners{};
+};
+
+/// By how much the coefficients of two elements differ at most on the face between them, and so the values;
+/// infinite where they cannot be compared.
+double differenceAt(const ElementMesh& mesh, int element, int face)
+{
+  const FaceNeighbor& neighbor = mesh.neighbor(element, face);
+  const Element& here = mesh.elements[element];
+  const Element& there = mesh.elements[neighbor.element];
+  const Face& from = facts(here.domain).faces[face];
+  const int sides = from.cornerCount;
+  const FaceLattice mine(here, { from.corners[0], from.corners[1], from.corners[sides - 1] });
+  const FaceLattice other(
+    there, { neighbor.corners[0], neighbor.corners[1], neighbor.corners[sides - 1] });
+  if (here.rational || there.rational ||
+    facts(there.domain).faces[neighbor.face].cornerCount != sides ||
+    mine.steps(1) != other.steps(1) || mine.steps(2) != other.steps(2))
+  {
+    return std::numeric_limits<double>::infinity();
+  }
+  double largest = 0.0;
+  for (int i = 0; i <= mine.steps(1); ++i)
+  {
+    const int last = sides == 3 ? mine.steps(2) - i : mine.steps(2);
+    for (int j = 0; j <= last; ++j)
+    {
+      const double difference = mesh.form(element).coefficients[mine.index(i, j)].w -
+        mesh.form(neighbor.element).coefficients[other.index(i, j)].w;
+      largest = std::max(largest, std::abs(difference));
+    }
+  }
+  return largest;
+}
+
+/// Unit normal of a patch above a place of its tangent plane.
+glm::dvec3 normalAt(const Patch& patch, const glm::dvec2& t)
+{
+  const auto tangents = tangentsOf(patch.normal);
+  const auto& s = patch.shape;
+  return glm::normalize(glm::dvec3(patch.normal) +
+    (s[0] * t.x + s[1] * t.y) * glm::dvec3(tangents[0]) +
+    (s[1] * t.x + s[2] * t.y) * glm::dvec3(tangents[1]));
+}
+
+/// Whether two patches look like parts of one smooth sheet: one lies where the other leads to, and halfway
+/// between them their normals agree.
+bool areSmooth(const Patch& a, const Patch& b)
+{
+  constexpr double offSheet = 0.1; // of their distance
+  const glm::dvec3 d = b.position - a.position;
+  const auto onPlane = [&d](const Patch& patch)
+  {
+    const auto tangents = tangentsOf(patch.normal);
+    return glm::dvec2(glm::dot(d, glm::dvec3(tangents[0])), glm::dot(d, glm::dvec3(tangents[1])));
+  };
+  const glm::dvec2 t = onPlane(a);
+  const double height = glm::dot(d, glm::dvec3(a.normal)) + a.sink(glm::vec2(t));
+  return std::abs(height) <= offSheet * glm::length(d) &&
+    glm::dot(normalAt(a, 0.5 * t), normalAt(b, -0.5 * onPlane(b))) >= smoothCosine;
 }
 
 /// Where the boxes of each element begin; they come in the order of the elements.
@@ -99,6 +167,9 @@ private:
   std::optional<Finding> look(const FaceCrossing& crossing, double spacing, Walkers& walkers) const;
   void lookAtElement(int element, Walkers& walkers);
   bool mayBeOpen(int element, int face) const;
+  bool isSmoothTo(const SurfaceProxy::Sample& sample, int element) const;
+  bool mayJump(
+    const FaceCrossing& crossing, const SurfaceProxy::Sample& sample, double difference) const;
 
   Isosurface Surface;
   const ElementMesh& Mesh;
@@ -116,13 +187,16 @@ std::optional<JumpFinder::Finding> JumpFinder::look(
 {
   const int element = crossing.location.element;
   const Face& face = facts(this->Mesh.elements[element].domain).faces[crossing.face];
-  Evaluated here;
-  if (!walkers.along.project(crossing.location, 4.0 * spacing, here, true) ||
-    faceMargin(face, here.location.u) > OnFace)
+  Evaluated here = walkers.along.evaluate(crossing.location);
+  const bool isNear =
+    std::abs(here.point.value) <= nearSurface * spacing * length(here.point.gradient);
+  if (!isNear &&
+    (!walkers.along.project(crossing.location, 4.0 * spacing, here, true) ||
+      faceMargin(face, here.location.u) > OnFace))
   {
     return std::nullopt;
   }
-  const auto behind = walkers.across.behind(here.location, crossing.face);
+  const auto behind = walkers.across.behind(here, crossing.face);
   if (!behind)
   {
     return std::nullopt;
@@ -150,21 +224,50 @@ bool JumpFinder::mayBeOpen(int element, int face) const
     this->Surface.locator->mayGoOn(element, face);
 }
 
-/// A few looks at a face are enough to see a kink: at the first, second, fourth ... box. Jumps are looked
-/// for at all of them, but one is enough.
+/// Whether the sides may miss each other at a crossing, if they differ by no more than that: the field
+/// changes along the face at least as much as it does between the corners of the box.
+bool JumpFinder::mayJump(
+  const FaceCrossing& crossing, const SurfaceProxy::Sample& sample, double difference) const
+{
+  const glm::dvec3 edge =
+    glm::inverse(glm::dmat3(sample.anchor.pull)) * (crossing.ends[1] - crossing.ends[0]);
+  const double largest = smallJump * LargestJumpPerSpacing * sample.patch.spacing;
+  return !(difference * glm::length(edge) <= largest * crossing.rise);
+}
+
+/// Whether the surface in an element next to that of a sample seems to be its smooth continuation.
+bool JumpFinder::isSmoothTo(const SurfaceProxy::Sample& sample, int element) const
+{
+  const auto& samples = this->Proxy.samples();
+  const SurfaceProxy::Sample* nearest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t b = this->FirstBox[element]; b < this->FirstBox[element + 1]; ++b)
+  {
+    const double distance = glm::distance(samples[b].patch.position, sample.patch.position);
+    if (samples[b].found && distance < least)
+    {
+      least = distance;
+      nearest = &samples[b];
+    }
+  }
+  return nearest && areSmooth(sample.patch, nearest->patch);
+}
+
+/// A few looks at a face are enough to see a kink: at the first, second, fourth ... box, from one side.
+/// Jumps are looked for at all of them, but one is enough.
 void JumpFinder::lookAtElement(int element, Walkers& walkers)
 {
-  std::array<bool, MaximumFaces> jumps{};
+  std::array<double, MaximumFaces> differences{};
   std::array<bool, MaximumFaces> open{};
   std::array<bool, MaximumFaces> wanted{};
   std::array<unsigned, MaximumFaces> boxesSeen{};
   const auto faceCount = static_cast<int>(facts(this->Mesh.elements[element].domain).faces.size());
-  for (int f = 0; f < faceCount; ++f)
+  const auto neighborOf = [&](int face) { return this->Mesh.neighbor(element, face).element; };
+  for (int f = 0; f < faceCount && this->FirstBox[element] < this->FirstBox[element + 1]; ++f)
   {
-    const int behind = this->Mesh.neighbor(element, f).element;
-    jumps[f] = behind >= 0 && mayJump(this->Mesh, element, f);
+    differences[f] = neighborOf(f) >= 0 ? differenceAt(this->Mesh, element, f) : 0.0;
     open[f] = this->mayBeOpen(element, f);
-    wanted[f] = jumps[f] || open[f] || element < behind;
+    wanted[f] = differences[f] > 0.0 || open[f] || element < neighborOf(f);
   }
   for (std::size_t b = this->FirstBox[element]; b < this->FirstBox[element + 1]; ++b)
   {
@@ -189,7 +292,10 @@ void JumpFinder::lookAtElement(int element, Walkers& walkers)
             { slot, slot, static_cast<float>(LargestJumpPerSpacing * spacing) });
         }
         const unsigned before = boxesSeen[face]++;
-        if (!jumps[face] && (before & (before + 1)) != 0)
+        const bool forKinks = (before & (before + 1)) == 0 &&
+          (open[face] ||
+            (element < neighborOf(face) && !this->isSmoothTo(sample, neighborOf(face))));
+        if (!forKinks && !this->mayJump(crossing, sample, differences[face]))
         {
           return;
         }

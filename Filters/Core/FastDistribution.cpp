@@ -16,6 +16,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <utility>
 
 namespace hop
 {
@@ -43,9 +44,17 @@ constexpr double smallestSpacing = 0.82;
 constexpr double repairReach = 3.0;
 constexpr int repairRounds = 2;
 constexpr int repairSweeps = 8;
-/// A particle of a run before has arrived if it is nearer to the surface than this, in units of its
+/// The first round may start from patches that were evaluated that far from the surface, in units of the
 /// spacing.
+constexpr float seedOffset = 0.25f;
+/// Particles of a run before come from no farther off than the first, and have arrived if they are nearer to
+/// the surface than the second, in units of their spacing.
+constexpr float farthestStart = 2.0f;
 constexpr float arrivedOffset = 0.1f;
+
+/// Shares of the run that are over with seeding and relaxation.
+constexpr double seededFraction = 0.45;
+constexpr double relaxedFraction = 0.9;
 
 std::vector<int> sweepsOfRounds(Quality quality, bool isWarm)
 {
@@ -60,6 +69,14 @@ std::vector<int> sweepsOfRounds(Quality quality, bool isWarm)
       return isWarm ? std::vector<int>{ 8, 14 } : std::vector<int>{ 7, 13 };
   }
 }
+
+/// A part of the run, as far as progress is concerned.
+struct Section
+{
+  double begin = 0.0, end = 0.0;
+
+  double at(double share) const { return this->begin + share * (this->end - this->begin); }
+};
 
 class FastSystem
 {
@@ -84,10 +101,10 @@ private:
   /// Reports how far the work is; may throw Interrupted.
   void reach(double fraction)
   {
-    this->Work.setFraction(fraction);
+    this->Work.raiseFraction(fraction);
     this->Work.ask();
   }
-  SurfaceProxy proxyAt(double spacing);
+  SurfaceProxy proxyAt(double spacing, double shareOfRun);
   bool tooMany(double count);
   bool estimateCount();
   void lookAtSurface();
@@ -97,12 +114,14 @@ private:
   void makeRims();
   void dropNearRims(double nearest);
   void startMoving();
+  void addSeeds(std::int64_t count, double phase, const std::vector<char>& only = {});
+  void addSamples(const std::vector<int>& boxes);
   void makeSeeds(std::int64_t count);
   void continueFrom(const std::vector<Location>& places);
   bool countIsGiven() const { return this->Parameters.particleCount > 0; }
   void coverBoxes();
-  void relax(MovingParticles& moving, int sweeps, const Balance& balance);
-  void relaxAll(int sweeps, bool isLast);
+  void relax(MovingParticles& moving, int sweeps, const Balance& balance, const Section& section);
+  void relaxAll(int sweeps, bool isLast, const Section& section);
   void repair();
   void finish();
 
@@ -122,7 +141,8 @@ private:
   Distribution Result;
 };
 
-SurfaceProxy FastSystem::proxyAt(double spacing)
+/// \param shareOfRun how far the run is when the surface is found
+SurfaceProxy FastSystem::proxyAt(double spacing, double shareOfRun)
 {
   SpacingLaw law = this->Law;
   law.spacing = spacing;
@@ -148,8 +168,10 @@ SurfaceProxy FastSystem::proxyAt(double spacing)
     }
     return size <= perSpacing * law.at(patch.curvatureMagnitude());
   };
+  const auto found = [&](double share) { this->Work.raiseFraction(shareOfRun * share); };
   SurfaceProxy proxy(this->Surface, law,
-    findSurfaceBoxes(this->Mesh, this->Surface.isovalue, isSmall, this->Parallel), this->Parallel);
+    findSurfaceBoxes(this->Mesh, this->Surface.isovalue, isSmall, this->Parallel, found),
+    this->Parallel);
   this->Evaluations += proxy.evaluations();
   return proxy;
 }
@@ -176,7 +198,8 @@ bool FastSystem::estimateCount()
   }
   const double coarse = meshExtent(this->Mesh) * coarseSpacingPerExtent;
   const double ratio = coarse / this->Law.spacing;
-  return ratio <= 1.0 || !this->tooMany(this->proxyAt(coarse).particleCount() * ratio * ratio);
+  return ratio <= 1.0 ||
+    !this->tooMany(this->proxyAt(coarse, 0.05).particleCount() * ratio * ratio);
 }
 
 /// Makes the proxy. From then on the surface ends where its two sides miss each other, particles are to
@@ -184,7 +207,7 @@ bool FastSystem::estimateCount()
 void FastSystem::lookAtSurface()
 {
   this->Surface.gaps = nullptr;
-  this->Proxy = std::make_unique<SurfaceProxy>(this->proxyAt(this->Law.spacing));
+  this->Proxy = std::make_unique<SurfaceProxy>(this->proxyAt(this->Law.spacing, 0.3));
   this->Work.ask();
   this->Jumps = findFaceJumps(this->Surface, *this->Proxy, this->Parallel);
   std::int64_t cost = this->Jumps.evaluations;
@@ -232,6 +255,27 @@ void FastSystem::matchCount(std::int64_t count)
   keepMarked(this->RimPatches, kept);
 }
 
+/// Particles where seeds are drawn, or, in boxes that get one only, where their samples are known to lie.
+void FastSystem::addSeeds(std::int64_t count, double phase, const std::vector<char>& only)
+{
+  const SurfaceProxy::Seeds seeds = this->Proxy->seeds(count, phase, this->Parallel, only);
+  this->Moving->add(seeds.places);
+  this->Moving->approach(seedOffset);
+  this->addSamples(seeds.samples);
+}
+
+void FastSystem::addSamples(const std::vector<int>& boxes)
+{
+  std::vector<Anchor> anchors;
+  std::vector<Patch> patches;
+  for (const int b : boxes)
+  {
+    anchors.push_back(this->Proxy->samples()[b].anchor);
+    patches.push_back(this->Proxy->samples()[b].patch);
+  }
+  this->Moving->add(anchors, patches);
+}
+
 /// Draws that many first places, or as many of them as lie in boxes that the places to start from leave
 /// alone.
 void FastSystem::makeSeeds(std::int64_t count)
@@ -240,14 +284,14 @@ void FastSystem::makeSeeds(std::int64_t count)
   const double phase = Random(this->Parameters.seed).uniform();
   if (this->Parameters.start.empty())
   {
-    this->Moving->add(this->Proxy->seeds(count, phase, this->Parallel));
+    this->addSeeds(count, phase);
   }
   else
   {
     this->continueFrom(this->Parameters.start);
     const std::vector<char> lonely =
       findLonely(this->Proxy->samples(), this->Moving->patches(), this->Parallel);
-    this->Moving->add(this->Proxy->seeds(count, phase, this->Parallel, lonely));
+    this->addSeeds(count, phase, lonely);
     this->Moving->keep(
       standApart(this->Moving->patches(), this->Moving->count(), squeezed, this->Parallel));
   }
@@ -255,16 +299,23 @@ void FastSystem::makeSeeds(std::int64_t count)
   this->coverBoxes();
 }
 
-/// Takes particles from places near the surface to it; those that do not arrive are dropped.
+/// Takes particles from places near the surface to it; those that come from far off or do not arrive are
+/// dropped.
 void FastSystem::continueFrom(const std::vector<Location>& places)
 {
+  const auto keepThoseWithin = [this](float farthest)
+  {
+    std::vector<char> kept(this->Moving->count());
+    std::transform(this->Moving->anchors().begin(), this->Moving->anchors().end(),
+      this->Moving->patches().begin(), kept.begin(),
+      [farthest](const Anchor& anchor, const Patch& patch)
+      { return std::abs(anchor.offset) <= farthest * patch.spacing; });
+    this->Moving->keep(kept);
+  };
   this->Moving->add(places);
-  std::vector<char> arrived(this->Moving->count());
-  std::transform(this->Moving->anchors().begin(), this->Moving->anchors().end(),
-    this->Moving->patches().begin(), arrived.begin(),
-    [](const Anchor& anchor, const Patch& patch)
-    { return std::abs(anchor.offset) <= arrivedOffset * patch.spacing; });
-  this->Moving->keep(arrived);
+  keepThoseWithin(farthestStart);
+  this->Moving->approach(arrivedOffset);
+  keepThoseWithin(arrivedOffset);
 }
 
 /// The first places of a given number of particles: more are drawn until those that rims push aside are
@@ -284,7 +335,7 @@ void FastSystem::makeExactly(std::int64_t count)
     }
     else
     {
-      this->Moving->add(this->Proxy->seeds(missing(), 0.5, this->Parallel));
+      this->addSeeds(missing(), 0.5);
       this->dropNearRims(seedToRim);
     }
   }
@@ -325,9 +376,11 @@ void FastSystem::dropNearRims(double nearest)
 }
 
 /// Sweeps, what they tell about the number of particles, and one evaluation each.
-void FastSystem::relax(MovingParticles& moving, int sweeps, const Balance& balance)
+void FastSystem::relax(
+  MovingParticles& moving, int sweeps, const Balance& balance, const Section& section)
 {
-  Relaxed relaxed = relaxOnPatches(moving.patches(), sweeps, balance, this->Parallel);
+  const auto reached = [&](double share) { this->Work.raiseFraction(section.at(share)); };
+  Relaxed relaxed = relaxOnPatches(moving.patches(), sweeps, balance, this->Parallel, reached);
   std::vector<glm::vec2>& displacements = relaxed.displacements;
   std::vector<Anchor> anchors;
   std::vector<Patch> patches;
@@ -348,7 +401,7 @@ void FastSystem::relax(MovingParticles& moving, int sweeps, const Balance& balan
 
 /// One round. Where a number is not given, so many are added or removed everywhere before the last round that
 /// their number is as wanted; the last one mends single defects.
-void FastSystem::relaxAll(int sweeps, bool isLast)
+void FastSystem::relaxAll(int sweeps, bool isLast, const Section& section)
 {
   Balance balance;
   balance.extent = this->countIsGiven() ? Balance::None
@@ -358,7 +411,7 @@ void FastSystem::relaxAll(int sweeps, bool isLast)
   {
     balance.missing = this->wantedCount() - static_cast<double>(this->Moving->size());
   }
-  this->relax(*this->Moving, sweeps, balance);
+  this->relax(*this->Moving, sweeps, balance, section);
   if (!this->countIsGiven())
   {
     this->dropNearRims(squeezed);
@@ -404,7 +457,7 @@ void FastSystem::repair()
   {
     Balance balance;
     balance.extent = this->countIsGiven() ? Balance::None : Balance::Defects;
-    this->relax(part, repairSweeps, balance);
+    this->relax(part, repairSweeps, balance, { relaxedFraction, relaxedFraction });
   }
   moved = part.patches();
   moved.resize(part.count());
@@ -418,22 +471,22 @@ void FastSystem::coverBoxes()
 {
   const auto& samples = this->Proxy->samples();
   const std::vector<char> lonely = findLonely(samples, this->Moving->patches(), this->Parallel);
-  std::vector<Anchor> anchors;
-  std::vector<Patch> patches;
+  std::vector<int> added;
   for (std::size_t b = 0; b < samples.size(); ++b)
   {
-    const auto covers = [&sample = samples[b].patch](const Patch& patch)
+    const auto covers = [&](int other)
     {
+      const Patch& sample = samples[b].patch;
+      const Patch& patch = samples[other].patch;
       return glm::distance(patch.position, sample.position) <= 0.7 * patch.spacing &&
         glm::dot(patch.normal, sample.normal) > 0.0f;
     };
-    if (lonely[b] && std::none_of(patches.begin(), patches.end(), covers))
+    if (lonely[b] && std::none_of(added.begin(), added.end(), covers))
     {
-      anchors.push_back(samples[b].anchor);
-      patches.push_back(samples[b].patch);
+      added.push_back(static_cast<int>(b));
     }
   }
-  this->Moving->add(anchors, patches);
+  this->addSamples(added);
 }
 
 /// Takes all particles to the tolerance and says what there is to say about them.
@@ -453,8 +506,9 @@ void FastSystem::finish()
   std::vector<Particle>& particles = this->Result.particles;
   particles = std::move(finished.particles);
   keepMarked(particles, kept);
-  this->Evaluations +=
-    markClipPlanes(this->Surface, this->Jumps, this->Rims.particles, particles, this->Parallel);
+  this->Moving->keep(kept);
+  markClipPlanes(this->Surface, this->Jumps, this->Rims.particles, particles,
+    this->Moving->anchors(), this->Parallel);
   for (const RimParticle& rim : this->Rims.particles)
   {
     particles.push_back(rim.particle);
@@ -491,13 +545,16 @@ void FastSystem::make()
     {
       this->makeSeeds(std::llround(wanted));
     }
-    this->reach(0.45);
     const std::vector<int> rounds =
       sweepsOfRounds(this->Parameters.quality, !this->Parameters.start.empty());
+    const Section all{ seededFraction, relaxedFraction };
+    this->reach(all.begin);
     for (std::size_t n = 0; n < rounds.size(); ++n)
     {
-      this->relaxAll(rounds[n], n + 1 == rounds.size());
-      this->reach(0.45 + 0.45 * static_cast<double>(n + 1) / static_cast<double>(rounds.size()));
+      const auto count = static_cast<double>(rounds.size());
+      const Section round{ all.at(n / count), all.at((n + 1) / count) };
+      this->relaxAll(rounds[n], n + 1 == rounds.size(), round);
+      this->reach(round.end);
     }
     this->repair();
     if (!this->countIsGiven())
@@ -526,7 +583,7 @@ Distribution FastSystem::run()
   }
   this->Result.report.evaluations = this->Evaluations +
     (this->Moving ? this->Moving->evaluations() : 0) + this->Locator.evaluations();
-  return this->Result;
+  return std::move(this->Result);
 }
 
 } // namespace

@@ -25,9 +25,15 @@ public:
   {
   }
 
-  /// What is reported from now on.
-  void setFraction(double fraction) { this->Fraction = fraction; }
-  double fraction() const { return this->Fraction; }
+  /// What is reported from now on, unless that is less than before: progress never falls. May be called
+  /// from several threads.
+  void raiseFraction(double fraction)
+  {
+    double known = this->Fraction;
+    while (known < fraction && !this->Fraction.compare_exchange_weak(known, fraction))
+    {
+    }
+  }
 
   void operator()(
     std::ptrdiff_t count, const std::function<void(std::ptrdiff_t, std::ptrdiff_t)>& body)
@@ -74,7 +80,7 @@ public:
 private:
   const Monitor& Progress;
   const ParallelFor& Parallel;
-  double Fraction = 0.0;
+  std::atomic<double> Fraction{ 0.0 };
   std::chrono::steady_clock::time_point LastAsked{};
 };
 

@@ -1,17 +1,22 @@
 #pragma once
 
-#include <cstddef>
+#include "Buffer.h"
+#include "Monitor.h"
+
+#include <algorithm>
 #include <vector>
 
 namespace hop
 {
 
 /// Removes the items that have no mark, and keeps the order of the others.
+/// \param marks one for each item at least
 template <class T>
 void keepMarked(std::vector<T>& items, const std::vector<char>& marks)
 {
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < items.size(); ++i)
+  const auto end = marks.begin() + static_cast<std::ptrdiff_t>(items.size());
+  std::size_t next = std::find(marks.begin(), end, 0) - marks.begin();
+  for (std::size_t i = next; i < items.size(); ++i)
   {
     if (marks[i])
     {
@@ -21,24 +26,24 @@ void keepMarked(std::vector<T>& items, const std::vector<char>& marks)
   items.resize(next);
 }
 
-/// Puts items order[0], order[1], ... first, in this order, and leaves the rest; without a second array.
-/// \param order a permutation
+/// Puts items order[0], order[1], ... first, in this order, and leaves the rest.
 template <class T>
-void permute(std::vector<T>& items, std::vector<int> order)
+void permute(std::vector<T>& items, const std::vector<int>& order, const ParallelFor& parallelFor)
 {
-  for (std::size_t start = 0; start < order.size(); ++start)
+  Buffer<T> before(order.size());
+  const auto forAll = [&](const auto& use)
   {
-    const T first = items[start];
-    std::size_t place = start;
-    for (std::size_t from = order[place]; from != start; from = order[place])
-    {
-      items[place] = items[from];
-      order[place] = static_cast<int>(place);
-      place = from;
-    }
-    items[place] = first;
-    order[place] = static_cast<int>(place);
-  }
+    runParallel(parallelFor, static_cast<std::ptrdiff_t>(order.size()),
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+      {
+        for (std::ptrdiff_t n = begin; n < end; ++n)
+        {
+          use(n);
+        }
+      });
+  };
+  forAll([&](std::ptrdiff_t n) { before[n] = items[n]; });
+  forAll([&](std::ptrdiff_t n) { items[n] = before[order[n]]; });
 }
 
 } // namespace hop

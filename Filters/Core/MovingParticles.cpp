@@ -18,8 +18,6 @@ constexpr float smallestTurn = 0.3f;
 constexpr int maximumHalvings = 3;
 /// Steps from farther off have to shorten the way by this factor.
 constexpr float smallestProgress = 0.7f;
-/// A patch is good if it was evaluated nearer to the surface than this, in units of its spacing.
-constexpr float nearEnough = 0.1f;
 
 /// World vector of a displacement on a patch.
 glm::dvec3 worldStep(const Patch& patch, const glm::vec2& t)
@@ -55,10 +53,14 @@ void MovingParticles::add(const std::vector<Location>& places)
   this->Patches.insert(
     this->Patches.begin() + static_cast<std::ptrdiff_t>(first), places.size(), Patch());
   this->keep(this->anchorAt(places, first));
+}
+
+void MovingParticles::approach(float farthest)
+{
   std::vector<int> far;
-  for (std::size_t i = first; i < this->count(); ++i)
+  for (std::size_t i = 0; i < this->count(); ++i)
   {
-    if (std::abs(this->Anchors[i].offset) > nearEnough * this->Patches[i].spacing)
+    if (std::abs(this->Anchors[i].offset) > farthest * this->Patches[i].spacing)
     {
       far.push_back(static_cast<int>(i));
     }
@@ -212,8 +214,8 @@ void MovingParticles::commit(const std::vector<glm::vec2>& displacements)
   std::iota(all.begin(), all.end(), 0);
   this->step(all, displacements);
   const std::vector<int> order = orderByElement(this->Anchors, this->Surface.mesh->elements.size());
-  permute(this->Anchors, order);
-  permute(this->Patches, order);
+  permute(this->Anchors, order, this->Parallel);
+  permute(this->Patches, order, this->Parallel);
 }
 
 Location MovingParticles::onSurface(std::size_t i, std::int64_t& cost) const

@@ -27,9 +27,10 @@ public:
   const std::vector<Patch>& patches() const { return this->Patches; }
   std::int64_t evaluations() const { return this->Evaluations; }
 
-  /// Adds a particle for each place from which one Newton step leads to the surface; one evaluation each,
-  /// and another where that step is not small.
+  /// Adds a particle for each place from which one Newton step leads to the surface; one evaluation each.
   void add(const std::vector<Location>& places);
+  /// Takes a Newton step with those that are farther from the surface than that, in units of the spacing.
+  void approach(float farthest);
   /// Adds particles whose patches are known.
   void add(const std::vector<Anchor>& anchors, const std::vector<Patch>& patches);
   /// Keeps those marked; all that move, and no others, have a mark.
@@ -45,10 +46,11 @@ public:
   /// Gives particle i a new anchor and patch, unless they are too far from those before.
   void renew(std::size_t i, const Location& place, const Jet& jet);
   /// Puts particle i where it was found to lie.
-  void settle(std::size_t i, const WorldPoint& position, const WorldVector& normal)
+  void settle(std::size_t i, const Location& place, const FieldPoint& point)
   {
-    this->Patches[i].position = position.xyz;
-    this->Patches[i].normal = glm::vec3(normal.xyz);
+    this->Patches[i].position = point.map.position.xyz;
+    this->Patches[i].normal = glm::vec3(surfaceNormal(point.gradient).xyz);
+    this->Anchors[i] = { place, glm::mat3(point.map.inverse), 0.0f };
   }
   const Isosurface& surface() const { return this->Surface; }
 

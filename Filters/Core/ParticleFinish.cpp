@@ -65,7 +65,7 @@ bool Finish::settle(int i, const Location& place, const Jet& jet)
   this->Result.particles[i] = { place, point.map.position, surfaceNormal(point.gradient),
     curvature(point.gradient, worldHessian(jet, point)), residual, spacing, {}, 0.0 };
   this->Result.settled[i] = 1;
-  this->Moving.settle(i, point.map.position, surfaceNormal(point.gradient));
+  this->Moving.settle(i, place, point);
   return true;
 }
 

@@ -14,7 +14,7 @@ namespace
 constexpr float coverOffset = 0.1f;
 
 /// Cells that suit visits around single points, and where most visits find nothing.
-constexpr double cellsPerReach = 0.5;
+constexpr double cellsPerReach = 0.3;
 constexpr double cellsPerReachOfFew = 0.25;
 
 bool isNear(const Patch& a, const Patch& b, double distance)

@@ -111,7 +111,7 @@ public:
   }
 
   /// Every particle moves that many times, stage by stage.
-  void sweep(int times)
+  void sweep(int times, const std::function<void(double share)>& reached)
   {
     const int stages = static_cast<int>(this->Stages.size());
     for (int first = 0; first < times * stages;)
@@ -127,6 +127,10 @@ public:
       }
       this->runStages(first, last);
       first = last;
+      if (reached)
+      {
+        reached(first / static_cast<double>(times * stages));
+      }
     }
   }
 
@@ -414,14 +418,14 @@ std::vector<float> spacingsOf(const std::vector<Patch>& patches)
 }
 
 Relaxed relaxOnPatches(const std::vector<Patch>& patches, int sweeps, const Balance& balance,
-  const ParallelFor& parallelFor)
+  const ParallelFor& parallelFor, const std::function<void(double share)>& reached)
 {
   if (patches.empty())
   {
     return {};
   }
   SweepSystem system(patches, parallelFor);
-  system.sweep(sweeps);
+  system.sweep(sweeps, reached);
   return system.result(balance);
 }
 

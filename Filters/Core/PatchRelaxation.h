@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -91,7 +92,8 @@ struct Relaxed
 ///
 /// Particles that see each other never move at the same time: a greedy colouring in the order of the
 /// particles decides who moves together. So the result does not depend on threads.
+/// \param reached told now and then which share of the sweeps is done
 Relaxed relaxOnPatches(const std::vector<Patch>& patches, int sweeps, const Balance& balance,
-  const ParallelFor& parallelFor);
+  const ParallelFor& parallelFor, const std::function<void(double share)>& reached = {});
 
 } // namespace hop

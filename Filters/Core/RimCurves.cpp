@@ -18,6 +18,8 @@ namespace
 
 /// Chords of traced rims, in units of the spacing.
 constexpr double chordPerSpacing = 0.5;
+/// So near to the surface a crossing tells whether it ends there.
+constexpr double crossingPerSpacing = 0.2;
 
 /// Chords need not lie on the surface as exactly as particles.
 Isosurface roughly(Isosurface surface, double spacing)
@@ -49,7 +51,7 @@ public:
     : Surface(surface)
     , Proxy(proxy)
     , Law(law)
-    , Exact(surface)
+    , Exact(surface, true)
     , Passer(seamless(surface))
   {
   }
@@ -59,11 +61,11 @@ public:
 
   std::int64_t evaluations() const
   {
-    return this->Evaluations + this->Exact.evaluations() + this->Passer.evaluations();
+    return this->Exact.evaluations() + this->Passer.evaluations();
   }
 
 private:
-  double jumpAt(const Location& location);
+  bool lookBehind(const RimPoint& point, double& jump);
 
   const Isosurface& Surface;
   const SurfaceProxy& Proxy;
@@ -71,7 +73,6 @@ private:
   RimTracer Exact;
   /// Goes on wherever there is something to go on in.
   SurfaceWalker Passer;
-  std::int64_t Evaluations = 0;
 };
 
 class RimSampler
@@ -119,6 +120,10 @@ double RimSampler::spacingAt(const RimPoint& point, double nearby)
 
 void RimSampler::follow(const FaceCrossing& hint, double nearby)
 {
+  if (this->Tracer.hasPassed(hint) || this->Tracer.goesOnAt(hint, crossingPerSpacing * nearby))
+  {
+    return;
+  }
   const auto start = this->Tracer.project(hint.location, hint.face, 4.0 * nearby);
   if (!start || this->Tracer.hasPassed(*start) || !this->Tracer.isOnRim(*start))
   {
@@ -193,50 +198,55 @@ void RimSampler::sampleStretch(const std::vector<RimVertex>& vertices, bool with
 bool RimFinisher::finish(const RimPlace& place, RimParticle& rim)
 {
   const auto point = this->Exact.project(place.location, place.face, place.spacing);
-  if (!point || !this->Exact.isOnRim(*point))
-  {
-    return false;
-  }
-  const ElementMesh& mesh = *this->Surface.mesh;
-  const Location& location = point->at.location;
-  const Jet jet = evaluateHessian(mesh.form(location.element), location.u);
-  ++this->Evaluations;
-  const FieldPoint field = fieldPoint(jet, this->Surface.isovalue);
   Anchor anchor;
-  if (!anchorPatch(location, jet, this->Surface.isovalue, anchor, rim.patch))
+  if (!point || !this->lookBehind(*point, rim.particle.jump) ||
+    !anchorPatch(point->at, anchor, rim.patch))
   {
     return false;
   }
+  const FieldPoint& field = point->at.point;
   rim.patch.spacing = this->Proxy.spacingAt(
     rim.patch.position, rim.patch.curvatureMagnitude(), static_cast<float>(place.spacing));
   rim.patch.fixed = true;
+  rim.pull = anchor.pull;
   const WorldVector normal = surfaceNormal(field.gradient);
-  rim.particle = { location, field.map.position, normal,
-    curvature(field.gradient, worldHessian(jet, field)),
-    std::abs(field.value) / length(field.gradient),
-    this->Law.angularDensity == 0.0 ? this->Law.spacing : rim.patch.spacing, {}, 0.0 };
-  const auto& faces = facts(mesh.elements[location.element].domain).faces;
+  rim.particle = { point->at.location, field.map.position, normal,
+    curvature(field.gradient, point->at.hessian), std::abs(field.value) / length(field.gradient),
+    this->Law.angularDensity == 0.0 ? this->Law.spacing : rim.patch.spacing, {},
+    rim.particle.jump };
+  const auto& faces = facts(this->Surface.mesh->elements[point->at.location.element].domain).faces;
   const glm::dvec3 inward = glm::transpose(field.map.inverse) * faces[point->face].inward.xyz;
   const glm::dvec3 along = inward - glm::dot(inward, normal.xyz) * normal.xyz;
   rim.outward = { glm::length(along) > 0.0 ? -glm::normalize(along) : glm::dvec3(0.0) };
-  rim.particle.jump = this->jumpAt(location);
   return true;
 }
 
-/// F - c on the other side of the face on which a place lies; zero where there is no other side.
-double RimFinisher::jumpAt(const Location& location)
+/// F - c on the other side of the faces on which a point lies; zero where there is no other side.
+/// \return whether the surface ends there
+bool RimFinisher::lookBehind(const RimPoint& point, double& jump)
 {
-  double jump = 0.0;
-  const auto& faces = facts(this->Surface.mesh->elements[location.element].domain).faces;
+  const Location& location = point.at.location;
+  const ElementMesh& mesh = *this->Surface.mesh;
+  const auto& faces = facts(mesh.elements[location.element].domain).faces;
+  jump = 0.0;
   for (int f = 0; f < static_cast<int>(faces.size()); ++f)
   {
-    if (faceMargin(faces[f], location.u) < OnFace && this->Surface.mayEnd(location.element, f))
+    if (faceMargin(faces[f], location.u) >= OnFace || !this->Surface.mayEnd(location.element, f))
     {
-      const auto behind = this->Passer.behind(location, f);
-      jump = behind ? behind->at.point.value : jump;
+      continue;
+    }
+    const auto behind = this->Passer.behind(point.at, f);
+    jump = behind ? behind->at.point.value : jump;
+    const bool joined = mesh.neighbor(location.element, f).element >= 0;
+    const bool goesOn = joined && behind
+      ? SurfaceWalker::goesOn(this->Surface, point.at, f, *behind)
+      : behind && !this->Exact.isOnRim(point);
+    if (f == point.face && goesOn)
+    {
+      return false;
     }
   }
-  return jump;
+  return true;
 }
 
 void RimSampler::finish(const ParallelFor& parallelFor)

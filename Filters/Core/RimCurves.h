@@ -12,6 +12,8 @@ struct RimParticle
   Particle particle;
   /// Anchored to the wall and fixed.
   Patch patch;
+  /// K = J^-1 there.
+  glm::mat3 pull{ 0.0f };
   /// Unit vector along the surface, out of where it ends; zero where it goes on all the same, less than
   /// particles' distance away.
   WorldVector outward;

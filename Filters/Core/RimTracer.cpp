@@ -13,7 +13,12 @@ namespace
 /// Cosine of the largest turn from chord to chord, and of the turn that makes a corner.
 constexpr double smallestTurn = 0.9;
 constexpr double cornerTurn = 0.94;
-constexpr int maximumHalvings = 8;
+/// A rim that cannot be followed by chords that short, in units of the step, ends: all but tangent to its
+/// face it is not known to be there.
+constexpr double smallestChord = 1.0 / 32.0;
+/// Where the surface goes on beyond its face, a rim ends that near to where it does.
+constexpr double fadingChord = 1.0 / 4.0;
+constexpr int mostStuck = 8;
 /// A chord passes a point that is nearer to it than this, in units of its length.
 constexpr double nearness = 0.2;
 
@@ -30,30 +35,60 @@ double distanceToSegment(const glm::dvec3& x, const glm::dvec3& a, const glm::dv
   return glm::distance(x, a + t * d);
 }
 
+/// Whether two lines in a plane cross or touch, to what single precision leaves.
+bool meet(const std::array<glm::dvec3, 2>& a, const std::array<glm::dvec3, 2>& b)
+{
+  constexpr double rounding = 1e-6;
+  const glm::dvec3 along = b[1] - b[0];
+  const double length = glm::length(along);
+  const glm::dvec3 normal = glm::cross(along, a[1] - a[0]);
+  const double size = glm::length(normal);
+  if (!(size > rounding * rounding))
+  {
+    return false; // one of them is a point, or they are parallel
+  }
+  const glm::dvec3 aside = glm::cross(normal, along) / (size * length);
+  const double first = glm::dot(aside, a[0] - b[0]);
+  const double last = glm::dot(aside, a[1] - b[0]);
+  const double t = std::clamp(first / (first - last), 0.0, 1.0);
+  const glm::dvec3 nearest = glm::mix(a[0], a[1], t);
+  const double reached = glm::dot(nearest - b[0], along) / length;
+  return std::abs(glm::dot(aside, nearest - b[0])) <= rounding && reached >= -rounding &&
+    reached <= length + rounding;
+}
+
 } // namespace
 
 void RimChords::add(const RimPoint& from, const RimPoint& to)
 {
-  this->Chords[keyOf(from)].emplace_back(
-    from.at.point.map.position.xyz, to.at.point.map.position.xyz);
+  const Location& first = from.at.location;
+  const Location& last = to.at.location;
+  // A chord that leaves its element is known by its first place there.
+  const Location& end = last.element == first.element ? last : first;
+  this->Chords[keyOf(first.element, from.face)].push_back(
+    { { from.at.point.map.position.xyz, to.at.point.map.position.xyz },
+      { first.u.xyz, end.u.xyz } });
 }
 
 bool RimChords::pass(const RimPoint& point) const
 {
-  const auto found = this->Chords.find(keyOf(point));
+  const auto found = this->Chords.find(keyOf(point.at.location.element, point.face));
   const glm::dvec3& x = point.at.point.map.position.xyz;
   return found != this->Chords.end() &&
     std::any_of(found->second.begin(), found->second.end(),
-      [&x](const std::pair<glm::dvec3, glm::dvec3>& chord)
+      [&x](const Chord& chord)
       {
-        return distanceToSegment(x, chord.first, chord.second) <=
-          nearness * glm::distance(chord.first, chord.second);
+        const auto& [a, b] = chord.positions;
+        return distanceToSegment(x, a, b) <= nearness * glm::distance(a, b);
       });
 }
 
-std::int64_t RimChords::keyOf(const RimPoint& point)
+bool RimChords::cross(int element, int face, const std::array<glm::dvec3, 2>& ends) const
 {
-  return std::int64_t{ MaximumFaces } * point.at.location.element + point.face;
+  const auto found = this->Chords.find(keyOf(element, face));
+  return found != this->Chords.end() &&
+    std::any_of(found->second.begin(), found->second.end(),
+      [&ends](const Chord& chord) { return meet(chord.places, ends); });
 }
 
 /// The face at which the surface may end on which a place lies, the preferred one if it is among them; -1
@@ -79,6 +114,17 @@ int RimTracer::wallOf(const Location& location, int preferred) const
     }
   }
   return -1;
+}
+
+bool RimTracer::goesOnAt(const FaceCrossing& crossing, double nearest)
+{
+  if (!this->Surface.isUndecided(crossing.location.element, crossing.face))
+  {
+    return false;
+  }
+  const Evaluated at = this->Passer.evaluate(crossing.location);
+  return std::abs(at.point.value) <= nearest * length(at.point.gradient) &&
+    !this->Passer.endsAt(at, crossing.face);
 }
 
 std::optional<RimPoint> RimTracer::project(const Location& start, int face, double maximumTravel)
@@ -211,22 +257,26 @@ std::optional<RimPoint> RimTracer::turnAroundEdge(const Evaluated& at, int wall,
   };
   std::vector<std::int64_t> edge = edgeBetween(at.location, wall, face);
   Location location = at.location;
+  std::optional<Evaluated> here = at;
   for (int n = 0; n < maximumElements; ++n)
   {
     const FaceNeighbor& neighbor = this->Surface.mesh->neighbor(location.element, face);
     int entry = neighbor.face;
     if (this->Surface.mayEnd(location.element, face))
     {
-      const auto next = this->Passer.behind(location, face);
+      here = here ? here : this->Walker.evaluate(location);
+      const auto next = this->Passer.behind(*here, face);
       if (!next)
       {
-        return RimPoint{ n == 0 ? at : this->Walker.evaluate(location), face };
+        return RimPoint{ *here, face };
       }
+      here = next->at;
       location = next->at.location;
       entry = next->face;
     }
     else
     {
+      here.reset();
       location = crossFace(*this->Surface.mesh, location, face);
     }
     const bool joined = neighbor.element >= 0;
@@ -237,6 +287,7 @@ std::optional<RimPoint> RimTracer::turnAroundEdge(const Evaluated& at, int wall,
     }
     if (!joined)
     {
+      here.reset();
       location = this->ontoFace(location, face);
       edge = edgeBetween(location, entry, face);
     }
@@ -244,27 +295,31 @@ std::optional<RimPoint> RimTracer::turnAroundEdge(const Evaluated& at, int wall,
   return std::nullopt;
 }
 
-std::optional<RimVertex> RimTracer::passEdge(
+RimTracer::Ahead RimTracer::passEdge(
   const RimPoint& from, const ReferencePoint& u, int otherFace, double step)
 {
   const auto at =
     this->projectAlongEdge({ from.at.location.element, u }, from.face, otherFace, step);
-  if (!at || !this->isOnRim({ *at, from.face }))
+  if (!at)
   {
-    return std::nullopt;
+    return {};
+  }
+  if (!this->isOnRim({ *at, from.face }))
+  {
+    return { std::nullopt, true };
   }
   const auto beyond = this->turnAroundEdge(*at, from.face, otherFace);
   if (!beyond)
   {
-    return std::nullopt;
+    return {};
   }
   RimVertex vertex{ { *at, from.face }, *beyond, false };
   vertex.corner = dot(this->tangent(vertex.arriving), this->tangent(vertex.leaving)) < cornerTurn;
-  return vertex;
+  return { vertex, false };
 }
 
 /// The next vertex, `step` ahead or on the next edge of the mesh.
-std::optional<RimVertex> RimTracer::advance(const RimPoint& from, double step, double direction)
+RimTracer::Ahead RimTracer::advance(const RimPoint& from, double step, double direction)
 {
   const Domain domain = this->Surface.mesh->elements[from.at.location.element].domain;
   ActiveFaces wall;
@@ -278,12 +333,31 @@ std::optional<RimVertex> RimTracer::advance(const RimPoint& from, double step, d
     return this->passEdge(from, u, exit.face, step);
   }
   const auto next = this->project({ from.at.location.element, u }, from.face, step);
-  if (!next || dot(this->tangent(*next), this->tangent(from)) < smallestTurn ||
-    !this->isOnRim(*next))
+  if (!next || dot(this->tangent(*next), this->tangent(from)) < smallestTurn)
   {
-    return std::nullopt;
+    return {};
   }
-  return RimVertex{ *next, *next, false };
+  if (!this->isOnRim(*next))
+  {
+    return { std::nullopt, true };
+  }
+  return { RimVertex{ *next, *next, false }, false };
+}
+
+/// The next vertex after chords tried from one length on, each half as long as the one before.
+std::optional<RimVertex> RimTracer::advanceAtMost(
+  double& chord, double step, const RimPoint& from, double direction)
+{
+  for (double shortest = smallestChord * step; chord >= shortest; chord *= 0.5)
+  {
+    const Ahead ahead = this->advance(from, chord, direction);
+    if (ahead.vertex)
+    {
+      return ahead.vertex;
+    }
+    shortest = ahead.fades ? fadingChord * step : shortest;
+  }
+  return std::nullopt;
 }
 
 /// \return whether the rim came back to its start
@@ -294,14 +368,9 @@ bool RimTracer::follow(
   std::optional<std::pair<RimPoint, RimPoint>> lastChord;
   double chord = step;
   int stuck = 0;
-  while (stuck <= maximumHalvings)
+  while (stuck <= mostStuck)
   {
-    std::optional<RimVertex> next;
-    for (int n = 0; n < maximumHalvings && !next; ++n)
-    {
-      next = this->advance(here, chord, direction);
-      chord *= next ? 1.0 : 0.5;
-    }
+    const auto next = this->advanceAtMost(chord, step, here, direction);
     if (!next)
     {
       break;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "FaceCrossings.h"
 #include "SurfaceWalker.h"
 
 #include <optional>
@@ -42,22 +43,40 @@ public:
   /// Whether a chord on the same face passes a point, to a fifth of its length.
   bool pass(const RimPoint& point) const;
 
-private:
-  static std::int64_t keyOf(const RimPoint& point);
+  /// Whether a chord on a face crosses the line between two places on it.
+  bool cross(int element, int face, const std::array<glm::dvec3, 2>& ends) const;
 
-  std::unordered_map<std::int64_t, std::vector<std::pair<glm::dvec3, glm::dvec3>>> Chords;
+private:
+  struct Chord
+  {
+    /// In the world, and in the element's reference space.
+    std::array<glm::dvec3, 2> positions;
+    std::array<glm::dvec3, 2> places;
+  };
+
+  static std::int64_t keyOf(int element, int face)
+  {
+    return std::int64_t{ MaximumFaces } * element + face;
+  }
+
+  std::unordered_map<std::int64_t, std::vector<Chord>> Chords;
 };
 
 /// Follows rims of the isosurface: curves {F = c} on faces, as far as the surface ends there.
 class RimTracer
 {
 public:
-  explicit RimTracer(const Isosurface& surface)
+  /// \param curved evaluates Hessians at its points
+  explicit RimTracer(const Isosurface& surface, bool curved = false)
     : Surface(surface)
-    , Walker(surface.withWalls())
+    , Walker(surface.withWalls(), curved)
     , Passer(surface)
   {
   }
+
+  /// Whether the surface is seen to go on at a crossing that is nearer to it than that (world units); two
+  /// evaluations.
+  bool goesOnAt(const FaceCrossing& crossing, double nearest);
 
   /// Puts a place on a face at which the surface may end onto the surface, along the face.
   std::optional<RimPoint> project(const Location& start, int face, double maximumTravel);
@@ -74,6 +93,11 @@ public:
 
   /// Whether a rim was traced through a point.
   bool hasPassed(const RimPoint& point) const { return this->Chords.pass(point); }
+  /// The same, of a crossing; may miss some, but costs nothing.
+  bool hasPassed(const FaceCrossing& crossing) const
+  {
+    return this->Chords.cross(crossing.location.element, crossing.face, crossing.ends);
+  }
 
   std::int64_t evaluations() const
   {
@@ -83,9 +107,18 @@ public:
 private:
   bool follow(
     const RimPoint& start, double step, double direction, std::vector<RimVertex>& vertices);
-  std::optional<RimVertex> advance(const RimPoint& from, double step, double direction);
-  std::optional<RimVertex> passEdge(
-    const RimPoint& from, const ReferencePoint& u, int otherFace, double step);
+  /// What comes next on a rim.
+  struct Ahead
+  {
+    std::optional<RimVertex> vertex;
+    /// There is none as the surface goes on there.
+    bool fades = false;
+  };
+
+  std::optional<RimVertex> advanceAtMost(
+    double& chord, double step, const RimPoint& from, double direction);
+  Ahead advance(const RimPoint& from, double step, double direction);
+  Ahead passEdge(const RimPoint& from, const ReferencePoint& u, int otherFace, double step);
   std::optional<Evaluated> projectAlongEdge(
     const Location& start, int faceA, int faceB, double maximumTravel);
   std::optional<RimPoint> turnAroundEdge(const Evaluated& at, int wall, int face);

@@ -5,6 +5,7 @@
 #include "MonotoneTest.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace hop
@@ -60,6 +61,57 @@ constexpr std::size_t fewElements = 64;
 /// Halving adds rounding errors of the order of eps times the values themselves.
 constexpr double roundingShare = 1e-14;
 
+using ReportShare = std::function<void(double)>;
+
+void report(const ReportShare& found, double share)
+{
+  if (found)
+  {
+    found(share);
+  }
+}
+
+/// How much of an element's surface has its boxes: the pieces of a level that hold surface are taken for
+/// equal parts of what the levels before have left.
+class FoundShare
+{
+public:
+  explicit FoundShare(const ReportShare& found)
+    : Found(found)
+  {
+  }
+
+  void beginLevel(std::size_t pieces)
+  {
+    this->Before = this->now();
+    this->Pieces = pieces;
+    this->Finished = 0;
+    this->Empty = 0;
+  }
+
+  /// A piece holds no surface, or all that is in it has its boxes. May be called from several threads.
+  void closePiece(bool isEmpty)
+  {
+    ++(isEmpty ? this->Empty : this->Finished);
+    report(this->Found, this->now());
+  }
+
+private:
+  double now() const
+  {
+    const std::size_t holding = this->Pieces - this->Empty;
+    return holding == 0 ? this->Before
+                        : this->Before +
+        (1.0 - this->Before) * static_cast<double>(this->Finished) / static_cast<double>(holding);
+  }
+
+  const ReportShare& Found;
+  double Before = 0.0;
+  std::size_t Pieces = 0;
+  std::atomic<std::size_t> Finished{ 0 };
+  std::atomic<std::size_t> Empty{ 0 };
+};
+
 class ElementSplitter
 {
 public:
@@ -72,9 +124,11 @@ public:
   }
 
   /// Appends the boxes of an element.
-  void split(int element, const ParallelFor& parallelFor, std::vector<SurfaceBox>& boxes)
+  void split(int element, const ParallelFor& parallelFor, const ReportShare& found,
+    std::vector<SurfaceBox>& boxes)
   {
     this->begin(element);
+    FoundShare share(found);
     // Level by level, so that the limit on pieces cuts all of the element at the same size.
     std::vector<Piece> level{ this->wholeElement() };
     if (!isFinite(level.front()))
@@ -87,12 +141,17 @@ public:
       // Pieces of high degree are large: once there are enough for all threads, certified ones are
       // followed to their boxes one by one.
       const bool toTheEnd = level.size() >= manyPieces;
+      share.beginLevel(level.size());
       std::vector<Outcome> outcomes(level.size());
       const auto decide = [&](std::ptrdiff_t begin, std::ptrdiff_t end)
       {
         for (std::ptrdiff_t n = begin; n < end; ++n)
         {
           outcomes[n] = this->decide(element, level[n], tooMany, toTheEnd);
+          if (!outcomes[n].isHalved)
+          {
+            share.closePiece(outcomes[n].boxes.empty());
+          }
         }
       };
       runParallel(level.size() < fewPieces ? ParallelFor() : parallelFor,
@@ -490,18 +549,24 @@ std::vector<SurfaceBox> findSurfaceBoxes(
 }
 
 std::vector<SurfaceBox> findSurfaceBoxes(const ElementMesh& mesh, double isovalue,
-  const std::function<bool(const Location&, double)>& isSmall, const ParallelFor& parallelFor)
+  const std::function<bool(const Location&, double)>& isSmall, const ParallelFor& parallelFor,
+  const std::function<void(double)>& found)
 {
   std::vector<SurfaceBox> boxes;
+  const auto reportElements = [&](double done)
+  { report(found, done / static_cast<double>(mesh.elements.size())); };
   if (mesh.elements.size() < fewElements)
   {
     ElementSplitter splitter(mesh, isovalue, isSmall);
     for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
     {
-      splitter.split(e, parallelFor, boxes);
+      splitter.split(
+        e, parallelFor, [&, e](double share) { reportElements(e + share); }, boxes);
+      reportElements(e + 1);
     }
     return boxes;
   }
+  std::atomic<int> done{ 0 };
   std::vector<std::vector<SurfaceBox>> ofElement(mesh.elements.size());
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(mesh.elements.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
@@ -509,7 +574,8 @@ std::vector<SurfaceBox> findSurfaceBoxes(const ElementMesh& mesh, double isovalu
       ElementSplitter splitter(mesh, isovalue, isSmall);
       for (std::ptrdiff_t e = begin; e < end; ++e)
       {
-        splitter.split(static_cast<int>(e), {}, ofElement[e]);
+        splitter.split(static_cast<int>(e), {}, {}, ofElement[e]);
+        reportElements(++done);
       }
     });
   for (const auto& some : ofElement)

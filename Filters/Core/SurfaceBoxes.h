@@ -46,11 +46,13 @@ struct SurfaceBox
 /// \param wantedSize world units, > 0
 /// \param isSmall instead: whether a certified box of that middle and size is small enough; called from
 ///   several threads
+/// \param found is told what share of the work is done, 0 to 1; called from several threads
 /// \return boxes in the order of the elements, the same for any number of threads
 std::vector<SurfaceBox> findSurfaceBoxes(
   const ElementMesh& mesh, double isovalue, double wantedSize, const ParallelFor& parallelFor);
 std::vector<SurfaceBox> findSurfaceBoxes(const ElementMesh& mesh, double isovalue,
-  const std::function<bool(const Location&, double)>& isSmall, const ParallelFor& parallelFor);
+  const std::function<bool(const Location&, double)>& isSmall, const ParallelFor& parallelFor,
+  const std::function<void(double)>& found = {});
 
 /// Whether a place lies in the ball around a box: a seed that Newton's method took farther may be on
 /// another component than the box's own.

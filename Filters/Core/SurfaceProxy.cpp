@@ -14,8 +14,9 @@ namespace hop
 namespace
 {
 
-/// A sample may be this far from the surface, by one Newton step, in units of its box.
+/// A sample may be this far from the surface, by one Newton step, in units of its box, or of its spacing.
 constexpr double sampleOffset = 0.02;
+constexpr double offsetPerSpacing = 0.1;
 /// Corners of triangles are moved by at most this share of the radius to which the surface bends.
 constexpr double largestShift = 0.3;
 /// A patch is not believed to be steeper than this makes it.
@@ -73,7 +74,9 @@ bool SurfaceProxy::sampleAt(std::size_t box, const Location& place, const Jet& j
 {
   Sample& sample = this->Samples[box];
   sample.found = anchorPatch(place, jet, this->Surface.isovalue, sample.anchor, sample.patch) &&
-    std::abs(sample.anchor.offset) <= sampleOffset * this->Boxes[box].size;
+    std::abs(sample.anchor.offset) <=
+      std::max(sampleOffset * this->Boxes[box].size,
+        offsetPerSpacing * this->Law.at(sample.patch.curvatureMagnitude()));
   return sample.found;
 }
 
@@ -340,10 +343,11 @@ void SurfaceProxy::seedBox(std::size_t box, std::int64_t first, std::int64_t las
   }
 }
 
-std::vector<Location> SurfaceProxy::seeds(std::int64_t count, double phase,
+SurfaceProxy::Seeds SurfaceProxy::seeds(std::int64_t count, double phase,
   const ParallelFor& parallelFor, const std::vector<char>& only) const
 {
-  std::vector<Location> result(count);
+  std::vector<Location> places(count);
+  std::vector<char> alone(this->Boxes.size(), 0);
   const double stride = this->particleCount() / static_cast<double>(count);
   // The first seed whose sum is not below a given one.
   const auto firstFrom = [&](double sum)
@@ -359,13 +363,24 @@ std::vector<Location> SurfaceProxy::seeds(std::int64_t count, double phase,
         const bool wanted = only.empty() || only[b];
         if (wanted && first < last && (b == 0 || this->Sums[b] > this->Sums[b - 1]))
         {
-          this->seedBox(b, first, last, phase, stride, result);
+          alone[b] = last - first == 1;
+          if (!alone[b])
+          {
+            this->seedBox(b, first, last, phase, stride, places);
+          }
         }
       }
     });
-  result.erase(std::remove_if(result.begin(), result.end(),
-                 [](const Location& seed) { return seed.element < 0; }),
-    result.end());
+  Seeds result;
+  std::copy_if(places.begin(), places.end(), std::back_inserter(result.places),
+    [](const Location& seed) { return seed.element >= 0; });
+  for (std::size_t b = 0; b < alone.size(); ++b)
+  {
+    if (alone[b])
+    {
+      result.samples.push_back(static_cast<int>(b));
+    }
+  }
   return result;
 }
 

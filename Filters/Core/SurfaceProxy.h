@@ -47,11 +47,18 @@ public:
   /// Number of particles in hexagonal packing at the spacings wanted: the sum of 2 area/(sqrt(3) h^2).
   double particleCount() const { return this->Sums.empty() ? 0.0 : this->Sums.back(); }
 
+  struct Seeds
+  {
+    std::vector<Location> places;
+    /// Numbers of boxes whose samples stand for their only place.
+    std::vector<int> samples;
+  };
+
   /// `count` places on the triangles, by systematic sampling of the density of particles: the k-th
   /// stands where the sum of the weights reaches (k + phase) particleCount()/count.
   /// \param phase in [0, 1)
   /// \param only if not empty, a mark for each box: of all places those in boxes that have one
-  std::vector<Location> seeds(std::int64_t count, double phase, const ParallelFor& parallelFor,
+  Seeds seeds(std::int64_t count, double phase, const ParallelFor& parallelFor,
     const std::vector<char>& only = {}) const;
 
   /// The spacing that a particle wants: that of the law at its own curvature, or less near places

@@ -39,6 +39,10 @@ int faceCountOf(const ElementMesh& mesh, const Location& location)
 
 Evaluated SurfaceWalker::evaluate(const Location& location)
 {
+  if (this->Curved)
+  {
+    return this->evaluateCurved(location);
+  }
   ++this->Evaluations;
   const Jet jet = evaluateGradient(this->Surface.mesh->form(location.element), location.u);
   return { location, fieldPoint(jet, this->Surface.isovalue) };
@@ -90,16 +94,18 @@ std::optional<SurfaceWalker::Behind> SurfaceWalker::behind(const Evaluated& here
     return std::nullopt;
   }
   const Behind there{ this->evaluate(place->location), place->face };
-  const double gap = surface.gap(element, face);
-  if (!std::isfinite(gap))
-  {
-    return there;
-  }
+  return goesOn(surface, here, face, there) ? std::optional<Behind>(there) : std::nullopt;
+}
+
+bool SurfaceWalker::goesOn(
+  const Isosurface& surface, const Evaluated& here, int face, const Behind& there)
+{
+  const double gap = surface.gap(here.location.element, face);
   const WorldVector& before = here.point.gradient;
   const WorldVector& after = there.at.point.gradient;
-  const bool agrees = missBetween(*surface.mesh, here, face, there) <= gap &&
-    dot(before, after) >= sameSheet * length(after) * length(before);
-  return agrees ? std::optional<Behind>(there) : std::nullopt;
+  return !std::isfinite(gap) ||
+    (missBetween(*surface.mesh, here, face, there) <= gap &&
+      dot(before, after) >= sameSheet * length(after) * length(before));
 }
 
 std::optional<SurfaceWalker::Behind> SurfaceWalker::behind(const Location& here, int face)

@@ -67,8 +67,10 @@ struct Evaluated
 class SurfaceWalker
 {
 public:
-  explicit SurfaceWalker(const Isosurface& surface)
+  /// \param curved evaluates Hessians everywhere
+  explicit SurfaceWalker(const Isosurface& surface, bool curved = false)
     : Surface(surface)
+    , Curved(curved)
   {
   }
 
@@ -94,6 +96,10 @@ public:
   /// the field's values and slopes at a place; infinite or NaN where a slope is zero.
   static double missBetween(
     const ElementMesh& mesh, const Evaluated& here, int face, const Behind& there);
+
+  /// Whether the surface goes on from a place to what lies behind a face there.
+  static bool goesOn(
+    const Isosurface& surface, const Evaluated& here, int face, const Behind& there);
 
   /// Whether a place lies on that face of its element, and the surface ends there.
   bool endsAt(const Evaluated& here, int face);
@@ -128,6 +134,7 @@ private:
   std::optional<LocatedPlace> placeBehind(const Evaluated& here, int face);
 
   Isosurface Surface;
+  bool Curved = false;
   std::int64_t Evaluations = 0;
 };
 

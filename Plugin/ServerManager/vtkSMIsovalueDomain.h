@@ -4,8 +4,7 @@
  *
  * vtkSMArrayRangeDomain's default is the middle of the whole range, which one bad corner of a simulation
  * moves to where there is nothing to see. Here it is the middle of what remains without the lowest and the
- * highest hundredth of the nodal values. It needs the values at hand: where they are on another machine or
- * on several ranks the default is the middle of the range as ever.
+ * highest hundredth of the nodal values, wherever they are.
  */
 #ifndef vtkSMIsovalueDomain_h
 #define vtkSMIsovalueDomain_h
@@ -13,7 +12,7 @@
 #include "vtkHighOrderParticleServerManagerModule.h" // for the export macro
 #include "vtkSMArrayRangeDomain.h"
 
-#include <vector> // for the values
+class vtkPVQuantileInformation;
 
 class VTKHIGHORDERPARTICLESERVERMANAGER_EXPORT vtkSMIsovalueDomain : public vtkSMArrayRangeDomain
 {
@@ -34,7 +33,7 @@ private:
   vtkSMIsovalueDomain(const vtkSMIsovalueDomain&) = delete;
   void operator=(const vtkSMIsovalueDomain&) = delete;
 
-  std::vector<double> NodalValues();
+  void LookAtValues(vtkPVQuantileInformation* values);
 };
 
 #endif

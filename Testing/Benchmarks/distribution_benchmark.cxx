@@ -166,8 +166,9 @@ void runStages(const Request& request, Stages& stages)
   stages.packing = onTwoThreads(
     [&]
     {
-      packParticles(
-        blocks, stages.elements, { { request.isovalue, stages.distribution } }, parallelFor);
+      const hop::Monitor noMonitor;
+      hop::Interruptible work(noMonitor, parallelFor);
+      packParticles(blocks, stages.elements, { { request.isovalue, stages.distribution } }, work);
     });
 }
 

@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <numeric>
+#include <set>
 
 namespace hop::testing
 {
@@ -438,6 +440,23 @@ TEST(FastDistribution, StopsSoonAfterTheMonitorAsksForIt)
       EXPECT_LT(Clock::now() - stop, std::chrono::milliseconds(200));
     }
   }
+}
+
+TEST(FastDistribution, ProgressRisesWhileOneElementIsSplit)
+{
+  // Asked some twenty times a second: the element has to keep it busy for longer than that.
+  const ElementMesh mesh = meshOf(Domain::Hexahedron, 8, torus(0.5, 0.22).field, 1);
+  std::set<double> fractions;
+  distribute(mesh, withSpacing(0.004),
+    { [&](double fraction)
+      {
+        fractions.insert(fraction);
+        return fraction < 0.35;
+      } });
+  const auto between = [&](double from, double to)
+  { return std::distance(fractions.lower_bound(from), fractions.lower_bound(to)); };
+  EXPECT_GE(between(0.05, 0.15), 1);
+  EXPECT_GE(between(0.15, 0.29), 1);
 }
 
 TEST(FastDistribution, NothingComesOfNothing)

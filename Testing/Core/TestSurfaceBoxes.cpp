@@ -164,6 +164,55 @@ TEST(SurfaceBoxes, AreTheSameForAnyNumberOfThreads)
   }
 }
 
+TEST(SurfaceBoxes, TellWhatShareOfTheWorkIsDone)
+{
+  MeshRecipe recipe;
+  recipe.degrees = { 8, 8, 8 };
+  recipe.field = sphere(glm::dvec3(0.1, -0.05, 0.02), 0.6).field;
+  for (const int cells : { 1, 2, 5 }) // 125 elements are split in another loop than a few
+  {
+    SCOPED_TRACE(cells);
+    recipe.cells = cells;
+    const ElementMesh mesh = makeMesh(recipe);
+    std::vector<double> shares;
+    std::vector<double> work;
+    double looks = 0.0;
+    const auto isSmall = [&](const Location&, double size)
+    {
+      ++looks;
+      return size < 0.05;
+    };
+    findSurfaceBoxes(mesh, 0.0, isSmall, {},
+      [&](double share)
+      {
+        shares.push_back(share);
+        work.push_back(looks);
+      });
+    ASSERT_GT(shares.size(), 50u);
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+    EXPECT_LT(shares.front(), 0.02);
+    EXPECT_EQ(shares.back(), 1.0);
+    for (std::size_t n = 1; n < shares.size(); ++n)
+    {
+      ASSERT_LT(shares[n] - shares[n - 1], 0.1);
+      ASSERT_NEAR(shares[n], work[n] / looks, 0.25);
+    }
+  }
+}
+
+TEST(SurfaceBoxes, WorkOnElementsWithoutSurfaceIsDoneAtOnce)
+{
+  MeshRecipe recipe;
+  recipe.cells = 1;
+  recipe.field = [](const glm::dvec3& x) { return 3.0 + x.x; };
+  std::vector<double> shares;
+  findSurfaceBoxes(
+    makeMesh(recipe), 0.0, [](const Location&, double) { return true; }, {},
+    [&](double share) { shares.push_back(share); });
+  ASSERT_FALSE(shares.empty());
+  EXPECT_EQ(shares.back(), 1.0);
+}
+
 TEST(SurfaceBoxes, ATinySphereInALargeElementIsFound)
 {
   MeshRecipe recipe;

@@ -1,6 +1,8 @@
 """Shared by the tests of the filter: run it on a file or on a grid, look at what it wrote and said,
 and ask VTK's own cells, contour and locator for a second opinion."""
 
+import os
+
 import numpy as np
 from paraview import simple
 from paraview.vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -27,6 +29,13 @@ class Messages:
         for speaker in (algorithm, algorithm.GetExecutive()):
             speaker.AddObserver("ErrorEvent", listen)
             speaker.AddObserver("WarningEvent", listen)
+
+
+def environment_of_ranks():
+    """The environment for an MPI program. This process may be one itself; its children must not take themselves for
+    its ranks."""
+    environment = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_", "PMIX_", "PRTE_"))}
+    return {**environment, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
 
 def read(path):

@@ -1,6 +1,7 @@
-"""A client and a server on one machine, the plugin on both: same particles, same pictures."""
+"""A client and a server on one machine, the plugin on both, and ranks: same defaults, particles, pictures."""
 
 import os
+import shutil
 import socket
 import subprocess
 from pathlib import Path
@@ -9,7 +10,7 @@ import numpy as np
 import pytest
 from paraview import simple
 from pictures import background_share, read_png
-from support import contents, output_of
+from support import contents, environment_of_ranks, output_of
 
 PVSERVER = Path(os.environ["HOP_PVPYTHON"]).parent / "pvserver"
 SIZE = 300
@@ -23,6 +24,7 @@ import test_client_server as here
 simple.Connect("127.0.0.1", {port})
 simple.LoadPlugin({plugin!r}, remote=True, ns=vars(simple))
 simple.LoadPlugin({plugin!r}, remote=False, ns=vars(simple))
+print("default isovalue:", here.default_isovalue({data!r}))
 surface, view = here.make_session({data!r})
 simple.SaveData({folder_out!r} + "/remote.vtp", surface, DataMode="Binary")
 for name, threshold in [("server", 0.0), ("client", 1e6)]:
@@ -31,6 +33,27 @@ for name, threshold in [("server", 0.0), ("client", 1e6)]:
     print(name, "draws remotely:", bool(view.GetClientSideObject().GetUseDistributedRenderingForRender()))
 simple.Disconnect()
 """
+
+
+# Of several ranks only the first runs it.
+RANKS = """
+import sys
+from paraview import simple
+sys.path.insert(0, {folder!r})
+import test_client_server as here
+simple.LoadPlugin({plugin!r}, remote=False, ns=vars(simple))
+print("default isovalue:", here.default_isovalue({data!r}))
+"""
+
+
+def default_isovalue(file):
+    reader = simple.OpenDataFile(file)
+    reader.UpdatePipeline()
+    return list(simple.HighOrderParticleIsosurface(Input=reader).Isosurfaces)
+
+
+def said_isovalue(said):
+    return float(said.split("default isovalue: [")[1].split("]")[0])
 
 
 def make_session(file):
@@ -87,6 +110,7 @@ def test_client_and_server_agree_with_a_session_without(plugin, data, server, tm
     assert client.returncode == 0, said
     assert "server draws remotely: True" in said and "client draws remotely: False" in said, said
     assert "ERR|" not in said, said
+    assert [said_isovalue(said)] == default_isovalue(data("mfem_hex1_p8.vtu"))
 
     remote = simple.XMLPolyDataReader(FileName=[str(tmp_path / "remote.vtp")])
     assert contents(output_of(remote)) == contents(output_of(surface))
@@ -96,3 +120,23 @@ def test_client_and_server_agree_with_a_session_without(plugin, data, server, tm
         picture = read_png(tmp_path / f"{name}.png")
         differing = np.abs(picture - alone).max(axis=2) > 8
         assert differing.mean() < 0.001, f"drawn by the {name}"
+
+
+# On the first file all values are in three pieces, on the second all are on one rank; where a few values of a
+# field lie far off, the middle of its whole range is another.
+@pytest.mark.parametrize("file", ["dealii_shell_p3_00.pvtu", "mfem_dg_advection_0.vtu"])
+def test_ranks_agree_on_the_default_isovalue(plugin, data, tmp_path, file):
+    for program in ("mpirun", "pvbatch"):
+        if not shutil.which(program):
+            pytest.skip(f"no {program} here")
+    script = tmp_path / "ranks.py"
+    script.write_text(RANKS.format(folder=str(Path(__file__).parent), plugin=str(plugin), data=data(file)))
+    command = ["mpirun", "-np", "2", "--oversubscribe", "pvbatch", str(script)]
+    ranks = subprocess.run(command, env=environment_of_ranks(), capture_output=True, text=True, timeout=120)
+    said = ranks.stdout + ranks.stderr
+    assert ranks.returncode == 0 and "ERR|" not in said, said
+    alone, = default_isovalue(data(file))
+    reader = simple.OpenDataFile(data(file))
+    reader.UpdatePipeline()
+    lowest, highest = reader.PointData[simple.HighOrderParticleIsosurface(Input=reader).ContourBy[1]].GetRange()
+    assert abs(said_isovalue(said) - alone) < 1e-3 * (highest - lowest)

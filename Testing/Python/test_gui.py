@@ -4,6 +4,7 @@ The display is an X server whose screen is a file, so that the whole window can 
 seen stays in gui.png in the build folder's Testing/.
 """
 
+import json
 import os
 import shutil
 import struct
@@ -13,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from paraview import simple
 from pictures import write_png
 
 WIDTH, HEIGHT = 1280, 800
@@ -59,17 +61,26 @@ def watch(process, screen_file, seconds):
     return pixels_of(screen_file)
 
 
+def start(display, home, plugin, *arguments):
+    """ParaView in a window that fills the screen, with the plugin and settings of its own."""
+    homes = {"HOME": str(home), "XDG_CONFIG_HOME": str(home), "XDG_RUNTIME_DIR": str(home)}
+    return subprocess.Popen(
+        [str(PARAVIEW), "-qwindowgeometry", f"{WIDTH}x{HEIGHT}+0+0", "--dr", f"--plugin-search-paths={plugin.parent}",
+         f"--plugins={plugin.stem}", *arguments],
+        env={**os.environ, **homes, "DISPLAY": display}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
-@pytest.mark.skipif(not PARAVIEW.is_file(), reason="this ParaView has no GUI")
-@pytest.mark.skipif(not shutil.which("Xvfb"), reason="no Xvfb")
+
+pytestmark = [
+    pytest.mark.skipif(not PARAVIEW.is_file(), reason="this ParaView has no GUI"),
+    pytest.mark.skipif(not shutil.which("Xvfb"), reason="no Xvfb"),
+]
+
+
 def test_a_user_finds_the_filter_and_sees_the_surface(plugin, data, screen, tmp_path):
     display, screen_file = screen
-    home = {"HOME": str(tmp_path), "XDG_CONFIG_HOME": str(tmp_path), "XDG_RUNTIME_DIR": str(tmp_path)}
-    process = subprocess.Popen(
-        [str(PARAVIEW), "-qwindowgeometry", f"{WIDTH}x{HEIGHT}+0+0", "--dr", f"--plugin-search-paths={plugin.parent}",
-         f"--plugins={plugin.stem}", f"--data={data('mfem_hex1_p8.vtu')}",
-         f"--test-script={Path(__file__).parent / 'gui_events.xml'}", "--exit"],
-        env={**os.environ, **home, "DISPLAY": display}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    process = start(
+        display, tmp_path, plugin, f"--data={data('mfem_hex1_p8.vtu')}",
+        f"--test-script={Path(__file__).parent / 'gui_events.xml'}", "--exit")
     try:
         window = watch(process, screen_file, 120)
         said = process.stdout.read()
@@ -85,3 +96,62 @@ def test_a_user_finds_the_filter_and_sees_the_surface(plugin, data, screen, tmp_
     surface = np.any(np.abs(view - background) > 8, axis=2)
     assert 0.05 < surface.mean() < 0.6
     assert np.unique(view[surface], axis=0).shape[0] > 1000, "shaded, and coloured by curvature"
+
+
+# Runs in ParaView's window: the same filter twice, of which the first run is meant to be aborted.
+ABORTED = """
+import json, os, time
+from paraview.simple import *
+reader = XMLUnstructuredGridReader(FileName=[{data!r}])
+surface = HighOrderParticleIsosurface(Input=reader, ContourBy=["POINTS", "u"], Isosurfaces=[0.2])
+runs = []
+for surface.Spacing in (0.0015, 0.05):
+    surface.UpdatePipeline()
+    data = surface.GetClientSideObject().GetOutputDataObject(0)
+    runs.append([data.GetNumberOfPoints(), data.GetNumberOfVerts(), time.monotonic()])
+with open({answer!r}, "w") as file:
+    json.dump(runs, file)
+os._exit(0)
+"""
+
+
+def place_of_abort_button(window):
+    """(x, y) of the red cross in the status bar while it can be pressed, or None."""
+    bar = window[-30:]
+    red = (bar[:, :, 0] > 180) & (bar[:, :, 1:].max(axis=2) < 90)
+    rows, columns = np.nonzero(red)
+    return (int(columns.mean()), HEIGHT - 30 + int(rows.mean())) if red.sum() > 10 else None
+
+
+VERSION = (simple.GetParaViewVersion().major, simple.GetParaViewVersion().minor)
+
+
+# Before 6.1 the button does nothing; from 6.2 on it is for what Apply starts, not for scripts.
+@pytest.mark.skipif(VERSION != (6, 1), reason="this ParaView's abort button does not end a script's run")
+@pytest.mark.skipif(not shutil.which("xdotool"), reason="no xdotool")
+def test_the_abort_button_ends_a_run(plugin, data, screen, tmp_path):
+    display, screen_file = screen
+    answer = tmp_path / "runs.json"
+    script = tmp_path / "aborted.py"
+    script.write_text(ABORTED.format(data=data("mfem_hex1_p8.vtu"), answer=str(answer)))
+    process = start(display, tmp_path, plugin, f"--script={script}")
+    end = time.monotonic() + 120
+    pressed = None
+    while process.poll() is None and time.monotonic() < end:
+        window = pixels_of(screen_file)
+        place = place_of_abort_button(window)
+        if place and pressed is None:
+            # 6.1 itself keeps single clicks from the button.
+            subprocess.run(
+                ["xdotool", "mousemove", *map(str, place), "click", "--repeat", "2", "--delay", "60", "1"],
+                env={**os.environ, "DISPLAY": display}, check=True)
+            pressed = time.monotonic()
+            write_png(Path(os.environ["HOP_BUILD"]) / "Testing" / "gui_abort.png", window)
+        time.sleep(0.1)
+    process.kill()
+    said = process.stdout.read()
+    assert pressed and answer.is_file(), said
+    (points, vertices, ended), (again, _, _) = json.loads(answer.read_text())
+    assert points == vertices == 0
+    assert ended - pressed < 1.0
+    assert again > 500, "a run afterwards is whole"

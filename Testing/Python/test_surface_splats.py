@@ -1,6 +1,5 @@
 """Particles in ParaView's render view as 'Surface Splats': chosen, coloured, selected, drawn by ranks."""
 
-import os
 import shutil
 import subprocess
 from pathlib import Path
@@ -9,6 +8,7 @@ import numpy as np
 import pytest
 from paraview import servermanager, simple
 from paraview.vtk.util.numpy_support import vtk_to_numpy
+from support import environment_of_ranks
 from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
@@ -309,11 +309,8 @@ def test_two_ranks_draw_their_halves(plugin, tmp_path, opacity):
     script.write_text(
         RANKS.format(folder=str(Path(__file__).parent), plugin=str(plugin), path=str(path), opacity=opacity)
     )
-    # This process may be an MPI program itself; its children must not take themselves for its ranks.
-    environment = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_", "PMIX_", "PRTE_"))}
-    environment.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     command = ["mpirun", "-np", "2", "--oversubscribe", "pvbatch", "--sym", str(script)]
-    run = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=120)
+    run = subprocess.run(command, env=environment_of_ranks(), capture_output=True, text=True, timeout=120)
     assert run.returncode == 0, run.stdout + run.stderr
     covered = drawn(read_png(path))
     assert np.all(covered[disk_of_sphere(radius=0.49)])

@@ -28,7 +28,11 @@ def expect_as_good(particles, scratch):
     count, wanted = particles.GetNumberOfPoints(), scratch.GetNumberOfPoints()
     assert count == pytest.approx(wanted, rel=0.03)
     assert array_of(particles, "Residual").max() <= 1e-9
-    assert nearest_neighbors(particles).min() > 0.9 * min(0.8, nearest_neighbors(scratch).min())
+    # The single nearest pair, 0.60 to 0.80 at any isovalue, is chance from scratch as well.
+    assert nearest_neighbors(particles).min() > 0.55
+    for quantile in (0.02, 0.1, 0.5):
+        asked, other = (np.quantile(nearest_neighbors(some), quantile) for some in (particles, scratch))
+        assert asked > 0.97 * other, f"quantile {quantile}"
 
 
 def test_an_isovalue_is_followed(hexahedron):
