@@ -16,6 +16,8 @@ namespace
 {
 
 constexpr std::size_t mostSamples = 1001;
+/// Of longer arrays only so many values are looked at, as nobody wants to wait for a default.
+constexpr vtkIdType mostLookedAt = 1'000'000;
 
 } // namespace
 
@@ -24,11 +26,12 @@ vtkStandardNewMacro(vtkPVQuantileInformation);
 vtkPVQuantileInformation::vtkPVQuantileInformation() = default;
 vtkPVQuantileInformation::~vtkPVQuantileInformation() = default;
 
-/// Adds the finite values of the component, or magnitudes where there is no such component.
-void vtkPVQuantileInformation::AddValues(vtkDataArray* array, std::vector<double>& values) const
+/// Adds every step-th value of the component, or magnitude where there is no such component, if finite.
+void vtkPVQuantileInformation::AddValues(
+  vtkDataArray* array, vtkIdType step, std::vector<double>& values) const
 {
   const int components = array->GetNumberOfComponents();
-  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); i += step)
   {
     double value = 0.0;
     if (components == 1 || this->Component < components)
@@ -58,13 +61,20 @@ void vtkPVQuantileInformation::CopyFromObject(vtkObject* object)
     return;
   }
   vtkDataObject* data = algorithm->GetOutputDataObject(this->Port);
-  std::vector<double> values;
+  std::vector<vtkDataArray*> arrays;
+  vtkIdType size = 0;
   for (vtkDataSet* block : vtkCompositeDataSet::GetDataSets<vtkDataSet>(data))
   {
     if (vtkDataArray* array = block->GetPointData()->GetArray(this->ArrayName.c_str()))
     {
-      this->AddValues(array, values);
+      arrays.push_back(array);
+      size += array->GetNumberOfTuples();
     }
+  }
+  std::vector<double> values;
+  for (vtkDataArray* array : arrays)
+  {
+    this->AddValues(array, 1 + size / mostLookedAt, values);
   }
   std::sort(values.begin(), values.end());
   const std::size_t count = std::min(values.size(), mostSamples);

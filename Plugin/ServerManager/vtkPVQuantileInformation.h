@@ -4,8 +4,9 @@
  *
  * The value below which a given share of an array's finite values lies: of all blocks, on whatever ranks of
  * whatever server they are. Each rank hands over at most 1,001 of its values, evenly spaced by rank in
- * order, so that little travels. On one rank quantiles of shares that are thousandths are exact; on several
- * they are off by less than a thousandth of a rank's values.
+ * order, so that little travels, and looks at every n-th only if there are more than a million. On one rank
+ * quantiles of shares that are thousandths are exact up to there; on several they are off by less than a
+ * thousandth of a rank's values.
  */
 #ifndef vtkPVQuantileInformation_h
 #define vtkPVQuantileInformation_h
@@ -64,7 +65,7 @@ private:
   vtkPVQuantileInformation(const vtkPVQuantileInformation&) = delete;
   void operator=(const vtkPVQuantileInformation&) = delete;
 
-  void AddValues(vtkDataArray* array, std::vector<double>& values) const;
+  void AddValues(vtkDataArray* array, vtkIdType step, std::vector<double>& values) const;
 
   int Port = 0;
   std::string ArrayName;
