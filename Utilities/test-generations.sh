@@ -28,6 +28,7 @@ make_root() { # RELEASE ROOT
 test_in() { # ROOT: its mounts are gone with the command
   unshare --mount --propagation private bash -c '
     mount -t proc proc "$1/proc" && mkdir -p "$1/dev/shm" && mount -t tmpfs tmpfs "$1/dev/shm"
+    mount -t sysfs -o ro sysfs "$1/sys" # without it MPI complains on standard output
     exec chroot "$1" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 \
       HOP_WITH_PARAVIEW="$2" bash /project/Utilities/test.sh' _ "$1" "$([ -n "${VTK_ALONE:-}" ] && echo OFF || echo ON)"
 }
