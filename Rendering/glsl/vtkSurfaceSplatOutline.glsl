@@ -17,7 +17,7 @@ float splatMeanDepth(ivec2 texel)
   return texelFetch(splatOffsetDepth, texel, 0).w / texelFetch(splatNormalWeight, texel, 0).w;
 }
 
-float splatDepthOfInterest; // of the surface whose outline is looked at
+float splatDepthOfInterest = 0.0; // of the surface whose outline is looked at
 #endif
 
 // cos^2, or -1 where there is no surface.
