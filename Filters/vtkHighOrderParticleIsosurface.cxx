@@ -45,7 +45,7 @@ constexpr double warnUndersampledShare = 0.01;
 /// Where a run's progress stands when cells are converted, and when particles are done.
 constexpr double convertedShare = 0.1;
 constexpr double distributedShare = 0.95;
-/// Peak of the whole filter, measured at 0.93 to 1.1 kB with one point array.
+/// Peak of the whole filter, measured at 0.7 to 1.1 kB with one point array.
 constexpr std::int64_t bytesPerParticle = 1280;
 
 /// How many particles this machine has memory for now.

@@ -34,8 +34,7 @@ bool vtkSurfaceSplatAccumulationPass::Prepare(const vtkSurfaceSplatDrawing& draw
   {
     PrepareTexture(drawing, sum, { GL_RGBA32F, GL_RGBA, GL_FLOAT, 4, VTK_FLOAT });
   }
-  PrepareDepth(drawing, this->Depth);
-  return this->PrepareFramebuffer(drawing, sums, this->Depth);
+  return this->PrepareFramebuffer(drawing, sums);
 }
 
 //------------------------------------------------------------------------------
@@ -44,6 +43,7 @@ void vtkSurfaceSplatAccumulationPass::Draw(
 {
   vtkOpenGLState* state = drawing.Window->GetState();
   state->vtkglBindFramebuffer(GL_DRAW_FRAMEBUFFER, this->Framebuffer);
+  // A copy, as the first one is looked up while it is tested against.
   this->Visibility.CopyDepth(drawing);
   state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Framebuffer);
   state->vtkglEnable(GL_BLEND);
@@ -61,17 +61,5 @@ void vtkSurfaceSplatAccumulationPass::Draw(
   style.SkipsHidden = true;
   vtkShaderProgram::Substitute(style.Fragment, "//Splat::Color::Impl",
     drawing.Colors ? "gl_FragData[2] = weight * texelFetch(splatColor, splatParticle);" : "");
-  this->Visibility.Activate();
-  if (vtkShaderProgram* program = primitives.Use(drawing, style))
-  {
-    this->Visibility.SetUniforms(program);
-    primitives.Draw(drawing);
-  }
-  this->Visibility.Deactivate();
-}
-
-void vtkSurfaceSplatAccumulationPass::ReleaseGraphicsResources(vtkWindow* window)
-{
-  this->vtkSurfaceSplatPass::ReleaseGraphicsResources(window);
-  this->Depth->ReleaseGraphicsResources(window);
+  this->Visibility.DrawBy(drawing, primitives, style);
 }

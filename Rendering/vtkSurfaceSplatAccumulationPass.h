@@ -19,15 +19,12 @@ public:
 
   bool Prepare(const vtkSurfaceSplatDrawing& drawing) override;
   void Draw(const vtkSurfaceSplatDrawing& drawing, vtkSurfaceSplatPrimitives& primitives) override;
-  void ReleaseGraphicsResources(vtkWindow* window) override;
 
 private:
   vtkSurfaceSplatVisibilityPass& Visibility;
   vtkNew<vtkTextureObject> NormalWeight; // sums of weight * normal, weight
   vtkNew<vtkTextureObject> OffsetDepth;  // sums of weight * offset from the particle, weight * z
   vtkNew<vtkTextureObject> ColorSum;     // sums of weight * colour or lookup coordinates
-  vtkNew<vtkTextureObject>
-    Depth; // a copy, as the first one is looked up while it is tested against
 };
 
 #endif

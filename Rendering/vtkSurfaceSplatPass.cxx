@@ -58,20 +58,15 @@ void vtkSurfaceSplatPass::PrepareTexture(
   }
 }
 
-void vtkSurfaceSplatPass::PrepareDepth(
-  const vtkSurfaceSplatDrawing& drawing, vtkTextureObject* texture)
+//------------------------------------------------------------------------------
+bool vtkSurfaceSplatPass::PrepareFramebuffer(
+  const vtkSurfaceSplatDrawing& drawing, const std::vector<vtkTextureObject*>& colors)
 {
   const std::array<unsigned int, 2> size = TextureSize(*drawing.View);
-  if (!Resize(texture, drawing.Window, size))
+  if (!Resize(this->Depth, drawing.Window, size))
   {
-    texture->AllocateDepth(size[0], size[1], vtkTextureObject::Float32);
+    this->Depth->AllocateDepth(size[0], size[1], vtkTextureObject::Float32);
   }
-}
-
-//------------------------------------------------------------------------------
-bool vtkSurfaceSplatPass::PrepareFramebuffer(const vtkSurfaceSplatDrawing& drawing,
-  const std::vector<vtkTextureObject*>& colors, vtkTextureObject* depth)
-{
   if (this->Framebuffer == 0)
   {
     glGenFramebuffers(1, &this->Framebuffer);
@@ -83,7 +78,8 @@ bool vtkSurfaceSplatPass::PrepareFramebuffer(const vtkSurfaceSplatDrawing& drawi
     buffers.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(buffers.size()));
     glFramebufferTexture2D(GL_FRAMEBUFFER, buffers.back(), GL_TEXTURE_2D, color->GetHandle(), 0);
   }
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth->GetHandle(), 0);
+  glFramebufferTexture2D(
+    GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, this->Depth->GetHandle(), 0);
   // Not through vtkOpenGLState: it caches draw buffers for one framebuffer only.
   glDrawBuffers(static_cast<GLsizei>(buffers.size()), buffers.data());
   return glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
@@ -136,4 +132,5 @@ void vtkSurfaceSplatPass::ReleaseGraphicsResources(vtkWindow* window)
   {
     output.Texture->ReleaseGraphicsResources(window);
   }
+  this->Depth->ReleaseGraphicsResources(window);
 }

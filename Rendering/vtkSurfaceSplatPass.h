@@ -44,7 +44,7 @@ public:
   /** Tells a program where they are, under their names behind a prefix; they must be active. */
   void SetSamplers(vtkShaderProgram* program, const std::string& prefix = "splat") const;
 
-  virtual void ReleaseGraphicsResources(vtkWindow* window);
+  void ReleaseGraphicsResources(vtkWindow* window);
 
 protected:
   explicit vtkSurfaceSplatPass(vtkSurfaceSplatSide side);
@@ -63,14 +63,15 @@ protected:
 
   static void PrepareTexture(
     const vtkSurfaceSplatDrawing& drawing, vtkTextureObject* texture, const Format& format);
-  static void PrepareDepth(const vtkSurfaceSplatDrawing& drawing, vtkTextureObject* texture);
-  bool PrepareFramebuffer(const vtkSurfaceSplatDrawing& drawing,
-    const std::vector<vtkTextureObject*>& colors, vtkTextureObject* depth);
+  /** Of these textures and of Depth. */
+  bool PrepareFramebuffer(
+    const vtkSurfaceSplatDrawing& drawing, const std::vector<vtkTextureObject*>& colors);
 
   bool IsFront() const { return this->Side == vtkSurfaceSplatSide::Front; }
 
   const vtkSurfaceSplatSide Side;
   std::vector<Output> Outputs; // textures that other passes read
+  vtkNew<vtkTextureObject> Depth;
   unsigned int Framebuffer = 0;
 
 private:

@@ -30,8 +30,7 @@ bool vtkSurfaceSplatStrongestPass::Prepare(const vtkSurfaceSplatDrawing& drawing
   }
   PrepareTexture(
     drawing, this->Number, { GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 1, VTK_UNSIGNED_INT });
-  PrepareDepth(drawing, this->Depth);
-  return this->PrepareFramebuffer(drawing, { this->Number }, this->Depth);
+  return this->PrepareFramebuffer(drawing, { this->Number });
 }
 
 //------------------------------------------------------------------------------
@@ -46,24 +45,12 @@ void vtkSurfaceSplatStrongestPass::Draw(
   state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Framebuffer);
   state->vtkglDisable(GL_BLEND);
   state->vtkglDepthMask(GL_TRUE);
-  state->vtkglDepthFunc(GL_LESS);
+  state->vtkglDepthFunc(GL_LESS); // of weights
   const float weightless = 1.f;
   const GLuint nothing[4] = { 0, 0, 0, 0 };
   glClearBufferfv(GL_DEPTH, 0, &weightless);
   glClearBufferuiv(GL_COLOR, 0, nothing);
   vtkSurfaceSplatPrimitives::Style style;
   style.Fragment = vtkSurfaceSplatStrongestFS;
-  this->Visibility.Activate();
-  if (vtkShaderProgram* program = primitives.Use(drawing, style))
-  {
-    this->Visibility.SetUniforms(program);
-    primitives.Draw(drawing);
-  }
-  this->Visibility.Deactivate();
-}
-
-void vtkSurfaceSplatStrongestPass::ReleaseGraphicsResources(vtkWindow* window)
-{
-  this->vtkSurfaceSplatPass::ReleaseGraphicsResources(window);
-  this->Depth->ReleaseGraphicsResources(window);
+  this->Visibility.DrawBy(drawing, primitives, style);
 }

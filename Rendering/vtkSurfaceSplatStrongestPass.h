@@ -20,12 +20,10 @@ public:
   /** True, and nothing done, where it is not asked for. */
   bool Prepare(const vtkSurfaceSplatDrawing& drawing) override;
   void Draw(const vtkSurfaceSplatDrawing& drawing, vtkSurfaceSplatPrimitives& primitives) override;
-  void ReleaseGraphicsResources(vtkWindow* window) override;
 
 private:
   vtkSurfaceSplatVisibilityPass& Visibility;
   vtkNew<vtkTextureObject> Number; // of the particle, from 1 on
-  vtkNew<vtkTextureObject> Depth;  // compares weights
 };
 
 #endif

@@ -20,7 +20,7 @@ constexpr double Thickness = 1.;
 vtkSurfaceSplatVisibilityPass::vtkSurfaceSplatVisibilityPass(vtkSurfaceSplatSide side)
   : vtkSurfaceSplatPass(side)
 {
-  this->Outputs = { { "Seen", this->Seen }, { "VisibleDepth", this->VisibleDepth } };
+  this->Outputs = { { "Seen", this->Seen }, { "VisibleDepth", this->Depth } };
 }
 
 vtkSurfaceSplatVisibilityPass::~vtkSurfaceSplatVisibilityPass() = default;
@@ -34,8 +34,7 @@ bool vtkSurfaceSplatVisibilityPass::Prepare(const vtkSurfaceSplatDrawing& drawin
   this->Seen->SetWrapT(vtkTextureObject::ClampToEdge);
   this->Seen->SetMaxLevel(2);
   PrepareTexture(drawing, this->Seen, { GL_RG8, GL_RG, GL_UNSIGNED_BYTE, 2, VTK_UNSIGNED_CHAR });
-  PrepareDepth(drawing, this->VisibleDepth);
-  return this->PrepareFramebuffer(drawing, { this->Seen }, this->VisibleDepth);
+  return this->PrepareFramebuffer(drawing, { this->Seen });
 }
 
 //------------------------------------------------------------------------------
@@ -73,8 +72,16 @@ void vtkSurfaceSplatVisibilityPass::CopyDepth(const vtkSurfaceSplatDrawing& draw
   glBlitFramebuffer(0, 0, right, top, 0, 0, right, top, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
 }
 
-void vtkSurfaceSplatVisibilityPass::SetUniforms(vtkShaderProgram* program) const
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatVisibilityPass::DrawBy(const vtkSurfaceSplatDrawing& drawing,
+  vtkSurfaceSplatPrimitives& primitives, const vtkSurfaceSplatPrimitives::Style& style)
 {
-  this->SetSamplers(program);
-  program->SetUniformf("splatNearer", this->IsFront() ? 1.f : -1.f);
+  this->Activate();
+  if (vtkShaderProgram* program = primitives.Use(drawing, style))
+  {
+    this->SetSamplers(program);
+    program->SetUniformf("splatNearer", this->IsFront() ? 1.f : -1.f);
+    primitives.Draw(drawing);
+  }
+  this->Deactivate();
 }

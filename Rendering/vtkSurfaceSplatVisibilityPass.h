@@ -7,6 +7,7 @@
 #define vtkSurfaceSplatVisibilityPass_h
 
 #include "vtkSurfaceSplatPass.h"
+#include "vtkSurfaceSplatPrimitives.h"
 
 class vtkSurfaceSplatVisibilityPass : public vtkSurfaceSplatPass
 {
@@ -20,12 +21,12 @@ public:
   /** Copies the depth of what is seen into the framebuffer that is bound for drawing. */
   void CopyDepth(const vtkSurfaceSplatDrawing& drawing) const;
 
-  /** Textures, and on which side of the visible depth something is seen. */
-  void SetUniforms(vtkShaderProgram* program) const;
+  /** Draws for another pass, by a style whose program can look up what is seen. */
+  void DrawBy(const vtkSurfaceSplatDrawing& drawing, vtkSurfaceSplatPrimitives& primitives,
+    const vtkSurfaceSplatPrimitives::Style& style);
 
 private:
   vtkNew<vtkTextureObject> Seen; // r: 1 where there is surface; g: 1 where it is seen from outward
-  vtkNew<vtkTextureObject> VisibleDepth;
 };
 
 #endif

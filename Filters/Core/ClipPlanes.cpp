@@ -112,7 +112,7 @@ public:
     const auto& faces = facts(this->Mesh.elements[location.element].domain).faces;
     for (int f = 0; this->Grid && f < static_cast<int>(faces.size()); ++f)
     {
-      if (!this->Kinks[static_cast<std::size_t>(location.element) * MaximumFaces + f])
+      if (!this->Kinks[faceSlot(location.element, f)])
       {
         continue;
       }

@@ -169,7 +169,7 @@ std::vector<FaceClaim> faceClaims(const ElementMesh& mesh)
 
 FaceNeighbor& neighborAt(ElementMesh& mesh, const FaceReference& face)
 {
-  return mesh.neighbors[static_cast<std::size_t>(face.element) * MaximumFaces + face.face];
+  return mesh.neighbors[faceSlot(face.element, face.face)];
 }
 
 } // namespace

@@ -34,6 +34,12 @@ struct Element
   std::array<std::int64_t, MaximumCorners> corners{};
 };
 
+/// Where what belongs to a face stands in arrays of MaximumFaces entries an element.
+inline std::size_t faceSlot(int element, int face)
+{
+  return static_cast<std::size_t>(element) * MaximumFaces + face;
+}
+
 /// The elements that can hold surface, and how they join.
 struct ElementMesh
 {
@@ -53,7 +59,7 @@ struct ElementMesh
 
   const FaceNeighbor& neighbor(int element, int face) const
   {
-    return this->neighbors[static_cast<std::size_t>(element) * MaximumFaces + face];
+    return this->neighbors[faceSlot(element, face)];
   }
 };
 

@@ -21,11 +21,6 @@ constexpr double smoothCosine = 0.9976;
 /// estimated from what they differ by on the whole face, are taken to agree.
 constexpr double smallJump = 0.5;
 
-std::size_t slotOf(int element, int face)
-{
-  return static_cast<std::size_t>(element) * MaximumFaces + face;
-}
-
 /// The lattice of an element's face: from its first corner along the edges to the second and to the last.
 struct FaceLattice
 {
@@ -202,8 +197,8 @@ std::optional<JumpFinder::Finding> JumpFinder::look(
     return std::nullopt;
   }
   const double largest = LargestJumpPerSpacing * spacing;
-  Finding finding{ slotOf(element, crossing.face),
-    slotOf(behind->at.location.element, behind->face) };
+  Finding finding{ faceSlot(element, crossing.face),
+    faceSlot(behind->at.location.element, behind->face) };
   if (!(SurfaceWalker::missBetween(this->Mesh, here, crossing.face, *behind) <= largest))
   {
     finding.gap = static_cast<float>(largest);
@@ -287,7 +282,7 @@ void JumpFinder::lookAtElement(int element, Walkers& walkers)
         const double spacing = sample.patch.spacing;
         if (open[face])
         {
-          const std::size_t slot = slotOf(element, face);
+          const std::size_t slot = faceSlot(element, face);
           this->OfElement[element].push_back(
             { slot, slot, static_cast<float>(LargestJumpPerSpacing * spacing) });
         }

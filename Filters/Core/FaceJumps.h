@@ -23,9 +23,10 @@ constexpr double LargestJumpPerSpacing = 0.4;
 /// Cosine of the angle between normals that makes a kink: 10 degrees.
 constexpr double KinkCosine = 0.98480775;
 
-/// Looks at the faces that the surface passes: for kinks at a few places, for jumps at one place for
-/// every box that shows it. Faces that the mesh does not join are left to be judged place by place. Two elements whose corners on the face have the same values, and
-/// whose degrees are the same, are taken to agree on all of it.
+/// Looks at the faces that the surface passes: for kinks at a few places, unless samples on both sides look
+/// like one smooth sheet, for jumps at one place for every box that shows it, unless the coefficients of
+/// the two elements on the face differ by too little. Faces that the mesh does not join are left to be judged
+/// place by place.
 FaceJumps findFaceJumps(
   const Isosurface& surface, const SurfaceProxy& proxy, const ParallelFor& parallelFor);
 

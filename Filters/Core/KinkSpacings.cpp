@@ -78,8 +78,7 @@ void KinkSampler::addBox(std::size_t box, std::vector<SpacingLimit>& limits)
   {
     const int behind = this->Mesh.neighbor(element, face).element;
     // Joined faces are looked at from one side only.
-    return this->Kinks[static_cast<std::size_t>(element) * MaximumFaces + face] &&
-      (behind < 0 || element < behind);
+    return this->Kinks[faceSlot(element, face)] && (behind < 0 || element < behind);
   };
   // Those of one side of the box come in pairs: the surface enters the side and leaves it.
   std::optional<FaceCrossing> entered;

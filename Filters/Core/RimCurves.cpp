@@ -237,11 +237,14 @@ bool RimFinisher::lookBehind(const RimPoint& point, double& jump)
     }
     const auto behind = this->Passer.behind(point.at, f);
     jump = behind ? behind->at.point.value : jump;
+    if (!behind || f != point.face)
+    {
+      continue;
+    }
+    // Behind a face that is not joined it may lie too far off.
     const bool joined = mesh.neighbor(location.element, f).element >= 0;
-    const bool goesOn = joined && behind
-      ? SurfaceWalker::goesOn(this->Surface, point.at, f, *behind)
-      : behind && !this->Exact.isOnRim(point);
-    if (f == point.face && goesOn)
+    if (joined ? SurfaceWalker::goesOn(this->Surface, point.at, f, *behind)
+               : !this->Exact.isOnRim(point))
     {
       return false;
     }

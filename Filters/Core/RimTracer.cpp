@@ -65,14 +65,14 @@ void RimChords::add(const RimPoint& from, const RimPoint& to)
   const Location& last = to.at.location;
   // A chord that leaves its element is known by its first place there.
   const Location& end = last.element == first.element ? last : first;
-  this->Chords[keyOf(first.element, from.face)].push_back(
+  this->Chords[faceSlot(first.element, from.face)].push_back(
     { { from.at.point.map.position.xyz, to.at.point.map.position.xyz },
       { first.u.xyz, end.u.xyz } });
 }
 
 bool RimChords::pass(const RimPoint& point) const
 {
-  const auto found = this->Chords.find(keyOf(point.at.location.element, point.face));
+  const auto found = this->Chords.find(faceSlot(point.at.location.element, point.face));
   const glm::dvec3& x = point.at.point.map.position.xyz;
   return found != this->Chords.end() &&
     std::any_of(found->second.begin(), found->second.end(),
@@ -85,7 +85,7 @@ bool RimChords::pass(const RimPoint& point) const
 
 bool RimChords::cross(int element, int face, const std::array<glm::dvec3, 2>& ends) const
 {
-  const auto found = this->Chords.find(keyOf(element, face));
+  const auto found = this->Chords.find(faceSlot(element, face));
   return found != this->Chords.end() &&
     std::any_of(found->second.begin(), found->second.end(),
       [&ends](const Chord& chord) { return meet(chord.places, ends); });

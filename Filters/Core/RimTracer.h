@@ -54,12 +54,8 @@ private:
     std::array<glm::dvec3, 2> places;
   };
 
-  static std::int64_t keyOf(int element, int face)
-  {
-    return std::int64_t{ MaximumFaces } * element + face;
-  }
-
-  std::unordered_map<std::int64_t, std::vector<Chord>> Chords;
+  /// By the slots of the faces that they run on.
+  std::unordered_map<std::size_t, std::vector<Chord>> Chords;
 };
 
 /// Follows rims of the isosurface: curves {F = c} on faces, as far as the surface ends there.

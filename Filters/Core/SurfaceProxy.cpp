@@ -14,7 +14,7 @@ namespace hop
 namespace
 {
 
-/// A sample may be this far from the surface, by one Newton step, in units of its box, or of its spacing.
+/// A sample may be this far from the surface, in units of its box, or of its spacing.
 constexpr double sampleOffset = 0.02;
 constexpr double offsetPerSpacing = 0.1;
 /// Corners of triangles are moved by at most this share of the radius to which the surface bends.

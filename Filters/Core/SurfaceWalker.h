@@ -34,7 +34,7 @@ struct Isosurface
 
   double gap(int element, int face) const
   {
-    return this->gaps ? (*this->gaps)[static_cast<std::size_t>(element) * MaximumFaces + face]
+    return this->gaps ? (*this->gaps)[faceSlot(element, face)]
                       : std::numeric_limits<double>::infinity();
   }
 
