@@ -17,6 +17,16 @@ double offsetAlong(double newton, double bend)
   return std::abs(product) <= 0.5 ? 2.0 * newton / (1.0 + std::sqrt(1.0 - 2.0 * product)) : newton;
 }
 
+/// What a bilinear form does in the basis of tangentsOf(normal).
+std::array<float, 3> shapeOf(const glm::vec3& normal, const glm::dmat3& bend)
+{
+  const auto tangents = tangentsOf(normal);
+  const glm::dvec3 e1(tangents[0]);
+  const glm::dvec3 e2(tangents[1]);
+  return { static_cast<float>(glm::dot(e1, bend * e1)), static_cast<float>(glm::dot(e1, bend * e2)),
+    static_cast<float>(glm::dot(e2, bend * e2)) };
+}
+
 } // namespace
 
 bool anchorPatch(
@@ -51,13 +61,36 @@ bool anchorPatch(const Evaluated& at, Anchor& anchor, Patch& patch)
   const double distance = offsetAlong(offset, -glm::dot(normal, bend * normal));
   patch.position = point.map.position.xyz + distance * normal;
   patch.normal = glm::vec3(normal);
-  const auto tangents = tangentsOf(patch.normal);
-  const glm::dvec3 e1(tangents[0]);
-  const glm::dvec3 e2(tangents[1]);
-  patch.shape = { static_cast<float>(glm::dot(e1, bend * e1)),
-    static_cast<float>(glm::dot(e1, bend * e2)), static_cast<float>(glm::dot(e2, bend * e2)) };
+  patch.shape = shapeOf(patch.normal, bend);
   anchor = { at.location, glm::mat3(point.map.inverse), static_cast<float>(distance) };
   return true;
+}
+
+void continuePatch(const Anchor& knownAnchor, const Patch& known, const Location& place,
+  Anchor& anchor, Patch& patch)
+{
+  const auto tangents = tangentsOf(known.normal);
+  const glm::dvec3 normal(known.normal);
+  const glm::dvec3 e1(tangents[0]);
+  const glm::dvec3 e2(tangents[1]);
+  const auto& s = known.shape;
+  const glm::dmat3 bend = static_cast<double>(s[0]) * glm::outerProduct(e1, e1) +
+    static_cast<double>(s[1]) * (glm::outerProduct(e1, e2) + glm::outerProduct(e2, e1)) +
+    static_cast<double>(s[2]) * glm::outerProduct(e2, e2);
+  // From where the surface is known to the place.
+  const glm::dvec3 d =
+    glm::inverse(glm::dmat3(knownAnchor.pull)) * (place.u.xyz - knownAnchor.place.u.xyz) -
+    static_cast<double>(knownAnchor.offset) * normal;
+  const glm::dvec3 along = d - glm::dot(d, normal) * normal;
+  const glm::dvec3 turned = glm::normalize(normal + bend * along);
+  // The surface lies t.S t / 2 below the tangent plane.
+  const double height = glm::dot(d, normal) + 0.5 * glm::dot(along, bend * along);
+  const double offset = -height * glm::dot(normal, turned);
+  patch = known;
+  patch.position = known.position + d + offset * turned;
+  patch.normal = glm::vec3(turned);
+  patch.shape = shapeOf(patch.normal, bend);
+  anchor = { place, knownAnchor.pull, static_cast<float>(offset) };
 }
 
 std::vector<int> orderByElement(const std::vector<Location>& places, std::size_t elementCount)

@@ -29,6 +29,11 @@ bool anchorPatch(
 /// \param at with its Hessian
 bool anchorPatch(const Evaluated& at, Anchor& anchor, Patch& patch);
 
+/// What a patch says about another place of its element: the patch and the anchor there, by the map and the
+/// surface around the first, both to the order in which they are known. Costs no evaluation.
+void continuePatch(const Anchor& knownAnchor, const Patch& known, const Location& place,
+  Anchor& anchor, Patch& patch);
+
 /// Indices of places, or of anchors, sorted by element, stably.
 std::vector<int> orderByElement(const std::vector<Location>& places, std::size_t elementCount);
 std::vector<int> orderByElement(const std::vector<Anchor>& anchors, std::size_t elementCount);

@@ -2,6 +2,7 @@
 
 #include "ActiveFaces.h"
 #include "FaceCrossings.h"
+#include "SampleComparison.h"
 
 #include <atomic>
 #include <cmath>
@@ -15,11 +16,12 @@ namespace
 /// What the two sides of a face do on the surface they also do nearer to it than this, in units of the
 /// spacing.
 constexpr double nearSurface = 0.2;
-/// Cosine of the largest angle between the normals of smooth sheets, 4 degrees: kinks turn more.
-constexpr double smoothCosine = 0.9976;
 /// Sides that miss each other by less than this, in units of the largest jump that may be passed, as
 /// estimated from what they differ by on the whole face, are taken to agree.
 constexpr double smallJump = 0.5;
+/// Nor is it looked at where they miss each other by less than this, in units of the spacing, as far as
+/// samples tell.
+constexpr double clearMiss = 0.1;
 
 /// The lattice of an element's face: from its first corner along the edges to the second and to the last.
 struct FaceLattice
@@ -87,45 +89,6 @@ double differenceAt(const ElementMesh& mesh, int element, int face)
   return largest;
 }
 
-/// Unit normal of a patch above a place of its tangent plane.
-glm::dvec3 normalAt(const Patch& patch, const glm::dvec2& t)
-{
-  const auto tangents = tangentsOf(patch.normal);
-  const auto& s = patch.shape;
-  return glm::normalize(glm::dvec3(patch.normal) +
-    (s[0] * t.x + s[1] * t.y) * glm::dvec3(tangents[0]) +
-    (s[1] * t.x + s[2] * t.y) * glm::dvec3(tangents[1]));
-}
-
-/// Whether two patches look like parts of one smooth sheet: one lies where the other leads to, and halfway
-/// between them their normals agree.
-bool areSmooth(const Patch& a, const Patch& b)
-{
-  constexpr double offSheet = 0.1; // of their distance
-  const glm::dvec3 d = b.position - a.position;
-  const auto onPlane = [&d](const Patch& patch)
-  {
-    const auto tangents = tangentsOf(patch.normal);
-    return glm::dvec2(glm::dot(d, glm::dvec3(tangents[0])), glm::dot(d, glm::dvec3(tangents[1])));
-  };
-  const glm::dvec2 t = onPlane(a);
-  const double height = glm::dot(d, glm::dvec3(a.normal)) + a.sink(glm::vec2(t));
-  return std::abs(height) <= offSheet * glm::length(d) &&
-    glm::dot(normalAt(a, 0.5 * t), normalAt(b, -0.5 * onPlane(b))) >= smoothCosine;
-}
-
-/// Where the boxes of each element begin; they come in the order of the elements.
-std::vector<std::size_t> boxRanges(const std::vector<SurfaceBox>& boxes, std::size_t elements)
-{
-  std::vector<std::size_t> first(elements + 1, 0);
-  for (const SurfaceBox& box : boxes)
-  {
-    ++first[box.middle.element + 1];
-  }
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  return first;
-}
-
 class JumpFinder
 {
 public:
@@ -135,7 +98,7 @@ public:
     , Proxy(proxy)
     , Everywhere(this->Mesh.elements.size() * MaximumFaces, 0.0f)
     , OfElement(this->Mesh.elements.size())
-    , FirstBox(boxRanges(proxy.boxes(), this->Mesh.elements.size()))
+    , Samples(surface, proxy)
   {
   }
 
@@ -162,7 +125,6 @@ private:
   std::optional<Finding> look(const FaceCrossing& crossing, double spacing, Walkers& walkers) const;
   void lookAtElement(int element, Walkers& walkers);
   bool mayBeOpen(int element, int face) const;
-  bool isSmoothTo(const SurfaceProxy::Sample& sample, int element) const;
   bool mayJump(
     const FaceCrossing& crossing, const SurfaceProxy::Sample& sample, double difference) const;
 
@@ -172,7 +134,7 @@ private:
   /// Gaps by which the surface may end at all faces.
   std::vector<float> Everywhere;
   std::vector<std::vector<Finding>> OfElement;
-  std::vector<std::size_t> FirstBox;
+  SampleComparison Samples;
 };
 
 /// What the surface does at the place of a crossing; nothing where it does not reach the face, or nothing
@@ -230,24 +192,6 @@ bool JumpFinder::mayJump(
   return !(difference * glm::length(edge) <= largest * crossing.rise);
 }
 
-/// Whether the surface in an element next to that of a sample seems to be its smooth continuation.
-bool JumpFinder::isSmoothTo(const SurfaceProxy::Sample& sample, int element) const
-{
-  const auto& samples = this->Proxy.samples();
-  const SurfaceProxy::Sample* nearest = nullptr;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t b = this->FirstBox[element]; b < this->FirstBox[element + 1]; ++b)
-  {
-    const double distance = glm::distance(samples[b].patch.position, sample.patch.position);
-    if (samples[b].found && distance < least)
-    {
-      least = distance;
-      nearest = &samples[b];
-    }
-  }
-  return nearest && areSmooth(sample.patch, nearest->patch);
-}
-
 /// A few looks at a face are enough to see a kink: at the first, second, fourth ... box, from one side.
 /// Jumps are looked for at all of them, but one is enough.
 void JumpFinder::lookAtElement(int element, Walkers& walkers)
@@ -258,13 +202,14 @@ void JumpFinder::lookAtElement(int element, Walkers& walkers)
   std::array<unsigned, MaximumFaces> boxesSeen{};
   const auto faceCount = static_cast<int>(facts(this->Mesh.elements[element].domain).faces.size());
   const auto neighborOf = [&](int face) { return this->Mesh.neighbor(element, face).element; };
-  for (int f = 0; f < faceCount && this->FirstBox[element] < this->FirstBox[element + 1]; ++f)
+  const auto [firstBox, lastBox] = this->Proxy.boxesOf(element);
+  for (int f = 0; f < faceCount && firstBox < lastBox; ++f)
   {
     differences[f] = neighborOf(f) >= 0 ? differenceAt(this->Mesh, element, f) : 0.0;
     open[f] = this->mayBeOpen(element, f);
     wanted[f] = differences[f] > 0.0 || open[f] || element < neighborOf(f);
   }
-  for (std::size_t b = this->FirstBox[element]; b < this->FirstBox[element + 1]; ++b)
+  for (std::size_t b = firstBox; b < lastBox; ++b)
   {
     const SurfaceProxy::Sample& sample = this->Proxy.samples()[b];
     std::array<bool, MaximumFaces> seen{};
@@ -289,8 +234,10 @@ void JumpFinder::lookAtElement(int element, Walkers& walkers)
         const unsigned before = boxesSeen[face]++;
         const bool forKinks = (before & (before + 1)) == 0 &&
           (open[face] ||
-            (element < neighborOf(face) && !this->isSmoothTo(sample, neighborOf(face))));
-        if (!forKinks && !this->mayJump(crossing, sample, differences[face]))
+            (element < neighborOf(face) && !this->Samples.isSmoothTo(sample, neighborOf(face))));
+        if (!forKinks &&
+          (!this->mayJump(crossing, sample, differences[face]) ||
+            this->Samples.meet(crossing, sample, clearMiss)))
         {
           return;
         }

@@ -27,7 +27,7 @@ namespace
 /// less of their bounds.
 constexpr double hexahedronPerSpacing = 6.0;
 constexpr double wedgePerSpacing = 7.0;
-constexpr double tetrahedronPerSpacing = 9.0;
+constexpr double tetrahedronPerSpacing = 7.5;
 /// Spacing of the first look, in units of the mesh's diagonal. Where more is asked for, the number of
 /// particles cannot get out of hand.
 constexpr double coarseSpacingPerExtent = 0.001;
@@ -43,10 +43,14 @@ constexpr double squeezed = 0.6;
 constexpr double smallestSpacing = 0.82;
 constexpr double repairReach = 3.0;
 constexpr int repairRounds = 2;
+/// Those that are left then have so many rounds more where they are few: where fields jump many cannot be
+/// repaired.
+constexpr int furtherRounds = 2;
+constexpr double singleDefects = 0.005;
 constexpr int repairSweeps = 8;
 /// The first round may start from patches that were evaluated that far from the surface, in units of the
 /// spacing.
-constexpr float seedOffset = 0.25f;
+constexpr float seedOffset = 0.5f;
 /// Particles of a run before come from no farther off than the first, and have arrived if they are nearer to
 /// the surface than the second, in units of their spacing.
 constexpr float farthestStart = 2.0f;
@@ -122,7 +126,7 @@ private:
   void coverBoxes();
   void relax(MovingParticles& moving, int sweeps, const Balance& balance, const Section& section);
   void relaxAll(int sweeps, bool isLast, const Section& section);
-  void repair();
+  void repair(int round);
   void finish();
 
   Isosurface Surface;
@@ -255,13 +259,10 @@ void FastSystem::matchCount(std::int64_t count)
   keepMarked(this->RimPatches, kept);
 }
 
-/// Particles where seeds are drawn, or, in boxes that get one only, where their samples are known to lie.
 void FastSystem::addSeeds(std::int64_t count, double phase, const std::vector<char>& only)
 {
-  const SurfaceProxy::Seeds seeds = this->Proxy->seeds(count, phase, this->Parallel, only);
-  this->Moving->add(seeds.places);
+  this->Moving->add(this->Proxy->seeds(count, phase, this->Parallel, only));
   this->Moving->approach(seedOffset);
-  this->addSamples(seeds.samples);
 }
 
 void FastSystem::addSamples(const std::vector<int>& boxes)
@@ -419,7 +420,7 @@ void FastSystem::relaxAll(int sweeps, bool isLast, const Section& section)
 }
 
 /// Particles around pairs that stand too near to each other go on alone, those farther off stay.
-void FastSystem::repair()
+void FastSystem::repair(int round)
 {
   const std::vector<Patch>& patches = this->Moving->patches();
   const std::size_t count = this->Moving->count();
@@ -428,7 +429,8 @@ void FastSystem::repair()
   tooNear.resize(count);
   std::transform(apart.begin(), apart.end(), apart.begin(), std::logical_not<>());
   keepMarked(tooNear, apart);
-  if (tooNear.empty())
+  const double share = static_cast<double>(tooNear.size()) / static_cast<double>(count);
+  if (tooNear.empty() || (round >= repairRounds && share > singleDefects))
   {
     return;
   }
@@ -453,12 +455,9 @@ void FastSystem::repair()
   keepMarked(moved, moving);
   MovingParticles part(this->Surface, *this->Proxy, std::move(around), this->Parallel);
   part.add(anchors, moved);
-  for (int n = 0; n < repairRounds; ++n)
-  {
-    Balance balance;
-    balance.extent = this->countIsGiven() ? Balance::None : Balance::Defects;
-    this->relax(part, repairSweeps, balance, { relaxedFraction, relaxedFraction });
-  }
+  Balance balance;
+  balance.extent = this->countIsGiven() ? Balance::None : Balance::Defects;
+  this->relax(part, repairSweeps, balance, { relaxedFraction, relaxedFraction });
   moved = part.patches();
   moved.resize(part.count());
   this->Moving->keep(staying);
@@ -556,7 +555,10 @@ void FastSystem::make()
       this->relaxAll(rounds[n], n + 1 == rounds.size(), round);
       this->reach(round.end);
     }
-    this->repair();
+    for (int n = 0; n < repairRounds + furtherRounds; ++n)
+    {
+      this->repair(n);
+    }
     if (!this->countIsGiven())
     {
       // Beside another sheet the last particle of a small component may have been taken for one too many.

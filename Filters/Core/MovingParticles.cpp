@@ -1,5 +1,6 @@
 #include "MovingParticles.h"
 
+#include "ActiveFaces.h"
 #include "KeepMarked.h"
 
 #include <algorithm>
@@ -46,13 +47,46 @@ MovingParticles::MovingParticles(const Isosurface& surface, const SurfaceProxy& 
 {
 }
 
-void MovingParticles::add(const std::vector<Location>& places)
+/// For so many particles after those that move.
+/// \return the first one
+std::size_t MovingParticles::makeRoom(std::size_t count)
 {
   const std::size_t first = this->count();
-  this->Anchors.resize(first + places.size());
-  this->Patches.insert(
-    this->Patches.begin() + static_cast<std::ptrdiff_t>(first), places.size(), Patch());
-  this->keep(this->anchorAt(places, first));
+  this->Anchors.resize(first + count);
+  this->Patches.insert(this->Patches.begin() + static_cast<std::ptrdiff_t>(first), count, Patch());
+  return first;
+}
+
+void MovingParticles::add(const std::vector<Location>& places)
+{
+  std::vector<int> all(places.size());
+  std::iota(all.begin(), all.end(), static_cast<int>(this->makeRoom(places.size())));
+  this->keep(this->anchorAt(all, places));
+}
+
+void MovingParticles::add(const std::vector<SurfaceProxy::Seed>& seeds)
+{
+  const std::size_t first = this->makeRoom(seeds.size());
+  std::vector<char> known(seeds.size());
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(seeds.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      for (std::ptrdiff_t n = begin; n < end; ++n)
+      {
+        known[n] = this->Proxy.guess(seeds[n], this->Anchors[first + n], this->Patches[first + n]);
+      }
+    });
+  std::vector<int> unknown;
+  std::vector<Location> places;
+  for (std::size_t n = 0; n < seeds.size(); ++n)
+  {
+    if (!known[n])
+    {
+      unknown.push_back(static_cast<int>(first + n));
+      places.push_back(seeds[n].place);
+    }
+  }
+  this->keep(this->anchorAt(unknown, places));
 }
 
 void MovingParticles::approach(float farthest)
@@ -68,9 +102,10 @@ void MovingParticles::approach(float farthest)
   this->step(far, std::vector<glm::vec2>(far.size(), glm::vec2(0.0f)));
 }
 
-/// Gives particles from `first` on the patches that belong to places.
-/// \return marks of those that have one
-std::vector<char> MovingParticles::anchorAt(const std::vector<Location>& places, std::size_t first)
+/// Gives some particles the patches that belong to places.
+/// \return marks of all that have one
+std::vector<char> MovingParticles::anchorAt(
+  const std::vector<int>& which, const std::vector<Location>& places)
 {
   std::vector<char> found(this->count(), 1);
   const std::vector<int> order = orderByElement(places, this->Surface.mesh->elements.size());
@@ -80,7 +115,7 @@ std::vector<char> MovingParticles::anchorAt(const std::vector<Location>& places,
       evaluateInOrder(*this->Surface.mesh, places, order, begin, end,
         [&](int n, const Jet& jet)
         {
-          const std::size_t i = first + n;
+          const int i = which[n];
           Patch& patch = this->Patches[i];
           found[i] = anchorPatch(places[n], jet, this->Surface.isovalue, this->Anchors[i], patch);
           patch.spacing = this->Proxy.spacingAt(patch.position, patch.curvatureMagnitude());
@@ -104,7 +139,8 @@ void MovingParticles::keep(std::vector<char> kept)
   keepMarked(this->Patches, kept);
 }
 
-/// Where a step in world space takes particle i: in its own element by its own map, else by walking.
+/// Where a step in world space takes particle i: in its own element by its own map, in the next one by that
+/// of a sample, else by walking.
 Location MovingParticles::target(std::size_t i, const glm::dvec3& step, std::int64_t& cost) const
 {
   const Anchor& anchor = this->Anchors[i];
@@ -120,6 +156,16 @@ Location MovingParticles::target(std::size_t i, const glm::dvec3& step, std::int
     static_cast<double>(anchor.offset) * glm::dvec3(this->Patches[i].normal) };
   map.inverse = glm::dmat3(anchor.pull);
   map.jacobian = glm::inverse(map.inverse);
+  const Exit exit = findExit(this->Surface.mesh->elements[anchor.place.element].domain,
+    anchor.place.u, map.pull({ step }), {});
+  if (exit.face >= 0 && !this->Surface.mayEnd(anchor.place.element, exit.face))
+  {
+    const int next = this->Surface.mesh->neighbor(anchor.place.element, exit.face).element;
+    if (const auto place = this->Proxy.locate(map.position.xyz + step, next))
+    {
+      return *place;
+    }
+  }
   // Onto a wall only particles on rims may go.
   Location reached = walker.move(start, { step });
   const auto onWall = [&]() { return walker.endCount(reached) > 0; };

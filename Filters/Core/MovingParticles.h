@@ -29,6 +29,8 @@ public:
 
   /// Adds a particle for each place from which one Newton step leads to the surface; one evaluation each.
   void add(const std::vector<Location>& places);
+  /// The same for seeds; those near samples cost nothing.
+  void add(const std::vector<SurfaceProxy::Seed>& seeds);
   /// Takes a Newton step with those that are farther from the surface than that, in units of the spacing.
   void approach(float farthest);
   /// Adds particles whose patches are known.
@@ -55,7 +57,8 @@ public:
   const Isosurface& surface() const { return this->Surface; }
 
 private:
-  std::vector<char> anchorAt(const std::vector<Location>& places, std::size_t first);
+  std::size_t makeRoom(std::size_t count);
+  std::vector<char> anchorAt(const std::vector<int>& which, const std::vector<Location>& places);
   Location target(std::size_t i, const glm::dvec3& step, std::int64_t& cost) const;
   glm::dvec3 stepTo(std::size_t i, const glm::vec2& displacement) const;
   std::vector<Location> targets(

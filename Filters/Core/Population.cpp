@@ -32,15 +32,17 @@ constexpr double holeClearance = 0.8;
 constexpr float childDistance = 0.55f;
 
 /// How many particles are missing for one that there is, by their energy in units of the ideal one,
-/// less one. Inverts E(beta (1 + eps)) to second order.
+/// less one. Inverts E(beta (1 + eps)) to second order, as far as that parabola falls: whatever more energy
+/// there is says no more.
 double missingShare(double excess)
 {
   const double linear =
     HexagonalDistance * pairEnergyDerivative(HexagonalDistance) / pairEnergy(HexagonalDistance);
   const double quadratic = 0.5 * HexagonalDistance * HexagonalDistance *
     pairEnergySecondDerivative(HexagonalDistance) / pairEnergy(HexagonalDistance);
-  const double first = excess / linear;
-  const double eps = first - quadratic / linear * first * first;
+  const double bend = quadratic / linear; // < 0
+  const double first = std::max(excess / linear, 0.5 / bend);
+  const double eps = first - bend * first * first;
   return 2.0 * eps + eps * eps;
 }
 
@@ -209,13 +211,14 @@ private:
     {
       return 0.0;
     }
-    double sum = this->Energies[i];
+    const auto most = static_cast<float>(crowdedEnergy * idealEnergy());
+    double sum = std::min(this->Energies[i], most);
     int count = 1;
     for (const int* j = this->Lists.begin(i); j != this->Lists.end(i); ++j)
     {
       if (this->Energies[*j] >= 0.0f && glm::dot(this->Patches[*j].normal, patch.normal) > 0.5f)
       {
-        sum += this->Energies[*j];
+        sum += std::min(this->Energies[*j], most);
         ++count;
       }
     }

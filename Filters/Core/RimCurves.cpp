@@ -5,6 +5,7 @@
 #include "FaceJumps.h"
 #include "KeepMarked.h"
 #include "RimTracer.h"
+#include "SampleComparison.h"
 #include "SpacingGrid.h"
 
 #include <algorithm>
@@ -17,14 +18,17 @@ namespace
 {
 
 /// Chords of traced rims, in units of the spacing.
-constexpr double chordPerSpacing = 0.5;
+constexpr double chordPerSpacing = 0.75;
 /// So near to the surface a crossing tells whether it ends there.
 constexpr double crossingPerSpacing = 0.2;
+/// It does not where, as far as samples tell, the sides miss each other by less than this, in units of the
+/// spacing. Other hints lead to a rim that is overlooked.
+constexpr double clearMiss = 0.25;
 
 /// Chords need not lie on the surface as exactly as particles.
 Isosurface roughly(Isosurface surface, double spacing)
 {
-  surface.tolerance = std::max(surface.tolerance, 1e-3 * spacing);
+  surface.tolerance = std::max(surface.tolerance, 1e-2 * spacing);
   return surface;
 }
 
@@ -51,7 +55,7 @@ public:
     : Surface(surface)
     , Proxy(proxy)
     , Law(law)
-    , Exact(surface, true)
+    , Exact(surface, RimTracer::Points::Exact)
     , Passer(seamless(surface))
   {
   }
@@ -82,7 +86,8 @@ public:
     : Surface(surface)
     , Proxy(proxy)
     , Law(law)
-    , Tracer(roughly(surface, proxy.smallestSpacing()))
+    , Samples(surface, proxy)
+    , Tracer(roughly(surface, proxy.smallestSpacing()), RimTracer::Points::Rough)
     , Walker(surface.withWalls())
   {
   }
@@ -90,16 +95,18 @@ public:
   RimCurves run(const ParallelFor& parallelFor);
 
 private:
-  void follow(const FaceCrossing& hint, double nearby);
+  void follow(const FaceCrossing& hint, const SurfaceProxy::Sample& sample);
   void sample(const RimTrace& trace, double nearby);
   void sampleStretch(const std::vector<RimVertex>& vertices, bool withEnd, double nearby);
   double spacingAt(const RimPoint& point, double nearby);
+  ReferencePoint between(const RimPoint& from, const RimPoint& to, double t) const;
   void finish(const ParallelFor& parallelFor);
   void thinOut();
 
   Isosurface Surface;
   const SurfaceProxy& Proxy;
   SpacingLaw Law;
+  SampleComparison Samples;
   RimTracer Tracer;
   SurfaceWalker Walker;
   std::vector<RimPlace> Places;
@@ -118,9 +125,11 @@ double RimSampler::spacingAt(const RimPoint& point, double nearby)
     static_cast<float>(nearby));
 }
 
-void RimSampler::follow(const FaceCrossing& hint, double nearby)
+void RimSampler::follow(const FaceCrossing& hint, const SurfaceProxy::Sample& sample)
 {
-  if (this->Tracer.hasPassed(hint) || this->Tracer.goesOnAt(hint, crossingPerSpacing * nearby))
+  const double nearby = sample.found ? sample.patch.spacing : this->Law.spacing;
+  if (this->Tracer.hasPassed(hint) || this->Samples.meet(hint, sample, clearMiss) ||
+    this->Tracer.goesOnAt(hint, crossingPerSpacing * nearby))
   {
     return;
   }
@@ -159,6 +168,20 @@ void RimSampler::sample(const RimTrace& trace, double nearby)
   }
 }
 
+/// On the cubic of Hermite between two points of a rim on one face.
+ReferencePoint RimSampler::between(const RimPoint& from, const RimPoint& to, double t) const
+{
+  const ReferenceVector chord = to.at.location.u - from.at.location.u;
+  const double length = glm::distance(from.at.point.map.position.xyz, to.at.point.map.position.xyz);
+  // Rims are traced either way.
+  const ReferenceVector start = this->Tracer.velocity(from);
+  const ReferenceVector end = this->Tracer.velocity(to);
+  const double way = dot(chord, start + end) < 0.0 ? -length : length;
+  const ReferenceVector ahead = way * start - chord;
+  const ReferenceVector behind = way * end - chord;
+  return from.at.location.u + t * chord + t * (1.0 - t) * ((1.0 - t) * ahead + (-t) * behind);
+}
+
 /// Particles at equal distances, in units of the spacing wanted, from the first vertex on.
 void RimSampler::sampleStretch(const std::vector<RimVertex>& vertices, bool withEnd, double nearby)
 {
@@ -184,8 +207,8 @@ void RimSampler::sampleStretch(const std::vector<RimVertex>& vertices, bool with
     const double t = chord > 0.0 ? std::clamp((wanted - sums[v - 1]) / chord, 0.0, 1.0) : 0.0;
     if (from.at.location.element == to.at.location.element)
     {
-      const glm::dvec3 u = (1.0 - t) * from.at.location.u.xyz + t * to.at.location.u.xyz;
-      this->Places.push_back({ { from.at.location.element, { u } }, from.face, nearby });
+      const ReferencePoint u = this->between(from, to, t);
+      this->Places.push_back({ { from.at.location.element, u }, from.face, nearby });
     }
     else
     {
@@ -321,11 +344,10 @@ RimCurves RimSampler::run(const ParallelFor& parallelFor)
   {
     const SurfaceBox& box = this->Proxy.boxes()[b];
     const SurfaceProxy::Sample& sample = this->Proxy.samples()[b];
-    const double nearby = sample.found ? sample.patch.spacing : this->Law.spacing;
     visitFaceCrossings(
       *this->Surface.mesh, box,
       [&](int face) { return this->Surface.mayEnd(box.middle.element, face); },
-      [&](const FaceCrossing& crossing) { this->follow(crossing, nearby); });
+      [&](const FaceCrossing& crossing) { this->follow(crossing, sample); });
   }
   this->finish(parallelFor);
   this->thinOut();

@@ -1,7 +1,5 @@
 #include "RimTracer.h"
 
-#include "ActiveFaces.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -135,7 +133,44 @@ std::optional<RimPoint> RimTracer::project(const Location& start, int face, doub
     return std::nullopt;
   }
   const int wall = this->wallOf(at.location, at.location.element == start.element ? face : -1);
-  return wall < 0 ? std::nullopt : std::optional<RimPoint>({ at, wall });
+  if (wall < 0)
+  {
+    return std::nullopt;
+  }
+  ActiveFaces walls;
+  walls.add(wall);
+  return RimPoint{ this->polished(at, walls), wall };
+}
+
+/// Rough points after more of Newton's method along a face or two. Only steps so long that the field may
+/// have changed are evaluated at their end: where the surface all but touches the face they can be.
+Evaluated RimTracer::polished(Evaluated at, const ActiveFaces& walls)
+{
+  constexpr double longStep = 2.0; // in units of the tolerance
+  constexpr int mostSteps = 4;
+  const Domain domain = this->Surface.mesh->elements[at.location.element].domain;
+  for (int n = 0; this->IsRough && n < mostSteps; ++n)
+  {
+    FieldPoint& point = at.point;
+    const ReferenceVector steepest = pullAlong(domain, walls, point.map, point.gradient);
+    const WorldVector along = point.map.push(steepest);
+    const double rate = dot(along, point.gradient);
+    const ReferenceVector du = (-point.value / rate) * steepest;
+    if (!(rate > 0.0) || findExit(domain, at.location.u, du, walls).face >= 0)
+    {
+      return at;
+    }
+    const WorldVector step = (-point.value / rate) * along;
+    if (length(step) <= longStep * this->Surface.tolerance)
+    {
+      at.location.u = at.location.u + du;
+      point.map.position = point.map.position + step;
+      point.value = 0.0;
+      return at;
+    }
+    at = this->Walker.evaluate({ at.location.element, at.location.u + du });
+  }
+  return at;
 }
 
 WorldVector RimTracer::tangent(const RimPoint& point) const
@@ -146,6 +181,14 @@ WorldVector RimTracer::tangent(const RimPoint& point) const
   const glm::dvec3 along = glm::cross(-point.at.point.gradient.xyz, inward);
   const double size = glm::length(along);
   return { size > 0.0 ? along / size : glm::dvec3(0.0) };
+}
+
+ReferenceVector RimTracer::velocity(const RimPoint& point) const
+{
+  ActiveFaces wall;
+  wall.add(point.face);
+  return pullAlong(this->Surface.mesh->elements[point.at.location.element].domain, wall,
+    point.at.point.map, this->tangent(point));
 }
 
 /// Newton's method for F = c along the edge between two faces of an element.
@@ -170,7 +213,7 @@ std::optional<Evaluated> RimTracer::projectAlongEdge(
     }
     if (std::abs(at.point.value) <= this->Surface.tolerance * slope)
     {
-      return at;
+      return this->polished(at, edge);
     }
     const WorldVector along = at.point.map.push({ direction });
     const double rate = dot(along, at.point.gradient);
@@ -318,14 +361,33 @@ RimTracer::Ahead RimTracer::passEdge(
   return { vertex, false };
 }
 
-/// The next vertex, `step` ahead or on the next edge of the mesh.
-RimTracer::Ahead RimTracer::advance(const RimPoint& from, double step, double direction)
+/// The step in reference space that leads that far ahead: that of Adams and Bashforth, of second order, if
+/// the rim came along the same face.
+ReferenceVector RimTracer::predict(const Heading& heading, double step) const
 {
+  const RimPoint& here = heading.here;
+  const ReferenceVector now = this->velocity(here);
+  const bool isSmooth = heading.before && heading.before->face == here.face &&
+    heading.before->at.location.element == here.at.location.element;
+  if (!isSmooth)
+  {
+    return (heading.direction * step) * now;
+  }
+  const double come =
+    glm::distance(heading.before->at.point.map.position.xyz, here.at.point.map.position.xyz);
+  const ReferenceVector change = now - this->velocity(*heading.before);
+  const double weight = std::min(1.0, 0.5 * step / come);
+  return (heading.direction * step) * (now + weight * change);
+}
+
+/// The next vertex, `step` ahead or on the next edge of the mesh.
+RimTracer::Ahead RimTracer::advance(const Heading& heading, double step)
+{
+  const RimPoint& from = heading.here;
   const Domain domain = this->Surface.mesh->elements[from.at.location.element].domain;
   ActiveFaces wall;
   wall.add(from.face);
-  const WorldVector ahead = (direction * step) * this->tangent(from);
-  const ReferenceVector du = pullAlong(domain, wall, from.at.point.map, ahead);
+  const ReferenceVector du = this->predict(heading, step);
   const Exit exit = findExit(domain, from.at.location.u, du, wall);
   const ReferencePoint u = from.at.location.u + exit.fraction * du;
   if (exit.face >= 0)
@@ -346,11 +408,11 @@ RimTracer::Ahead RimTracer::advance(const RimPoint& from, double step, double di
 
 /// The next vertex after chords tried from one length on, each half as long as the one before.
 std::optional<RimVertex> RimTracer::advanceAtMost(
-  double& chord, double step, const RimPoint& from, double direction)
+  double& chord, double step, const Heading& heading)
 {
   for (double shortest = smallestChord * step; chord >= shortest; chord *= 0.5)
   {
-    const Ahead ahead = this->advance(from, chord, direction);
+    const Ahead ahead = this->advance(heading, chord);
     if (ahead.vertex)
     {
       return ahead.vertex;
@@ -370,7 +432,8 @@ bool RimTracer::follow(
   int stuck = 0;
   while (stuck <= mostStuck)
   {
-    const auto next = this->advanceAtMost(chord, step, here, direction);
+    const auto before = lastChord ? std::optional<RimPoint>(lastChord->first) : std::nullopt;
+    const auto next = this->advanceAtMost(chord, step, { here, direction, before });
     if (!next)
     {
       break;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ActiveFaces.h"
 #include "FaceCrossings.h"
 #include "SurfaceWalker.h"
 
@@ -62,10 +63,18 @@ private:
 class RimTracer
 {
 public:
-  /// \param curved evaluates Hessians at its points
-  explicit RimTracer(const Isosurface& surface, bool curved = false)
+  enum class Points
+  {
+    /// One step of Newton's method nearer to the surface than its tolerance; that step is not evaluated.
+    Rough,
+    /// On the surface to its tolerance, with Hessians.
+    Exact
+  };
+
+  RimTracer(const Isosurface& surface, Points points)
     : Surface(surface)
-    , Walker(surface.withWalls(), curved)
+    , IsRough(points == Points::Rough)
+    , Walker(surface.withWalls(), points == Points::Exact)
     , Passer(surface)
   {
   }
@@ -86,6 +95,9 @@ public:
   /// between elements, two rims can run into one.)
   /// \param step world length of the chords, at most; less where the rim turns
   RimTrace trace(const RimPoint& start, double step);
+
+  /// In which way the rim goes on in reference space, n x w in the world, for a world distance of one.
+  ReferenceVector velocity(const RimPoint& point) const;
 
   /// Whether a rim was traced through a point.
   bool hasPassed(const RimPoint& point) const { return this->Chords.pass(point); }
@@ -111,13 +123,22 @@ private:
     bool fades = false;
   };
 
-  std::optional<RimVertex> advanceAtMost(
-    double& chord, double step, const RimPoint& from, double direction);
-  Ahead advance(const RimPoint& from, double step, double direction);
+  /// Where a rim is, which way it is followed there, and where it was before.
+  struct Heading
+  {
+    RimPoint here;
+    double direction = 1.0;
+    std::optional<RimPoint> before;
+  };
+
+  std::optional<RimVertex> advanceAtMost(double& chord, double step, const Heading& heading);
+  Ahead advance(const Heading& heading, double step);
+  ReferenceVector predict(const Heading& heading, double step) const;
   Ahead passEdge(const RimPoint& from, const ReferencePoint& u, int otherFace, double step);
   std::optional<Evaluated> projectAlongEdge(
     const Location& start, int faceA, int faceB, double maximumTravel);
   std::optional<RimPoint> turnAroundEdge(const Evaluated& at, int wall, int face);
+  Evaluated polished(Evaluated at, const ActiveFaces& walls);
   std::vector<std::int64_t> cornersOf(const Location& location, int face) const;
   int faceAtEdge(const Location& location, int entry, const std::vector<std::int64_t>& edge) const;
   int faceAtPlace(const Location& location, int entry) const;
@@ -126,6 +147,7 @@ private:
   WorldVector tangent(const RimPoint& point) const;
 
   Isosurface Surface;
+  bool IsRough;
   /// Stays on faces at which the surface may end.
   SurfaceWalker Walker;
   /// Tells whether it does.

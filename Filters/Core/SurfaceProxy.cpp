@@ -16,13 +16,31 @@ namespace
 
 /// A sample may be this far from the surface, in units of its box, or of its spacing.
 constexpr double sampleOffset = 0.02;
-constexpr double offsetPerSpacing = 0.1;
+constexpr double offsetPerSpacing = 0.2;
 /// Corners of triangles are moved by at most this share of the radius to which the surface bends.
 constexpr double largestShift = 0.3;
 /// A patch is not believed to be steeper than this makes it.
 constexpr double largestStretch = 2.0;
+/// A sample tells about the surface this far from it, in units of its spacing and of the radius to which the
+/// surface bends.
+constexpr double guessReach = 1.5;
+constexpr double guessTurn = 0.5;
 /// How far a sample's spacing is felt, in units of its own, where spacings are looked up.
 constexpr double lookUpReach = 4.0;
+
+/// A sample's map tells where places lie that are no farther from it, in units of its spacing.
+constexpr double mapReach = 1.2;
+
+std::vector<std::size_t> boxRanges(const std::vector<SurfaceBox>& boxes, std::size_t elements)
+{
+  std::vector<std::size_t> first(elements + 1, 0);
+  for (const SurfaceBox& box : boxes)
+  {
+    ++first[box.middle.element + 1];
+  }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  return first;
+}
 
 } // namespace
 
@@ -32,6 +50,7 @@ SurfaceProxy::SurfaceProxy(const Isosurface& surface, const SpacingLaw& law,
   , Law(law)
   , Boxes(std::move(boxes))
   , Samples(this->Boxes.size())
+  , FirstBox(boxRanges(this->Boxes, surface.mesh->elements.size()))
 {
   this->putOnSurface(parallelFor);
   for (Sample& sample : this->Samples)
@@ -48,6 +67,41 @@ SurfaceProxy::SurfaceProxy(const Isosurface& surface, const SpacingLaw& law,
 
 SurfaceProxy::SurfaceProxy(SurfaceProxy&&) noexcept = default;
 SurfaceProxy::~SurfaceProxy() = default;
+
+const SurfaceProxy::Sample* SurfaceProxy::nearestSample(
+  const glm::dvec3& position, int element) const
+{
+  const Sample* nearest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  const auto [first, last] = this->boxesOf(element);
+  for (std::size_t b = first; b < last; ++b)
+  {
+    const double distance = glm::distance(this->Samples[b].patch.position, position);
+    if (this->Samples[b].found && distance < least)
+    {
+      least = distance;
+      nearest = &this->Samples[b];
+    }
+  }
+  return nearest;
+}
+
+std::optional<Location> SurfaceProxy::locate(const glm::dvec3& position, int element) const
+{
+  const Sample* sample = this->nearestSample(position, element);
+  if (!sample)
+  {
+    return std::nullopt;
+  }
+  const Patch& patch = sample->patch;
+  const glm::dvec3 from =
+    patch.position - static_cast<double>(sample->anchor.offset) * glm::dvec3(patch.normal);
+  const ReferencePoint u{ sample->anchor.place.u.xyz +
+    glm::dmat3(sample->anchor.pull) * (position - from) };
+  const bool isThere = glm::distance(position, from) <= mapReach * patch.spacing &&
+    insideMargin(this->Surface.mesh->elements[element].domain, u) >= 0.0;
+  return isThere ? std::optional<Location>({ element, u }) : std::nullopt;
+}
 
 void SurfaceProxy::findSmallestSpacing()
 {
@@ -320,9 +374,14 @@ double SurfaceProxy::weigh(std::size_t which, std::vector<WeighedTriangle>& weig
 
 /// The seeds first to last - 1 in the triangles of a box, at the sums of weights that are theirs.
 void SurfaceProxy::seedBox(std::size_t box, std::int64_t first, std::int64_t last, double phase,
-  double stride, std::vector<Location>& seeds) const
+  double stride, std::vector<Seed>& seeds) const
 {
   constexpr double goldenRatio = 0.61803398874989485;
+  if (last - first == 1)
+  {
+    seeds[first] = { this->Samples[box].anchor.place, static_cast<int>(box) };
+    return;
+  }
   std::vector<WeighedTriangle> triangles;
   double sum = this->Sums[box] - this->weigh(box, triangles);
   std::size_t t = 0;
@@ -337,17 +396,16 @@ void SurfaceProxy::seedBox(std::size_t box, std::int64_t first, std::int64_t las
     const auto& corners = triangles[t].corners;
     const double root = std::sqrt(std::clamp((wanted - sum) / triangles[t].weight, 0.0, 1.0));
     const double across = std::fmod(goldenRatio * static_cast<double>(k), 1.0);
-    seeds[k] = { this->Boxes[box].middle.element,
-      { (1.0 - root) * glm::dvec3(corners[0]) + root * (1.0 - across) * glm::dvec3(corners[1]) +
-        root * across * glm::dvec3(corners[2]) } };
+    const glm::dvec3 u = (1.0 - root) * glm::dvec3(corners[0]) +
+      root * (1.0 - across) * glm::dvec3(corners[1]) + root * across * glm::dvec3(corners[2]);
+    seeds[k] = { { this->Boxes[box].middle.element, { u } }, static_cast<int>(box) };
   }
 }
 
-SurfaceProxy::Seeds SurfaceProxy::seeds(std::int64_t count, double phase,
+std::vector<SurfaceProxy::Seed> SurfaceProxy::seeds(std::int64_t count, double phase,
   const ParallelFor& parallelFor, const std::vector<char>& only) const
 {
-  std::vector<Location> places(count);
-  std::vector<char> alone(this->Boxes.size(), 0);
+  std::vector<Seed> seeds(count);
   const double stride = this->particleCount() / static_cast<double>(count);
   // The first seed whose sum is not below a given one.
   const auto firstFrom = [&](double sum)
@@ -363,25 +421,28 @@ SurfaceProxy::Seeds SurfaceProxy::seeds(std::int64_t count, double phase,
         const bool wanted = only.empty() || only[b];
         if (wanted && first < last && (b == 0 || this->Sums[b] > this->Sums[b - 1]))
         {
-          alone[b] = last - first == 1;
-          if (!alone[b])
-          {
-            this->seedBox(b, first, last, phase, stride, places);
-          }
+          this->seedBox(b, first, last, phase, stride, seeds);
         }
       }
     });
-  Seeds result;
-  std::copy_if(places.begin(), places.end(), std::back_inserter(result.places),
-    [](const Location& seed) { return seed.element >= 0; });
-  for (std::size_t b = 0; b < alone.size(); ++b)
+  seeds.erase(
+    std::remove_if(seeds.begin(), seeds.end(), [](const Seed& seed) { return seed.box < 0; }),
+    seeds.end());
+  return seeds;
+}
+
+bool SurfaceProxy::guess(const Seed& seed, Anchor& anchor, Patch& patch) const
+{
+  const Sample& sample = this->Samples[seed.box];
+  continuePatch(sample.anchor, sample.patch, seed.place, anchor, patch);
+  const double distance = glm::distance(patch.position, sample.patch.position);
+  if (distance > guessReach * sample.patch.spacing ||
+    distance * sample.patch.curvatureMagnitude() > guessTurn)
   {
-    if (alone[b])
-    {
-      result.samples.push_back(static_cast<int>(b));
-    }
+    return false;
   }
-  return result;
+  patch.spacing = this->spacingAt(patch.position, patch.curvatureMagnitude(), sample.patch.spacing);
+  return true;
 }
 
 } // namespace hop

@@ -6,6 +6,8 @@
 #include "SurfaceBoxes.h"
 
 #include <memory>
+#include <optional>
+#include <utility>
 
 namespace hop
 {
@@ -47,19 +49,23 @@ public:
   /// Number of particles in hexagonal packing at the spacings wanted: the sum of 2 area/(sqrt(3) h^2).
   double particleCount() const { return this->Sums.empty() ? 0.0 : this->Sums.back(); }
 
-  struct Seeds
+  struct Seed
   {
-    std::vector<Location> places;
-    /// Numbers of boxes whose samples stand for their only place.
-    std::vector<int> samples;
+    Location place;
+    int box = -1;
   };
 
   /// `count` places on the triangles, by systematic sampling of the density of particles: the k-th
-  /// stands where the sum of the weights reaches (k + phase) particleCount()/count.
+  /// stands where the sum of the weights reaches (k + phase) particleCount()/count. The only one in its box
+  /// stands at the sample.
   /// \param phase in [0, 1)
   /// \param only if not empty, a mark for each box: of all places those in boxes that have one
-  Seeds seeds(std::int64_t count, double phase, const ParallelFor& parallelFor,
+  std::vector<Seed> seeds(std::int64_t count, double phase, const ParallelFor& parallelFor,
     const std::vector<char>& only = {}) const;
+
+  /// What the box's sample says about the surface at a seed.
+  /// \return whether the seed is near enough to the sample for it to be believed
+  bool guess(const Seed& seed, Anchor& anchor, Patch& patch) const;
 
   /// The spacing that a particle wants: that of the law at its own curvature, or less near places
   /// that want less. Graded like the samples.
@@ -74,6 +80,20 @@ public:
   double smallestSpacing() const { return this->SmallestSpacing; }
 
   const std::vector<Sample>& samples() const { return this->Samples; }
+
+  /// First and last but one of an element's boxes.
+  std::pair<std::size_t, std::size_t> boxesOf(int element) const
+  {
+    return { this->FirstBox[element], this->FirstBox[element + 1] };
+  }
+
+  /// The sample in an element that is nearest to a position; nullptr if there is none.
+  const Sample* nearestSample(const glm::dvec3& position, int element) const;
+
+  /// Where a position near the surface lies in an element, by the map at the nearest sample there; nothing if
+  /// that is too far off to tell, or the position lies outside.
+  std::optional<Location> locate(const glm::dvec3& position, int element) const;
+
   const std::vector<SurfaceBox>& boxes() const { return this->Boxes; }
   std::int64_t evaluations() const { return this->Evaluations; }
 
@@ -95,13 +115,15 @@ private:
   void findSmallestSpacing();
   void sumWeights(const ParallelFor& parallelFor);
   void seedBox(std::size_t box, std::int64_t first, std::int64_t last, double phase, double stride,
-    std::vector<Location>& seeds) const;
+    std::vector<Seed>& seeds) const;
   double weigh(std::size_t box, std::vector<WeighedTriangle>& triangles) const;
 
   Isosurface Surface;
   SpacingLaw Law;
   std::vector<SurfaceBox> Boxes;
   std::vector<Sample> Samples;
+  /// Where the boxes of each element begin; they come in the order of the elements.
+  std::vector<std::size_t> FirstBox;
   /// Weights of the boxes, summed up.
   std::vector<double> Sums;
   std::int64_t Evaluations = 0;

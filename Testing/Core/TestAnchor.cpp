@@ -1,6 +1,7 @@
 #include "Anchor.h"
 
 #include "ElementCases.h"
+#include "Energy.h"
 #include "Random.h"
 #include "RimTracer.h"
 #include "TestMeshes.h"
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace hop::testing
@@ -75,6 +77,59 @@ TEST_P(Anchored, LeadsToTheSurfaceToThirdOrder)
   EXPECT_LE(near.position, far.position / 40.0);
   EXPECT_LE(near.place, 1e-4);
   EXPECT_LE(near.position, 1e-4);
+}
+
+TEST_P(Anchored, TellsAboutPlacesAround)
+{
+  // In straight elements: what a patch says about places around it is worth what its surface is, to third
+  // order, its normals are to second.
+  MeshRecipe recipe;
+  recipe.domain = this->GetParam();
+  recipe.degrees = { 3, 3, 3 };
+  recipe.field = [](const glm::dvec3& x) { return x.x + 0.2 * x.y * x.y + 0.1 * x.x * x.z * x.z; };
+  const ElementMesh mesh = makeMesh(recipe);
+  const auto largestMisses = [&](double distance)
+  {
+    Random random(5);
+    double position = 0.0;
+    double normal = 0.0;
+    for (int n = 0; n < 200; ++n)
+    {
+      const int element = n % static_cast<int>(mesh.elements.size());
+      const ReferencePoint u = insidePoint(
+        mesh.elements[element].domain, { random.uniform(), random.uniform(), random.uniform() });
+      const Jet jet = evaluateHessian(mesh.form(element), u);
+      hop::Anchor known;
+      Patch patch;
+      EXPECT_TRUE(anchorPatch({ element, u }, jet, jet.value.w, known, patch));
+      const auto tangents = tangentsOf(patch.normal);
+      const double angle = 2.0 * Pi * random.uniform();
+      const glm::dvec3 step =
+        std::cos(angle) * glm::dvec3(tangents[0]) + std::sin(angle) * glm::dvec3(tangents[1]);
+      const ReferencePoint other{ u.xyz + glm::dmat3(known.pull) * (distance * step) };
+      hop::Anchor guessed;
+      Patch guess;
+      continuePatch(known, patch, { element, other }, guessed, guess);
+      hop::Anchor there;
+      Patch found;
+      EXPECT_TRUE(anchorPatch(
+        { element, other }, evaluateHessian(mesh.form(element), other), jet.value.w, there, found));
+      // Positions may differ along the surface: they are feet of slightly different normals.
+      position = std::max(
+        position, std::abs(glm::dot(guess.position - found.position, glm::dvec3(found.normal))));
+      normal = std::max<double>(normal, glm::distance(guess.normal, found.normal));
+      EXPECT_EQ(guessed.place.element, element);
+      EXPECT_NEAR(guessed.offset, there.offset, 0.1 * distance);
+      EXPECT_NEAR(guess.curvatureMagnitude(), found.curvatureMagnitude(), 0.2);
+    }
+    return std::array<double, 2>{ position, normal };
+  };
+  const auto far = largestMisses(0.08);
+  const auto near = largestMisses(0.02);
+  EXPECT_LE(near[0], far[0] / 30.0);
+  EXPECT_LE(near[1], far[1] / 10.0);
+  EXPECT_LE(near[0], 1e-5);
+  EXPECT_LE(near[1], 1e-3);
 }
 
 TEST(RimChords, CrossLinesOnTheirFaceOnly)

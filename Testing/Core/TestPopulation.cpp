@@ -144,5 +144,23 @@ TEST(Population, RemovesOneOfTwoInOnePlace)
   EXPECT_EQ(removedOf(relax(lattice, Balance::None, {}, 1)), 0);
 }
 
+TEST(Population, TwoInOnePlaceTellNothingAboutOthers)
+{
+  // The energy of all who see two in one place is out of all proportion.
+  const Lattice lattice(1.0);
+  const SeenLists lists(positionsOf(lattice.patches), spacingsOf(lattice.patches), 2.0, {});
+  std::vector<float> energies;
+  for (const Patch& patch : lattice.patches)
+  {
+    const bool isNear = glm::length(patch.position) < 1.1;
+    energies.push_back(static_cast<float>((isNear ? 50.0 : 1.06) * idealEnergy()));
+  }
+  Relaxed relaxed{ std::vector<glm::vec2>(energies.size(), glm::vec2(0.0f)),
+    std::vector<char>(energies.size(), 1), {} };
+  balancePopulation(lattice.patches, lists, energies, { Balance::Everywhere, {} }, {}, relaxed);
+  EXPECT_TRUE(relaxed.splits.empty());
+  EXPECT_LE(removedOf(relaxed), 5);
+}
+
 } // namespace
 } // namespace hop::testing
