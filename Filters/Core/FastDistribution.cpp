@@ -35,18 +35,19 @@ constexpr double coarseSpacingPerExtent = 0.001;
 constexpr double firstSpacingPerExtent = 0.02;
 /// Seeds nearer to a rim's particle than this, in units of their spacing, are dropped: half the
 /// distance of two rows of hexagonal packing. Those that a round of relaxation squeezed against the rim
-/// are dropped after it.
+/// are dropped after it, as is one of two that are that near in the end: where a strip between rims has no
+/// room for both.
 constexpr double seedToRim = 0.433;
-constexpr double squeezed = 0.6;
+constexpr double squeezed = 0.65;
 /// Pairs nearer than this, in units of their spacing, are defects of the packing. Particles within some
 /// spacings of them are relaxed further.
 constexpr double smallestSpacing = 0.82;
 constexpr double repairReach = 3.0;
 constexpr int repairRounds = 2;
-/// Those that are left then have so many rounds more where they are few: where fields jump many cannot be
-/// repaired.
-constexpr int furtherRounds = 2;
-constexpr double singleDefects = 0.005;
+/// What is left is repaired again, so often at most, if it is no more than that share of all particles: where
+/// fields jump there is much that cannot be.
+constexpr int furtherRepairs = 2;
+constexpr double fewDefects = 0.005;
 constexpr int repairSweeps = 8;
 /// The first round may start from patches that were evaluated that far from the surface, in units of the
 /// spacing.
@@ -126,7 +127,7 @@ private:
   void coverBoxes();
   void relax(MovingParticles& moving, int sweeps, const Balance& balance, const Section& section);
   void relaxAll(int sweeps, bool isLast, const Section& section);
-  void repair(int round);
+  void repair(bool isFurther);
   void finish();
 
   Isosurface Surface;
@@ -420,7 +421,7 @@ void FastSystem::relaxAll(int sweeps, bool isLast, const Section& section)
 }
 
 /// Particles around pairs that stand too near to each other go on alone, those farther off stay.
-void FastSystem::repair(int round)
+void FastSystem::repair(bool isFurther)
 {
   const std::vector<Patch>& patches = this->Moving->patches();
   const std::size_t count = this->Moving->count();
@@ -430,7 +431,7 @@ void FastSystem::repair(int round)
   std::transform(apart.begin(), apart.end(), apart.begin(), std::logical_not<>());
   keepMarked(tooNear, apart);
   const double share = static_cast<double>(tooNear.size()) / static_cast<double>(count);
-  if (tooNear.empty() || (round >= repairRounds && share > singleDefects))
+  if (tooNear.empty() || (isFurther && share > fewDefects))
   {
     return;
   }
@@ -455,9 +456,12 @@ void FastSystem::repair(int round)
   keepMarked(moved, moving);
   MovingParticles part(this->Surface, *this->Proxy, std::move(around), this->Parallel);
   part.add(anchors, moved);
-  Balance balance;
-  balance.extent = this->countIsGiven() ? Balance::None : Balance::Defects;
-  this->relax(part, repairSweeps, balance, { relaxedFraction, relaxedFraction });
+  for (int n = 0; n < repairRounds; ++n)
+  {
+    Balance balance;
+    balance.extent = this->countIsGiven() ? Balance::None : Balance::Crowded;
+    this->relax(part, repairSweeps, balance, { relaxedFraction, relaxedFraction });
+  }
   moved = part.patches();
   moved.resize(part.count());
   this->Moving->keep(staying);
@@ -555,9 +559,9 @@ void FastSystem::make()
       this->relaxAll(rounds[n], n + 1 == rounds.size(), round);
       this->reach(round.end);
     }
-    for (int n = 0; n < repairRounds + furtherRounds; ++n)
+    for (int n = 0; n <= furtherRepairs; ++n)
     {
-      this->repair(n);
+      this->repair(n > 0);
     }
     if (!this->countIsGiven())
     {

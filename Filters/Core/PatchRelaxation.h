@@ -55,9 +55,11 @@ struct Balance
   enum Extent
   {
     None,
-    /// Remove those that are far too close to others, and fill holes between them.
+    /// Remove those that are far too close to others.
+    Crowded,
+    /// That, and fill holes between them.
     Defects,
-    /// Remove those that are far too close to others, and make the number what it should be everywhere.
+    /// Remove those that are far too close, and make the number what it should be everywhere.
     Everywhere
   };
   Extent extent = None;

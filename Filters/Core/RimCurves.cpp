@@ -168,10 +168,12 @@ void RimSampler::sample(const RimTrace& trace, double nearby)
   }
 }
 
-/// On the cubic of Hermite between two points of a rim on one face.
+/// On the cubic of Hermite between two points of a rim in one element, or on the line where that would leave
+/// the face.
 ReferencePoint RimSampler::between(const RimPoint& from, const RimPoint& to, double t) const
 {
   const ReferenceVector chord = to.at.location.u - from.at.location.u;
+  const ReferencePoint onLine = from.at.location.u + t * chord;
   const double length = glm::distance(from.at.point.map.position.xyz, to.at.point.map.position.xyz);
   // Rims are traced either way.
   const ReferenceVector start = this->Tracer.velocity(from);
@@ -179,7 +181,9 @@ ReferencePoint RimSampler::between(const RimPoint& from, const RimPoint& to, dou
   const double way = dot(chord, start + end) < 0.0 ? -length : length;
   const ReferenceVector ahead = way * start - chord;
   const ReferenceVector behind = way * end - chord;
-  return from.at.location.u + t * chord + t * (1.0 - t) * ((1.0 - t) * ahead + (-t) * behind);
+  const ReferencePoint onCubic = onLine + t * (1.0 - t) * ((1.0 - t) * ahead + (-t) * behind);
+  const Domain domain = this->Surface.mesh->elements[from.at.location.element].domain;
+  return from.face == to.face && insideMargin(domain, onCubic) > -OnFace ? onCubic : onLine;
 }
 
 /// Particles at equal distances, in units of the spacing wanted, from the first vertex on.

@@ -362,11 +362,21 @@ TEST(FastDistribution, ClipsAtKinks)
   const ElementMesh mesh = twoFields([](const glm::dvec3& x) { return x.z - 0.1 - 0.5 * x.x; },
     [](const glm::dvec3& x) { return x.z - 0.1 + 0.5 * x.x; });
   const Distribution result = distribute(mesh, withSpacing(spacing));
+  // Cut off is only what a particle on the other side covers.
+  const auto isCovered = [&](const glm::dvec3& x)
+  {
+    const glm::dvec3 foot(0.0, x.y, x.z);
+    return std::any_of(result.particles.begin(), result.particles.end(),
+      [&](const Particle& other) {
+        return other.position.xyz.x * x.x < 0.0 &&
+          glm::distance(other.position.xyz, foot) <= spacing;
+      });
+  };
   int atRidge = 0;
   for (const Particle& p : result.particles)
   {
     const glm::dvec3 x = p.position.xyz;
-    if (std::abs(x.x) > 0.8 * spacing || std::abs(x.y) > 1.0 - 2.0 * spacing)
+    if (std::abs(x.x) > 0.8 * spacing || std::abs(x.y) > 1.0 - 2.0 * spacing || !isCovered(x))
     {
       continue;
     }
