@@ -30,6 +30,9 @@ constexpr double lookUpReach = 4.0;
 
 /// A sample's map tells where places lie that are no farther from it, in units of its spacing.
 constexpr double mapReach = 1.2;
+/// Elements of more boxes are not looked through for the nearest sample: most particles in them do not come
+/// near their faces.
+constexpr std::size_t mostBoxesToSearch = 256;
 
 std::vector<std::size_t> boxRanges(const std::vector<SurfaceBox>& boxes, std::size_t elements)
 {
@@ -74,7 +77,7 @@ const SurfaceProxy::Sample* SurfaceProxy::nearestSample(
   const Sample* nearest = nullptr;
   double least = std::numeric_limits<double>::infinity();
   const auto [first, last] = this->boxesOf(element);
-  for (std::size_t b = first; b < last; ++b)
+  for (std::size_t b = first; b < last && last - first <= mostBoxesToSearch; ++b)
   {
     const double distance = glm::distance(this->Samples[b].patch.position, position);
     if (this->Samples[b].found && distance < least)

@@ -87,7 +87,7 @@ public:
     return { this->FirstBox[element], this->FirstBox[element + 1] };
   }
 
-  /// The sample in an element that is nearest to a position; nullptr if there is none.
+  /// The sample in an element that is nearest to a position; nullptr if there is none, or too many to search.
   const Sample* nearestSample(const glm::dvec3& position, int element) const;
 
   /// Where a position near the surface lies in an element, by the map at the nearest sample there; nothing if

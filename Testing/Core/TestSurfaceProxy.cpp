@@ -1,0 +1,129 @@
+#include "SurfaceProxy.h"
+
+#include "AnalyticFields.h"
+#include "ElementCases.h"
+#include "SampleComparison.h"
+#include "SurfaceSeeds.h"
+#include "TestMeshes.h"
+
+#include <gtest/gtest.h>
+
+namespace hop::testing
+{
+namespace
+{
+
+constexpr double spacing = 0.08;
+
+ElementMesh curvedMesh(Domain domain)
+{
+  MeshRecipe recipe;
+  recipe.domain = domain;
+  recipe.degrees = { 3, 3, 3 };
+  recipe.cells = 4;
+  recipe.map = wavyMap(0.1);
+  recipe.field = sphere({ 0, 0, 0 }, 0.7).field;
+  return makeMesh(recipe);
+}
+
+SurfaceProxy proxyOf(const ElementMesh& mesh, double boxesPerSpacing = 5.0)
+{
+  return { { &mesh, 0.0, 1e-9 }, { spacing, 0.0 },
+    findSurfaceBoxes(mesh, 0.0, boxesPerSpacing * spacing, {}), {} };
+}
+
+class Proxy : public ::testing::TestWithParam<Domain>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(SurfaceProxy, Proxy, ::testing::ValuesIn(allDomains),
+  [](const auto& which) { return ::testing::PrintToString(which.param); });
+
+TEST_P(Proxy, GuessesTheSurfaceAtSeeds)
+{
+  const ElementMesh mesh = curvedMesh(this->GetParam());
+  const SurfaceProxy proxy = proxyOf(mesh);
+  const auto seeds = proxy.seeds(std::llround(proxy.particleCount()), 0.5, {});
+  ASSERT_GT(seeds.size(), 500u);
+  std::size_t guessed = 0;
+  for (const SurfaceProxy::Seed& seed : seeds)
+  {
+    Anchor anchor;
+    Patch guess;
+    if (!proxy.guess(seed, anchor, guess))
+    {
+      continue;
+    }
+    ++guessed;
+    Anchor there;
+    Patch found;
+    ASSERT_TRUE(anchorPatch(
+      seed.place, evaluateHessian(mesh.form(seed.place.element), seed.place.u), 0.0, there, found));
+    EXPECT_LE(glm::distance(guess.position, found.position), 0.15 * spacing);
+    EXPECT_GE(glm::dot(guess.normal, found.normal), 0.98f);
+    EXPECT_EQ(guess.spacing, static_cast<float>(spacing));
+  }
+  // Most seeds are near enough to the sample of their box.
+  EXPECT_GE(static_cast<double>(guessed), 0.5 * static_cast<double>(seeds.size()));
+}
+
+TEST_P(Proxy, LocatesPlacesNearSamplesOnly)
+{
+  const ElementMesh mesh = curvedMesh(this->GetParam());
+  const SurfaceProxy proxy = proxyOf(mesh, 2.0);
+  int located = 0;
+  for (const SurfaceProxy::Sample& sample : proxy.samples())
+  {
+    ASSERT_TRUE(sample.found);
+    const auto tangents = tangentsOf(sample.patch.normal);
+    const int element = sample.anchor.place.element;
+    const glm::dvec3 near = sample.patch.position + 0.5 * spacing * glm::dvec3(tangents[0]);
+    if (const auto place = proxy.locate(near, element))
+    {
+      ++located;
+      EXPECT_EQ(place->element, element);
+      EXPECT_LE(glm::distance(positionAt(mesh, *place), near), 0.06 * spacing);
+    }
+    EXPECT_FALSE(proxy.locate(glm::dvec3(2.0), element));
+  }
+  EXPECT_GE(located, static_cast<int>(proxy.samples().size()) / 2);
+}
+
+TEST(SampleComparison, KnowsSmallJumpsFromLargeOnes)
+{
+  // z = 0 for x < 0; behind x = 0 the surface is that much higher.
+  for (const double jump : { 0.0, 0.02, 0.5 })
+  {
+    ElementMesh mesh;
+    MeshRecipe recipe;
+    recipe.cells = 2;
+    recipe.field = [](const glm::dvec3& x) { return x.z + 0.01; };
+    appendBox(mesh, recipe, { -1, -1, -1 }, { 0, 1, 1 });
+    recipe.field = [jump](const glm::dvec3& x) { return x.z + 0.01 - jump * spacing; };
+    appendBox(mesh, recipe, { 0, -1, -1 }, { 1, 1, 1 });
+    findFaceNeighbors(mesh, 1e-9);
+    const SurfaceProxy proxy = proxyOf(mesh, 4.0);
+    const SampleComparison comparison({ &mesh, 0.0, 1e-9 }, proxy);
+    int meeting = 0;
+    int looked = 0;
+    for (std::size_t b = 0; b < proxy.boxes().size(); ++b)
+    {
+      const SurfaceBox& box = proxy.boxes()[b];
+      visitFaceCrossings(
+        mesh, box, [&](int face) { return mesh.neighbor(box.middle.element, face).element >= 0; },
+        [&](const FaceCrossing& crossing)
+        {
+          if (std::abs(positionAt(mesh, crossing.location).x) < 1e-9)
+          {
+            ++looked;
+            meeting += comparison.meet(crossing, proxy.samples()[b], 0.1);
+          }
+        });
+    }
+    ASSERT_GT(looked, 10);
+    EXPECT_EQ(meeting, jump < 0.1 ? looked : 0) << jump;
+  }
+}
+
+} // namespace
+} // namespace hop::testing
