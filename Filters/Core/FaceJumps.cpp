@@ -6,7 +6,7 @@
 
 #include <atomic>
 #include <cmath>
-#include <numeric>
+#include <limits>
 
 namespace hop
 {
@@ -98,7 +98,7 @@ public:
     , Proxy(proxy)
     , Everywhere(this->Mesh.elements.size() * MaximumFaces, 0.0f)
     , OfElement(this->Mesh.elements.size())
-    , Samples(surface, proxy)
+    , Samples(this->Mesh, proxy)
   {
   }
 

@@ -86,7 +86,7 @@ public:
     : Surface(surface)
     , Proxy(proxy)
     , Law(law)
-    , Samples(surface, proxy)
+    , Samples(*surface.mesh, proxy)
     , Tracer(roughly(surface, proxy.smallestSpacing()), RimTracer::Points::Rough)
     , Walker(surface.withWalls())
   {

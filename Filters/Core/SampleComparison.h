@@ -10,9 +10,9 @@ namespace hop
 class SampleComparison
 {
 public:
-  /// \param proxy outlives this
-  SampleComparison(const Isosurface& surface, const SurfaceProxy& proxy)
-    : Mesh(*surface.mesh)
+  /// \param mesh, proxy outlive this
+  SampleComparison(const ElementMesh& mesh, const SurfaceProxy& proxy)
+    : Mesh(mesh)
     , Proxy(proxy)
   {
   }

@@ -103,7 +103,7 @@ TEST(SampleComparison, KnowsSmallJumpsFromLargeOnes)
     appendBox(mesh, recipe, { 0, -1, -1 }, { 1, 1, 1 });
     findFaceNeighbors(mesh, 1e-9);
     const SurfaceProxy proxy = proxyOf(mesh, 4.0);
-    const SampleComparison comparison({ &mesh, 0.0, 1e-9 }, proxy);
+    const SampleComparison comparison(mesh, proxy);
     int meeting = 0;
     int looked = 0;
     for (std::size_t b = 0; b < proxy.boxes().size(); ++b)
