@@ -346,19 +346,20 @@ void Packer::addReport(const std::vector<IsovalueParticles>& isovalues)
 /// Adds the rows of one isovalue, sorted by element so that neighbours in memory share one, to those of
 /// their blocks.
 void addRows(const InputBlocks& blocks, const hop::ElementMesh& mesh, const IsovalueParticles& some,
-  std::vector<std::vector<ParticleRow>>& rowsOfBlocks)
+  hop::Interruptible& work, std::vector<std::vector<ParticleRow>>& rowsOfBlocks)
 {
   const std::vector<hop::Particle>& particles = some.distribution.particles;
-  const std::vector<int> order = hop::sortedBy(particles, mesh.elements.size(),
-    [](const hop::Particle& particle) { return particle.location.element; });
-  for (const int i : order)
+  const hop::Grouping ofElements = hop::groupedBy(
+    particles, mesh.elements.size(),
+    [](const hop::Particle& particle) { return particle.location.element; }, std::ref(work));
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
   {
-    const hop::Particle& particle = particles[i];
-    const auto [block, cell] = blocks.locate(mesh.elements[particle.location.element].cell);
+    const auto [block, cell] = blocks.locate(mesh.elements[e].cell);
     vtkUnsignedCharArray* ghosts = blocks[block].grid->GetCellGhostArray();
-    if (!ghosts || ghosts->GetValue(cell) == 0)
+    const bool isGhost = ghosts && ghosts->GetValue(cell) != 0;
+    for (int n = ofElements.start[e]; n < ofElements.start[e + 1] && !isGhost; ++n)
     {
-      rowsOfBlocks[block].push_back({ &particle, some.isovalue });
+      rowsOfBlocks[block].push_back({ &particles[ofElements.order[n]], some.isovalue });
     }
   }
 }
@@ -372,7 +373,7 @@ void packParticles(const InputBlocks& blocks, const GridElements& elements,
   for (const IsovalueParticles& some : isovalues)
   {
     work.ask();
-    addRows(blocks, elements.mesh, some, rows);
+    addRows(blocks, elements.mesh, some, work, rows);
   }
   for (std::size_t b = 0; b < blocks.size(); ++b)
   {

@@ -93,14 +93,18 @@ void continuePatch(const Anchor& knownAnchor, const Patch& known, const Location
   anchor = { place, knownAnchor.pull, static_cast<float>(offset) };
 }
 
-std::vector<int> orderByElement(const std::vector<Location>& places, std::size_t elementCount)
+std::vector<int> orderByElement(
+  const std::vector<Location>& places, std::size_t elementCount, const ParallelFor& parallelFor)
 {
-  return sortedBy(places, elementCount, [](const Location& place) { return place.element; });
+  return sortedBy(
+    places, elementCount, [](const Location& place) { return place.element; }, parallelFor);
 }
 
-std::vector<int> orderByElement(const std::vector<Anchor>& anchors, std::size_t elementCount)
+std::vector<int> orderByElement(
+  const std::vector<Anchor>& anchors, std::size_t elementCount, const ParallelFor& parallelFor)
 {
-  return sortedBy(anchors, elementCount, [](const Anchor& anchor) { return anchor.place.element; });
+  return sortedBy(
+    anchors, elementCount, [](const Anchor& anchor) { return anchor.place.element; }, parallelFor);
 }
 
 } // namespace hop

@@ -35,8 +35,10 @@ void continuePatch(const Anchor& knownAnchor, const Patch& known, const Location
   Anchor& anchor, Patch& patch);
 
 /// Indices of places, or of anchors, sorted by element, stably.
-std::vector<int> orderByElement(const std::vector<Location>& places, std::size_t elementCount);
-std::vector<int> orderByElement(const std::vector<Anchor>& anchors, std::size_t elementCount);
+std::vector<int> orderByElement(
+  const std::vector<Location>& places, std::size_t elementCount, const ParallelFor& parallelFor);
+std::vector<int> orderByElement(
+  const std::vector<Anchor>& anchors, std::size_t elementCount, const ParallelFor& parallelFor);
 
 /// Calls use(i, jet) with the value and derivatives to second order at places[i], i = order[n] for n
 /// in [begin, end). Places next to each other in the order that share an element are evaluated

@@ -4,6 +4,7 @@
 #include <memory>
 #include <new>
 #include <type_traits>
+#include <vector>
 
 namespace hop
 {
@@ -44,6 +45,33 @@ private:
 
   std::unique_ptr<T[], Free> Values;
   std::size_t Size = 0;
+};
+
+/// The entries of a vector or a buffer, which outlives it.
+template <class T>
+class Span
+{
+public:
+  Span(const std::vector<T>& values)
+    : First(values.data())
+    , Count(values.size())
+  {
+  }
+  Span(const Buffer<T>& values)
+    : First(values.data())
+    , Count(values.size())
+  {
+  }
+
+  std::size_t size() const { return this->Count; }
+  bool empty() const { return this->Count == 0; }
+  const T& operator[](std::size_t i) const { return this->First[i]; }
+  const T* begin() const { return this->First; }
+  const T* end() const { return this->First + this->Count; }
+
+private:
+  const T* First;
+  std::size_t Count;
 };
 
 } // namespace hop

@@ -93,14 +93,19 @@ public:
     {
       return;
     }
-    for (const Particle& particle : particles)
-    {
-      this->add(particle);
-    }
-    for (const RimParticle& rim : rims)
-    {
-      this->add(rim.particle);
-    }
+    const std::size_t count = particles.size() + rims.size();
+    this->Positions = Buffer<glm::dvec3>(count);
+    this->Spacings = Buffer<float>(count);
+    this->Elements = Buffer<int>(count);
+    forAll(parallelFor, count,
+      [&](std::size_t i)
+      {
+        const Particle& particle =
+          i < particles.size() ? particles[i] : rims[i - particles.size()].particle;
+        this->Positions[i] = particle.position.xyz;
+        this->Spacings[i] = static_cast<float>(particle.spacing);
+        this->Elements[i] = particle.location.element;
+      });
     this->Grid =
       std::make_unique<SpacingGrid>(this->Positions, this->Spacings, ClipReach, 0.5, parallelFor);
   }
@@ -129,13 +134,6 @@ public:
   }
 
 private:
-  void add(const Particle& particle)
-  {
-    this->Positions.push_back(particle.position.xyz);
-    this->Spacings.push_back(static_cast<float>(particle.spacing));
-    this->Elements.push_back(particle.location.element);
-  }
-
   /// Whether a particle behind the face is near enough to cover what is cut off: slivers of elements hold
   /// none.
   bool goesOnBehind(const Particle& particle, int face, const WorldPoint& foot) const
@@ -161,9 +159,9 @@ private:
   const ElementMesh& Mesh;
   const FaceLocator* Locator;
   const std::vector<char>& Kinks;
-  std::vector<glm::dvec3> Positions;
-  std::vector<float> Spacings;
-  std::vector<int> Elements;
+  Buffer<glm::dvec3> Positions;
+  Buffer<float> Spacings;
+  Buffer<int> Elements;
   std::unique_ptr<SpacingGrid> Grid;
 };
 
@@ -182,20 +180,18 @@ void markClipPlanes(const Isosurface& surface, const FaceJumps& jumps,
   }
   const SpacingGrid grid(positions, spacings, ClipReach, 0.5);
   const KinkPlanes kinks(surface, jumps.kinks, particles, rims, parallelFor);
-  runParallel(parallelFor, static_cast<std::ptrdiff_t>(particles.size()),
-    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+  forAll(parallelFor, particles.size(),
+    [&](std::size_t i)
     {
-      for (std::ptrdiff_t i = begin; i < end; ++i)
-      {
-        offerRims(grid, rims, particles[i]);
-        kinks.offerTo(particles[i], anchors[i].pull);
-      }
+      offerRims(grid, rims, particles[i]);
+      kinks.offerTo(particles[i], anchors[i].pull);
     });
-  for (RimParticle& rim : rims)
-  {
-    offerRims(grid, rims, rim.particle);
-    kinks.offerTo(rim.particle, rim.pull);
-  }
+  forAll(parallelFor, rims.size(),
+    [&](std::size_t i)
+    {
+      offerRims(grid, rims, rims[i].particle);
+      kinks.offerTo(rims[i].particle, rims[i].pull);
+    });
 }
 
 } // namespace hop

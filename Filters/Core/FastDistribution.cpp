@@ -75,6 +75,12 @@ std::vector<int> sweepsOfRounds(Quality quality, bool isWarm)
   }
 }
 
+std::vector<char> opposite(std::vector<char> marks)
+{
+  std::transform(marks.begin(), marks.end(), marks.begin(), std::logical_not<>());
+  return marks;
+}
+
 /// A part of the run, as far as progress is concerned.
 struct Section
 {
@@ -425,23 +431,18 @@ void FastSystem::repair(bool isFurther)
 {
   const std::vector<Patch>& patches = this->Moving->patches();
   const std::size_t count = this->Moving->count();
-  std::vector<char> apart = haveDistance(patches, count, smallestSpacing, this->Parallel);
-  std::vector<Patch> tooNear = patches;
-  tooNear.resize(count);
-  std::transform(apart.begin(), apart.end(), apart.begin(), std::logical_not<>());
-  keepMarked(tooNear, apart);
+  const std::vector<Patch> tooNear =
+    marked(patches, opposite(haveDistance(patches, count, smallestSpacing, this->Parallel)));
   const double share = static_cast<double>(tooNear.size()) / static_cast<double>(count);
   if (tooNear.empty() || (isFurther && share > fewDefects))
   {
     return;
   }
-  std::vector<char> staying = keepDistance(patches, count, tooNear, repairReach, this->Parallel);
-  std::vector<char> outOfSight =
+  const std::vector<char> staying =
+    keepDistance(patches, count, tooNear, repairReach, this->Parallel);
+  const std::vector<char> outOfSight =
     keepDistance(patches, patches.size(), tooNear, 2.0 * repairReach, this->Parallel);
-  std::vector<Anchor> anchors = this->Moving->anchors();
-  std::vector<Patch> moved = patches;
   std::vector<Patch> around;
-  moved.resize(count);
   for (std::size_t i = 0; i < patches.size(); ++i)
   {
     if (!outOfSight[i] && (i >= count || staying[i]))
@@ -450,22 +451,17 @@ void FastSystem::repair(bool isFurther)
       around.back().fixed = true;
     }
   }
-  std::vector<char> moving(count);
-  std::transform(staying.begin(), staying.end(), moving.begin(), std::logical_not<>());
-  keepMarked(anchors, moving);
-  keepMarked(moved, moving);
+  const std::vector<char> moving = opposite(staying);
   MovingParticles part(this->Surface, *this->Proxy, std::move(around), this->Parallel);
-  part.add(anchors, moved);
+  part.add(marked(this->Moving->anchors(), moving), marked(patches, moving));
   for (int n = 0; n < repairRounds; ++n)
   {
     Balance balance;
     balance.extent = this->countIsGiven() ? Balance::None : Balance::Crowded;
     this->relax(part, repairSweeps, balance, { relaxedFraction, relaxedFraction });
   }
-  moved = part.patches();
-  moved.resize(part.count());
   this->Moving->keep(staying);
-  this->Moving->add(part.anchors(), moved);
+  this->Moving->add(part.anchors(), marked(part.patches(), std::vector<char>(part.count(), 1)));
   this->Evaluations += part.evaluations();
 }
 

@@ -26,24 +26,30 @@ void keepMarked(std::vector<T>& items, const std::vector<char>& marks)
   items.resize(next);
 }
 
+/// Copies of the items that have a mark, in their order.
+/// \param marks one for each item at most
+template <class T>
+std::vector<T> marked(const std::vector<T>& items, const std::vector<char>& marks)
+{
+  std::vector<T> result;
+  result.reserve(marks.size() - std::count(marks.begin(), marks.end(), 0));
+  for (std::size_t i = 0; i < marks.size(); ++i)
+  {
+    if (marks[i])
+    {
+      result.push_back(items[i]);
+    }
+  }
+  return result;
+}
+
 /// Puts items order[0], order[1], ... first, in this order, and leaves the rest.
 template <class T>
 void permute(std::vector<T>& items, const std::vector<int>& order, const ParallelFor& parallelFor)
 {
   Buffer<T> before(order.size());
-  const auto forAll = [&](const auto& use)
-  {
-    runParallel(parallelFor, static_cast<std::ptrdiff_t>(order.size()),
-      [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-      {
-        for (std::ptrdiff_t n = begin; n < end; ++n)
-        {
-          use(n);
-        }
-      });
-  };
-  forAll([&](std::ptrdiff_t n) { before[n] = items[n]; });
-  forAll([&](std::ptrdiff_t n) { items[n] = before[order[n]]; });
+  forAll(parallelFor, order.size(), [&](std::size_t n) { before[n] = items[n]; });
+  forAll(parallelFor, order.size(), [&](std::size_t n) { items[n] = before[order[n]]; });
 }
 
 } // namespace hop

@@ -34,4 +34,18 @@ inline void runParallel(const ParallelFor& parallelFor, std::ptrdiff_t count,
   }
 }
 
+/// Calls use(i) for every i in [0, count), in the caller's threads.
+template <class Use>
+void forAll(const ParallelFor& parallelFor, std::size_t count, const Use& use)
+{
+  runParallel(parallelFor, static_cast<std::ptrdiff_t>(count),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      for (std::ptrdiff_t i = begin; i < end; ++i)
+      {
+        use(static_cast<std::size_t>(i));
+      }
+    });
+}
+
 } // namespace hop

@@ -68,13 +68,9 @@ void MovingParticles::add(const std::vector<SurfaceProxy::Seed>& seeds)
 {
   const std::size_t first = this->makeRoom(seeds.size());
   std::vector<char> known(seeds.size());
-  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(seeds.size()),
-    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-    {
-      for (std::ptrdiff_t n = begin; n < end; ++n)
-      {
-        known[n] = this->Proxy.guess(seeds[n], this->Anchors[first + n], this->Patches[first + n]);
-      }
+  forAll(this->Parallel, seeds.size(),
+    [&](std::size_t n) {
+      known[n] = this->Proxy.guess(seeds[n], this->Anchors[first + n], this->Patches[first + n]);
     });
   std::vector<int> unknown;
   std::vector<Location> places;
@@ -108,7 +104,8 @@ std::vector<char> MovingParticles::anchorAt(
   const std::vector<int>& which, const std::vector<Location>& places)
 {
   std::vector<char> found(this->count(), 1);
-  const std::vector<int> order = orderByElement(places, this->Surface.mesh->elements.size());
+  const std::vector<int> order =
+    orderByElement(places, this->Surface.mesh->elements.size(), this->Parallel);
   runParallel(this->Parallel, static_cast<std::ptrdiff_t>(places.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
@@ -228,7 +225,8 @@ void MovingParticles::step(
   const std::vector<int>& which, const std::vector<glm::vec2>& displacements)
 {
   const std::vector<Location> places = this->targets(which, displacements);
-  const std::vector<int> order = orderByElement(places, this->Surface.mesh->elements.size());
+  const std::vector<int> order =
+    orderByElement(places, this->Surface.mesh->elements.size(), this->Parallel);
   runParallel(this->Parallel, static_cast<std::ptrdiff_t>(which.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
@@ -259,7 +257,8 @@ void MovingParticles::commit(const std::vector<glm::vec2>& displacements)
   std::vector<int> all(this->count());
   std::iota(all.begin(), all.end(), 0);
   this->step(all, displacements);
-  const std::vector<int> order = orderByElement(this->Anchors, this->Surface.mesh->elements.size());
+  const std::vector<int> order =
+    orderByElement(this->Anchors, this->Surface.mesh->elements.size(), this->Parallel);
   permute(this->Anchors, order, this->Parallel);
   permute(this->Patches, order, this->Parallel);
 }

@@ -86,7 +86,7 @@ void Finish::pass()
       }
       this->Evaluations += cost;
     });
-  const std::vector<int> order = orderByElement(places, mesh.elements.size());
+  const std::vector<int> order = orderByElement(places, mesh.elements.size(), this->Parallel);
   runParallel(this->Parallel, static_cast<std::ptrdiff_t>(pending.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {

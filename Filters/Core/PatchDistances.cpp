@@ -43,14 +43,7 @@ template <class Test>
 std::vector<char> testAll(std::size_t count, const ParallelFor& parallelFor, const Test& test)
 {
   std::vector<char> results(count);
-  runParallel(parallelFor, static_cast<std::ptrdiff_t>(count),
-    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-    {
-      for (std::ptrdiff_t i = begin; i < end; ++i)
-      {
-        results[i] = test(static_cast<std::size_t>(i));
-      }
-    });
+  forAll(parallelFor, count, [&](std::size_t i) { results[i] = test(i); });
   return results;
 }
 
@@ -61,8 +54,8 @@ public:
   Crowd(const std::vector<Patch>& patches, double distance, const ParallelFor& parallelFor)
     : Patches(patches)
     , Distance(distance)
-    , Positions(positionsOf(patches))
-    , Spacings(spacingsOf(patches))
+    , Positions(positionsOf(patches, parallelFor))
+    , Spacings(spacingsOf(patches, parallelFor))
     , Grid(Positions, Spacings, distance, cellsPerReach, parallelFor)
   {
   }
@@ -91,8 +84,8 @@ public:
 private:
   const std::vector<Patch>& Patches;
   double Distance;
-  std::vector<glm::dvec3> Positions;
-  std::vector<float> Spacings;
+  Buffer<glm::dvec3> Positions;
+  Buffer<float> Spacings;
   SpacingGrid Grid;
 };
 
@@ -101,8 +94,8 @@ private:
 std::vector<char> keepDistance(const std::vector<Patch>& patches, std::size_t count,
   const std::vector<Patch>& others, double distance, const ParallelFor& parallelFor)
 {
-  const std::vector<glm::dvec3> positions = positionsOf(others);
-  const std::vector<float> spacings = spacingsOf(others);
+  const Buffer<glm::dvec3> positions = positionsOf(others, parallelFor);
+  const Buffer<float> spacings = spacingsOf(others, parallelFor);
   const SpacingGrid grid(positions, spacings, distance, cellsPerReachOfFew, parallelFor);
   return testAll(count, parallelFor,
     [&](std::size_t i)
@@ -146,8 +139,8 @@ std::vector<char> standApart(const std::vector<Patch>& patches, std::size_t coun
 std::vector<char> findLonely(const std::vector<SurfaceProxy::Sample>& samples,
   const std::vector<Patch>& patches, const ParallelFor& parallelFor)
 {
-  const std::vector<glm::dvec3> positions = positionsOf(patches);
-  const std::vector<float> spacings = spacingsOf(patches);
+  const Buffer<glm::dvec3> positions = positionsOf(patches, parallelFor);
+  const Buffer<float> spacings = spacingsOf(patches, parallelFor);
   const SpacingGrid grid(positions, spacings, 1.0, cellsPerReach, parallelFor);
   return testAll(samples.size(), parallelFor,
     [&](std::size_t b)

@@ -5,6 +5,7 @@
 #include "InstructionSet.h"
 #include "Phases.h"
 #include "Population.h"
+#include "SortedBy.h"
 #include "SpacingGrid.h"
 
 #include <glm/integer.hpp>
@@ -37,8 +38,10 @@ constexpr float flatUpTo = 0.3f;
 constexpr float farthestPerSpacing = 0.5f;
 constexpr float farthestPerRadius = 0.5f;
 
-/// The lowest colour that none of those a particle sees has; some 20 are in use, as a rule.
-int lowestFreeColor(const std::vector<int>& colors, const int* begin, const int* end)
+/// The lowest colour that none of those a particle sees has, as far as they are in [first, last); some 20 are
+/// in use, as a rule.
+int lowestFreeColor(
+  const std::vector<int>& colors, const int* begin, const int* end, int first, int last)
 {
   constexpr int colorsAtOnce = 64;
   for (int base = 0;; base += colorsAtOnce)
@@ -46,8 +49,11 @@ int lowestFreeColor(const std::vector<int>& colors, const int* begin, const int*
     std::uint64_t taken = 0;
     for (const int* j = begin; j != end; ++j)
     {
-      const auto color = static_cast<unsigned>(colors[*j] - base);
-      taken |= color < colorsAtOnce ? std::uint64_t{ 1 } << color : 0;
+      if (*j >= first && *j < last)
+      {
+        const auto color = static_cast<unsigned>(colors[*j] - base);
+        taken |= color < colorsAtOnce ? std::uint64_t{ 1 } << color : 0;
+      }
     }
     if (~taken != 0)
     {
@@ -57,14 +63,41 @@ int lowestFreeColor(const std::vector<int>& colors, const int* begin, const int*
 }
 
 /// Gives each particle that moves the lowest colour that none of those it sees has yet; -1 for fixed ones.
-std::vector<int> colorParticles(const std::vector<Patch>& patches, const SeenLists& lists)
+/// Pieces of particles that follow each other are coloured in threads; then those that see their own colour
+/// in a piece before theirs get another.
+std::vector<int> colorParticles(
+  const std::vector<Patch>& patches, const SeenLists& lists, const ParallelFor& parallelFor)
 {
-  std::vector<int> colors(patches.size(), -1);
-  for (std::size_t i = 0; i < patches.size(); ++i)
-  {
-    if (!patches[i].fixed)
+  constexpr int particlesPerPiece = 16384;
+  const int count = static_cast<int>(patches.size());
+  std::vector<int> colors(count, -1);
+  std::vector<std::vector<int>> atBorders((count + particlesPerPiece - 1) / particlesPerPiece);
+  forAll(parallelFor, atBorders.size(),
+    [&](std::size_t piece)
     {
-      colors[i] = lowestFreeColor(colors, lists.begin(i), lists.end(i));
+      const int first = static_cast<int>(piece) * particlesPerPiece;
+      const int last = std::min(count, first + particlesPerPiece);
+      for (int i = first; i < last; ++i)
+      {
+        if (!patches[i].fixed)
+        {
+          colors[i] = lowestFreeColor(colors, lists.begin(i), lists.end(i), first, last);
+          if (std::any_of(lists.begin(i), lists.end(i), [=](int j) { return j < first; }))
+          {
+            atBorders[piece].push_back(i);
+          }
+        }
+      }
+    });
+  for (const std::vector<int>& some : atBorders)
+  {
+    for (const int i : some)
+    {
+      const auto hasSame = [&](int j) { return j < i && colors[j] == colors[i]; };
+      if (std::any_of(lists.begin(i), lists.end(i), hasSame))
+      {
+        colors[i] = lowestFreeColor(colors, lists.begin(i), lists.end(i), 0, count);
+      }
     }
   }
   return colors;
@@ -90,7 +123,8 @@ std::vector<int> colorTiles(std::size_t tileSize, const SeenLists& lists)
         }
       }
     }
-    colors[tile] = lowestFreeColor(colors, seen.data(), seen.data() + seen.size());
+    colors[tile] =
+      lowestFreeColor(colors, seen.data(), seen.data() + seen.size(), 0, static_cast<int>(count));
   }
   return colors;
 }
@@ -102,7 +136,8 @@ public:
   SweepSystem(const std::vector<Patch>& patches, const ParallelFor& parallelFor)
     : Patches(patches)
     , Parallel(parallelFor)
-    , Lists(positionsOf(patches), spacingsOf(patches),
+    , Positions(positionsOf(patches, parallelFor))
+    , Lists(Positions, spacingsOf(patches, parallelFor),
         (1.0 + listSlack * HexagonalDistance) / HexagonalDistance, parallelFor)
   {
     this->makeSeen();
@@ -144,28 +179,17 @@ private:
   };
 
   void makeSeen();
-  void sortByNeighbors(std::vector<int>& particles) const;
+  void sortByNeighbors(int* begin, int* end) const;
   void layOut();
   void fillBlocks();
   void fillNeighbors(const SweepBlock& block);
   void fillLane(SweepBlock& block, int lane) const;
   void makeStages(std::size_t tileSize, std::size_t groupsPerTile);
   void runStages(int first, int last);
-  template <class Work>
-  void forAll(std::size_t count, const Work& work) const
-  {
-    runParallel(this->Parallel, static_cast<std::ptrdiff_t>(count),
-      [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-      {
-        for (std::ptrdiff_t i = begin; i < end; ++i)
-        {
-          work(static_cast<std::size_t>(i));
-        }
-      });
-  }
 
   const std::vector<Patch>& Patches;
   const ParallelFor& Parallel;
+  Buffer<glm::dvec3> Positions;
   SeenLists Lists;
   glm::dvec3 Center{ 0.0 };
   /// One a particle, and one beyond the sight of all that stands in for neighbours missing in a block.
@@ -197,38 +221,31 @@ void SweepSystem::runStages(int first, int last)
 
 void SweepSystem::makeSeen()
 {
-  glm::dvec3 lower = this->Patches.front().position;
-  glm::dvec3 upper = lower;
-  for (const Patch& patch : this->Patches)
-  {
-    lower = glm::min(lower, patch.position);
-    upper = glm::max(upper, patch.position);
-  }
-  this->Center = 0.5 * (lower + upper);
+  const Bounds bounds = boundsOf(this->Positions, this->Parallel);
+  this->Center = 0.5 * (bounds.lower + bounds.upper);
   this->SeenParticles = Buffer<Seen>(this->Patches.size() + 1);
-  this->forAll(this->Patches.size(),
+  forAll(this->Parallel, this->Patches.size(),
     [&](std::size_t i)
     {
       const Patch& patch = this->Patches[i];
-      const glm::vec3 x(patch.position - this->Center);
+      const glm::vec3 x(this->Positions[i] - this->Center);
       this->SeenParticles[i] = { { x.x, x.y, x.z }, 1.0f / patch.spacing,
         { patch.normal.x, patch.normal.y, patch.normal.z }, 0.0f };
     });
   Seen& beyond = this->SeenParticles[this->Patches.size()];
   beyond = this->SeenParticles[0];
-  beyond.position[0] =
-    static_cast<float>(4.0 * glm::distance(lower, upper)) + 100.0f / beyond.inverseSpacing;
+  beyond.position[0] = static_cast<float>(4.0 * glm::distance(bounds.lower, bounds.upper)) +
+    100.0f / beyond.inverseSpacing;
 }
 
 /// Sorts particles by the number of their neighbours, a few blocks at a time: lists of a block are filled up
 /// to the longest.
-void SweepSystem::sortByNeighbors(std::vector<int>& particles) const
+void SweepSystem::sortByNeighbors(int* begin, int* end) const
 {
-  constexpr std::size_t window = 16 * SweepLanes;
-  for (std::size_t first = 0; first < particles.size(); first += window)
+  constexpr std::ptrdiff_t window = 16 * SweepLanes;
+  for (; begin < end; begin += window)
   {
-    const std::size_t last = std::min(particles.size(), first + window);
-    std::sort(particles.begin() + first, particles.begin() + last,
+    std::sort(begin, std::min(end, begin + window),
       [this](int a, int b)
       {
         const int countA = this->Lists.count(a);
@@ -245,39 +262,46 @@ void SweepSystem::layOut()
 {
   const std::size_t count = this->Patches.size();
   const std::size_t tileSize = count < manyParticles ? count : particlesPerTile;
-  const std::vector<int> colors = colorParticles(this->Patches, this->Lists);
+  std::vector<int> groupOf = colorParticles(this->Patches, this->Lists, this->Parallel);
   const auto colorCount =
-    static_cast<std::size_t>(*std::max_element(colors.begin(), colors.end()) + 1);
-  std::vector<std::vector<int>> groups((count + tileSize - 1) / tileSize * colorCount);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    if (colors[i] >= 0)
+    static_cast<std::size_t>(*std::max_element(groupOf.begin(), groupOf.end()) + 1);
+  const std::size_t groupCount = (count + tileSize - 1) / tileSize * colorCount;
+  forAll(this->Parallel, count,
+    [&](std::size_t i)
     {
-      groups[i / tileSize * colorCount + colors[i]].push_back(static_cast<int>(i));
-    }
-  }
-  this->forAll(groups.size(), [&](std::size_t g) { this->sortByNeighbors(groups[g]); });
-  for (const std::vector<int>& particles : groups)
+      groupOf[i] =
+        static_cast<int>(groupOf[i] < 0 ? groupCount : i / tileSize * colorCount + groupOf[i]);
+    });
+  // Those that are fixed come last.
+  Grouping groups = groupedBy(
+    groupOf, groupCount + 1, [](int group) { return group; }, this->Parallel);
+  forAll(this->Parallel, groupCount,
+    [&](std::size_t g)
+    {
+      this->sortByNeighbors(
+        groups.order.data() + groups.start[g], groups.order.data() + groups.start[g + 1]);
+    });
+  for (std::size_t g = 0; g < groupCount; ++g)
   {
-    this->GroupStart.push_back(this->GroupStart.back() +
-      static_cast<std::ptrdiff_t>((particles.size() + SweepLanes - 1) / SweepLanes));
+    const int particles = groups.start[g + 1] - groups.start[g];
+    this->GroupStart.push_back(this->GroupStart.back() + (particles + SweepLanes - 1) / SweepLanes);
   }
   this->makeStages(tileSize, colorCount);
   this->Blocks = Buffer<SweepBlock>(this->GroupStart.back());
-  this->forAll(this->Blocks.size(),
+  forAll(this->Parallel, this->Blocks.size(),
     [&](std::size_t b)
     {
       const auto next = std::upper_bound(
         this->GroupStart.begin(), this->GroupStart.end(), static_cast<std::ptrdiff_t>(b));
-      const std::vector<int>& particles = groups[next - this->GroupStart.begin() - 1];
-      const std::size_t first = (b - *(next - 1)) * SweepLanes;
+      const auto group = next - this->GroupStart.begin() - 1;
+      const auto first = groups.start[group] +
+        static_cast<int>(static_cast<std::ptrdiff_t>(b) - *(next - 1)) * SweepLanes;
       SweepBlock& block = this->Blocks[b];
       block = {};
-      block.count =
-        static_cast<std::int32_t>(std::min<std::size_t>(SweepLanes, particles.size() - first));
+      block.count = std::min(SweepLanes, groups.start[group + 1] - first);
       for (int lane = 0; lane < SweepLanes; ++lane)
       {
-        block.particle[lane] = particles[first + std::min(lane, block.count - 1)];
+        block.particle[lane] = groups.order[first + std::min(lane, block.count - 1)];
         block.neighborCount =
           std::max(block.neighborCount, this->Lists.count(block.particle[lane]));
       }
@@ -320,7 +344,7 @@ void SweepSystem::fillBlocks()
     neighbors += std::ptrdiff_t{ block.neighborCount } * SweepLanes;
   }
   this->Neighbors = Buffer<std::int32_t>(neighbors);
-  this->forAll(this->Blocks.size(),
+  forAll(this->Parallel, this->Blocks.size(),
     [&](std::size_t b)
     {
       SweepBlock& block = this->Blocks[b];
@@ -354,14 +378,16 @@ Relaxed SweepSystem::result(const Balance& balance) const
   const std::size_t count = this->Patches.size();
   Relaxed result{ std::vector<glm::vec2>(count, glm::vec2(0.0f)), std::vector<char>(count, 1), {} };
   std::vector<float> energies(count, -1.0f);
-  for (const SweepBlock& block : this->Blocks)
-  {
-    for (int lane = 0; lane < block.count; ++lane)
+  forAll(this->Parallel, this->Blocks.size(),
+    [&](std::size_t b)
     {
-      result.displacements[block.particle[lane]] = { block.moved[0][lane], block.moved[1][lane] };
-      energies[block.particle[lane]] = block.energy[lane];
-    }
-  }
+      const SweepBlock& block = this->Blocks[b];
+      for (int lane = 0; lane < block.count; ++lane)
+      {
+        result.displacements[block.particle[lane]] = { block.moved[0][lane], block.moved[1][lane] };
+        energies[block.particle[lane]] = block.energy[lane];
+      }
+    });
   balancePopulation(this->Patches, this->Lists, energies, balance, this->Parallel, result);
   return result;
 }
@@ -401,19 +427,17 @@ float Patch::sink(const glm::vec2& t) const
   return 0.5f * (s[0] * t.x * t.x + 2.0f * s[1] * t.x * t.y + s[2] * t.y * t.y);
 }
 
-std::vector<glm::dvec3> positionsOf(const std::vector<Patch>& patches)
+Buffer<glm::dvec3> positionsOf(const std::vector<Patch>& patches, const ParallelFor& parallelFor)
 {
-  std::vector<glm::dvec3> positions(patches.size());
-  std::transform(patches.begin(), patches.end(), positions.begin(),
-    [](const Patch& patch) { return patch.position; });
+  Buffer<glm::dvec3> positions(patches.size());
+  forAll(parallelFor, patches.size(), [&](std::size_t i) { positions[i] = patches[i].position; });
   return positions;
 }
 
-std::vector<float> spacingsOf(const std::vector<Patch>& patches)
+Buffer<float> spacingsOf(const std::vector<Patch>& patches, const ParallelFor& parallelFor)
 {
-  std::vector<float> spacings(patches.size());
-  std::transform(patches.begin(), patches.end(), spacings.begin(),
-    [](const Patch& patch) { return patch.spacing; });
+  Buffer<float> spacings(patches.size());
+  forAll(parallelFor, patches.size(), [&](std::size_t i) { spacings[i] = patches[i].spacing; });
   return spacings;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "Buffer.h"
 #include "Monitor.h"
 
 #include <glm/glm.hpp>
@@ -46,8 +47,8 @@ inline std::array<glm::vec3, 2> tangentsOf(const glm::vec3& normal)
 }
 
 /// As SpacingGrid wants them.
-std::vector<glm::dvec3> positionsOf(const std::vector<Patch>& patches);
-std::vector<float> spacingsOf(const std::vector<Patch>& patches);
+Buffer<glm::dvec3> positionsOf(const std::vector<Patch>& patches, const ParallelFor& parallelFor);
+Buffer<float> spacingsOf(const std::vector<Patch>& patches, const ParallelFor& parallelFor);
 
 /// What to do about the number of particles (Population.h).
 struct Balance

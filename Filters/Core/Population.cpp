@@ -71,7 +71,8 @@ public:
   void removeCrowded(const ParallelFor& parallelFor)
   {
     std::vector<char> crowded(this->Patches.size());
-    this->forAll(parallelFor, [&](std::size_t i) { crowded[i] = this->isCrowded(i); });
+    forAll(
+      parallelFor, this->Patches.size(), [&](std::size_t i) { crowded[i] = this->isCrowded(i); });
     for (std::size_t i = 0; i < this->Patches.size(); ++i)
     {
       if (crowded[i])
@@ -85,7 +86,8 @@ public:
   void balance(const std::optional<double>& missing, const ParallelFor& parallelFor)
   {
     std::vector<double> shares(this->Patches.size());
-    this->forAll(parallelFor, [&](std::size_t i) { shares[i] = this->shareMissing(i); });
+    forAll(
+      parallelFor, this->Patches.size(), [&](std::size_t i) { shares[i] = this->shareMissing(i); });
     const double total = std::accumulate(shares.begin(), shares.end(), 0.0);
     const auto counted = static_cast<double>(
       std::count_if(shares.begin(), shares.end(), [](double share) { return share != 0.0; }));
@@ -115,7 +117,7 @@ public:
   {
     const auto lonely = static_cast<float>(lonelyEnergy * idealEnergy());
     std::vector<FreePlace> places(this->Patches.size());
-    this->forAll(parallelFor,
+    forAll(parallelFor, this->Patches.size(),
       [&](std::size_t i)
       {
         const Patch& patch = this->Patches[i];
@@ -144,19 +146,6 @@ public:
   }
 
 private:
-  template <class Work>
-  void forAll(const ParallelFor& parallelFor, const Work& work) const
-  {
-    runParallel(parallelFor, static_cast<std::ptrdiff_t>(this->Patches.size()),
-      [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-      {
-        for (std::ptrdiff_t i = begin; i < end; ++i)
-        {
-          work(static_cast<std::size_t>(i));
-        }
-      });
-  }
-
   void remove(int i)
   {
     this->Result.kept[i] = 0;

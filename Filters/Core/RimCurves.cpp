@@ -38,6 +38,14 @@ Isosurface seamless(Isosurface surface)
   return surface;
 }
 
+/// Where the surface may end, as far as the samples on both sides tell.
+struct RimHint
+{
+  FaceCrossing crossing;
+  /// The spacing wanted nearby.
+  double spacing = 0.0;
+};
+
 /// Where a particle is to stand on a rim, nearly.
 struct RimPlace
 {
@@ -95,7 +103,8 @@ public:
   RimCurves run(const ParallelFor& parallelFor);
 
 private:
-  void follow(const FaceCrossing& hint, const SurfaceProxy::Sample& sample);
+  std::vector<std::vector<RimHint>> findHints(const ParallelFor& parallelFor) const;
+  void follow(const RimHint& hint);
   void sample(const RimTrace& trace, double nearby);
   void sampleStretch(const std::vector<RimVertex>& vertices, bool withEnd, double nearby);
   double spacingAt(const RimPoint& point, double nearby);
@@ -125,15 +134,40 @@ double RimSampler::spacingAt(const RimPoint& point, double nearby)
     static_cast<float>(nearby));
 }
 
-void RimSampler::follow(const FaceCrossing& hint, const SurfaceProxy::Sample& sample)
+/// Those of each box.
+std::vector<std::vector<RimHint>> RimSampler::findHints(const ParallelFor& parallelFor) const
 {
-  const double nearby = sample.found ? sample.patch.spacing : this->Law.spacing;
-  if (this->Tracer.hasPassed(hint) || this->Samples.meet(hint, sample, clearMiss) ||
-    this->Tracer.goesOnAt(hint, crossingPerSpacing * nearby))
+  const ElementMesh& mesh = *this->Surface.mesh;
+  std::vector<std::vector<RimHint>> hints(this->Proxy.boxes().size());
+  forAll(parallelFor, hints.size(),
+    [&](std::size_t b)
+    {
+      const SurfaceBox& box = this->Proxy.boxes()[b];
+      const SurfaceProxy::Sample& sample = this->Proxy.samples()[b];
+      visitFaceCrossings(
+        mesh, box, [&](int face) { return this->Surface.mayEnd(box.middle.element, face); },
+        [&](const FaceCrossing& crossing)
+        {
+          if (!this->Samples.meet(crossing, sample, clearMiss))
+          {
+            hints[b].push_back(
+              { crossing, sample.found ? sample.patch.spacing : this->Law.spacing });
+          }
+        });
+    });
+  return hints;
+}
+
+void RimSampler::follow(const RimHint& hint)
+{
+  const FaceCrossing& crossing = hint.crossing;
+  const double nearby = hint.spacing;
+  if (this->Tracer.hasPassed(crossing) ||
+    this->Tracer.goesOnAt(crossing, crossingPerSpacing * nearby))
   {
     return;
   }
-  const auto start = this->Tracer.project(hint.location, hint.face, 4.0 * nearby);
+  const auto start = this->Tracer.project(crossing.location, crossing.face, 4.0 * nearby);
   if (!start || this->Tracer.hasPassed(*start) || !this->Tracer.isOnRim(*start))
   {
     return;
@@ -344,14 +378,12 @@ void RimSampler::thinOut()
 
 RimCurves RimSampler::run(const ParallelFor& parallelFor)
 {
-  for (std::size_t b = 0; b < this->Proxy.boxes().size(); ++b)
+  for (const std::vector<RimHint>& hintsOfBox : this->findHints(parallelFor))
   {
-    const SurfaceBox& box = this->Proxy.boxes()[b];
-    const SurfaceProxy::Sample& sample = this->Proxy.samples()[b];
-    visitFaceCrossings(
-      *this->Surface.mesh, box,
-      [&](int face) { return this->Surface.mayEnd(box.middle.element, face); },
-      [&](const FaceCrossing& crossing) { this->follow(crossing, sample); });
+    for (const RimHint& hint : hintsOfBox)
+    {
+      this->follow(hint);
+    }
   }
   this->finish(parallelFor);
   this->thinOut();

@@ -19,22 +19,21 @@ constexpr int maximumLevels = 15;
 
 } // namespace
 
-SpacingGrid::SpacingGrid(const std::vector<glm::dvec3>& positions,
-  const std::vector<float>& spacings, double reach, double cellsPerReach,
-  const ParallelFor& parallelFor)
+SpacingGrid::SpacingGrid(Span<glm::dvec3> positions, Span<float> spacings, double reach,
+  double cellsPerReach, const ParallelFor& parallelFor)
   : Positions(positions)
   , Spacings(spacings)
   , Reach(reach)
 {
   if (!positions.empty())
   {
-    this->chooseCellSizes(cellsPerReach);
+    this->chooseCellSizes(cellsPerReach, parallelFor);
     this->fillSlots(parallelFor);
-    this->sortPoints();
+    this->sortPoints(parallelFor);
   }
 }
 
-void SpacingGrid::chooseCellSizes(double cellsPerReach)
+void SpacingGrid::chooseCellSizes(double cellsPerReach, const ParallelFor& parallelFor)
 {
   const auto [smallest, largest] =
     std::minmax_element(this->Spacings.begin(), this->Spacings.end());
@@ -42,13 +41,9 @@ void SpacingGrid::chooseCellSizes(double cellsPerReach)
   const double largestSpacing = *largest;
   this->LevelCount = maximumLevels;
   this->LevelCount = this->levelOf(largestSpacing) + 1;
-  glm::dvec3 upper = this->Origin = this->Positions.front();
-  for (const glm::dvec3& p : this->Positions)
-  {
-    this->Origin = glm::min(this->Origin, p);
-    upper = glm::max(upper, p);
-  }
-  const glm::dvec3 extent = upper - this->Origin;
+  const Bounds bounds = boundsOf(this->Positions, parallelFor);
+  this->Origin = bounds.lower;
+  const glm::dvec3 extent = bounds.upper - bounds.lower;
   constexpr double tiniest = std::numeric_limits<double>::min();
   const double smallestCell = std::max({ extent.x, extent.y, extent.z }) / (cellsPerAxis - 4);
   for (int level = 0; level < this->LevelCount; ++level)
@@ -64,13 +59,15 @@ void SpacingGrid::chooseCellSizes(double cellsPerReach)
 /// Gives each point's cell a slot.
 void SpacingGrid::fillSlots(const ParallelFor& parallelFor)
 {
-  std::size_t slots = 64;
-  while (2 * slots < 3 * this->Positions.size())
+  this->SlotCount = 64;
+  while (2 * this->SlotCount < 3 * this->Positions.size())
   {
-    slots *= 2;
+    this->SlotCount *= 2;
   }
-  this->Keys = std::vector<std::atomic<std::uint64_t>>(slots);
-  this->SlotOfPoint.resize(this->Positions.size());
+  this->Keys.reset(new std::atomic<std::uint64_t>[this->SlotCount]);
+  forAll(parallelFor, this->SlotCount,
+    [this](std::size_t slot) { this->Keys[slot].store(0, std::memory_order_relaxed); });
+  this->SlotOfPoint = Buffer<int>(this->Positions.size());
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(this->Positions.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
@@ -87,20 +84,20 @@ void SpacingGrid::fillSlots(const ParallelFor& parallelFor)
     });
 }
 
-/// Counting sort by slot.
-void SpacingGrid::sortPoints()
+/// Counting sort by slot, from the last point to the first: slots start where they ended before.
+void SpacingGrid::sortPoints(const ParallelFor& parallelFor)
 {
-  this->SlotStart.assign(this->Keys.size() + 1, 0);
+  this->SlotStart = Buffer<int>(this->SlotCount + 1);
+  forAll(parallelFor, this->SlotStart.size(), [this](std::size_t s) { this->SlotStart[s] = 0; });
   for (const int slot : this->SlotOfPoint)
   {
-    ++this->SlotStart[slot + 1];
+    ++this->SlotStart[slot];
   }
   std::partial_sum(this->SlotStart.begin(), this->SlotStart.end(), this->SlotStart.begin());
-  std::vector<int> next(this->SlotStart.begin(), this->SlotStart.end() - 1);
-  this->Order.resize(this->Positions.size());
-  for (std::size_t i = 0; i < this->Positions.size(); ++i)
+  this->Order = Buffer<int>(this->Positions.size());
+  for (std::size_t i = this->Positions.size(); i-- > 0;)
   {
-    this->Order[next[this->SlotOfPoint[i]]++] = static_cast<int>(i);
+    this->Order[--this->SlotStart[this->SlotOfPoint[i]]] = static_cast<int>(i);
   }
 }
 
@@ -195,8 +192,8 @@ private:
 
 } // namespace
 
-SeenLists::SeenLists(const std::vector<glm::dvec3>& positions, const std::vector<float>& spacings,
-  double reach, const ParallelFor& parallelFor)
+SeenLists::SeenLists(
+  Span<glm::dvec3> positions, Span<float> spacings, double reach, const ParallelFor& parallelFor)
 {
   const SpacingGrid grid(positions, spacings, reach, 1.0, parallelFor);
   constexpr std::size_t pointsPerChunk = 256;

@@ -1,12 +1,13 @@
 #pragma once
 
-#include "Monitor.h"
+#include "Bounds.h"
 
 #include <glm/glm.hpp>
 
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace hop
@@ -26,8 +27,8 @@ public:
   /// \param cellsPerReach one: good for visiting whole cells; a half: for single points, which then
   ///   look into fewer cells
   /// \pre as many spacings as points, all > 0; positions and spacings outlive the grid
-  SpacingGrid(const std::vector<glm::dvec3>& positions, const std::vector<float>& spacings,
-    double reach, double cellsPerReach = 1.0, const ParallelFor& parallelFor = {});
+  SpacingGrid(Span<glm::dvec3> positions, Span<float> spacings, double reach,
+    double cellsPerReach = 1.0, const ParallelFor& parallelFor = {});
 
   /// Calls use(j) for every point that may be within reach of a point at `position` with that
   /// spacing, and for some farther off, in a fixed order. The caller tests.
@@ -62,14 +63,14 @@ public:
 private:
   using Cell = glm::i64vec3;
 
-  void chooseCellSizes(double cellsPerReach);
+  void chooseCellSizes(double cellsPerReach, const ParallelFor& parallelFor);
   void fillSlots(const ParallelFor& parallelFor);
-  void sortPoints();
+  void sortPoints(const ParallelFor& parallelFor);
   int levelOf(double spacing) const;
   Cell cellOf(const glm::dvec3& position, int level) const;
   static std::uint64_t keyOf(const Cell& cell, int level);
   std::size_t firstSlotOf(std::uint64_t key) const;
-  std::size_t nextSlot(std::size_t slot) const { return (slot + 1) & (this->Keys.size() - 1); }
+  std::size_t nextSlot(std::size_t slot) const { return (slot + 1) & (this->SlotCount - 1); }
   Points find(std::uint64_t key) const;
   std::size_t findOrAdd(std::uint64_t key);
   Points pointsIn(std::size_t slot) const
@@ -84,8 +85,8 @@ private:
   void visitBox(const glm::dvec3& lower, const glm::dvec3& upper, double spacing, int level,
     const Use& use) const;
 
-  const std::vector<glm::dvec3>& Positions;
-  const std::vector<float>& Spacings;
+  Span<glm::dvec3> Positions;
+  Span<float> Spacings;
   double Reach;
   double SmallestSpacing = 1.0;
   int LevelCount = 0;
@@ -94,11 +95,12 @@ private:
   std::vector<double> LargestSpacings;
   /// Open addressing: the key of the cell in each slot, 0 where there is none. In which of them a cell
   /// ends up may depend on threads, but nothing that is visited does.
-  std::vector<std::atomic<std::uint64_t>> Keys;
-  std::vector<int> SlotOfPoint;
+  std::unique_ptr<std::atomic<std::uint64_t>[]> Keys;
+  std::size_t SlotCount = 0;
+  Buffer<int> SlotOfPoint;
   /// The cell in slot s holds the points Order[n], ascending, SlotStart[s] <= n < SlotStart[s + 1].
-  std::vector<int> SlotStart;
-  std::vector<int> Order;
+  Buffer<int> SlotStart;
+  Buffer<int> Order;
 };
 
 /// The points that each point sees, in lists whose order is fixed.
@@ -106,8 +108,8 @@ class SeenLists
 {
 public:
   /// Those within reach times the harmonic mean of the spacings.
-  SeenLists(const std::vector<glm::dvec3>& positions, const std::vector<float>& spacings,
-    double reach, const ParallelFor& parallelFor);
+  SeenLists(
+    Span<glm::dvec3> positions, Span<float> spacings, double reach, const ParallelFor& parallelFor);
 
   const int* begin(std::size_t i) const
   {
@@ -139,7 +141,7 @@ inline std::size_t SpacingGrid::firstSlotOf(std::uint64_t key) const
   // Twice, for the upper bits of a product depend on all bits, the lower ones on few.
   std::uint64_t block = (key & ~inBlock) * 0x9e3779b97f4a7c15ULL;
   block = (block ^ (block >> 32)) * 0x9e3779b97f4a7c15ULL;
-  return static_cast<std::size_t>(((block >> 32) << 6) + cell) & (this->Keys.size() - 1);
+  return static_cast<std::size_t>(((block >> 32) << 6) + cell) & (this->SlotCount - 1);
 }
 
 inline SpacingGrid::Points SpacingGrid::find(std::uint64_t key) const

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numeric>
 
 namespace hop
 {
@@ -578,6 +579,8 @@ std::vector<SurfaceBox> findSurfaceBoxes(const ElementMesh& mesh, double isovalu
         reportElements(++done);
       }
     });
+  boxes.reserve(std::accumulate(ofElement.begin(), ofElement.end(), std::size_t{ 0 },
+    [](std::size_t sum, const auto& some) { return sum + some.size(); }));
   for (const auto& some : ofElement)
   {
     boxes.insert(boxes.end(), some.begin(), some.end());
