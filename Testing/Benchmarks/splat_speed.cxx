@@ -4,7 +4,8 @@
 //
 // A sphere of particles turns before the camera, so that every picture is drawn anew. Beside it: the
 // same particles as disks, VTK's Point Gaussian of the same points (opaque spheres), and a sphere of
-// as many vertices as triangles with normals. Wants a display.
+// as many vertices as triangles with normals. They take turns, as machines are faster at one time than at
+// another, each for S seconds (default 4) in all; figures are medians of their turns. Wants a display.
 
 #include "vtkActor.h"
 #include "vtkCamera.h"
@@ -20,6 +21,7 @@
 #include "vtkSphereSource.h"
 #include "vtkSurfaceSplatMapper.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -30,6 +32,8 @@
 
 namespace
 {
+constexpr int Rounds = 9;
+
 // Spread evenly (Fibonacci), with the radius that the filter gives: the distance of neighbours.
 vtkSmartPointer<vtkPolyData> ParticlesOnSphere(vtkIdType count)
 {
@@ -75,37 +79,85 @@ struct Speed
   double CpuMilliseconds; // of all threads, a picture: tells more than time does on a busy machine
 };
 
-Speed MeasureSpeed(vtkMapper* mapper, int width, int height, double seconds)
+// A window of its own for a mapper, in which the camera turns from picture to picture.
+class Show
 {
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  vtkNew<vtkRenderer> renderer;
-  renderer->AddActor(actor);
-  vtkNew<vtkRenderWindow> window;
-  window->SetSize(width, height);
-  window->SetMultiSamples(0);
-  window->AddRenderer(renderer);
-  renderer->ResetCamera();
-  renderer->GetActiveCamera()->Zoom(1.4);
-  const auto draw = [&]()
+public:
+  Show(vtkMapper* mapper, int width, int height)
   {
-    renderer->GetActiveCamera()->Azimuth(7.);
-    window->Render();
-    window->WaitForCompletion();
-  };
-  draw(); // uploads and compiles
-  draw();
-  int pictures = 0;
-  double passed = 0.;
-  const std::clock_t cpu = std::clock();
-  const auto start = std::chrono::steady_clock::now();
-  while (passed < seconds || pictures < 3)
-  {
-    draw();
-    ++pictures;
-    passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    vtkNew<vtkActor> actor;
+    actor->SetMapper(mapper);
+    vtkNew<vtkRenderer> renderer;
+    renderer->AddActor(actor);
+    this->Window->SetSize(width, height);
+    this->Window->SetMultiSamples(0);
+    this->Window->AddRenderer(renderer);
+    renderer->ResetCamera();
+    this->Camera = renderer->GetActiveCamera();
+    this->Camera->Zoom(1.4);
+    this->Draw(); // uploads and compiles
+    this->Draw();
   }
-  return { pictures / passed, 1e3 * (std::clock() - cpu) / CLOCKS_PER_SEC / pictures };
+
+  void MeasureFor(double seconds)
+  {
+    int pictures = 0;
+    double passed = 0.;
+    const std::clock_t cpu = std::clock();
+    const auto start = std::chrono::steady_clock::now();
+    while (passed < seconds || pictures == 0)
+    {
+      this->Draw();
+      ++pictures;
+      passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
+    this->Speeds.push_back(
+      { pictures / passed, 1e3 * (std::clock() - cpu) / CLOCKS_PER_SEC / pictures });
+  }
+
+  const std::vector<Speed>& GetSpeeds() const { return this->Speeds; }
+
+private:
+  void Draw()
+  {
+    this->Camera->Azimuth(7.);
+    this->Window->Render();
+    this->Window->WaitForCompletion();
+  }
+
+  vtkNew<vtkRenderWindow> Window;
+  vtkCamera* Camera = nullptr;
+  std::vector<Speed> Speeds;
+};
+
+double Median(std::vector<double> values)
+{
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Speed Median(const std::vector<Speed>& speeds)
+{
+  std::vector<double> rates;
+  std::vector<double> costs;
+  for (const Speed& speed : speeds)
+  {
+    rates.push_back(speed.PicturesASecond);
+    costs.push_back(speed.CpuMilliseconds);
+  }
+  return { Median(rates), Median(costs) };
+}
+
+// Of how many pictures there are in the same time, round by round.
+double MedianRatio(const std::vector<Speed>& a, const std::vector<Speed>& b)
+{
+  std::vector<double> ratios;
+  for (std::size_t round = 0; round < a.size(); ++round)
+  {
+    ratios.push_back(a[round].PicturesASecond / b[round].PicturesASecond);
+  }
+  return Median(ratios);
 }
 
 void Measure(vtkIdType count, int width, int height, double seconds)
@@ -129,16 +181,23 @@ void Measure(vtkIdType count, int width, int height, double seconds)
   vtkNew<vtkPolyDataMapper> triangles;
   triangles->SetInputData(TrianglesOnSphere(count));
 
-  const Speed speeds[] = { MeasureSpeed(splats, width, height, seconds),
-    MeasureSpeed(disks, width, height, seconds), MeasureSpeed(gaussian, width, height, seconds),
-    MeasureSpeed(triangles, width, height, seconds) };
-  std::printf("| %lld | %dx%d |", static_cast<long long>(count), width, height);
-  for (const Speed& speed : speeds)
+  Show shows[] = { { splats, width, height }, { disks, width, height }, { gaussian, width, height },
+    { triangles, width, height } };
+  for (int round = 0; round < Rounds; ++round)
   {
+    for (Show& show : shows)
+    {
+      show.MeasureFor(seconds / Rounds);
+    }
+  }
+  std::printf("| %lld | %dx%d |", static_cast<long long>(count), width, height);
+  for (const Show& show : shows)
+  {
+    const Speed speed = Median(show.GetSpeeds());
     std::printf(" %.1f (%.0f) |", speed.PicturesASecond, speed.CpuMilliseconds);
   }
-  std::printf(" %.2f | %.2f |\n", speeds[0].PicturesASecond / speeds[2].PicturesASecond,
-    speeds[0].PicturesASecond / speeds[3].PicturesASecond);
+  std::printf(" %.2f | %.2f |\n", MedianRatio(shows[0].GetSpeeds(), shows[2].GetSpeeds()),
+    MedianRatio(shows[0].GetSpeeds(), shows[3].GetSpeeds()));
   std::fflush(stdout);
 }
 }
@@ -147,7 +206,7 @@ int main(int argc, char* argv[])
 {
   int width = 512;
   int height = 512;
-  double seconds = 2.;
+  double seconds = 4.;
   std::vector<vtkIdType> counts;
   for (int i = 1; i < argc; ++i)
   {
