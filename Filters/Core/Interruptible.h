@@ -15,7 +15,8 @@ struct Interrupted
 };
 
 /// A ParallelFor that asks a monitor some twenty times a second, and throws Interrupted where it should
-/// stop. Threads take chunks of the work as they come, until all is done or it is time to ask.
+/// stop. Threads take chunks of the work as they come, until all is done or it is time to ask. What is done
+/// before threads have started is done without them.
 class Interruptible
 {
 public:
@@ -38,13 +39,12 @@ public:
   void operator()(
     std::ptrdiff_t count, const std::function<void(std::ptrdiff_t, std::ptrdiff_t)>& body)
   {
-    using Clock = std::chrono::steady_clock;
-    constexpr std::chrono::milliseconds period{ 50 };
     // Chunks enough for many threads to finish together, each short beside the period.
     constexpr std::ptrdiff_t chunkCount = 64;
     constexpr std::ptrdiff_t largestChunk = 4096;
     const std::ptrdiff_t chunk = std::clamp<std::ptrdiff_t>(count / chunkCount, 1, largestChunk);
-    std::atomic<std::ptrdiff_t> next{ 0 };
+    std::atomic<std::ptrdiff_t> next{ doAlone(count, body) };
+    this->askAtTimes();
     while (next < count)
     {
       const auto pause = Clock::now() + period;
@@ -60,11 +60,7 @@ public:
             }
           }
         });
-      if (Clock::now() - this->LastAsked > period)
-      {
-        this->LastAsked = Clock::now();
-        this->ask();
-      }
+      this->askAtTimes();
     }
   }
 
@@ -78,10 +74,46 @@ public:
   }
 
 private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::milliseconds period{ 50 };
+
+  void askAtTimes()
+  {
+    if (Clock::now() - this->LastAsked > period)
+    {
+      this->LastAsked = Clock::now();
+      this->ask();
+    }
+  }
+
+  /// Tries a small part of the work, and does the rest, too, if that takes no longer than threads do to
+  /// start. Not where there are few pieces: these may be long ones.
+  /// \return how much is done
+  static std::ptrdiff_t doAlone(
+    std::ptrdiff_t count, const std::function<void(std::ptrdiff_t, std::ptrdiff_t)>& body)
+  {
+    constexpr std::chrono::microseconds startOfThreads{ 150 };
+    constexpr std::ptrdiff_t fewPieces = 100;
+    constexpr std::ptrdiff_t tries = 1000;
+    if (count <= fewPieces && count != 1)
+    {
+      return 0;
+    }
+    const std::ptrdiff_t part = (count + tries - 1) / tries;
+    const auto start = Clock::now();
+    body(0, part);
+    if (count > part && (Clock::now() - start) * (count / part) < startOfThreads)
+    {
+      body(part, count);
+      return count;
+    }
+    return part;
+  }
+
   const Monitor& Progress;
   const ParallelFor& Parallel;
   std::atomic<double> Fraction{ 0.0 };
-  std::chrono::steady_clock::time_point LastAsked{};
+  Clock::time_point LastAsked{};
 };
 
 } // namespace hop
