@@ -86,28 +86,31 @@ private:
     }
   }
 
-  /// Tries a small part of the work, and does the rest, too, if that takes no longer than threads do to
-  /// start. Not where there are few pieces: these may be long ones.
+  /// Does work alone, part by part, as long as all of it seems to take no longer than threads do to start:
+  /// a small part first. Not where there are few pieces, which may be long ones.
   /// \return how much is done
   static std::ptrdiff_t doAlone(
     std::ptrdiff_t count, const std::function<void(std::ptrdiff_t, std::ptrdiff_t)>& body)
   {
     constexpr std::chrono::microseconds startOfThreads{ 150 };
     constexpr std::ptrdiff_t fewPieces = 100;
-    constexpr std::ptrdiff_t tries = 1000;
-    if (count <= fewPieces && count != 1)
+    constexpr std::ptrdiff_t firstShare = 1000;
+    constexpr std::ptrdiff_t nextShare = 16;
+    std::ptrdiff_t done = 0;
+    if (count > fewPieces || count == 1)
     {
-      return 0;
+      const auto start = Clock::now();
+      const auto timeOfAll = [&]() { return (Clock::now() - start) * count / done; };
+      done = (count + firstShare - 1) / firstShare;
+      body(0, done);
+      while (done < count && timeOfAll() < startOfThreads)
+      {
+        const std::ptrdiff_t end = std::min(count, done + count / nextShare);
+        body(done, end);
+        done = end;
+      }
     }
-    const std::ptrdiff_t part = (count + tries - 1) / tries;
-    const auto start = Clock::now();
-    body(0, part);
-    if (count > part && (Clock::now() - start) * (count / part) < startOfThreads)
-    {
-      body(part, count);
-      return count;
-    }
-    return part;
+    return done;
   }
 
   const Monitor& Progress;

@@ -20,6 +20,7 @@ template <class PieceCount, class Body>
 void runPhases(
   const ParallelFor& parallelFor, int phases, const PieceCount& pieceCount, const Body& body)
 {
+  // Few enough for Interruptible to leave them to threads.
   constexpr std::ptrdiff_t mostThreads = 64;
   std::vector<std::atomic<std::ptrdiff_t>> taken(phases);
   std::vector<std::atomic<std::ptrdiff_t>> done(phases);

@@ -47,6 +47,26 @@ TEST(Interruptible, DoesEveryPieceOnce)
   }
 }
 
+TEST(Interruptible, GoesOnInThreadsWhereTheWorkTurnsOutToBeLong)
+{
+  const Monitor monitor;
+  const ParallelFor parallelFor = inTwoThreads;
+  Interruptible work(monitor, parallelFor);
+  constexpr std::ptrdiff_t easy = 100;
+  std::atomic<int> inOtherThread{ 0 };
+  const auto own = std::this_thread::get_id();
+  work(10 * easy,
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      inOtherThread += std::this_thread::get_id() != own;
+      for (; begin < end; ++begin)
+      {
+        std::this_thread::sleep_for(std::chrono::microseconds(begin < easy ? 0 : 100));
+      }
+    });
+  EXPECT_GT(inOtherThread, 0);
+}
+
 /// Pieces that wait for each other: each of a few is to have a thread.
 TEST(Interruptible, LeavesFewPiecesToThreads)
 {
