@@ -105,6 +105,8 @@ def draw(reader, particles, color, output):
         surface.SetScalarBarVisibility(view, True)
         legend = simple.GetScalarBar(simple.GetColorTransferFunction(color), view)
         legend.TitleColor = legend.LabelColor = [0.1, 0.1, 0.1]
+        legend.WindowLocation = "Any Location"
+        legend.Position = [0.9, 0.1]
 
     outline = simple.Show(reader, view)
     outline.SetRepresentationType("Outline")
@@ -116,7 +118,6 @@ def draw(reader, particles, color, output):
     view.CameraViewUp = [0, 0, 1]
     simple.ResetCamera(view)
     view.SMProxy.GetRenderer().ResetCameraScreenSpace(reader.GetDataInformation().GetBounds())
-    simple.GetActiveCamera().Dolly(1.1)
     simple.SaveScreenshot(output, view)
 
 
