@@ -68,6 +68,14 @@ vec3 splatSurfaceNormal()
     splatNormalVC + splatDiskCoord.x * splatTurn[0] + splatDiskCoord.y * splatTurn[1]);
 }
 
+// Whether the normal is turned by more than 45 degrees. Where the surface bends as much between particles
+// a paraboloid tells nothing of it any more.
+bool splatTurnsAway()
+{
+  vec3 turn = splatDiskCoord.x * splatTurn[0] + splatDiskCoord.y * splatTurn[1];
+  return dot(turn, turn) > dot(splatNormalVC, splatNormalVC);
+}
+
 // Where the pixel's view ray meets the splat, bent to the paraboloid at the height -Q(t) / 2 above the
 // disk at disk coordinates t; Q(t) = bend.x t.x^2 + 2 bend.y t.x t.y + bend.z t.y^2. From the place p
 // where the ray meets the plane of the disk the paraboloid is `along` e away, e the way to the eye:
@@ -89,7 +97,7 @@ bool splatMeetRay()
   splatOffsetVC = splatPlaneOffset + along * (mat3(splatMCVC) * toEyeMC);
   splatDepthVC = splatCentreDepth + splatOffsetVC.z;
   splatOffsetVC -= dot(splatOffsetVC, splatSurfaceNormal()) * splatSurfaceNormal();
-  return square >= 0.0;
+  return square >= 0.0 && !splatTurnsAway();
 }
 #else
 vec3 splatSurfaceNormal()

@@ -1,10 +1,11 @@
 // How exactly Surface Splats show a surface, beside stock Contour's triangles of the same file.
 //
-//   splat_accuracy [--size PIXELS] [--pictures FOLDER] [CASE...]
+//   splat_accuracy [--size PIXELS] [--spacing SHARE] [--pictures FOLDER] [CASE...]
 //
-// Five views of every case (SurfaceCases.h) in both projections, held against a ray caster that finds
-// the true polynomial surface (RayCaster.h). Prints the worst view of each. Pictures are rays, splats and
-// Contour side by side. Wants a display.
+// A case is one of SurfaceCases.h, or FILE.vtu:ARRAY:ISOVALUE; the spacing a share of the longest side of
+// its grid (default 0.01, as the filter's). Five views of every case in both projections are held against a
+// ray caster that finds the true polynomial surface (RayCaster.h). Prints the worst view of each. Pictures
+// are rays, splats and Contour side by side. Wants a display.
 
 #include "SurfaceCases.h"
 #include "SurfacePicture.h"
@@ -56,9 +57,9 @@ void Print(const std::string& name, const char* what, long long points, const Pi
   std::fflush(stdout);
 }
 
-void Measure(const std::string& name, int size, const std::string& pictures)
+void Measure(const std::string& name, double spacing, int size, const std::string& pictures)
 {
-  const SurfaceCase surface = MakeSurfaceCase(name);
+  const SurfaceCase surface = MakeSurfaceCase(name, spacing);
   const vtkSmartPointer<vtkPolyData> contour = ContourOf(surface);
   for (bool parallel : { false, true })
   {
@@ -80,12 +81,12 @@ void Measure(const std::string& name, int size, const std::string& pictures)
       ofContour.Add(Compare(byContour, reference, camera, surface.Spacing));
       if (!pictures.empty())
       {
-        const std::string path = pictures + "/" + name +
+        const std::string path = pictures + "/" + surface.Name +
           (parallel ? "_parallel_" : "_perspective_") + std::to_string(++view) + ".png";
         WriteShades({ reference, bySplats, byContour }, camera, path);
       }
     }
-    const std::string label = name + (parallel ? ", parallel" : ", perspective");
+    const std::string label = surface.Name + (parallel ? ", parallel" : ", perspective");
     Print(label, "splats", surface.Particles->GetNumberOfPoints(), ofSplats.Figures);
     Print(label, "Contour", contour->GetNumberOfPoints(), ofContour.Figures);
   }
@@ -95,6 +96,7 @@ void Measure(const std::string& name, int size, const std::string& pictures)
 int main(int argc, char* argv[])
 {
   int size = 512;
+  double spacing = 0.01;
   std::string pictures;
   std::vector<std::string> names;
   for (int i = 1; i < argc; ++i)
@@ -103,6 +105,10 @@ int main(int argc, char* argv[])
     if (argument == "--size" && i + 1 < argc)
     {
       size = std::atoi(argv[++i]);
+    }
+    else if (argument == "--spacing" && i + 1 < argc)
+    {
+      spacing = std::atof(argv[++i]);
     }
     else if (argument == "--pictures" && i + 1 < argc)
     {
@@ -118,7 +124,7 @@ int main(int argc, char* argv[])
     "deg | normal 99%% (deg) | PSNR (dB) | holes |\n|---|---|---|---|---|---|---|---|---|---|\n");
   for (const std::string& name : names.empty() ? SurfaceCaseNames() : names)
   {
-    Measure(name, size, pictures);
+    Measure(name, spacing, size, pictures);
   }
   return EXIT_SUCCESS;
 }

@@ -53,20 +53,24 @@ vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(
   return grid;
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> ReadGrid(const std::string& name)
+vtkSmartPointer<vtkUnstructuredGrid> ReadGrid(const std::string& path, const std::string& array)
 {
   vtkNew<vtkXMLUnstructuredGridReader> reader;
-  reader->SetFileName((std::string(HOP_DATA) + "/" + name).c_str());
+  reader->SetFileName(path.c_str());
   reader->Update();
+  if (!reader->GetOutput()->GetPointData()->HasArray(array.c_str()))
+  {
+    throw std::invalid_argument("no point array '" + array + "' in '" + path + "'");
+  }
   return reader->GetOutput();
 }
 
-void MakeParticles(SurfaceCase& surface)
+void MakeParticles(SurfaceCase& surface, double spacing)
 {
   double bounds[6];
   surface.Grid->GetBounds(bounds);
   surface.Spacing =
-    0.01 * std::max({ bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4] });
+    spacing * std::max({ bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4] });
   vtkNew<vtkHighOrderParticleIsosurface> filter;
   filter->SetInputData(surface.Grid);
   filter->SetInputArrayToProcess(
@@ -102,44 +106,61 @@ void AddClipPlanes(vtkPolyData* particles, const std::function<glm::dvec3(glm::d
 }
 
 SurfaceCase AnalyticCase(
-  const std::string& name, int cells, int order, const hop::testing::Field& field)
+  const std::string& name, int cells, int order, const hop::testing::Field& field, double spacing)
 {
   SurfaceCase surface;
   surface.Name = name;
   surface.Grid = MakeGrid(cells, order, field);
   surface.Array = FieldName;
-  MakeParticles(surface);
+  MakeParticles(surface, spacing);
   return surface;
 }
 
-SurfaceCase FileCase(
-  const std::string& name, const std::string& file, const std::string& array, double isovalue)
+SurfaceCase FileCase(const std::string& name, const std::string& path, const std::string& array,
+  double isovalue, double spacing)
 {
   SurfaceCase surface;
   surface.Name = name;
-  surface.Grid = ReadGrid(file);
+  surface.Grid = ReadGrid(path, array);
   surface.Array = array;
   surface.Isovalue = isovalue;
-  MakeParticles(surface);
+  MakeParticles(surface, spacing);
   return surface;
 }
 
-SurfaceCase RimCase()
+// FILE.vtu:ARRAY:ISOVALUE, called by the name of the file.
+SurfaceCase NamedFileCase(const std::string& name, double spacing)
 {
-  SurfaceCase surface = AnalyticCase("rim", 4, 2, hop::testing::sphere({ 0., 0., 0.7 }, 0.8).field);
+  const std::size_t second = name.rfind(':');
+  const std::size_t first = second == std::string::npos ? second : name.rfind(':', second - 1);
+  if (first == std::string::npos)
+  {
+    throw std::invalid_argument("no case '" + name + "', nor is it FILE.vtu:ARRAY:ISOVALUE");
+  }
+  const std::string path = name.substr(0, first);
+  return FileCase(path.substr(path.rfind('/') + 1), path,
+    name.substr(first + 1, second - first - 1), std::stod(name.substr(second + 1)), spacing);
+}
+
+SurfaceCase RimCase(double spacing)
+{
+  SurfaceCase surface =
+    AnalyticCase("rim", 4, 2, hop::testing::sphere({ 0., 0., 0.7 }, 0.8).field, spacing);
   AddClipPlanes(
     surface.Particles, [](glm::dvec3) { return glm::dvec3(0., 0., 1.); },
     [](glm::dvec3 x) { return 1. - x.z; });
   return surface;
 }
 
-SurfaceCase KinkCase()
+SurfaceCase KinkCase(double spacing)
 {
   const hop::testing::Field half = hop::testing::sphere({ 0.35, 0., 0. }, 0.6).field;
-  SurfaceCase surface = AnalyticCase("kink", 4, 2,
+  SurfaceCase surface = AnalyticCase(
+    "kink", 4, 2,
     [&half](const glm::dvec3& x) {
       return half({ std::abs(x.x), x.y, x.z });
-    });
+    },
+    spacing);
   AddClipPlanes(
     surface.Particles, [](glm::dvec3 x) { return glm::dvec3(x.x < 0. ? 1. : -1., 0., 0.); },
     [](glm::dvec3 x) { return std::abs(x.x); });
@@ -147,33 +168,33 @@ SurfaceCase KinkCase()
 }
 }
 
-SurfaceCase MakeSurfaceCase(const std::string& name)
+SurfaceCase MakeSurfaceCase(const std::string& name, double spacing)
 {
   if (name == "sphere")
   {
-    return AnalyticCase(name, 4, 2, hop::testing::sphere({ 0., 0., 0. }, 0.8).field);
+    return AnalyticCase(name, 4, 2, hop::testing::sphere({ 0., 0., 0. }, 0.8).field, spacing);
   }
   if (name == "torus")
   {
-    return AnalyticCase(name, 4, 4, hop::testing::torus(0.6, 0.25).field);
+    return AnalyticCase(name, 4, 4, hop::testing::torus(0.6, 0.25).field, spacing);
   }
   if (name == "rim")
   {
-    return RimCase();
+    return RimCase(spacing);
   }
   if (name == "kink")
   {
-    return KinkCase();
+    return KinkCase(spacing);
   }
   if (name == "hexahedron")
   {
-    return FileCase(name, "mfem_hex1_p8.vtu", "u", 0.2);
+    return FileCase(name, HOP_DATA "/mfem_hex1_p8.vtu", "u", 0.2, spacing);
   }
   if (name == "cylinder")
   {
-    return FileCase(name, "mfem_cylinder_hex_prism_p3.vtu", "pressure", -0.5);
+    return FileCase(name, HOP_DATA "/mfem_cylinder_hex_prism_p3.vtu", "pressure", -0.5, spacing);
   }
-  throw std::invalid_argument("no case '" + name + "'");
+  return NamedFileCase(name, spacing);
 }
 
 const std::vector<std::string>& SurfaceCaseNames()

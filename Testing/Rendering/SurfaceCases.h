@@ -15,17 +15,19 @@ struct SurfaceCase
   vtkSmartPointer<vtkUnstructuredGrid> Grid;
   std::string Array;
   double Isovalue = 0.;
-  // Particles of the filter at its own default spacing, and that spacing.
+  // Of the filter, and their spacing in world units.
   vtkSmartPointer<vtkPolyData> Particles;
   double Spacing = 0.;
 };
 
 // "sphere", "torus", "rim" (a sphere that leaves the domain), "kink" (two spheres that meet in one,
 // their fields joined at element faces), "hexahedron" (one of order 8), "cylinder" (flow around one).
-// Particles beside rim and kink carry the planes there. Throws std::invalid_argument for other names.
-SurfaceCase MakeSurfaceCase(const std::string& name);
+// Particles beside rim and kink carry the planes there. Any other name is FILE.vtu:ARRAY:ISOVALUE.
+// Throws std::invalid_argument if it is not, or if the file cannot be read or has no such array.
+// The spacing is a share of the longest side of the grid, as the filter's own default is.
+SurfaceCase MakeSurfaceCase(const std::string& name, double spacing = 0.01);
 
-// All of these names.
+// The names of those that need no file of their own.
 const std::vector<std::string>& SurfaceCaseNames();
 
 // Stock Contour's triangles of the same grid, with smooth normals.

@@ -173,6 +173,31 @@ TEST(SplatGeometry, SplatsBendWithTheSurface)
   }
 }
 
+TEST(SplatGeometry, SplatsEndWhereTheyHaveTurnedBy45Degrees)
+{
+  // One particle alone on a sphere a quarter as large as its splat: a paraboloid that has turned by 45
+  // degrees at one radius of the sphere from the axis, half of that below the particle.
+  constexpr double radius = 0.25;
+  constexpr double pixel = 2.6 / SplatScene::Size;
+  vtkSmartPointer<vtkPolyData> particle = Disks({ { 0., 0., radius } }, { { 0., 0., 1. } }, 1.);
+  AddShapeOfSphere(particle, radius);
+  SplatScene scene(particle);
+  for (glm::dvec3 from : { glm::dvec3(0., 0., 1.), glm::dvec3(1., 0., 0.2) })
+  {
+    UseSplats(scene, { from, true });
+    scene.Render();
+    double farthest = 0.;
+    const int drawn = scene.ForEachDrawnPixel(
+      [&](int, int, glm::dvec3 position)
+      {
+        farthest = std::max(farthest, std::hypot(position.x, position.y));
+        EXPECT_GT(position.z, 0.5 * radius - 2. * pixel);
+      });
+    EXPECT_NEAR(farthest, radius, 2. * pixel);
+    EXPECT_GT(drawn, 0.2 * M_PI * radius * radius / (pixel * pixel));
+  }
+}
+
 TEST(SplatGeometry, FollowsTheActorsTransformEvenIfItStretches)
 {
   for (double mirror : { 1., -1. })
