@@ -348,7 +348,7 @@ void Packer::addReport(const std::vector<IsovalueParticles>& isovalues)
 void addRows(const InputBlocks& blocks, const hop::ElementMesh& mesh, const IsovalueParticles& some,
   hop::Interruptible& work, std::vector<std::vector<ParticleRow>>& rowsOfBlocks)
 {
-  const std::vector<hop::Particle>& particles = some.distribution.particles;
+  const hop::Buffer<hop::Particle>& particles = some.distribution.particles;
   const hop::Grouping ofElements = hop::groupedBy(
     particles, mesh.elements.size(),
     [](const hop::Particle& particle) { return particle.location.element; }, std::ref(work));

@@ -84,7 +84,7 @@ RunOrigin originOf(const InputBlocks& blocks)
 }
 
 /// The spacing at which all but so small a share of the particles would have D h <= 2, evenly spread.
-double resolvingSpacing(const std::vector<hop::Particle>& particles)
+double resolvingSpacing(const hop::Buffer<hop::Particle>& particles)
 {
   std::vector<double> bends;
   bends.reserve(particles.size());

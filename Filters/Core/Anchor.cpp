@@ -101,7 +101,7 @@ std::vector<int> orderByElement(
 }
 
 std::vector<int> orderByElement(
-  const std::vector<Anchor>& anchors, std::size_t elementCount, const ParallelFor& parallelFor)
+  const Buffer<Anchor>& anchors, std::size_t elementCount, const ParallelFor& parallelFor)
 {
   return sortedBy(
     anchors, elementCount, [](const Anchor& anchor) { return anchor.place.element; }, parallelFor);

@@ -38,7 +38,7 @@ void continuePatch(const Anchor& knownAnchor, const Patch& known, const Location
 std::vector<int> orderByElement(
   const std::vector<Location>& places, std::size_t elementCount, const ParallelFor& parallelFor);
 std::vector<int> orderByElement(
-  const std::vector<Anchor>& anchors, std::size_t elementCount, const ParallelFor& parallelFor);
+  const Buffer<Anchor>& anchors, std::size_t elementCount, const ParallelFor& parallelFor);
 
 /// Calls use(i, jet) with the value and derivatives to second order at places[i], i = order[n] for n
 /// in [begin, end). Places next to each other in the order that share an element are evaluated

@@ -4,60 +4,47 @@
 #include <memory>
 #include <new>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace hop
 {
 
-/// An array whose entries are yet to be written. A vector would write zeros first, on one thread, and for
-/// large arrays fetching their memory from the system is what takes the time.
+/// Leaves new entries of a vector as they are.
 template <class T>
-class Buffer
+struct UnwrittenAllocator : std::allocator<T>
 {
-public:
   static_assert(std::is_trivially_copyable_v<T>);
 
-  Buffer() = default;
-  explicit Buffer(std::size_t size)
-    : Values(static_cast<T*>(::operator new(size * sizeof(T), Alignment)))
-    , Size(size)
+  template <class U>
+  struct rebind
   {
-  }
-
-  std::size_t size() const { return this->Size; }
-  bool empty() const { return this->Size == 0; }
-  T* data() { return this->Values.get(); }
-  const T* data() const { return this->Values.get(); }
-  T& operator[](std::size_t i) { return this->Values[i]; }
-  const T& operator[](std::size_t i) const { return this->Values[i]; }
-  T* begin() { return this->data(); }
-  T* end() { return this->data() + this->Size; }
-  const T* begin() const { return this->data(); }
-  const T* end() const { return this->data() + this->Size; }
-
-private:
-  static constexpr std::align_val_t Alignment{ alignof(T) };
-
-  struct Free
-  {
-    void operator()(T* values) const { ::operator delete(values, Alignment); }
+    using other = UnwrittenAllocator<U>;
   };
 
-  std::unique_ptr<T[], Free> Values;
-  std::size_t Size = 0;
+  template <class U>
+  void construct(U*) noexcept
+  {
+  }
+  template <class U, class... Arguments>
+  void construct(U* place, Arguments&&... arguments)
+  {
+    ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
+  }
 };
 
-/// The entries of a vector or a buffer, which outlives it.
+/// A vector whose entries are yet to be written when it is made or grows. Others write zeros first, on one
+/// thread, and for large arrays fetching their memory from the system is what takes the time.
+template <class T>
+using Buffer = std::vector<T, UnwrittenAllocator<T>>;
+
+/// The entries of a vector, which outlives it.
 template <class T>
 class Span
 {
 public:
-  Span(const std::vector<T>& values)
-    : First(values.data())
-    , Count(values.size())
-  {
-  }
-  Span(const Buffer<T>& values)
+  template <class Allocator>
+  Span(const std::vector<T, Allocator>& values)
     : First(values.data())
     , Count(values.size())
   {

@@ -672,7 +672,7 @@ Distribution ClassicSystem::finish()
 {
   Distribution result;
   const std::size_t count = this->Report.error.empty() ? this->Movers.size() : 0;
-  std::vector<Particle> particles(count);
+  Buffer<Particle> particles(count);
   std::vector<char> settled(count, 0);
   std::vector<std::int64_t> cost(count, 0);
   runParallel(this->Parallel, static_cast<std::ptrdiff_t>(count),

@@ -83,7 +83,7 @@ class KinkPlanes
 {
 public:
   KinkPlanes(const Isosurface& surface, const std::vector<char>& kinks,
-    const std::vector<Particle>& particles, const std::vector<RimParticle>& rims,
+    const Buffer<Particle>& particles, const std::vector<RimParticle>& rims,
     const ParallelFor& parallelFor)
     : Mesh(*surface.mesh)
     , Locator(surface.locator)
@@ -168,8 +168,8 @@ private:
 } // namespace
 
 void markClipPlanes(const Isosurface& surface, const FaceJumps& jumps,
-  std::vector<RimParticle>& rims, std::vector<Particle>& particles,
-  const std::vector<Anchor>& anchors, const ParallelFor& parallelFor)
+  std::vector<RimParticle>& rims, Buffer<Particle>& particles, const Buffer<Anchor>& anchors,
+  const ParallelFor& parallelFor)
 {
   std::vector<glm::dvec3> positions;
   std::vector<float> spacings;

@@ -14,8 +14,8 @@ namespace hop
 /// \param particles those that are not on rims; particles on rims are marked with them
 /// \param anchors where these particles lie, one for each
 void markClipPlanes(const Isosurface& surface, const FaceJumps& jumps,
-  std::vector<RimParticle>& rims, std::vector<Particle>& particles,
-  const std::vector<Anchor>& anchors, const ParallelFor& parallelFor);
+  std::vector<RimParticle>& rims, Buffer<Particle>& particles, const Buffer<Anchor>& anchors,
+  const ParallelFor& parallelFor);
 
 /// How far from a particle, in units of its spacing, an edge is of interest: splats overlap that far.
 constexpr double ClipReach = 1.5;

@@ -146,7 +146,7 @@ private:
   std::unique_ptr<SurfaceProxy> Proxy;
   FaceJumps Jumps;
   RimCurves Rims;
-  std::vector<Patch> RimPatches;
+  Buffer<Patch> RimPatches;
   std::unique_ptr<MovingParticles> Moving;
   std::atomic<std::int64_t> Evaluations{ 0 };
   Distribution Result;
@@ -274,8 +274,8 @@ void FastSystem::addSeeds(std::int64_t count, double phase, const std::vector<ch
 
 void FastSystem::addSamples(const std::vector<int>& boxes)
 {
-  std::vector<Anchor> anchors;
-  std::vector<Patch> patches;
+  Buffer<Anchor> anchors;
+  Buffer<Patch> patches;
   for (const int b : boxes)
   {
     anchors.push_back(this->Proxy->samples()[b].anchor);
@@ -390,8 +390,8 @@ void FastSystem::relax(
   const auto reached = [&](double share) { this->Work.raiseFraction(section.at(share)); };
   Relaxed relaxed = relaxOnPatches(moving.patches(), sweeps, balance, this->Parallel, reached);
   std::vector<glm::vec2>& displacements = relaxed.displacements;
-  std::vector<Anchor> anchors;
-  std::vector<Patch> patches;
+  Buffer<Anchor> anchors;
+  Buffer<Patch> patches;
   for (const Split& split : relaxed.splits)
   {
     anchors.push_back(moving.anchors()[split.particle]);
@@ -429,9 +429,9 @@ void FastSystem::relaxAll(int sweeps, bool isLast, const Section& section)
 /// Particles around pairs that stand too near to each other go on alone, those farther off stay.
 void FastSystem::repair(bool isFurther)
 {
-  const std::vector<Patch>& patches = this->Moving->patches();
+  const Buffer<Patch>& patches = this->Moving->patches();
   const std::size_t count = this->Moving->count();
-  const std::vector<Patch> tooNear =
+  const Buffer<Patch> tooNear =
     marked(patches, opposite(haveDistance(patches, count, smallestSpacing, this->Parallel)));
   const double share = static_cast<double>(tooNear.size()) / static_cast<double>(count);
   if (tooNear.empty() || (isFurther && share > fewDefects))
@@ -442,7 +442,7 @@ void FastSystem::repair(bool isFurther)
     keepDistance(patches, count, tooNear, repairReach, this->Parallel);
   const std::vector<char> outOfSight =
     keepDistance(patches, patches.size(), tooNear, 2.0 * repairReach, this->Parallel);
-  std::vector<Patch> around;
+  Buffer<Patch> around;
   for (std::size_t i = 0; i < patches.size(); ++i)
   {
     if (!outOfSight[i] && (i >= count || staying[i]))
@@ -502,12 +502,13 @@ void FastSystem::finish()
       standApart(this->Moving->patches(), this->Moving->count(), squeezed, this->Parallel);
     std::transform(kept.begin(), kept.end(), apart.begin(), kept.begin(), std::logical_and<>());
   }
-  std::vector<Particle>& particles = this->Result.particles;
+  Buffer<Particle>& particles = this->Result.particles;
   particles = std::move(finished.particles);
-  keepMarked(particles, kept);
-  this->Moving->keep(kept);
-  markClipPlanes(this->Surface, this->Jumps, this->Rims.particles, particles,
-    this->Moving->anchors(), this->Parallel);
+  particles.resize(closeGaps(particles, particles.size(), kept));
+  Buffer<Anchor> anchors = this->Moving->takeAnchors();
+  anchors.resize(closeGaps(anchors, anchors.size(), kept));
+  markClipPlanes(
+    this->Surface, this->Jumps, this->Rims.particles, particles, anchors, this->Parallel);
   for (const RimParticle& rim : this->Rims.particles)
   {
     particles.push_back(rim.particle);

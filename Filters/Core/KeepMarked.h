@@ -11,8 +11,8 @@ namespace hop
 
 /// Removes the items that have no mark, and keeps the order of the others.
 /// \param marks one for each item at least
-template <class T>
-void keepMarked(std::vector<T>& items, const std::vector<char>& marks)
+template <class Items>
+void keepMarked(Items& items, const std::vector<char>& marks)
 {
   const auto end = marks.begin() + static_cast<std::ptrdiff_t>(items.size());
   std::size_t next = std::find(marks.begin(), end, 0) - marks.begin();
@@ -26,12 +26,38 @@ void keepMarked(std::vector<T>& items, const std::vector<char>& marks)
   items.resize(next);
 }
 
+/// Of the first `end` items, moves the last to where others have no mark: where few are dropped nearly all
+/// stay where they are.
+/// \param marks one for each of these items at least
+/// \return how many have a mark; these are the first now
+template <class Items>
+std::size_t closeGaps(Items& items, std::size_t end, const std::vector<char>& marks)
+{
+  const auto dropLast = [&]()
+  {
+    while (end > 0 && !marks[end - 1])
+    {
+      --end;
+    }
+  };
+  dropLast();
+  for (std::size_t i = 0; i < end; ++i)
+  {
+    if (!marks[i])
+    {
+      items[i] = items[--end];
+      dropLast();
+    }
+  }
+  return end;
+}
+
 /// Copies of the items that have a mark, in their order.
 /// \param marks one for each item at most
-template <class T>
-std::vector<T> marked(const std::vector<T>& items, const std::vector<char>& marks)
+template <class Items>
+Items marked(const Items& items, const std::vector<char>& marks)
 {
-  std::vector<T> result;
+  Items result;
   result.reserve(marks.size() - std::count(marks.begin(), marks.end(), 0));
   for (std::size_t i = 0; i < marks.size(); ++i)
   {
@@ -45,7 +71,7 @@ std::vector<T> marked(const std::vector<T>& items, const std::vector<char>& mark
 
 /// Puts items order[0], order[1], ... first, in this order, and leaves the rest.
 template <class T>
-void permute(std::vector<T>& items, const std::vector<int>& order, const ParallelFor& parallelFor)
+void permute(Buffer<T>& items, const std::vector<int>& order, const ParallelFor& parallelFor)
 {
   Buffer<T> before(order.size());
   forAll(parallelFor, order.size(), [&](std::size_t n) { before[n] = items[n]; });

@@ -38,8 +38,8 @@ bool accepts(const Anchor& from, const Patch& before, const Anchor& to, const Pa
 
 } // namespace
 
-MovingParticles::MovingParticles(const Isosurface& surface, const SurfaceProxy& proxy,
-  std::vector<Patch> rims, ParallelFor parallelFor)
+MovingParticles::MovingParticles(
+  const Isosurface& surface, const SurfaceProxy& proxy, Buffer<Patch> rims, ParallelFor parallelFor)
   : Surface(surface)
   , Proxy(proxy)
   , Parallel(std::move(parallelFor))
@@ -47,13 +47,17 @@ MovingParticles::MovingParticles(const Isosurface& surface, const SurfaceProxy& 
 {
 }
 
-/// For so many particles after those that move.
+/// For so many particles after those that move, to be written in threads.
 /// \return the first one
 std::size_t MovingParticles::makeRoom(std::size_t count)
 {
   const std::size_t first = this->count();
+  const std::size_t size = this->size();
   this->Anchors.resize(first + count);
-  this->Patches.insert(this->Patches.begin() + static_cast<std::ptrdiff_t>(first), count, Patch());
+  this->Patches.resize(size + count);
+  const auto rims = this->Patches.begin() + static_cast<std::ptrdiff_t>(first);
+  std::copy_backward(
+    rims, this->Patches.begin() + static_cast<std::ptrdiff_t>(size), this->Patches.end());
   return first;
 }
 
@@ -113,16 +117,17 @@ std::vector<char> MovingParticles::anchorAt(
         [&](int n, const Jet& jet)
         {
           const int i = which[n];
-          Patch& patch = this->Patches[i];
+          Patch patch;
           found[i] = anchorPatch(places[n], jet, this->Surface.isovalue, this->Anchors[i], patch);
           patch.spacing = this->Proxy.spacingAt(patch.position, patch.curvatureMagnitude());
+          this->Patches[i] = patch;
         });
     });
   this->Evaluations += static_cast<std::int64_t>(places.size());
   return found;
 }
 
-void MovingParticles::add(const std::vector<Anchor>& anchors, const std::vector<Patch>& patches)
+void MovingParticles::add(const Buffer<Anchor>& anchors, const Buffer<Patch>& patches)
 {
   this->Patches.insert(this->Patches.begin() + static_cast<std::ptrdiff_t>(this->count()),
     patches.begin(), patches.end());

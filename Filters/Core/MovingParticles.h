@@ -16,15 +16,15 @@ class MovingParticles
 public:
   /// \param proxy says which spacing is wanted where; outlives this, as the surface's mesh does
   /// \param rims patches that are fixed
-  MovingParticles(const Isosurface& surface, const SurfaceProxy& proxy, std::vector<Patch> rims,
+  MovingParticles(const Isosurface& surface, const SurfaceProxy& proxy, Buffer<Patch> rims,
     ParallelFor parallelFor);
 
   /// How many move.
   std::size_t count() const { return this->Anchors.size(); }
   /// How many there are in all.
   std::size_t size() const { return this->Patches.size(); }
-  const std::vector<Anchor>& anchors() const { return this->Anchors; }
-  const std::vector<Patch>& patches() const { return this->Patches; }
+  const Buffer<Anchor>& anchors() const { return this->Anchors; }
+  const Buffer<Patch>& patches() const { return this->Patches; }
   std::int64_t evaluations() const { return this->Evaluations; }
 
   /// Adds a particle for each place from which one Newton step leads to the surface; one evaluation each.
@@ -34,7 +34,7 @@ public:
   /// Takes a Newton step with those that are farther from the surface than that, in units of the spacing.
   void approach(float farthest);
   /// Adds particles whose patches are known.
-  void add(const std::vector<Anchor>& anchors, const std::vector<Patch>& patches);
+  void add(const Buffer<Anchor>& anchors, const Buffer<Patch>& patches);
   /// Keeps those marked; all that move, and no others, have a mark.
   void keep(std::vector<char> kept);
 
@@ -54,6 +54,8 @@ public:
     this->Patches[i].normal = glm::vec3(surfaceNormal(point.gradient).xyz);
     this->Anchors[i] = { place, glm::mat3(point.map.inverse), 0.0f };
   }
+  /// The anchors of all that move, which do not move any more.
+  Buffer<Anchor> takeAnchors() { return std::move(this->Anchors); }
   const Isosurface& surface() const { return this->Surface; }
 
 private:
@@ -70,8 +72,8 @@ private:
   Isosurface Surface;
   const SurfaceProxy& Proxy;
   ParallelFor Parallel;
-  std::vector<Anchor> Anchors;
-  std::vector<Patch> Patches;
+  Buffer<Anchor> Anchors;
+  Buffer<Patch> Patches;
   std::atomic<std::int64_t> Evaluations{ 0 };
 };
 

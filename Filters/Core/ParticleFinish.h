@@ -11,7 +11,7 @@ namespace hop
 struct FinishedParticles
 {
   /// One for each that moved; with room for those on rims.
-  std::vector<Particle> particles;
+  Buffer<Particle> particles;
   /// Which of them lie on the surface to its tolerance. The others are lost.
   std::vector<char> settled;
   std::int64_t evaluations = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "Buffer.h"
 #include "SurfaceWalker.h"
 
 #include <array>
@@ -64,7 +65,7 @@ struct DistributionReport
 
 struct Distribution
 {
-  std::vector<Particle> particles;
+  Buffer<Particle> particles;
   DistributionReport report;
 };
 

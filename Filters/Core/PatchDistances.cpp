@@ -51,7 +51,7 @@ std::vector<char> testAll(std::size_t count, const ParallelFor& parallelFor, con
 class Crowd
 {
 public:
-  Crowd(const std::vector<Patch>& patches, double distance, const ParallelFor& parallelFor)
+  Crowd(const Buffer<Patch>& patches, double distance, const ParallelFor& parallelFor)
     : Patches(patches)
     , Distance(distance)
     , Positions(positionsOf(patches, parallelFor))
@@ -82,7 +82,7 @@ public:
   }
 
 private:
-  const std::vector<Patch>& Patches;
+  const Buffer<Patch>& Patches;
   double Distance;
   Buffer<glm::dvec3> Positions;
   Buffer<float> Spacings;
@@ -91,8 +91,8 @@ private:
 
 } // namespace
 
-std::vector<char> keepDistance(const std::vector<Patch>& patches, std::size_t count,
-  const std::vector<Patch>& others, double distance, const ParallelFor& parallelFor)
+std::vector<char> keepDistance(const Buffer<Patch>& patches, std::size_t count,
+  const Buffer<Patch>& others, double distance, const ParallelFor& parallelFor)
 {
   const Buffer<glm::dvec3> positions = positionsOf(others, parallelFor);
   const Buffer<float> spacings = spacingsOf(others, parallelFor);
@@ -108,15 +108,15 @@ std::vector<char> keepDistance(const std::vector<Patch>& patches, std::size_t co
     });
 }
 
-std::vector<char> haveDistance(const std::vector<Patch>& patches, std::size_t count,
-  double distance, const ParallelFor& parallelFor)
+std::vector<char> haveDistance(
+  const Buffer<Patch>& patches, std::size_t count, double distance, const ParallelFor& parallelFor)
 {
   const Crowd crowd(patches, distance, parallelFor);
   return testAll(count, parallelFor, [&](std::size_t i) { return crowd.isAlone(i); });
 }
 
-std::vector<char> standApart(const std::vector<Patch>& patches, std::size_t count, double distance,
-  const ParallelFor& parallelFor)
+std::vector<char> standApart(
+  const Buffer<Patch>& patches, std::size_t count, double distance, const ParallelFor& parallelFor)
 {
   const Crowd crowd(patches, distance, parallelFor);
   std::vector<char> kept =
@@ -137,7 +137,7 @@ std::vector<char> standApart(const std::vector<Patch>& patches, std::size_t coun
 }
 
 std::vector<char> findLonely(const std::vector<SurfaceProxy::Sample>& samples,
-  const std::vector<Patch>& patches, const ParallelFor& parallelFor)
+  const Buffer<Patch>& patches, const ParallelFor& parallelFor)
 {
   const Buffer<glm::dvec3> positions = positionsOf(patches, parallelFor);
   const Buffer<float> spacings = spacingsOf(patches, parallelFor);

@@ -9,21 +9,21 @@ namespace hop
 
 /// For each of the first `count` patches, whether it keeps that distance, in units of its spacing, from
 /// all others that are not turned away.
-std::vector<char> keepDistance(const std::vector<Patch>& patches, std::size_t count,
-  const std::vector<Patch>& others, double distance, const ParallelFor& parallelFor);
+std::vector<char> keepDistance(const Buffer<Patch>& patches, std::size_t count,
+  const Buffer<Patch>& others, double distance, const ParallelFor& parallelFor);
 
 /// For each of the first `count` patches, whether it keeps that distance, in units of the smaller of two
 /// spacings, from every other patch that is not turned away.
-std::vector<char> haveDistance(const std::vector<Patch>& patches, std::size_t count,
-  double distance, const ParallelFor& parallelFor);
+std::vector<char> haveDistance(
+  const Buffer<Patch>& patches, std::size_t count, double distance, const ParallelFor& parallelFor);
 
 /// For each of the first `count` patches, whether to keep it if any two are to be that far apart, in units
 /// of the smaller of their spacings: the first of two stays, and those from `count` on do.
-std::vector<char> standApart(const std::vector<Patch>& patches, std::size_t count, double distance,
-  const ParallelFor& parallelFor);
+std::vector<char> standApart(
+  const Buffer<Patch>& patches, std::size_t count, double distance, const ParallelFor& parallelFor);
 
 /// For each sample, whether no patch stands on the piece of surface around it.
 std::vector<char> findLonely(const std::vector<SurfaceProxy::Sample>& samples,
-  const std::vector<Patch>& patches, const ParallelFor& parallelFor);
+  const Buffer<Patch>& patches, const ParallelFor& parallelFor);
 
 } // namespace hop

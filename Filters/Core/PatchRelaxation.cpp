@@ -66,7 +66,7 @@ int lowestFreeColor(
 /// Pieces of particles that follow each other are coloured in threads; then those that see their own colour
 /// in a piece before theirs get another.
 std::vector<int> colorParticles(
-  const std::vector<Patch>& patches, const SeenLists& lists, const ParallelFor& parallelFor)
+  const Buffer<Patch>& patches, const SeenLists& lists, const ParallelFor& parallelFor)
 {
   constexpr int particlesPerPiece = 16384;
   const int count = static_cast<int>(patches.size());
@@ -133,7 +133,7 @@ std::vector<int> colorTiles(std::size_t tileSize, const SeenLists& lists)
 class SweepSystem
 {
 public:
-  SweepSystem(const std::vector<Patch>& patches, const ParallelFor& parallelFor)
+  SweepSystem(const Buffer<Patch>& patches, const ParallelFor& parallelFor)
     : Patches(patches)
     , Parallel(parallelFor)
     , Positions(positionsOf(patches, parallelFor))
@@ -187,7 +187,7 @@ private:
   void makeStages(std::size_t tileSize, std::size_t groupsPerTile);
   void runStages(int first, int last);
 
-  const std::vector<Patch>& Patches;
+  const Buffer<Patch>& Patches;
   const ParallelFor& Parallel;
   Buffer<glm::dvec3> Positions;
   SeenLists Lists;
@@ -427,21 +427,21 @@ float Patch::sink(const glm::vec2& t) const
   return 0.5f * (s[0] * t.x * t.x + 2.0f * s[1] * t.x * t.y + s[2] * t.y * t.y);
 }
 
-Buffer<glm::dvec3> positionsOf(const std::vector<Patch>& patches, const ParallelFor& parallelFor)
+Buffer<glm::dvec3> positionsOf(const Buffer<Patch>& patches, const ParallelFor& parallelFor)
 {
   Buffer<glm::dvec3> positions(patches.size());
   forAll(parallelFor, patches.size(), [&](std::size_t i) { positions[i] = patches[i].position; });
   return positions;
 }
 
-Buffer<float> spacingsOf(const std::vector<Patch>& patches, const ParallelFor& parallelFor)
+Buffer<float> spacingsOf(const Buffer<Patch>& patches, const ParallelFor& parallelFor)
 {
   Buffer<float> spacings(patches.size());
   forAll(parallelFor, patches.size(), [&](std::size_t i) { spacings[i] = patches[i].spacing; });
   return spacings;
 }
 
-Relaxed relaxOnPatches(const std::vector<Patch>& patches, int sweeps, const Balance& balance,
+Relaxed relaxOnPatches(const Buffer<Patch>& patches, int sweeps, const Balance& balance,
   const ParallelFor& parallelFor, const std::function<void(double share)>& reached)
 {
   if (patches.empty())

@@ -47,8 +47,8 @@ inline std::array<glm::vec3, 2> tangentsOf(const glm::vec3& normal)
 }
 
 /// As SpacingGrid wants them.
-Buffer<glm::dvec3> positionsOf(const std::vector<Patch>& patches, const ParallelFor& parallelFor);
-Buffer<float> spacingsOf(const std::vector<Patch>& patches, const ParallelFor& parallelFor);
+Buffer<glm::dvec3> positionsOf(const Buffer<Patch>& patches, const ParallelFor& parallelFor);
+Buffer<float> spacingsOf(const Buffer<Patch>& patches, const ParallelFor& parallelFor);
 
 /// What to do about the number of particles (Population.h).
 struct Balance
@@ -96,7 +96,7 @@ struct Relaxed
 /// Particles that see each other never move at the same time: a greedy colouring in the order of the
 /// particles decides who moves together. So the result does not depend on threads.
 /// \param reached told now and then which share of the sweeps is done
-Relaxed relaxOnPatches(const std::vector<Patch>& patches, int sweeps, const Balance& balance,
+Relaxed relaxOnPatches(const Buffer<Patch>& patches, int sweeps, const Balance& balance,
   const ParallelFor& parallelFor, const std::function<void(double share)>& reached = {});
 
 } // namespace hop

@@ -57,7 +57,7 @@ glm::dvec3 movedPosition(const Patch& patch, const glm::vec2& t)
 class Population
 {
 public:
-  Population(const std::vector<Patch>& patches, const SeenLists& lists,
+  Population(const Buffer<Patch>& patches, const SeenLists& lists,
     const std::vector<float>& energies, Relaxed& relaxed)
     : Patches(patches)
     , Lists(lists)
@@ -261,7 +261,7 @@ private:
     return best;
   }
 
-  const std::vector<Patch>& Patches;
+  const Buffer<Patch>& Patches;
   const SeenLists& Lists;
   const std::vector<float>& Energies;
   Relaxed& Result;
@@ -271,7 +271,7 @@ private:
 
 } // namespace
 
-void balancePopulation(const std::vector<Patch>& patches, const SeenLists& lists,
+void balancePopulation(const Buffer<Patch>& patches, const SeenLists& lists,
   const std::vector<float>& energies, const Balance& balance, const ParallelFor& parallelFor,
   Relaxed& relaxed)
 {

@@ -20,7 +20,7 @@ namespace hop
 ///
 /// \param energies of the last sweep; negative for particles that are fixed
 /// \param relaxed its displacements; gets its marks and splits; all are kept where it says nothing else
-void balancePopulation(const std::vector<Patch>& patches, const SeenLists& lists,
+void balancePopulation(const Buffer<Patch>& patches, const SeenLists& lists,
   const std::vector<float>& energies, const Balance& balance, const ParallelFor& parallelFor,
   Relaxed& relaxed);
 

@@ -5,7 +5,7 @@
 namespace hop
 {
 
-std::vector<CellPlace> cellPlaces(const ElementMesh& mesh, const std::vector<Particle>& particles)
+std::vector<CellPlace> cellPlaces(const ElementMesh& mesh, const Buffer<Particle>& particles)
 {
   std::vector<CellPlace> places;
   places.reserve(particles.size());

@@ -16,7 +16,7 @@ struct CellPlace
 };
 
 /// Where the particles of a run stood that moved: those on rims are placed anew.
-std::vector<CellPlace> cellPlaces(const ElementMesh& mesh, const std::vector<Particle>& particles);
+std::vector<CellPlace> cellPlaces(const ElementMesh& mesh, const Buffer<Particle>& particles);
 
 /// Those of the places whose cells are elements of this mesh.
 /// \pre elements ascend by cell, as in the input

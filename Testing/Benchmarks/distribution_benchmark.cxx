@@ -195,7 +195,7 @@ std::vector<glm::dvec3> probesOf(const Stages& stages)
 
 void addQuality(const Request& request, const Stages& stages, Record& record)
 {
-  const std::vector<hop::Particle>& particles = stages.distribution.particles;
+  const hop::Buffer<hop::Particle>& particles = stages.distribution.particles;
   double residual = 0.0;
   for (const hop::Particle& p : particles)
   {

@@ -26,12 +26,12 @@ Particle particleAt(const glm::dvec3& position, const glm::dvec3& normal, double
 
 /// Hexagonal packing at distance `distance`, in a tilted plane, out to a hexagon of so many rings
 /// around the first particle; the last 6 `rings` particles are its rim.
-std::vector<Particle> hexagonalLattice(int rings, double distance, double spacing)
+Buffer<Particle> hexagonalLattice(int rings, double distance, double spacing)
 {
   const glm::dvec3 e1 = glm::normalize(glm::dvec3(1.0, 2.0, -0.5));
   const glm::dvec3 normal = glm::normalize(glm::cross(e1, glm::dvec3(0.3, 0.1, 1.0)));
   const glm::dvec3 e2 = 0.5 * e1 + 0.5 * std::sqrt(3.0) * glm::cross(normal, e1);
-  std::vector<Particle> particles;
+  Buffer<Particle> particles;
   for (int ring = 0; ring <= rings; ++ring)
   {
     for (int i = -ring; i <= ring; ++i)
@@ -49,9 +49,9 @@ std::vector<Particle> hexagonalLattice(int rings, double distance, double spacin
   return particles;
 }
 
-std::vector<Particle> squareLattice(int rows)
+Buffer<Particle> squareLattice(int rows)
 {
-  std::vector<Particle> particles;
+  Buffer<Particle> particles;
   for (int n = 0; n < rows * rows; ++n)
   {
     // Sheared by a little, so that no four lie on a circle.
@@ -62,9 +62,9 @@ std::vector<Particle> squareLattice(int rows)
 }
 
 /// A golden-angle spiral on the unit sphere.
-std::vector<Particle> spiral(int count, double spacing)
+Buffer<Particle> spiral(int count, double spacing)
 {
-  std::vector<Particle> particles;
+  Buffer<Particle> particles;
   for (int n = 0; n < count; ++n)
   {
     const double z = 1.0 - (2.0 * n + 1.0) / count;
@@ -114,7 +114,7 @@ TEST(DistributionMeasures, SquareLattice)
 TEST(DistributionMeasures, VariationIsThatOfNearestDistances)
 {
   // Pairs at distance 1 and pairs at distance 2: mean 1.5, deviation 0.5.
-  std::vector<Particle> particles;
+  Buffer<Particle> particles;
   for (int n = 0; n < 10; ++n)
   {
     particles.push_back(particleAt({ 10.0 * n, 0, 0 }, { 0, 0, 1 }, 1.0));
@@ -129,7 +129,7 @@ TEST(DistributionMeasures, VariationIsThatOfNearestDistances)
 
 TEST(DistributionMeasures, MissingParticleLeavesAHole)
 {
-  std::vector<Particle> particles = hexagonalLattice(5, 1.0, 1.0);
+  Buffer<Particle> particles = hexagonalLattice(5, 1.0, 1.0);
   const Particle middle = particles.front();
   const Evenness whole = measureEvenness(particles);
   particles.erase(particles.begin());
@@ -144,7 +144,7 @@ TEST(DistributionMeasures, MissingParticleLeavesAHole)
 
 TEST(DistributionMeasures, WideHoleOpensStars)
 {
-  std::vector<Particle> particles = hexagonalLattice(6, 1.0, 1.0);
+  Buffer<Particle> particles = hexagonalLattice(6, 1.0, 1.0);
   const Evenness whole = measureEvenness(particles);
   const glm::dvec3 middle = particles.front().position.xyz;
   particles.erase(std::remove_if(particles.begin(), particles.end(),
@@ -155,7 +155,7 @@ TEST(DistributionMeasures, WideHoleOpensStars)
 
 TEST(DistributionMeasures, OppositeAndParallelSheetsDoNotCount)
 {
-  std::vector<Particle> sheets = hexagonalLattice(5, 1.0, 1.0);
+  Buffer<Particle> sheets = hexagonalLattice(5, 1.0, 1.0);
   const Evenness alone = measureEvenness(sheets);
   const std::size_t count = sheets.size();
   const glm::dvec3 normal = sheets.front().normal.xyz;
@@ -174,7 +174,7 @@ TEST(DistributionMeasures, OppositeAndParallelSheetsDoNotCount)
 TEST(DistributionMeasures, StarsOfAClosedSurfaceTriangulateIt)
 {
   // Euler: the valences of a sphere's triangulation sum up to 6 n - 12.
-  const std::vector<Particle> particles =
+  const Buffer<Particle> particles =
     spiral(2000, std::sqrt(4.0 * Pi / 2000 * 2.0 / std::sqrt(3.0)));
   int valences = 0;
   for (const Star& star : delaunayStars(particles))
@@ -187,7 +187,7 @@ TEST(DistributionMeasures, StarsOfAClosedSurfaceTriangulateIt)
 
 TEST(DistributionMeasures, CoverageOfASphereByProbesIsThatOfItsTriangles)
 {
-  const std::vector<Particle> particles = spiral(1000, 0.11);
+  const Buffer<Particle> particles = spiral(1000, 0.11);
   Random random(3);
   std::vector<glm::dvec3> probes;
   while (probes.size() < 100000)
@@ -211,7 +211,7 @@ TEST(DistributionMeasures, FewParticles)
   EXPECT_EQ(measureEvenness({ particleAt({ 0, 0, 0 }, { 0, 0, 1 }, 1.0) }).openStars, 0u);
   EXPECT_EQ(coverageRadius({}, {}), 0.0);
   EXPECT_TRUE(std::isinf(coverageRadius({}, { glm::dvec3(0.0) })));
-  const std::vector<Particle> turned{ particleAt({ 0, 0, 0 }, { 0, 0, 1 }, 1.0),
+  const Buffer<Particle> turned{ particleAt({ 0, 0, 0 }, { 0, 0, 1 }, 1.0),
     particleAt({ 0, 0, 0.5 }, { 0, 0, -1 }, 1.0) };
   EXPECT_TRUE(std::isinf(nearestSpacings(turned).front()));
 }
@@ -219,7 +219,7 @@ TEST(DistributionMeasures, FewParticles)
 TEST(DistributionMeasures, NearestSpacingIsFoundAtAnyDistance)
 {
   Random random(5);
-  std::vector<Particle> particles;
+  Buffer<Particle> particles;
   for (int n = 0; n < 300; ++n)
   {
     const glm::dvec3 x(random.uniform(), random.uniform(), random.uniform());

@@ -110,7 +110,7 @@ TEST_P(FastOpenCover, RimsAreClosedLinesOfParticles)
   const Distribution result = distribute(mesh, withSpacing(spacing));
   expectHonestParticles(mesh, result);
 
-  std::vector<Particle> rim;
+  Buffer<Particle> rim;
   for (const Particle& p : result.particles)
   {
     EXPECT_EQ(boundaryFaceCount(mesh, p.location) > 0, onCube(p.position.xyz));
@@ -271,7 +271,7 @@ TEST(FastDistribution, TwoSheetsCloseToEachOtherDoNotMix)
   const ElementMesh mesh =
     meshOf(Domain::Hexahedron, 2, [](const glm::dvec3& x) { return 0.0125 * 0.0125 - x.z * x.z; });
   const Distribution result = distribute(mesh, withSpacing(0.1));
-  std::vector<Particle> sheets[2];
+  Buffer<Particle> sheets[2];
   for (const Particle& p : result.particles)
   {
     sheets[p.position.xyz.z > 0.0].push_back(p);

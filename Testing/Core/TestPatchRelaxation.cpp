@@ -15,11 +15,11 @@ namespace
 constexpr int side = 400; // 160,000 particles: enough for several tiles
 
 /// Hexagonal packing of spacing 1 in a plane, every particle moved by up to a tenth.
-std::vector<Patch> unevenLattice()
+Buffer<Patch> unevenLattice()
 {
   Random random(1);
   const auto jitter = [&] { return 0.2 * random.uniform() - 0.1; };
-  std::vector<Patch> patches(side * side);
+  Buffer<Patch> patches(side * side, Patch());
   for (int n = 0; n < side * side; ++n)
   {
     const int row = n / side;
@@ -31,7 +31,7 @@ std::vector<Patch> unevenLattice()
 }
 
 /// Root mean square of what neighbours in a row, away from the border, miss their distance by.
-double unevenness(const std::vector<Patch>& patches, const std::vector<glm::vec2>& displacements)
+double unevenness(const Buffer<Patch>& patches, const std::vector<glm::vec2>& displacements)
 {
   const auto tangents = tangentsOf({ 0.0f, 0.0f, 1.0f });
   const auto placeOf = [&](int n)
@@ -55,7 +55,7 @@ double unevenness(const std::vector<Patch>& patches, const std::vector<glm::vec2
 
 TEST(PatchRelaxation, EvensOutManyInTilesWhateverTheThreads)
 {
-  const std::vector<Patch> patches = unevenLattice();
+  const Buffer<Patch> patches = unevenLattice();
   const Relaxed first = relaxOnPatches(patches, 6, {}, {});
   const double before =
     unevenness(patches, std::vector<glm::vec2>(patches.size(), glm::vec2(0.0f)));

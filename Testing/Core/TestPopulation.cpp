@@ -16,7 +16,7 @@ namespace
 /// wanted are 1.
 struct Lattice
 {
-  std::vector<Patch> patches;
+  Buffer<Patch> patches;
 
   explicit Lattice(double spacing, double radius = 12.0)
   {

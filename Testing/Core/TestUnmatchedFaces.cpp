@@ -42,7 +42,7 @@ MeshRecipe recipeOf(Domain domain, const Field& field, int degree = 2)
   return recipe;
 }
 
-double leastSpacing(const std::vector<Particle>& particles)
+double leastSpacing(const Buffer<Particle>& particles)
 {
   const std::vector<double> nearest = nearestSpacings(particles);
   return *std::min_element(nearest.begin(), nearest.end());
@@ -53,7 +53,7 @@ bool onCube(const glm::dvec3& x)
   return std::max({ std::abs(x.x), std::abs(x.y), std::abs(x.z) }) > 1.0 - 1e-11;
 }
 
-std::ptrdiff_t countAtInterface(const std::vector<Particle>& particles)
+std::ptrdiff_t countAtInterface(const Buffer<Particle>& particles)
 {
   return std::count_if(particles.begin(), particles.end(),
     [](const Particle& p)
@@ -138,7 +138,7 @@ TEST_P(SurfaceThroughHangingNodes, HasRimsAtTheOuterBoundaryOnly)
     EXPECT_EQ(p.clips[0].exists() && p.clips[0].distance == 0.0, onCube(p.position.xyz));
   }
   // Along the rim no gap, where it passes from element to element at x = 0 neither.
-  std::vector<Particle> rim;
+  Buffer<Particle> rim;
   std::copy_if(result.particles.begin(), result.particles.end(), std::back_inserter(rim),
     [](const Particle& p) { return onCube(p.position.xyz); });
   for (const double distance : nearestSpacings(rim))
@@ -279,7 +279,7 @@ TEST(FadingJump, HasRimsOnlyWhereTheSidesMissEachOther)
   EXPECT_GE(std::min(rims[0], rims[1]) * spacing, both - 3.0 * spacing);
   EXPECT_GE(leastSpacing(result.particles), 0.58);
   // Where the sides agree, the surface is as if it were one.
-  std::vector<Particle> seam;
+  Buffer<Particle> seam;
   std::copy_if(result.particles.begin(), result.particles.end(), std::back_inserter(seam),
     [&](const Particle& p)
     { return std::abs(p.position.xyz.x) < 0.2 && std::abs(p.position.xyz.y - 0.2) < 0.6 * agree; });

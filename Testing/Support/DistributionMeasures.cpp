@@ -18,7 +18,7 @@ constexpr double degreesPerRadian = 57.295779513082321;
 /// spacings; a chord of a surface of constant curvature not at all.
 constexpr double sheetThickness = 0.5;
 
-PointGrid gridOf(const std::vector<Particle>& particles)
+PointGrid gridOf(const Buffer<Particle>& particles)
 {
   std::vector<glm::dvec3> points;
   double sum = 0.0;
@@ -32,7 +32,7 @@ PointGrid gridOf(const std::vector<Particle>& particles)
 }
 
 /// Distance beyond which there is no particle from wherever one looks for it.
-double diameter(const std::vector<Particle>& particles)
+double diameter(const Buffer<Particle>& particles)
 {
   glm::dvec3 lower(infinity), upper(-infinity);
   for (const Particle& p : particles)
@@ -52,7 +52,7 @@ struct FlatNeighbor
 
 /// Those that may share a triangle with the particle, the nearest first.
 std::vector<FlatNeighbor> flatNeighbors(
-  const std::vector<Particle>& particles, const PointGrid& grid, std::size_t i)
+  const Buffer<Particle>& particles, const PointGrid& grid, std::size_t i)
 {
   const Particle& p = particles[i];
   const glm::dvec3 n = p.normal.xyz;
@@ -154,7 +154,7 @@ Triangle measure(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
   return { 0.5 * sides[0] * sides[1] * sides[2] / twiceArea, degreesPerRadian * std::asin(sine) };
 }
 
-Star starOf(const std::vector<Particle>& particles, const PointGrid& grid, std::size_t i)
+Star starOf(const Buffer<Particle>& particles, const PointGrid& grid, std::size_t i)
 {
   const std::vector<int> ring = voronoiNeighbors(flatNeighbors(particles, grid, i));
   Star star;
@@ -220,7 +220,7 @@ void addStars(const std::vector<Star>& stars, Evenness& evenness)
 
 } // namespace
 
-std::vector<double> nearestSpacings(const std::vector<Particle>& particles)
+std::vector<double> nearestSpacings(const Buffer<Particle>& particles)
 {
   const PointGrid grid = gridOf(particles);
   const double farthest = diameter(particles);
@@ -251,7 +251,7 @@ double hexagonalCount(double area, double spacing)
   return area / (0.5 * std::sqrt(3.0) * spacing * spacing);
 }
 
-std::vector<Star> delaunayStars(const std::vector<Particle>& particles)
+std::vector<Star> delaunayStars(const Buffer<Particle>& particles)
 {
   const PointGrid grid = gridOf(particles);
   std::vector<Star> stars;
@@ -262,7 +262,7 @@ std::vector<Star> delaunayStars(const std::vector<Particle>& particles)
   return stars;
 }
 
-Evenness measureEvenness(const std::vector<Particle>& particles)
+Evenness measureEvenness(const Buffer<Particle>& particles)
 {
   if (particles.size() < 2)
   {
@@ -276,7 +276,7 @@ Evenness measureEvenness(const std::vector<Particle>& particles)
   return evenness;
 }
 
-double coverageRadius(const std::vector<Particle>& particles, const std::vector<glm::dvec3>& probes)
+double coverageRadius(const Buffer<Particle>& particles, const std::vector<glm::dvec3>& probes)
 {
   if (particles.empty())
   {

@@ -11,7 +11,7 @@ namespace hop::testing
 
 /// For every particle the distance to the nearest one on the same sheet (normals less than 90
 /// degrees apart), divided by the spacing that it wants. Infinite where there is none.
-std::vector<double> nearestSpacings(const std::vector<Particle>& particles);
+std::vector<double> nearestSpacings(const Buffer<Particle>& particles);
 
 /// Number of particles of hexagonal packing at spacing s on an area: area / (sqrt(3)/2 s^2).
 double hexagonalCount(double area, double spacing);
@@ -35,7 +35,7 @@ struct Star
   static constexpr double OpenRadius = 1.25;
 };
 
-std::vector<Star> delaunayStars(const std::vector<Particle>& particles);
+std::vector<Star> delaunayStars(const Buffer<Particle>& particles);
 
 /// How even particles stand. In parentheses: hexagonal packing.
 struct Evenness
@@ -55,12 +55,11 @@ struct Evenness
 };
 
 /// All zero for fewer than two particles.
-Evenness measureEvenness(const std::vector<Particle>& particles);
+Evenness measureEvenness(const Buffer<Particle>& particles);
 
 /// Largest distance from a probe on the surface to the nearest particle, whichever way that one is
 /// turned, in units of the nearest particle's spacing (1/sqrt(3) in hexagonal packing). Infinite
 /// without particles, 0 without probes.
-double coverageRadius(
-  const std::vector<Particle>& particles, const std::vector<glm::dvec3>& probes);
+double coverageRadius(const Buffer<Particle>& particles, const std::vector<glm::dvec3>& probes);
 
 } // namespace hop::testing
