@@ -37,7 +37,7 @@ void offer(Particle& particle, const ClipPlane& plane)
 }
 
 /// Planes through particles on rims around, each through the nearest that looks its way.
-void offerRims(const SpacingGrid& grid, const std::vector<RimParticle>& rims, Particle& particle)
+void offerRims(const SpacingGrid& grid, const Buffer<RimParticle>& rims, Particle& particle)
 {
   struct Edge
   {
@@ -83,7 +83,7 @@ class KinkPlanes
 {
 public:
   KinkPlanes(const Isosurface& surface, const std::vector<char>& kinks,
-    const Buffer<Particle>& particles, const std::vector<RimParticle>& rims,
+    const Buffer<Particle>& particles, const Buffer<RimParticle>& rims,
     const ParallelFor& parallelFor)
     : Mesh(*surface.mesh)
     , Locator(surface.locator)
@@ -167,18 +167,18 @@ private:
 
 } // namespace
 
-void markClipPlanes(const Isosurface& surface, const FaceJumps& jumps,
-  std::vector<RimParticle>& rims, Buffer<Particle>& particles, const Buffer<Anchor>& anchors,
-  const ParallelFor& parallelFor)
+void markClipPlanes(const Isosurface& surface, const FaceJumps& jumps, Buffer<RimParticle>& rims,
+  Buffer<Particle>& particles, const Buffer<Anchor>& anchors, const ParallelFor& parallelFor)
 {
-  std::vector<glm::dvec3> positions;
-  std::vector<float> spacings;
-  for (const RimParticle& rim : rims)
-  {
-    positions.push_back(rim.particle.position.xyz);
-    spacings.push_back(rim.patch.spacing);
-  }
-  const SpacingGrid grid(positions, spacings, ClipReach, 0.5);
+  Buffer<glm::dvec3> positions(rims.size());
+  Buffer<float> spacings(rims.size());
+  forAll(parallelFor, rims.size(),
+    [&](std::size_t i)
+    {
+      positions[i] = rims[i].particle.position.xyz;
+      spacings[i] = rims[i].patch.spacing;
+    });
+  const SpacingGrid grid(positions, spacings, ClipReach, 0.5, parallelFor);
   const KinkPlanes kinks(surface, jumps.kinks, particles, rims, parallelFor);
   forAll(parallelFor, particles.size(),
     [&](std::size_t i)

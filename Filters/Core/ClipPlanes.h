@@ -13,9 +13,8 @@ namespace hop
 /// In corners two planes meet.
 /// \param particles those that are not on rims; particles on rims are marked with them
 /// \param anchors where these particles lie, one for each
-void markClipPlanes(const Isosurface& surface, const FaceJumps& jumps,
-  std::vector<RimParticle>& rims, Buffer<Particle>& particles, const Buffer<Anchor>& anchors,
-  const ParallelFor& parallelFor);
+void markClipPlanes(const Isosurface& surface, const FaceJumps& jumps, Buffer<RimParticle>& rims,
+  Buffer<Particle>& particles, const Buffer<Anchor>& anchors, const ParallelFor& parallelFor);
 
 /// How far from a particle, in units of its spacing, an edge is of interest: splats overlap that far.
 constexpr double ClipReach = 1.5;

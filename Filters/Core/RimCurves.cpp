@@ -25,6 +25,9 @@ constexpr double crossingPerSpacing = 0.2;
 /// spacing. Other hints lead to a rim that is overlooked.
 constexpr double clearMiss = 0.25;
 
+/// Particles of one surface are never as near as this, in units of the spacing.
+constexpr double sameSurface = 0.6;
+
 /// Chords need not lie on the surface as exactly as particles.
 Isosurface roughly(Isosurface surface, double spacing)
 {
@@ -110,7 +113,8 @@ private:
   double spacingAt(const RimPoint& point, double nearby);
   ReferencePoint between(const RimPoint& from, const RimPoint& to, double t) const;
   void finish(const ParallelFor& parallelFor);
-  void thinOut();
+  bool isTooNear(int i, int j) const;
+  void thinOut(const ParallelFor& parallelFor);
 
   Isosurface Surface;
   const SurfaceProxy& Proxy;
@@ -315,7 +319,7 @@ bool RimFinisher::lookBehind(const RimPoint& point, double& jump)
 
 void RimSampler::finish(const ParallelFor& parallelFor)
 {
-  std::vector<RimParticle>& rims = this->Result.particles;
+  Buffer<RimParticle>& rims = this->Result.particles;
   rims.resize(this->Places.size());
   std::vector<char> found(rims.size());
   std::atomic<std::int64_t> evaluations{ 0 };
@@ -333,38 +337,59 @@ void RimSampler::finish(const ParallelFor& parallelFor)
   this->Result.evaluations += evaluations;
 }
 
-/// Of particles that are as near as particles of one surface never are, the first stays. Where two sheets
-/// meet at a sharp edge they may be nearer. If they look at each other, the surface goes on there.
-void RimSampler::thinOut()
+/// Whether two particles are as near as particles of one surface never are. Where two sheets meet at a sharp
+/// edge they may be nearer.
+bool RimSampler::isTooNear(int i, int j) const
 {
-  constexpr double sameSurface = 0.6;
   constexpr double sharpEdge = 0.3;
   constexpr double sameSheet = 0.5;
-  std::vector<glm::dvec3> positions;
-  std::vector<float> spacings;
-  for (const RimParticle& rim : this->Result.particles)
-  {
-    positions.push_back(rim.patch.position);
-    spacings.push_back(rim.patch.spacing);
-  }
-  const SpacingGrid grid(positions, spacings, sameSurface, 0.5);
-  std::vector<RimParticle>& rims = this->Result.particles;
-  std::vector<char> kept(rims.size(), 1);
-  std::vector<char> seam(rims.size(), 0);
-  for (std::size_t i = 0; i < rims.size(); ++i)
+  const RimParticle& a = this->Result.particles[i];
+  const RimParticle& b = this->Result.particles[j];
+  const double turn = dot(a.particle.normal, b.particle.normal);
+  const double near = turn > sameSheet ? sameSurface : sharpEdge;
+  return turn > 0.0 && glm::distance(a.patch.position, b.patch.position) < near * a.patch.spacing;
+}
+
+/// Of particles that are too near to each other the first stays. If they look at each other, the surface goes
+/// on there.
+void RimSampler::thinOut(const ParallelFor& parallelFor)
+{
+  Buffer<RimParticle>& rims = this->Result.particles;
+  Buffer<glm::dvec3> positions(rims.size());
+  Buffer<float> spacings(rims.size());
+  forAll(parallelFor, rims.size(),
+    [&](std::size_t i)
+    {
+      positions[i] = rims[i].patch.position;
+      spacings[i] = rims[i].patch.spacing;
+    });
+  const SpacingGrid grid(positions, spacings, sameSurface, 0.5, parallelFor);
+  const auto visitEarlier = [&](int i, const auto& use)
   {
     grid.visit(positions[i], spacings[i],
       [&](int j)
       {
-        const bool earlier = j < static_cast<int>(i) && kept[j];
-        const double turn = dot(rims[i].particle.normal, rims[j].particle.normal);
-        const double near = turn > sameSheet ? sameSurface : sharpEdge;
-        if (earlier && turn > 0.0 && glm::distance(positions[i], positions[j]) < near * spacings[i])
+        if (j < i && this->isTooNear(i, j))
         {
-          kept[i] = 0;
-          seam[j] = seam[j] || dot(rims[i].outward, rims[j].outward) < -0.5;
+          use(j);
         }
       });
+  };
+  std::vector<char> kept(rims.size(), 1);
+  forAll(parallelFor, rims.size(),
+    [&](std::size_t i) { visitEarlier(static_cast<int>(i), [&](int) { kept[i] = 0; }); });
+  std::vector<char> seam(rims.size(), 0);
+  // The few that are near to another, one by one.
+  for (int i = 0; i < static_cast<int>(rims.size()); ++i)
+  {
+    if (!kept[i])
+    {
+      kept[i] = 1;
+      visitEarlier(i, [&](int j) { kept[i] = kept[i] && !kept[j]; });
+      visitEarlier(i,
+        [&](int j)
+        { seam[j] = seam[j] || (kept[j] && dot(rims[i].outward, rims[j].outward) < -0.5); });
+    }
   }
   for (std::size_t i = 0; i < rims.size(); ++i)
   {
@@ -386,7 +411,7 @@ RimCurves RimSampler::run(const ParallelFor& parallelFor)
     }
   }
   this->finish(parallelFor);
-  this->thinOut();
+  this->thinOut(parallelFor);
   this->Result.evaluations += this->Tracer.evaluations() + this->Walker.evaluations();
   return std::move(this->Result);
 }

@@ -24,7 +24,7 @@ struct RimParticle
 /// that fade, and beside elements that cover a part of a face.
 struct RimCurves
 {
-  std::vector<RimParticle> particles;
+  Buffer<RimParticle> particles;
   std::int64_t evaluations = 0;
 };
 

@@ -37,6 +37,16 @@ double distanceToSegment(const glm::dvec3& x, const glm::dvec3& a, const glm::dv
 bool meet(const std::array<glm::dvec3, 2>& a, const std::array<glm::dvec3, 2>& b)
 {
   constexpr double rounding = 1e-6;
+  const auto lieApart =
+    [](const std::array<glm::dvec3, 2>& before, const std::array<glm::dvec3, 2>& behind)
+  {
+    const glm::dvec3 gap = glm::min(behind[0], behind[1]) - glm::max(before[0], before[1]);
+    return glm::any(glm::greaterThan(gap, glm::dvec3(10.0 * rounding)));
+  };
+  if (lieApart(a, b) || lieApart(b, a))
+  {
+    return false; // boxes around them are apart, as most are
+  }
   const glm::dvec3 along = b[1] - b[0];
   const double length = glm::length(along);
   const glm::dvec3 normal = glm::cross(along, a[1] - a[0]);
