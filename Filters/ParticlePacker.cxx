@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <numeric>
 #include <set>
 #include <string>
 #include <utility>
@@ -81,6 +82,8 @@ private:
   hop::Interruptible& Work;
   vtkPolyData* Output;
   std::vector<ParticleRow> Rows;
+  /// Of each row; in the output.
+  vtkIdType* CellIds = nullptr;
   /// What writes rows begin to end - 1 of some array.
   std::vector<std::function<void(std::ptrdiff_t begin, std::ptrdiff_t end)>> Writers;
   std::vector<EvaluatedArray> Evaluated;
@@ -231,9 +234,9 @@ void Packer::addCellIds()
   vtkNew<vtkIdTypeArray> cells;
   cells->SetName("vtkOriginalCellIds");
   cells->SetNumberOfValues(this->rowCount());
-  vtkIdType* ids = cells->GetPointer(0);
+  this->CellIds = cells->GetPointer(0);
   this->fillWith(
-    [this, ids](std::ptrdiff_t i, const ParticleRow& row) { ids[i] = this->cellOf(row); });
+    [this](std::ptrdiff_t i, const ParticleRow& row) { this->CellIds[i] = this->cellOf(row); });
   this->Output->GetPointData()->AddArray(cells);
 }
 
@@ -293,11 +296,10 @@ void Packer::copyCellData(vtkIdType begin, vtkIdType end)
 {
   vtkNew<vtkIdList> cells;
   vtkNew<vtkIdList> rows;
-  for (vtkIdType i = begin; i < end; ++i)
-  {
-    cells->InsertNextId(this->cellOf(this->Rows[i]));
-    rows->InsertNextId(i);
-  }
+  cells->SetNumberOfIds(end - begin);
+  rows->SetNumberOfIds(end - begin);
+  std::copy(this->CellIds + begin, this->CellIds + end, cells->GetPointer(0));
+  std::iota(rows->GetPointer(0), rows->GetPointer(0) + (end - begin), begin);
   this->Output->GetCellData()->CopyData(this->Grid->GetCellData(), cells, rows);
 }
 

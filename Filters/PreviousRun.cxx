@@ -38,10 +38,10 @@ std::vector<hop::Location> PreviousRun::startOf(
 }
 
 void PreviousRun::remember(std::size_t index, const RunOrigin& origin, const hop::ElementMesh& mesh,
-  const hop::Distribution& distribution)
+  const hop::Distribution& distribution, const hop::ParallelFor& parallelFor)
 {
   this->Surfaces.resize(std::max(this->Surfaces.size(), index + 1));
   this->Surfaces[index] = distribution.report.aborted
     ? Surface{}
-    : Surface{ origin, hop::cellPlaces(mesh, distribution.particles) };
+    : Surface{ origin, hop::cellPlaces(mesh, distribution.particles, parallelFor) };
 }

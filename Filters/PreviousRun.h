@@ -39,7 +39,7 @@ public:
 
   /// Takes the place of what was known of that isosurface; nothing is kept of an aborted run.
   void remember(std::size_t index, const RunOrigin& origin, const hop::ElementMesh& mesh,
-    const hop::Distribution& distribution);
+    const hop::Distribution& distribution, const hop::ParallelFor& parallelFor);
 
   void forget() { this->Surfaces.clear(); }
 
@@ -47,7 +47,7 @@ private:
   struct Surface
   {
     RunOrigin origin;
-    std::vector<hop::CellPlace> places;
+    hop::Buffer<hop::CellPlace> places;
   };
   std::vector<Surface> Surfaces;
 };

@@ -532,7 +532,7 @@ hop::Distribution vtkHighOrderParticleIsosurface::Distribute(const GridElements&
       parameters, monitor, smpParallelFor());
   if (continues)
   {
-    this->Previous->remember(number, origin, elements.mesh, distribution);
+    this->Previous->remember(number, origin, elements.mesh, distribution, smpParallelFor());
   }
   return distribution;
 }

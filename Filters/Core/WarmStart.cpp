@@ -5,22 +5,25 @@
 namespace hop
 {
 
-std::vector<CellPlace> cellPlaces(const ElementMesh& mesh, const Buffer<Particle>& particles)
+Buffer<CellPlace> cellPlaces(
+  const ElementMesh& mesh, const Buffer<Particle>& particles, const ParallelFor& parallelFor)
 {
-  std::vector<CellPlace> places;
-  places.reserve(particles.size());
-  for (const Particle& particle : particles)
-  {
-    const bool onRim = particle.clips[0].exists() && particle.clips[0].distance == 0.0;
-    if (!onRim)
+  Buffer<CellPlace> places(particles.size());
+  forAll(parallelFor, particles.size(),
+    [&](std::size_t i)
     {
-      places.push_back({ mesh.elements[particle.location.element].cell, particle.location.u });
-    }
-  }
+      const Particle& particle = particles[i];
+      const bool onRim = particle.clips[0].exists() && particle.clips[0].distance == 0.0;
+      const std::int64_t cell = mesh.elements[particle.location.element].cell;
+      places[i] = { onRim ? -1 : cell, particle.location.u };
+    });
+  places.erase(std::remove_if(places.begin(), places.end(),
+                 [](const CellPlace& place) { return place.cell < 0; }),
+    places.end());
   return places;
 }
 
-std::vector<Location> findPlaces(const ElementMesh& mesh, const std::vector<CellPlace>& places)
+std::vector<Location> findPlaces(const ElementMesh& mesh, const Buffer<CellPlace>& places)
 {
   std::vector<Location> found;
   for (const CellPlace& place : places)

@@ -16,10 +16,11 @@ struct CellPlace
 };
 
 /// Where the particles of a run stood that moved: those on rims are placed anew.
-std::vector<CellPlace> cellPlaces(const ElementMesh& mesh, const Buffer<Particle>& particles);
+Buffer<CellPlace> cellPlaces(
+  const ElementMesh& mesh, const Buffer<Particle>& particles, const ParallelFor& parallelFor);
 
 /// Those of the places whose cells are elements of this mesh.
 /// \pre elements ascend by cell, as in the input
-std::vector<Location> findPlaces(const ElementMesh& mesh, const std::vector<CellPlace>& places);
+std::vector<Location> findPlaces(const ElementMesh& mesh, const Buffer<CellPlace>& places);
 
 } // namespace hop

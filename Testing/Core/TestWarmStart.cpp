@@ -40,7 +40,7 @@ Distribution distribute(const ElementMesh& mesh, double isovalue,
 
 std::vector<Location> placesOf(const ElementMesh& mesh, const Distribution& run)
 {
-  return findPlaces(mesh, cellPlaces(mesh, run.particles));
+  return findPlaces(mesh, cellPlaces(mesh, run.particles, {}));
 }
 
 /// What holds for every run, however it began.
