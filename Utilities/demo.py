@@ -3,7 +3,9 @@
     pvbatch demo.py PLUGIN [FILE.vtu|.pvtu] [OUT.png] [--array NAME] [--isovalue C ...] [--color NAME]
                     [--spacing S] [--density RHO] [--method NAME]
 
-Without --array the first scalar point array is taken, without --isovalue the middle of its range.
+Without --array the first scalar point array is taken, without --isovalue the middle of its range. Several
+isosurfaces are coloured by that array, a single one, unless told otherwise, by another array of the file or
+by its mean curvature.
 """
 
 import argparse
@@ -63,14 +65,24 @@ def read(path):
     return reader
 
 
+def solution_arrays(reader):
+    return {a.GetName(): a for a in reader.PointData.values() if not a.GetName().startswith(BOOKKEEPING)}
+
+
 def choose_array(reader, name):
     arrays = {a.GetName(): a for a in reader.PointData.values()}
     if name is None:
-        scalars = [n for n, a in arrays.items() if a.GetNumberOfComponents() == 1 and not n.startswith(BOOKKEEPING)]
-        name = next(iter(scalars), None)
+        name = next((n for n, a in solution_arrays(reader).items() if a.GetNumberOfComponents() == 1), None)
     if name not in arrays:
         raise SystemExit(f"error: no point array {name or 'with one component'}; there are: {', '.join(arrays)}")
     return arrays[name]
+
+
+def choose_color(reader, particles, array):
+    """On a single isosurface its own array is the same everywhere."""
+    if len(particles.Isosurfaces) > 1:
+        return array.GetName()
+    return next((name for name in solution_arrays(reader) if name != array.GetName()), "Mean_Curvature")
 
 
 def make_particles(reader, array, arguments):
@@ -150,7 +162,7 @@ def main():
     reader = read(arguments.file)
     array = choose_array(reader, arguments.array)
     particles, seconds = make_particles(reader, array, arguments)
-    draw(reader, particles, arguments.color or array.GetName(), arguments.output)
+    draw(reader, particles, arguments.color or choose_color(reader, particles, array), arguments.output)
     report(reader, particles, array, seconds, arguments.output)
 
 
