@@ -385,10 +385,12 @@ void RimSampler::thinOut(const ParallelFor& parallelFor)
     if (!kept[i])
     {
       kept[i] = 1;
-      visitEarlier(i, [&](int j) { kept[i] = kept[i] && !kept[j]; });
       visitEarlier(i,
         [&](int j)
-        { seam[j] = seam[j] || (kept[j] && dot(rims[i].outward, rims[j].outward) < -0.5); });
+        {
+          kept[i] = kept[i] && !kept[j];
+          seam[j] = seam[j] || (kept[j] && dot(rims[i].outward, rims[j].outward) < -0.5);
+        });
     }
   }
   for (std::size_t i = 0; i < rims.size(); ++i)
