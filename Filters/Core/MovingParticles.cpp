@@ -247,8 +247,7 @@ void MovingParticles::step(
                 accepts(this->Anchors[i], before, anchor, patch)) ||
             this->retry(i, this->stepTo(i, displacements[n]), anchor, patch, cost))
           {
-            patch.spacing =
-              this->Proxy.spacingAt(patch.position, patch.curvatureMagnitude(), before.spacing);
+            patch.spacing = this->Proxy.spacingAt(patch.position, patch.curvatureMagnitude());
             this->Anchors[i] = anchor;
             this->Patches[i] = patch;
           }

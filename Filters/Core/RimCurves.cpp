@@ -108,9 +108,9 @@ public:
 private:
   std::vector<std::vector<RimHint>> findHints(const ParallelFor& parallelFor) const;
   void follow(const RimHint& hint);
-  void sample(const RimTrace& trace, double nearby);
-  void sampleStretch(const std::vector<RimVertex>& vertices, bool withEnd, double nearby);
-  double spacingAt(const RimPoint& point, double nearby);
+  void sample(const RimTrace& trace);
+  void sampleStretch(const std::vector<RimVertex>& vertices, bool withEnd);
+  double spacingAt(const RimPoint& point);
   ReferencePoint between(const RimPoint& from, const RimPoint& to, double t) const;
   void finish(const ParallelFor& parallelFor);
   bool isTooNear(int i, int j) const;
@@ -126,7 +126,7 @@ private:
   RimCurves Result;
 };
 
-double RimSampler::spacingAt(const RimPoint& point, double nearby)
+double RimSampler::spacingAt(const RimPoint& point)
 {
   if (this->Law.angularDensity == 0.0)
   {
@@ -134,8 +134,7 @@ double RimSampler::spacingAt(const RimPoint& point, double nearby)
   }
   const Evaluated at = this->Walker.evaluateCurved(point.at.location);
   return this->Proxy.spacingAt(at.point.map.position.xyz,
-    static_cast<float>(curvature(at.point.gradient, at.hessian).magnitude),
-    static_cast<float>(nearby));
+    static_cast<float>(curvature(at.point.gradient, at.hessian).magnitude));
 }
 
 /// Those of each box.
@@ -177,11 +176,11 @@ void RimSampler::follow(const RimHint& hint)
     return;
   }
   const RimTrace trace = this->Tracer.trace(*start, chordPerSpacing * nearby);
-  this->sample(trace, nearby);
+  this->sample(trace);
 }
 
 /// Cuts a rim at its corners, and samples stretch by stretch.
-void RimSampler::sample(const RimTrace& trace, double nearby)
+void RimSampler::sample(const RimTrace& trace)
 {
   std::vector<RimVertex> vertices = trace.vertices;
   if (trace.closed)
@@ -201,7 +200,7 @@ void RimSampler::sample(const RimTrace& trace, double nearby)
     }
     const bool end = last + 1 == vertices.size();
     this->sampleStretch(
-      { vertices.begin() + first, vertices.begin() + last + 1 }, end && !trace.closed, nearby);
+      { vertices.begin() + first, vertices.begin() + last + 1 }, end && !trace.closed);
     first = last;
   }
 }
@@ -225,14 +224,15 @@ ReferencePoint RimSampler::between(const RimPoint& from, const RimPoint& to, dou
 }
 
 /// Particles at equal distances, in units of the spacing wanted, from the first vertex on.
-void RimSampler::sampleStretch(const std::vector<RimVertex>& vertices, bool withEnd, double nearby)
+void RimSampler::sampleStretch(const std::vector<RimVertex>& vertices, bool withEnd)
 {
   std::vector<double> sums{ 0.0 };
+  double spacing = 0.0;
   for (std::size_t v = 1; v < vertices.size(); ++v)
   {
-    nearby = this->spacingAt(vertices[v].arriving, nearby);
+    spacing = this->spacingAt(vertices[v].arriving);
     sums.push_back(
-      sums.back() + glm::distance(vertices[v - 1].position(), vertices[v].position()) / nearby);
+      sums.back() + glm::distance(vertices[v - 1].position(), vertices[v].position()) / spacing);
   }
   const auto count = std::max<std::int64_t>(1, std::llround(sums.back()));
   std::size_t v = 1;
@@ -250,12 +250,12 @@ void RimSampler::sampleStretch(const std::vector<RimVertex>& vertices, bool with
     if (from.at.location.element == to.at.location.element)
     {
       const ReferencePoint u = this->between(from, to, t);
-      this->Places.push_back({ { from.at.location.element, u }, from.face, nearby });
+      this->Places.push_back({ { from.at.location.element, u }, from.face, spacing });
     }
     else
     {
       const WorldVector step = t * (to.at.point.map.position - from.at.point.map.position);
-      this->Places.push_back({ this->Walker.move(from.at, step), from.face, nearby });
+      this->Places.push_back({ this->Walker.move(from.at, step), from.face, spacing });
     }
   }
 }
@@ -270,8 +270,7 @@ bool RimFinisher::finish(const RimPlace& place, RimParticle& rim)
     return false;
   }
   const FieldPoint& field = point->at.point;
-  rim.patch.spacing = this->Proxy.spacingAt(
-    rim.patch.position, rim.patch.curvatureMagnitude(), static_cast<float>(place.spacing));
+  rim.patch.spacing = this->Proxy.spacingAt(rim.patch.position, rim.patch.curvatureMagnitude());
   rim.patch.fixed = true;
   rim.pull = anchor.pull;
   const WorldVector normal = surfaceNormal(field.gradient);

@@ -40,6 +40,11 @@ public:
   template <class Use>
   void visitCoarser(const glm::dvec3& position, double spacing, const Use& use) const;
 
+  /// Calls use(j) for every point of the same level as `spacing` or a lower one that is within reach
+  /// times the largest spacing of its level of the position, and for some farther off.
+  template <class Use>
+  void visitFiner(const glm::dvec3& position, double spacing, const Use& use) const;
+
   /// The points of a cell, ascending.
   struct Points
   {
@@ -200,6 +205,16 @@ template <class Use>
 void SpacingGrid::visitCoarser(const glm::dvec3& position, double spacing, const Use& use) const
 {
   for (int level = this->levelOf(spacing); level < this->LevelCount; ++level)
+  {
+    const double radius = this->Reach * this->LargestSpacings[level];
+    this->visitLevel(level, position - radius, position + radius, use);
+  }
+}
+
+template <class Use>
+void SpacingGrid::visitFiner(const glm::dvec3& position, double spacing, const Use& use) const
+{
+  for (int level = 0; level <= this->levelOf(spacing) && level < this->LevelCount; ++level)
   {
     const double radius = this->Reach * this->LargestSpacings[level];
     this->visitLevel(level, position - radius, position + radius, use);

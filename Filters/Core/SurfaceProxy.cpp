@@ -62,7 +62,15 @@ SurfaceProxy::SurfaceProxy(const Isosurface& surface, const SpacingLaw& law,
   }
   if (law.angularDensity > 0.0)
   {
-    this->gradeSpacings({});
+    for (const Sample& sample : this->Samples)
+    {
+      if (sample.found)
+      {
+        this->Positions.push_back(sample.patch.position);
+        this->Spacings.push_back(sample.patch.spacing);
+      }
+    }
+    this->gradeSpacings(0);
   }
   this->findSmallestSpacing();
   this->sumWeights(parallelFor);
@@ -121,7 +129,13 @@ void SurfaceProxy::limitSpacings(
 {
   if (!limits.empty())
   {
-    this->gradeSpacings(limits);
+    const std::size_t first = this->Spacings.size();
+    for (const SpacingLimit& limit : limits)
+    {
+      this->Positions.push_back(limit.position);
+      this->Spacings.push_back(limit.spacing);
+    }
+    this->gradeSpacings(first);
     this->findSmallestSpacing();
     this->sumWeights(parallelFor);
   }
@@ -225,29 +239,13 @@ bool SurfaceProxy::samplePatiently(std::size_t b, std::int64_t& evaluations)
   return found && sample(at.location);
 }
 
-/// Dijkstra's method: from the smallest spacing on, each sample, and each limit, limits those around it.
-void SurfaceProxy::gradeSpacings(const std::vector<SpacingLimit>& limits)
+/// Dijkstra's method: from the smallest spacing on, each place limits those around it.
+/// \param first of the places that are new; those before are graded among themselves
+void SurfaceProxy::gradeSpacings(std::size_t first)
 {
-  this->Positions.clear();
-  this->Spacings.clear();
-  std::vector<int> sampleOf;
-  for (std::size_t b = 0; b < this->Samples.size(); ++b)
-  {
-    if (this->Samples[b].found)
-    {
-      sampleOf.push_back(static_cast<int>(b));
-      this->Positions.push_back(this->Samples[b].patch.position);
-      this->Spacings.push_back(this->Samples[b].patch.spacing);
-    }
-  }
-  for (const SpacingLimit& limit : limits)
-  {
-    this->Positions.push_back(limit.position);
-    this->Spacings.push_back(limit.spacing);
-  }
   using Entry = std::pair<float, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  for (std::size_t i = 0; i < this->Spacings.size(); ++i)
+  for (std::size_t i = first; i < this->Spacings.size(); ++i)
   {
     queue.emplace(this->Spacings[i], static_cast<int>(i));
   }
@@ -273,38 +271,29 @@ void SurfaceProxy::gradeSpacings(const std::vector<SpacingLimit>& limits)
         }
       });
   }
-  for (std::size_t i = 0; i < sampleOf.size(); ++i)
-  {
-    this->Samples[sampleOf[i]].patch.spacing = this->Spacings[i];
-  }
   this->Grid = std::make_unique<SpacingGrid>(this->Positions, this->Spacings, lookUpReach);
+  std::size_t place = 0;
+  for (Sample& sample : this->Samples)
+  {
+    if (sample.found)
+    {
+      sample.patch.spacing = this->Spacings[place++];
+    }
+  }
 }
 
-float SurfaceProxy::spacingAt(
-  const glm::dvec3& position, float curvatureMagnitude, float nearby) const
+float SurfaceProxy::spacingAt(const glm::dvec3& position, float curvatureMagnitude) const
 {
   auto spacing = static_cast<float>(this->Law.at(curvatureMagnitude));
   if (this->Grid)
   {
-    this->Grid->visit(position, nearby,
+    this->Grid->visitFiner(position, spacing,
       [&](int j)
       {
         spacing = std::min(spacing,
           static_cast<float>(
             this->Spacings[j] + GradationSlope * glm::distance(position, this->Positions[j])));
       });
-  }
-  return spacing;
-}
-
-float SurfaceProxy::spacingAt(const glm::dvec3& position, float curvatureMagnitude) const
-{
-  // Coarser samples lead to finer ones: those that are looked at have up to a factor of two less.
-  auto spacing = static_cast<float>(this->Law.at(curvatureMagnitude));
-  for (float coarser = 0.0f; this->Grid && spacing != coarser;)
-  {
-    coarser = spacing;
-    spacing = this->spacingAt(position, curvatureMagnitude, coarser);
   }
   return spacing;
 }
@@ -367,8 +356,7 @@ double SurfaceProxy::weigh(std::size_t which, std::vector<WeighedTriangle>& weig
     const glm::dvec3 position = sample.patch.position + middle.x * glm::dvec3(tangents[0]) +
       middle.y * glm::dvec3(tangents[1]) -
       0.5 * glm::dot(middle, slope) * glm::dvec3(sample.patch.normal);
-    const double h =
-      this->spacingAt(position, sample.patch.curvatureMagnitude(), sample.patch.spacing);
+    const double h = this->spacingAt(position, sample.patch.curvatureMagnitude());
     weighed.push_back({ t, stretch * footprint * 2.0 / (std::sqrt(3.0) * h * h) });
     sum += weighed.back().weight;
   }
@@ -444,7 +432,7 @@ bool SurfaceProxy::guess(const Seed& seed, Anchor& anchor, Patch& patch) const
   {
     return false;
   }
-  patch.spacing = this->spacingAt(patch.position, patch.curvatureMagnitude(), sample.patch.spacing);
+  patch.spacing = this->spacingAt(patch.position, patch.curvatureMagnitude());
   return true;
 }
 

@@ -69,9 +69,6 @@ public:
 
   /// The spacing that a particle wants: that of the law at its own curvature, or less near places
   /// that want less. Graded like the samples.
-  /// \param nearby a spacing found near the position before
-  float spacingAt(const glm::dvec3& position, float curvatureMagnitude, float nearby) const;
-  /// The same where nothing is known nearby.
   float spacingAt(const glm::dvec3& position, float curvatureMagnitude) const;
 
   const SpacingLaw& law() const { return this->Law; }
@@ -111,7 +108,7 @@ private:
   bool stepInBox(std::size_t box, Location& place) const;
   bool samplePatiently(std::size_t box, std::int64_t& evaluations);
   bool sampleAt(std::size_t box, const Location& place, const Jet& jet);
-  void gradeSpacings(const std::vector<SpacingLimit>& limits);
+  void gradeSpacings(std::size_t first);
   void findSmallestSpacing();
   void sumWeights(const ParallelFor& parallelFor);
   void seedBox(std::size_t box, std::int64_t first, std::int64_t last, double phase, double stride,
@@ -128,7 +125,7 @@ private:
   std::vector<double> Sums;
   std::int64_t Evaluations = 0;
   double SmallestSpacing = 0.0;
-  // For looking up spacings, where they vary.
+  // For looking up spacings, where they vary: those of samples, then limits.
   std::vector<glm::dvec3> Positions;
   std::vector<float> Spacings;
   std::unique_ptr<SpacingGrid> Grid;

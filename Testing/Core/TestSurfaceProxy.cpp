@@ -89,6 +89,30 @@ TEST_P(Proxy, LocatesPlacesNearSamplesOnly)
   EXPECT_GE(located, static_cast<int>(proxy.samples().size()) / 2);
 }
 
+TEST(SurfaceProxy, KnowsOfASmallSpacingHoweverLargeThoseAroundIt)
+{
+  MeshRecipe recipe;
+  recipe.cells = 4;
+  recipe.field = [](const glm::dvec3& x) { return x.z + 0.1; };
+  const ElementMesh mesh = makeMesh(recipe);
+  SurfaceProxy proxy(
+    { &mesh, 0.0, 1e-9 }, { spacing, 10.0 }, findSurfaceBoxes(mesh, 0.0, 6.0 * spacing, {}), {});
+  const double before = proxy.particleCount();
+  const glm::dvec3 first(0.13, 0.07, -0.1);
+  const glm::dvec3 second(-0.4, 0.3, -0.1);
+  constexpr float small = 0.1f * spacing;
+  proxy.limitSpacings({ { first, small } }, {});
+  proxy.limitSpacings({ { second, 2.0f * small } }, {});
+  EXPECT_GT(proxy.particleCount(), before);
+  for (double distance = 0.0; distance < 4.0 * small; distance += 0.1 * small)
+  {
+    const glm::dvec3 aside(distance, 0.0, 0.0);
+    const double graded = SurfaceProxy::GradationSlope * distance;
+    EXPECT_NEAR(proxy.spacingAt(first + aside, 0.0f), small + graded, 1e-6);
+    EXPECT_NEAR(proxy.spacingAt(second + aside, 0.0f), 2.0 * small + graded, 1e-6);
+  }
+}
+
 TEST(SampleComparison, KnowsSmallJumpsFromLargeOnes)
 {
   // z = 0 for x < 0; behind x = 0 the surface is that much higher.
