@@ -35,15 +35,14 @@ public:
   template <class Use>
   void visit(const glm::dvec3& position, double spacing, const Use& use) const;
 
-  /// Calls use(j) for every point of the same level as `spacing` or a higher one that is within reach
-  /// times its own spacing of the position, and for some farther off.
+  /// Calls use(j) for every point that may have to lower its spacing, as it exceeds `spacing` by more than
+  /// slope times its distance from the position and is within reach times its own spacing, and for others.
   template <class Use>
-  void visitCoarser(const glm::dvec3& position, double spacing, const Use& use) const;
+  void visitCoarser(const glm::dvec3& position, double spacing, double slope, const Use& use) const;
 
-  /// Calls use(j) for every point of the same level as `spacing` or a lower one that is within reach
-  /// times the largest spacing of its level of the position, and for some farther off.
-  template <class Use>
-  void visitFiner(const glm::dvec3& position, double spacing, const Use& use) const;
+  /// The least of `spacing` and, over all points within reach times their spacing of the position, of
+  /// their spacing and slope times their distance.
+  float graded(const glm::dvec3& position, float spacing, double slope) const;
 
   /// The points of a cell, ascending.
   struct Points
@@ -202,21 +201,13 @@ void SpacingGrid::visitBox(const glm::dvec3& lower, const glm::dvec3& upper, dou
 }
 
 template <class Use>
-void SpacingGrid::visitCoarser(const glm::dvec3& position, double spacing, const Use& use) const
+void SpacingGrid::visitCoarser(
+  const glm::dvec3& position, double spacing, double slope, const Use& use) const
 {
   for (int level = this->levelOf(spacing); level < this->LevelCount; ++level)
   {
-    const double radius = this->Reach * this->LargestSpacings[level];
-    this->visitLevel(level, position - radius, position + radius, use);
-  }
-}
-
-template <class Use>
-void SpacingGrid::visitFiner(const glm::dvec3& position, double spacing, const Use& use) const
-{
-  for (int level = 0; level <= this->levelOf(spacing) && level < this->LevelCount; ++level)
-  {
-    const double radius = this->Reach * this->LargestSpacings[level];
+    const double largest = this->LargestSpacings[level];
+    const double radius = std::min(this->Reach * largest, (largest - spacing) / slope);
     this->visitLevel(level, position - radius, position + radius, use);
   }
 }

@@ -259,7 +259,7 @@ void SurfaceProxy::gradeSpacings(std::size_t first)
     {
       continue;
     }
-    grid.visitCoarser(this->Positions[i], spacing,
+    grid.visitCoarser(this->Positions[i], spacing, GradationSlope,
       [&, h = spacing, from = i](int j)
       {
         const auto limit = static_cast<float>(
@@ -284,18 +284,8 @@ void SurfaceProxy::gradeSpacings(std::size_t first)
 
 float SurfaceProxy::spacingAt(const glm::dvec3& position, float curvatureMagnitude) const
 {
-  auto spacing = static_cast<float>(this->Law.at(curvatureMagnitude));
-  if (this->Grid)
-  {
-    this->Grid->visitFiner(position, spacing,
-      [&](int j)
-      {
-        spacing = std::min(spacing,
-          static_cast<float>(
-            this->Spacings[j] + GradationSlope * glm::distance(position, this->Positions[j])));
-      });
-  }
-  return spacing;
+  const auto spacing = static_cast<float>(this->Law.at(curvatureMagnitude));
+  return this->Grid ? this->Grid->graded(position, spacing, GradationSlope) : spacing;
 }
 
 void SurfaceProxy::sumWeights(const ParallelFor& parallelFor)
