@@ -6,7 +6,7 @@
  * point array F, or a component or the magnitude of one. Output: vtkPolyData (or a composite of the
  * input's kind) with one point and one vertex cell a particle. Each particle lies on the isosurface
  * F = c of the elements' true polynomials, not of linear pieces, and particles stand at an even spacing
- * in world space, closer where the surface bends if AngularDensity asks for it.
+ * in world space, closer where the surface bends, as far as AngularDensity asks for it.
  *
  * The blocks of a composite are one mesh: particles of neighbouring blocks see each other, and go to
  * the block of the cell in which they end. Blocks that have a cell in common, as several results on one
@@ -105,8 +105,8 @@ public:
   ///@{
   /**
    * How much denser particles stand where the surface bends (rho of the paper's eq. 6): the spacing
-   * becomes s / (1 + rho D s / 2 pi), with the curvature magnitude D. About the number of particles
-   * around a tube. 0 spreads them evenly. Range 0 to 100, default 0.
+   * becomes s / (1 + rho D s / 2 pi), with the curvature magnitude D, but s / (1 + rho) at least. About
+   * the number of particles around a thin tube. 0 spreads them evenly. Range 0 to 100, default 10.
    */
   vtkSetClampMacro(AngularDensity, double, 0.0, 100.0);
   vtkGetMacro(AngularDensity, double);
@@ -252,7 +252,7 @@ private:
 
   vtkNew<vtkContourValues> ContourValues;
   double Spacing = 0.0;
-  double AngularDensity = 0.0;
+  double AngularDensity = 10.0;
   double Tolerance = 1e-10;
   int Component = 0;
   int NodeSpacing = UNIFORM;

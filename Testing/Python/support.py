@@ -187,7 +187,7 @@ def evaluate_by_vtk(grid, particles, names):
 
 def nearest_neighbors(particles, candidates=10):
     """Distance of every particle to the nearest one of its own sheet (normals less than 90 degrees
-    apart), in units of the spacing that it wants; infinite where there is none."""
+    apart), in units of the harmonic mean of the spacings that both want; infinite where there is none."""
     points, normals, wanted = points_of(particles), array_of(particles, "Normals"), array_of(particles, "Radius")
     locator = vtkStaticPointLocator()
     locator.SetDataSet(particles)
@@ -199,17 +199,19 @@ def nearest_neighbors(particles, candidates=10):
         others = [j for j in map(found.GetId, range(found.GetNumberOfIds())) if j != i]
         same_sheet = [j for j in others if normals[i] @ normals[j] > 0]
         if same_sheet:
-            nearest[i] = np.linalg.norm(points[same_sheet] - point, axis=1).min() / wanted[i]
+            means = 2.0 / (1.0 / wanted[i] + 1.0 / wanted[same_sheet])
+            nearest[i] = (np.linalg.norm(points[same_sheet] - point, axis=1) / means).min()
     return nearest
 
 
-def distances_to(particles, points):
-    """Distance of each point to the particle nearest to it."""
+def distances_to(particles, points, unit=None):
+    """Distance of each point to the particle nearest to it, in units of an array of that particle if asked for."""
     locator = vtkStaticPointLocator()
     locator.SetDataSet(particles)
     locator.BuildLocator()
     nearest = [locator.FindClosestPoint(point) for point in points]
-    return np.linalg.norm(points_of(particles)[nearest] - points, axis=1)
+    distances = np.linalg.norm(points_of(particles)[nearest] - points, axis=1)
+    return distances / array_of(particles, unit)[nearest] if unit else distances
 
 
 def sample_surface(grid, name, isovalue, count, seed=1):

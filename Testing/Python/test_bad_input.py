@@ -185,7 +185,7 @@ def test_no_isovalue(good):
 
 @pytest.mark.parametrize("spacing", [0.0, -1.0])
 def test_a_spacing_that_is_not_positive_is_the_automatic_one(good, spacing):
-    particles = support.run_quietly(good, "F", 0.3, Spacing=spacing)
+    particles = support.run_quietly(good, "F", 0.3, Spacing=spacing, AngularDensity=0)
     expected = support.longest_side(good) / 100
     np.testing.assert_allclose(support.array_of(particles, "Radius"), expected)
 
@@ -261,7 +261,7 @@ def test_automatic_spacing_in_spite_of_coordinates_that_are_not_finite(bad):
     points = cell_points(grid, 4)
     points[7, 1] = bad
     move_points(grid, 4, points)
-    particles, messages = support.run(grid, "F", 0.3)
+    particles, messages = support.run(grid, "F", 0.3, AngularDensity=0)
     assert messages.errors == []
     assert particles.GetNumberOfPoints() > 100
     np.testing.assert_allclose(support.array_of(particles, "Radius"), longest / 100, rtol=0.1)

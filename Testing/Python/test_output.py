@@ -69,7 +69,7 @@ def test_own_arrays_have_their_names_types_and_components(channel):
 
 
 def test_arrays_hold_what_their_names_say(channel):
-    particles = support.run_quietly(channel, "pressure", [0.3, 0.6], Spacing=0.03)
+    particles = support.run_quietly(channel, "pressure", [0.3, 0.6], Spacing=0.03, AngularDensity=0)
     of = lambda name: support.array_of(particles, name)  # noqa: E731
     np.testing.assert_allclose(np.linalg.norm(of("Normals"), axis=1), 1, atol=1e-14)
     assert np.all(of("Radius") == 0.03)
@@ -141,7 +141,7 @@ def test_an_input_array_of_one_of_the_filters_names_gives_way(channel):
     grid = vtkUnstructuredGrid()
     grid.ShallowCopy(support.output_of(channel))
     support.add_point_array(grid, "Radius", np.full(grid.GetNumberOfPoints(), 99.0))
-    particles = support.run_quietly(grid, "pressure", 0.6, Spacing=0.04)
+    particles = support.run_quietly(grid, "pressure", 0.6, Spacing=0.04, AngularDensity=0)
     assert np.all(support.array_of(particles, "Radius") == 0.04)
 
 
@@ -172,9 +172,9 @@ def test_several_isovalues_are_the_single_ones_one_after_the_other(channel):
 
 
 def test_automatic_spacing_is_one_hundredth_of_the_longest_side(cylinder):
-    automatic = support.run_quietly(cylinder, "pressure", -0.5, Spacing=0)
+    automatic = support.run_quietly(cylinder, "pressure", -0.5, Spacing=0, AngularDensity=0)
     assert np.all(support.array_of(automatic, "Radius") == pytest.approx(13 / 100))
-    asked = support.run_quietly(cylinder, "pressure", -0.5, Spacing=13 / 100)
+    asked = support.run_quietly(cylinder, "pressure", -0.5, Spacing=13 / 100, AngularDensity=0)
     assert automatic.GetNumberOfPoints() == asked.GetNumberOfPoints()
 
 
@@ -183,6 +183,7 @@ def test_automatic_spacing_where_the_input_was_not_read_before(data):
     reader = simple.XMLUnstructuredGridReader(FileName=[data("mfem_cylinder_hex_prism_p3.vtu")])
     proxy = simple.HighOrderParticleIsosurface(Input=reader, ContourBy=["POINTS", "pressure"], Isosurfaces=[-0.5])
     assert proxy.Spacing == 0
+    proxy.AngularDensity = 0
     messages = support.Messages(proxy.GetClientSideObject())
     assert np.all(support.array_of(support.output_of(proxy), "Radius") == pytest.approx(13 / 100))
     assert messages.errors + messages.warnings == []
@@ -194,7 +195,8 @@ def test_the_panel_shows_the_automatic_spacing_of_an_input_that_was_read(cylinde
 
 def test_half_the_spacing_means_four_times_the_particles(channel):
     coarse, fine = (
-        support.run_quietly(channel, "pressure", 0.6, Spacing=h).GetNumberOfPoints() for h in (0.02, 0.01)
+        support.run_quietly(channel, "pressure", 0.6, Spacing=h, AngularDensity=0).GetNumberOfPoints()
+        for h in (0.02, 0.01)
     )
     # A little less: the rim only doubles.
     assert 3.6 <= fine / coarse <= 4.1
@@ -212,7 +214,7 @@ def test_default_array_and_isovalue_come_from_the_input(channel):
 @pytest.mark.parametrize("number", [37, 500, 1234])
 def test_number_of_particles_is_kept_exactly(data, number):
     reader = support.read(data("mfem_amr_hanging_hex_p3.vtu"))
-    particles = support.run_quietly(reader, "u", 0.0, NumberOfParticles=number)
+    particles = support.run_quietly(reader, "u", 0.0, NumberOfParticles=number, AngularDensity=0)
     assert particles.GetNumberOfPoints() == number
     # A sphere of radius 0.6: its area gives the spacing.
     expected = np.sqrt(4 * np.pi * 0.36 / number / (np.sqrt(3) / 2))
@@ -223,7 +225,7 @@ def test_number_of_particles_is_kept_exactly(data, number):
 
 def test_angular_density_makes_particles_denser_where_the_surface_bends(data):
     reader = support.read(data("mfem_hex1_p8.vtu"))
-    even = support.run_quietly(reader, "u", 0.2, Spacing=0.08)
+    even = support.run_quietly(reader, "u", 0.2, Spacing=0.08, AngularDensity=0)
     adapted = support.run_quietly(reader, "u", 0.2, Spacing=0.08, AngularDensity=7)
     assert adapted.GetNumberOfPoints() > 1.2 * even.GetNumberOfPoints()
     mean, gauss = (support.array_of(adapted, f"{kind}_Curvature") for kind in ("Mean", "Gauss"))
