@@ -135,8 +135,33 @@ bool RimTracer::goesOnAt(const FaceCrossing& crossing, double nearest)
     !this->Passer.endsAt(at, crossing.face);
 }
 
+/// Another face of its element that a place on a face lies on; -1 if there is none.
+int RimTracer::otherFace(const Location& place, int face) const
+{
+  const auto isOn = [&](int f)
+  { return faceMargin(faceOf(*this->Surface.mesh, place, f), place.u) < OnFace; };
+  const auto count =
+    static_cast<int>(facts(this->Surface.mesh->elements[place.element].domain).faces.size());
+  for (int f = 0; f < count && isOn(face); ++f)
+  {
+    if (f != face && isOn(f))
+    {
+      return f;
+    }
+  }
+  return -1;
+}
+
 std::optional<RimPoint> RimTracer::project(const Location& start, int face, double maximumTravel)
 {
+  // Newton's method in all directions would leave the edge of an element, where a corner of the rim may be.
+  if (const int other = this->otherFace(start, face); other >= 0)
+  {
+    if (const auto corner = this->projectAlongEdge(start, face, other, maximumTravel))
+    {
+      return RimPoint{ *corner, face };
+    }
+  }
   Evaluated at;
   if (!this->Walker.project(start, maximumTravel, at, true))
   {

@@ -138,6 +138,7 @@ private:
   std::optional<Evaluated> projectAlongEdge(
     const Location& start, int faceA, int faceB, double maximumTravel);
   std::optional<RimPoint> turnAroundEdge(const Evaluated& at, int wall, int face);
+  int otherFace(const Location& place, int face) const;
   Evaluated polished(Evaluated at, const ActiveFaces& walls);
   std::vector<std::int64_t> cornersOf(const Location& location, int face) const;
   int faceAtEdge(const Location& location, int entry, const std::vector<std::int64_t>& edge) const;
