@@ -283,18 +283,25 @@ double coverageRadius(const Buffer<Particle>& particles, const std::vector<glm::
     return probes.empty() ? 0.0 : infinity;
   }
   const PointGrid grid = gridOf(particles);
+  const double largest = std::max_element(particles.begin(), particles.end(),
+    [](const Particle& a, const Particle& b) {
+      return a.spacing < b.spacing;
+    })->spacing;
   double coverage = 0.0;
   for (const glm::dvec3& probe : probes)
   {
     std::vector<int> around;
-    for (double radius = particles.front().spacing; around.empty(); radius *= 2.0)
+    for (double radius = largest; around.empty(); radius *= 2.0)
     {
       around = grid.within(probe, radius);
     }
-    const auto distanceTo = [&](int i) { return glm::distance(particles[i].position.xyz, probe); };
-    const int nearest = *std::min_element(
-      around.begin(), around.end(), [&](int a, int b) { return distanceTo(a) < distanceTo(b); });
-    coverage = std::max(coverage, distanceTo(nearest) / particles[nearest].spacing);
+    double nearest = infinity;
+    for (const int i : around)
+    {
+      nearest =
+        std::min(nearest, glm::distance(particles[i].position.xyz, probe) / particles[i].spacing);
+    }
+    coverage = std::max(coverage, nearest);
   }
   return coverage;
 }

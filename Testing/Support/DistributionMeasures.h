@@ -57,9 +57,9 @@ struct Evenness
 /// All zero for fewer than two particles.
 Evenness measureEvenness(const Buffer<Particle>& particles);
 
-/// Largest distance from a probe on the surface to the nearest particle, whichever way that one is
-/// turned, in units of the nearest particle's spacing (1/sqrt(3) in hexagonal packing). Infinite
-/// without particles, 0 without probes.
+/// Largest distance from a probe on the surface to a particle, whichever way that one is turned, in units of
+/// the particle's spacing: of that to which it is least (1/sqrt(3) in hexagonal packing). Infinite without
+/// particles, 0 without probes.
 double coverageRadius(const Buffer<Particle>& particles, const std::vector<glm::dvec3>& probes);
 
 } // namespace hop::testing
