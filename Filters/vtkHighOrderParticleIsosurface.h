@@ -156,7 +156,7 @@ public:
   /**
    * How particles are distributed. FAST (default) seeds them everywhere as dense as wanted and relaxes
    * them on local quadratic approximations of the surface. CLASSIC is the paper's Gauss-Seidel
-   * relaxation with split and delete, which needs twenty to two hundred times as many evaluations.
+   * relaxation with split and delete, which needs forty to two hundred times as many evaluations.
    */
   vtkSetClampMacro(Method, int, CLASSIC, FAST);
   vtkGetMacro(Method, int);

@@ -53,6 +53,7 @@ struct RimHint
 struct RimPlace
 {
   Location location;
+  /// Of the element; -1 where it is yet to be found.
   int face = -1;
   /// A spacing wanted nearby.
   double spacing = 0.0;
@@ -255,7 +256,9 @@ void RimSampler::sampleStretch(const std::vector<RimVertex>& vertices, bool with
     else
     {
       const WorldVector step = t * (to.at.point.map.position - from.at.point.map.position);
-      this->Places.push_back({ this->Walker.move(from.at, step), from.face, spacing });
+      const Location place = this->Walker.move(from.at, step);
+      const bool stays = place.element == from.at.location.element;
+      this->Places.push_back({ place, stays ? from.face : -1, spacing });
     }
   }
 }

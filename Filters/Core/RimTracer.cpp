@@ -19,10 +19,18 @@ constexpr double fadingChord = 1.0 / 4.0;
 constexpr int mostStuck = 8;
 /// A chord passes a point that is nearer to it than this, in units of its length.
 constexpr double nearness = 0.2;
+/// What rounding leaves between a face and places on it that were located.
+constexpr double locatedOnFace = 1e-6;
 
 const Face& faceOf(const ElementMesh& mesh, const Location& location, int face)
 {
   return facts(mesh.elements[location.element].domain).faces[face];
+}
+
+/// Whether a place lies on a face of its element, to that accuracy in reference coordinates.
+bool isOnFace(const ElementMesh& mesh, const Location& location, int face, double accuracy)
+{
+  return faceMargin(faceOf(mesh, location, face), location.u) < accuracy;
 }
 
 double distanceToSegment(const glm::dvec3& x, const glm::dvec3& a, const glm::dvec3& b)
@@ -106,7 +114,7 @@ int RimTracer::wallOf(const Location& location, int preferred) const
   const auto onWall = [&](int f)
   {
     return this->Surface.mayEnd(location.element, f) &&
-      faceMargin(faceOf(*this->Surface.mesh, location, f), location.u) < OnFace;
+      isOnFace(*this->Surface.mesh, location, f, OnFace);
   };
   if (preferred >= 0 && onWall(preferred))
   {
@@ -135,29 +143,15 @@ bool RimTracer::goesOnAt(const FaceCrossing& crossing, double nearest)
     !this->Passer.endsAt(at, crossing.face);
 }
 
-/// Another face of its element that a place on a face lies on; -1 if there is none.
-int RimTracer::otherFace(const Location& place, int face) const
-{
-  const auto isOn = [&](int f)
-  { return faceMargin(faceOf(*this->Surface.mesh, place, f), place.u) < OnFace; };
-  const auto count =
-    static_cast<int>(facts(this->Surface.mesh->elements[place.element].domain).faces.size());
-  for (int f = 0; f < count && isOn(face); ++f)
-  {
-    if (f != face && isOn(f))
-    {
-      return f;
-    }
-  }
-  return -1;
-}
-
 std::optional<RimPoint> RimTracer::project(const Location& start, int face, double maximumTravel)
 {
   // Newton's method in all directions would leave the edge of an element, where a corner of the rim may be.
-  if (const int other = this->otherFace(start, face); other >= 0)
+  if (face >= 0 && isOnFace(*this->Surface.mesh, start, face, OnFace))
   {
-    if (const auto corner = this->projectAlongEdge(start, face, other, maximumTravel))
+    const int other = this->otherFaceAt(start, face, OnFace);
+    const auto corner =
+      other >= 0 ? this->projectAlongEdge(start, face, other, maximumTravel) : std::nullopt;
+    if (corner)
     {
       return RimPoint{ *corner, face };
     }
@@ -294,16 +288,14 @@ int RimTracer::faceAtEdge(
   return -1;
 }
 
-/// The other face of an element on which a place lies, to what rounding leaves of places that were
-/// located; -1 if there is none.
-int RimTracer::faceAtPlace(const Location& location, int entry) const
+/// Another face of an element than one of them on which a place lies; -1 if there is none.
+int RimTracer::otherFaceAt(const Location& location, int one, double accuracy) const
 {
-  constexpr double rounding = 1e-6;
   const auto count =
     static_cast<int>(facts(this->Surface.mesh->elements[location.element].domain).faces.size());
   for (int f = 0; f < count; ++f)
   {
-    if (f != entry && faceMargin(faceOf(*this->Surface.mesh, location, f), location.u) < rounding)
+    if (f != one && isOnFace(*this->Surface.mesh, location, f, accuracy))
     {
       return f;
     }
@@ -358,7 +350,8 @@ std::optional<RimPoint> RimTracer::turnAroundEdge(const Evaluated& at, int wall,
       location = crossFace(*this->Surface.mesh, location, face);
     }
     const bool joined = neighbor.element >= 0;
-    face = joined ? this->faceAtEdge(location, entry, edge) : this->faceAtPlace(location, entry);
+    face = joined ? this->faceAtEdge(location, entry, edge)
+                  : this->otherFaceAt(location, entry, locatedOnFace);
     if (face < 0)
     {
       return std::nullopt;

@@ -84,6 +84,7 @@ public:
   bool goesOnAt(const FaceCrossing& crossing, double nearest);
 
   /// Puts a place on a face at which the surface may end onto the surface, along the face.
+  /// \param face of the place's element; -1 if it is not known
   std::optional<RimPoint> project(const Location& start, int face, double maximumTravel);
 
   /// Whether the surface ends there.
@@ -138,11 +139,10 @@ private:
   std::optional<Evaluated> projectAlongEdge(
     const Location& start, int faceA, int faceB, double maximumTravel);
   std::optional<RimPoint> turnAroundEdge(const Evaluated& at, int wall, int face);
-  int otherFace(const Location& place, int face) const;
   Evaluated polished(Evaluated at, const ActiveFaces& walls);
   std::vector<std::int64_t> cornersOf(const Location& location, int face) const;
   int faceAtEdge(const Location& location, int entry, const std::vector<std::int64_t>& edge) const;
-  int faceAtPlace(const Location& location, int entry) const;
+  int otherFaceAt(const Location& location, int one, double accuracy) const;
   Location ontoFace(const Location& location, int face) const;
   int wallOf(const Location& location, int preferred) const;
   WorldVector tangent(const RimPoint& point) const;
