@@ -495,7 +495,9 @@ bool RimTracer::follow(
 RimTrace RimTracer::trace(const RimPoint& start, double step)
 {
   RimTrace result;
-  result.vertices.push_back({ start, start, false });
+  // On an edge of an element the rim may turn; how it comes there is not known yet.
+  const bool isOnEdge = this->otherFaceAt(start.at.location, start.face, OnFace) >= 0;
+  result.vertices.push_back({ start, start, isOnEdge });
   result.closed = this->follow(start, step, 1.0, result.vertices);
   if (!result.closed)
   {

@@ -15,8 +15,7 @@ namespace
 {
 
 constexpr double spacing = 0.1;
-/// A rim may end so much before a corner of a few degrees, whose particle then is one too many.
-constexpr double cutOff = 0.3 * spacing;
+constexpr double tolerance = 1e-6 * spacing;
 const glm::dvec3 middle(0.1, -0.13, 0.07);
 constexpr double radius = 1.3;
 /// Of a second sphere, which the field of one half of a mesh belongs to.
@@ -83,7 +82,7 @@ TEST_P(RimCorners, HoldParticlesAtTheEdgesOfTheDomain)
         for (const glm::dvec3& corner : crossings(place, axis, radius))
         {
           ++corners;
-          EXPECT_LE(distanceTo(particles, corner), cutOff);
+          EXPECT_LE(distanceTo(particles, corner), tolerance);
         }
       }
     }
@@ -114,7 +113,7 @@ TEST_P(RimCorners, HoldParticlesWhereAJumpMeetsTheBoundary)
         for (const glm::dvec3& corner : crossings(place, axis, r))
         {
           ++corners;
-          EXPECT_LE(distanceTo(particles, corner), cutOff) << r;
+          EXPECT_LE(distanceTo(particles, corner), tolerance) << r;
         }
       }
     }
