@@ -133,7 +133,9 @@ private:
   void coverBoxes();
   void relax(MovingParticles& moving, int sweeps, const Balance& balance, const Section& section);
   void relaxAll(int sweeps, bool isLast, const Section& section);
-  void repair(bool isFurther);
+  Buffer<Patch> findCrowded(const Buffer<Patch>& patches, std::size_t count) const;
+  void repair();
+  Buffer<Patch> repairAround(const Buffer<Patch>& crowded);
   void finish();
 
   Isosurface Surface;
@@ -428,22 +430,39 @@ void FastSystem::relaxAll(int sweeps, bool isLast, const Section& section)
   }
 }
 
-/// Particles around pairs that stand too near to each other go on alone, those farther off stay.
-void FastSystem::repair(bool isFurther)
+/// Those of the first `count` patches that stand too near to another one.
+Buffer<Patch> FastSystem::findCrowded(const Buffer<Patch>& patches, std::size_t count) const
+{
+  return marked(patches, opposite(haveDistance(patches, count, smallestSpacing, this->Parallel)));
+}
+
+/// Mends places where particles stand too near to each other, and what is left of them as long as that may
+/// be mended.
+void FastSystem::repair()
+{
+  Buffer<Patch> crowded = this->findCrowded(this->Moving->patches(), this->Moving->count());
+  for (int n = 0; n <= furtherRepairs && !crowded.empty(); ++n)
+  {
+    const double share =
+      static_cast<double>(crowded.size()) / static_cast<double>(this->Moving->count());
+    if (n > 0 && share > fewDefects)
+    {
+      break;
+    }
+    crowded = this->repairAround(crowded);
+  }
+}
+
+/// Particles around some go on alone, those farther off stay.
+/// \return those that stand too near to each other now
+Buffer<Patch> FastSystem::repairAround(const Buffer<Patch>& crowded)
 {
   const Buffer<Patch>& patches = this->Moving->patches();
   const std::size_t count = this->Moving->count();
-  const Buffer<Patch> tooNear =
-    marked(patches, opposite(haveDistance(patches, count, smallestSpacing, this->Parallel)));
-  const double share = static_cast<double>(tooNear.size()) / static_cast<double>(count);
-  if (tooNear.empty() || (isFurther && share > fewDefects))
-  {
-    return;
-  }
   const std::vector<char> staying =
-    keepDistance(patches, count, tooNear, repairReach, this->Parallel);
+    keepDistance(patches, count, crowded, repairReach, this->Parallel);
   const std::vector<char> outOfSight =
-    keepDistance(patches, patches.size(), tooNear, 2.0 * repairReach, this->Parallel);
+    keepDistance(patches, patches.size(), crowded, 2.0 * repairReach, this->Parallel);
   Buffer<Patch> around;
   for (std::size_t i = 0; i < patches.size(); ++i)
   {
@@ -465,6 +484,7 @@ void FastSystem::repair(bool isFurther)
   this->Moving->keep(staying);
   this->Moving->add(part.anchors(), marked(part.patches(), std::vector<char>(part.count(), 1)));
   this->Evaluations += part.evaluations();
+  return this->findCrowded(part.patches(), part.count());
 }
 
 /// Boxes on whose piece of surface no particle stands get one. Those added cover others in turn.
@@ -558,10 +578,7 @@ void FastSystem::make()
       this->relaxAll(rounds[n], n + 1 == rounds.size(), round);
       this->reach(round.end);
     }
-    for (int n = 0; n <= furtherRepairs; ++n)
-    {
-      this->repair(n > 0);
-    }
+    this->repair();
     if (!this->countIsGiven())
     {
       // Beside another sheet the last particle of a small component may have been taken for one too many.

@@ -73,9 +73,11 @@ Items marked(const Items& items, const std::vector<char>& marks)
 template <class T>
 void permute(Buffer<T>& items, const std::vector<int>& order, const ParallelFor& parallelFor)
 {
-  Buffer<T> before(order.size());
-  forAll(parallelFor, order.size(), [&](std::size_t n) { before[n] = items[n]; });
-  forAll(parallelFor, order.size(), [&](std::size_t n) { items[n] = before[order[n]]; });
+  Buffer<T> permuted(items.size());
+  forAll(parallelFor, order.size(), [&](std::size_t n) { permuted[n] = items[order[n]]; });
+  const auto rest = static_cast<std::ptrdiff_t>(order.size());
+  std::copy(items.begin() + rest, items.end(), permuted.begin() + rest);
+  items.swap(permuted);
 }
 
 } // namespace hop

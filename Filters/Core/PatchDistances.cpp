@@ -54,20 +54,24 @@ public:
   Crowd(const Buffer<Patch>& patches, double distance, const ParallelFor& parallelFor)
     : Patches(patches)
     , Distance(distance)
-    , Positions(positionsOf(patches, parallelFor))
-    , Spacings(spacingsOf(patches, parallelFor))
-    , Grid(Positions, Spacings, distance, cellsPerReach, parallelFor)
+    , Points(patches, parallelFor)
+    , Grid(Points.positions, Points.spacings, distance, cellsPerReach, parallelFor)
   {
   }
 
   template <class Use>
   void visitNear(std::size_t i, const Use& use) const
   {
-    this->Grid.visit(this->Positions[i], this->Spacings[i],
+    const Buffer<glm::dvec3>& positions = this->Points.positions;
+    const Buffer<float>& spacings = this->Points.spacings;
+    this->Grid.visit(positions[i], spacings[i],
       [&](int j)
       {
-        const double nearest = this->Distance * std::min(this->Spacings[i], this->Spacings[j]);
-        if (static_cast<std::size_t>(j) != i && isNear(this->Patches[i], this->Patches[j], nearest))
+        const double nearest = this->Distance * std::min(spacings[i], spacings[j]);
+        const glm::dvec3 apart = positions[j] - positions[i];
+        // Few come that far: patches are large.
+        if (glm::dot(apart, apart) < nearest * nearest && static_cast<std::size_t>(j) != i &&
+          glm::dot(this->Patches[i].normal, this->Patches[j].normal) > 0.0f)
         {
           use(j);
         }
@@ -84,8 +88,7 @@ public:
 private:
   const Buffer<Patch>& Patches;
   double Distance;
-  Buffer<glm::dvec3> Positions;
-  Buffer<float> Spacings;
+  SpacedPoints Points;
   SpacingGrid Grid;
 };
 
@@ -94,9 +97,9 @@ private:
 std::vector<char> keepDistance(const Buffer<Patch>& patches, std::size_t count,
   const Buffer<Patch>& others, double distance, const ParallelFor& parallelFor)
 {
-  const Buffer<glm::dvec3> positions = positionsOf(others, parallelFor);
-  const Buffer<float> spacings = spacingsOf(others, parallelFor);
-  const SpacingGrid grid(positions, spacings, distance, cellsPerReachOfFew, parallelFor);
+  const SpacedPoints points(others, parallelFor);
+  const SpacingGrid grid(
+    points.positions, points.spacings, distance, cellsPerReachOfFew, parallelFor);
   return testAll(count, parallelFor,
     [&](std::size_t i)
     {
@@ -139,9 +142,8 @@ std::vector<char> standApart(
 std::vector<char> findLonely(const std::vector<SurfaceProxy::Sample>& samples,
   const Buffer<Patch>& patches, const ParallelFor& parallelFor)
 {
-  const Buffer<glm::dvec3> positions = positionsOf(patches, parallelFor);
-  const Buffer<float> spacings = spacingsOf(patches, parallelFor);
-  const SpacingGrid grid(positions, spacings, 1.0, cellsPerReach, parallelFor);
+  const SpacedPoints points(patches, parallelFor);
+  const SpacingGrid grid(points.positions, points.spacings, 1.0, cellsPerReach, parallelFor);
   return testAll(samples.size(), parallelFor,
     [&](std::size_t b)
     {

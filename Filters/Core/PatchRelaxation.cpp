@@ -136,8 +136,8 @@ public:
   SweepSystem(const Buffer<Patch>& patches, const ParallelFor& parallelFor)
     : Patches(patches)
     , Parallel(parallelFor)
-    , Positions(positionsOf(patches, parallelFor))
-    , Lists(Positions, spacingsOf(patches, parallelFor),
+    , Points(patches, parallelFor)
+    , Lists(Points.positions, Points.spacings,
         (1.0 + listSlack * HexagonalDistance) / HexagonalDistance, parallelFor)
   {
     this->makeSeen();
@@ -189,7 +189,7 @@ private:
 
   const Buffer<Patch>& Patches;
   const ParallelFor& Parallel;
-  Buffer<glm::dvec3> Positions;
+  SpacedPoints Points;
   SeenLists Lists;
   glm::dvec3 Center{ 0.0 };
   /// One a particle, and one beyond the sight of all that stands in for neighbours missing in a block.
@@ -221,14 +221,14 @@ void SweepSystem::runStages(int first, int last)
 
 void SweepSystem::makeSeen()
 {
-  const Bounds bounds = boundsOf(this->Positions, this->Parallel);
+  const Bounds bounds = boundsOf(this->Points.positions, this->Parallel);
   this->Center = 0.5 * (bounds.lower + bounds.upper);
   this->SeenParticles = Buffer<Seen>(this->Patches.size() + 1);
   forAll(this->Parallel, this->Patches.size(),
     [&](std::size_t i)
     {
       const Patch& patch = this->Patches[i];
-      const glm::vec3 x(this->Positions[i] - this->Center);
+      const glm::vec3 x(this->Points.positions[i] - this->Center);
       this->SeenParticles[i] = { { x.x, x.y, x.z }, 1.0f / patch.spacing,
         { patch.normal.x, patch.normal.y, patch.normal.z }, 0.0f };
     });
@@ -427,18 +427,16 @@ float Patch::sink(const glm::vec2& t) const
   return 0.5f * (s[0] * t.x * t.x + 2.0f * s[1] * t.x * t.y + s[2] * t.y * t.y);
 }
 
-Buffer<glm::dvec3> positionsOf(const Buffer<Patch>& patches, const ParallelFor& parallelFor)
+SpacedPoints::SpacedPoints(const Buffer<Patch>& patches, const ParallelFor& parallelFor)
+  : positions(patches.size())
+  , spacings(patches.size())
 {
-  Buffer<glm::dvec3> positions(patches.size());
-  forAll(parallelFor, patches.size(), [&](std::size_t i) { positions[i] = patches[i].position; });
-  return positions;
-}
-
-Buffer<float> spacingsOf(const Buffer<Patch>& patches, const ParallelFor& parallelFor)
-{
-  Buffer<float> spacings(patches.size());
-  forAll(parallelFor, patches.size(), [&](std::size_t i) { spacings[i] = patches[i].spacing; });
-  return spacings;
+  forAll(parallelFor, patches.size(),
+    [&](std::size_t i)
+    {
+      this->positions[i] = patches[i].position;
+      this->spacings[i] = patches[i].spacing;
+    });
 }
 
 Relaxed relaxOnPatches(const Buffer<Patch>& patches, int sweeps, const Balance& balance,

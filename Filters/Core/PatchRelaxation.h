@@ -46,9 +46,14 @@ inline std::array<glm::vec3, 2> tangentsOf(const glm::vec3& normal)
   return { first, glm::cross(normal, first) };
 }
 
-/// As SpacingGrid wants them.
-Buffer<glm::dvec3> positionsOf(const Buffer<Patch>& patches, const ParallelFor& parallelFor);
-Buffer<float> spacingsOf(const Buffer<Patch>& patches, const ParallelFor& parallelFor);
+/// Where patches are and how far apart they are to stand, as SpacingGrid.h wants it.
+struct SpacedPoints
+{
+  SpacedPoints(const Buffer<Patch>& patches, const ParallelFor& parallelFor);
+
+  Buffer<glm::dvec3> positions;
+  Buffer<float> spacings;
+};
 
 /// What to do about the number of particles (Population.h).
 struct Balance

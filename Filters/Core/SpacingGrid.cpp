@@ -56,7 +56,7 @@ void SpacingGrid::chooseCellSizes(double cellsPerReach, const ParallelFor& paral
   }
 }
 
-/// Gives each point's cell a slot.
+/// Gives each point's cell a slot. No slot has points yet.
 void SpacingGrid::fillSlots(const ParallelFor& parallelFor)
 {
   this->SlotCount = 64;
@@ -65,8 +65,14 @@ void SpacingGrid::fillSlots(const ParallelFor& parallelFor)
     this->SlotCount *= 2;
   }
   this->Keys.reset(new std::atomic<std::uint64_t>[this->SlotCount]);
+  this->SlotStart = Buffer<int>(this->SlotCount + 1);
+  this->SlotStart.back() = 0;
   forAll(parallelFor, this->SlotCount,
-    [this](std::size_t slot) { this->Keys[slot].store(0, std::memory_order_relaxed); });
+    [this](std::size_t slot)
+    {
+      this->Keys[slot].store(0, std::memory_order_relaxed);
+      this->SlotStart[slot] = 0;
+    });
   this->SlotOfPoint = Buffer<int>(this->Positions.size());
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(this->Positions.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
@@ -87,8 +93,6 @@ void SpacingGrid::fillSlots(const ParallelFor& parallelFor)
 /// Counting sort by slot, from the last point to the first: slots start where they ended before.
 void SpacingGrid::sortPoints(const ParallelFor& parallelFor)
 {
-  this->SlotStart = Buffer<int>(this->SlotCount + 1);
-  forAll(parallelFor, this->SlotStart.size(), [this](std::size_t s) { this->SlotStart[s] = 0; });
   for (const int slot : this->SlotOfPoint)
   {
     ++this->SlotStart[slot];

@@ -110,7 +110,8 @@ TEST(Population, FillsAHole)
   Lattice lattice(1.0);
   const glm::dvec3 hole = lattice.patches[lattice.nearest(glm::dvec3(0.0))].position;
   lattice.patches.erase(lattice.patches.begin() + lattice.nearest(hole));
-  const SeenLists lists(positionsOf(lattice.patches, {}), spacingsOf(lattice.patches, {}), 2.0, {});
+  const SpacedPoints points(lattice.patches, {});
+  const SeenLists lists(points.positions, points.spacings, 2.0, {});
   std::vector<float> energies;
   for (const Patch& patch : lattice.patches)
   {
@@ -148,7 +149,8 @@ TEST(Population, TwoInOnePlaceTellNothingAboutOthers)
 {
   // The energy of all who see two in one place is out of all proportion.
   const Lattice lattice(1.0);
-  const SeenLists lists(positionsOf(lattice.patches, {}), spacingsOf(lattice.patches, {}), 2.0, {});
+  const SpacedPoints points(lattice.patches, {});
+  const SeenLists lists(points.positions, points.spacings, 2.0, {});
   std::vector<float> energies;
   for (const Patch& patch : lattice.patches)
   {
