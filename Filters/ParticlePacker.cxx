@@ -29,7 +29,7 @@ namespace
 {
 
 const std::set<std::string> ownArrays{ "Normals", "Radius", "Mean_Curvature", "Gauss_Curvature",
-  "Shape_Operator", "Residual", "Clip_Normal", "Clip_Distance", "Jump", "Isovalue",
+  "Shape_Operator", "Residual", "Clip_Normal", "Clip_Distance", "Clip_Angle", "Jump", "Isovalue",
   "vtkOriginalCellIds", "ParametricCoordinates" };
 
 class Packer
@@ -217,6 +217,12 @@ void Packer::addOwnArrays()
     {
       out[0] = row.particle->clips[0].distance;
       out[1] = row.particle->clips[1].distance;
+    });
+  this->addArray("Clip_Angle", 2,
+    [](const ParticleRow& row, double* out)
+    {
+      out[0] = glm::degrees(row.particle->clips[0].turn);
+      out[1] = glm::degrees(row.particle->clips[1].turn);
     });
   this->addArray("Jump", 1, [](const ParticleRow& row, double* out) { *out = row.particle->jump; });
   this->addArray("Isovalue", 1, [](const ParticleRow& row, double* out) { *out = row.isovalue; });

@@ -91,8 +91,8 @@ void vtkSurfaceSplatBuffers::Upload(
   this->HasClip = !particles.Clip.empty();
   this->HasShape = !particles.Shape.empty();
   this->HasColor = false;
-  const vtkIdType count = std::min<vtkIdType>(
-    particles.GetNumberOfParticles(), this->HasClip || this->HasShape ? limit / 2 : limit);
+  const GLint texels = this->HasClip ? 3 : this->HasShape ? 2 : 1; // a particle, at most
+  const vtkIdType count = std::min<vtkIdType>(particles.GetNumberOfParticles(), limit / texels);
   this->NumberOfParticles = count;
   this->Origin = particles.Origin;
   this->MeasureRadii(particles.CentreRadius);
@@ -106,7 +106,7 @@ void vtkSurfaceSplatBuffers::Upload(
   this->Normal.Upload(window, first(particles.Normal, 4 * count));
   if (this->HasClip)
   {
-    this->Clip.Upload(window, first(particles.Clip, 8 * count));
+    this->Clip.Upload(window, first(particles.Clip, 12 * count));
   }
   if (this->HasShape)
   {

@@ -95,7 +95,7 @@ private:
   std::array<double, 3> Origin = { 0., 0., 0. };
   vtkSurfaceSplatTexels CentreRadius;
   vtkSurfaceSplatTexels Normal;
-  vtkSurfaceSplatTexels Clip;  // two a particle; stays empty without clip planes
+  vtkSurfaceSplatTexels Clip;  // three a particle; stays empty without clip planes
   vtkSurfaceSplatTexels Shape; // two a particle; stays empty where the surface is nearly flat
   vtkSurfaceSplatTexels Color;
   bool HasClip = false;

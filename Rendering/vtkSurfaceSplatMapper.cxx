@@ -61,6 +61,7 @@ constexpr int Folds = vtkOpenGLPolyDataMapper::PrimitiveLines;
 constexpr const char* ClipNormalName = "Clip_Normal";
 constexpr const char* ShapeOperatorName = "Shape_Operator";
 constexpr const char* ClipDistanceName = "Clip_Distance";
+constexpr const char* ClipAngleName = "Clip_Angle";
 }
 
 struct vtkSurfaceSplatMapper::Internals
@@ -268,6 +269,7 @@ void vtkSurfaceSplatMapper::UploadParticles(vtkRenderer* renderer, vtkPolyData* 
   arrays.Normals = data->GetNormals();
   arrays.ClipNormals = data->GetArray(ClipNormalName);
   arrays.ClipDistances = data->GetArray(ClipDistanceName);
+  arrays.ClipAngles = data->GetArray(ClipAngleName);
   arrays.ShapeOperators = data->GetArray(ShapeOperatorName);
   arrays.CellColors = this->GetCellColors(input);
   vtkSurfaceSplatParticles particles = vtkSurfaceSplatParticles::FromPolyData(input, arrays);
@@ -690,7 +692,9 @@ void vtkSurfaceSplatMapper::ReplaceShaderPositionVC(
     const bool extra = this->LastBoundBO == &this->Primitives[Extra];
     const bool folds = this->LastBoundBO == &this->Primitives[Folds];
     Replace(fragment, "//VTK::PositionVC::Dec",
-      "#define SPLAT_LEAST_WEIGHT " + std::to_string(vtkSurfaceSplatPrimitives::LeastWeight) +
+      "#define SPLAT_LEAST_WEIGHT " +
+        std::to_string(
+          vtkSurfaceSplatPrimitives::GapShare * vtkSurfaceSplatPrimitives::LeastWeight) +
         "\n#define SPLAT_OUTLINE " +
         std::to_string(folds || (extra && !this->Internal->Translucent)) +
         "\n#define SPLAT_FOLDS " + std::to_string(folds) + "\n#define SPLAT_BACK_LAYER " +

@@ -22,7 +22,10 @@
  * Particles at the rim of a surface, or beside a kink of it, may carry up to two planes that cut
  * their disks off, so that rims end in a line and kinks stay sharp: point arrays `Clip_Normal` (3
  * components a plane: unit vector to the side that is cut off; zero: no plane) and `Clip_Distance` (1
- * component a plane: distance of the plane from the particle along that vector, >= 0, world units).
+ * component a plane: distance of the plane from the particle along that vector, >= 0, world units). A third
+ * array, `Clip_Angle` (1 component a plane: by how many degrees the surface turns there; 180 where it ends),
+ * lets splats fill gaps that others leave beyond planes: everywhere below 10 degrees, where the surface is
+ * almost smooth, up to an eighth of a radius at kinks, not at rims. Without it all planes are rims.
  *
  * Where the surface bends much over one splat, particles that carry its shape operator are drawn as
  * pieces of paraboloids instead of disks: point array `Shape_Operator` (6 components, the symmetric

@@ -113,10 +113,11 @@ bool IsStronglyBent(const vtkSurfaceSplatParticles& particles)
 }
 
 // Reads both planes of a particle; planes that are missing or not finite cut nothing off.
-void ReadClipPlanes(const vtkSurfaceSplatArrays& arrays, vtkIdType id, float planes[8])
+void ReadClipPlanes(const vtkSurfaceSplatArrays& arrays, vtkIdType id, float planes[12])
 {
   const int count = std::min(
     arrays.ClipNormals->GetNumberOfComponents() / 3, arrays.ClipDistances->GetNumberOfComponents());
+  const int angles = arrays.ClipAngles ? arrays.ClipAngles->GetNumberOfComponents() : 0;
   for (int plane = 0; plane < std::min(count, 2); ++plane)
   {
     double normal[3];
@@ -129,9 +130,22 @@ void ReadClipPlanes(const vtkSurfaceSplatArrays& arrays, vtkIdType id, float pla
     {
       std::copy_n(normal, 3, planes + 4 * plane);
       planes[4 * plane + 3] = static_cast<float>(distance);
+      planes[8 + plane] = plane < angles
+        ? vtkSurfaceSplatParticles::OverlapAt(arrays.ClipAngles->GetComponent(id, plane))
+        : 0.f;
     }
   }
 }
+}
+
+//------------------------------------------------------------------------------
+float vtkSurfaceSplatParticles::OverlapAt(double degrees)
+{
+  constexpr double smooth = 10.;
+  constexpr double atKink = 0.125;
+  constexpr float everywhere = 2.f; // disks end at 1, planes lie before them
+  const double cosine = std::cos(vtkMath::RadiansFromDegrees(degrees));
+  return degrees < smooth ? everywhere : cosine > 0. ? static_cast<float>(atKink * cosine) : 0.f;
 }
 
 //------------------------------------------------------------------------------
@@ -168,7 +182,7 @@ vtkSurfaceSplatParticles vtkSurfaceSplatParticles::FromPolyData(
   const bool shaped =
     arrays.ShapeOperators && arrays.Normals && arrays.ShapeOperators->GetNumberOfComponents() == 6;
   particles.Shape.assign(shaped ? 8 * count : 0, 0.f);
-  particles.Clip.assign(clipped ? 8 * count : 0, 0.f);
+  particles.Clip.assign(clipped ? 12 * count : 0, 0.f);
   std::atomic<vtkIdType> skipped(0);
   vtkSMPTools::For(0, count,
     [&](vtkIdType begin, vtkIdType end)
@@ -194,7 +208,7 @@ vtkSurfaceSplatParticles vtkSurfaceSplatParticles::FromPolyData(
         }
         if (clipped)
         {
-          ReadClipPlanes(arrays, id, &particles.Clip[8 * i]);
+          ReadClipPlanes(arrays, id, &particles.Clip[12 * i]);
         }
       }
     });

@@ -34,6 +34,12 @@ struct vtkSurfaceSplatArrays
    */
   vtkDataArray* ClipNormals = nullptr;
   vtkDataArray* ClipDistances = nullptr;
+  /**
+   * 1 or 2 angles by which the surface turns at these planes, degrees; 180 where it ends. The less it turns,
+   * the farther beyond the plane a splat fills gaps that others leave, see OverlapAt(). Without angles splats
+   * end at all planes.
+   */
+  vtkDataArray* ClipAngles = nullptr;
   vtkDataArray* ShapeOperators = nullptr; ///< dn/dx, 6 components: xx, yy, zz, xy, yz, xz
   vtkDataArray* CellColors = nullptr;     ///< see vtkSurfaceSplatMapper::SetCellColorArrayName()
 };
@@ -43,7 +49,11 @@ struct vtkSurfaceSplatParticles
   std::array<double, 3> Origin = { 0., 0., 0. };
   std::vector<float> CentreRadius; ///< 4 a particle: position - Origin, radius (world units)
   std::vector<float> Normal; ///< 4 a particle: unit normal, 1 if its cell is translucent else 0
-  std::vector<float> Clip;   ///< 8 a particle: normal and distance of two planes; empty without
+  /**
+   * 12 a particle: normal and distance of two planes; how far beyond either the splat fills gaps, in radii;
+   * 0, 0. Empty without planes.
+   */
+  std::vector<float> Clip;
   /**
    * 8 a particle: shape operator as xx, yy, zz, 0, xy, yz, xz, 0, fitted to the particles around
    * (vtkSurfaceSplatShapes.h). Empty if the surface bends so little over a splat that flat disks do as
@@ -61,6 +71,14 @@ struct vtkSurfaceSplatParticles
    * along it, if it is a line. 0 if it is a point.
    */
   static double EstimateDistance(const double bounds[6], vtkIdType count);
+
+  /**
+   * How far, in radii, a splat fills gaps beyond a plane at which the surface turns by so many degrees.
+   * Everywhere below 10 degrees, where it is almost smooth. At kinks a little, for particles on both sides do
+   * not know the line between them exactly; the less the sharper they are, and not at all from 90 degrees on,
+   * where splats would stick out.
+   */
+  static float OverlapAt(double degrees);
 
   /** Reads the particles of a polydata. */
   static vtkSurfaceSplatParticles FromPolyData(

@@ -51,6 +51,7 @@ std::string Definitions(const vtkSurfaceSplatDrawing& drawing, bool skipsHidden)
   return Define("SPLAT_POINTS", std::to_string(drawing.DrawsPoints())) +
     Define("SPLAT_LEAST_PIXELS", std::to_string(LeastPixels)) +
     Define("SPLAT_HAS_CLIP", std::to_string(drawing.Buffers->GetHasClip())) +
+    Define("SPLAT_GAP_SHARE", std::to_string(vtkSurfaceSplatPrimitives::GapShare)) +
     Define("SPLAT_CURVED", std::to_string(drawing.DrawsCurved())) +
     Define("SPLAT_SKIPS_HIDDEN", std::to_string(skipsHidden && drawing.DrawsPoints())) +
     Define("SPLAT_CLIPPING_PLANES", std::to_string(drawing.NumberOfClippingPlanes));

@@ -87,13 +87,18 @@ vtkVector3d Times(const float shape[8], const vtkVector3d& v)
     shape[6] * v[0] + shape[5] * v[1] + shape[2] * v[2]);
 }
 
-// Particles of a rim lie on each other's planes, more or less: `margin` is what does not count.
+// Whether the surface ends or has a kink before the place that is so far off. Particles of a rim lie on each
+// other's planes, more or less: `margin` is what does not count.
 bool IsBehindClip(
   const std::vector<float>& clip, vtkIdType particle, const vtkVector3d& offset, double margin)
 {
   const auto isBehind = [&](vtkIdType plane)
-  { return VectorAt(clip, plane).Dot(offset) > clip[plane + 3] + margin; };
-  return !clip.empty() && (isBehind(8 * particle) || isBehind(8 * particle + 4));
+  {
+    const vtkIdType first = 12 * particle + 4 * plane;
+    const bool isSmooth = clip[12 * particle + 8 + plane] >= 1.f;
+    return !isSmooth && VectorAt(clip, first).Dot(offset) > clip[first + 3] + margin;
+  };
+  return !clip.empty() && (isBehind(0) || isBehind(1));
 }
 
 /** The shape operator of one particle, in the plane of its disk and in units of 1 / radius. */

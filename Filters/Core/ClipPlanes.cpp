@@ -1,6 +1,7 @@
 #include "ClipPlanes.h"
 
 #include "ActiveFaces.h"
+#include "Energy.h"
 #include "SpacingGrid.h"
 
 #include <algorithm>
@@ -14,7 +15,14 @@ namespace
 /// Two planes whose normals are nearer than that are the same edge.
 constexpr double sameEdge = 0.8;
 
-/// Keeps the nearest plane, and the nearest that belongs to another edge.
+/// Rims and kinks come before faces at which the surface is almost smooth, near ones before others.
+bool comesBefore(const ClipPlane& a, const ClipPlane& b)
+{
+  const bool isSharp = a.turn > KinkAngle;
+  return isSharp != (b.turn > KinkAngle) ? isSharp : a.distance < b.distance;
+}
+
+/// Keeps the first plane, and the first that belongs to another edge.
 void offer(Particle& particle, const ClipPlane& plane)
 {
   if (plane.distance > ClipReach * particle.spacing)
@@ -22,15 +30,15 @@ void offer(Particle& particle, const ClipPlane& plane)
     return;
   }
   auto& [first, second] = particle.clips;
-  const auto isNearer = [&](const ClipPlane& other)
-  { return !other.exists() || plane.distance < other.distance; };
+  const auto isBefore = [&](const ClipPlane& other)
+  { return !other.exists() || comesBefore(plane, other); };
   const bool isFirstEdge = first.exists() && dot(first.normal, plane.normal) > sameEdge;
-  if (isNearer(first))
+  if (isBefore(first))
   {
     second = isFirstEdge ? second : first;
     first = plane;
   }
-  else if (!isFirstEdge && isNearer(second))
+  else if (!isFirstEdge && isBefore(second))
   {
     second = plane;
   }
@@ -73,23 +81,23 @@ void offerRims(const SpacingGrid& grid, const Buffer<RimParticle>& rims, Particl
     {
       const WorldVector& outward = rims[edge.rim].outward;
       const double distance = dot(rims[edge.rim].particle.position - particle.position, outward);
-      offer(particle, { outward, std::max(0.0, distance) });
+      offer(particle, { outward, std::max(0.0, distance), Pi });
     }
   }
 }
 
 /// Planes of faces at which the normal turns.
-class KinkPlanes
+class FacePlanes
 {
 public:
-  KinkPlanes(const Isosurface& surface, const std::vector<char>& kinks,
+  FacePlanes(const Isosurface& surface, const std::vector<float>& turns,
     const Buffer<Particle>& particles, const Buffer<RimParticle>& rims,
     const ParallelFor& parallelFor)
     : Mesh(*surface.mesh)
     , Locator(surface.locator)
-    , Kinks(kinks)
+    , Turns(turns)
   {
-    if (std::find(kinks.begin(), kinks.end(), 1) == kinks.end())
+    if (std::none_of(turns.begin(), turns.end(), [](float turn) { return turn > 0.0f; }))
     {
       return;
     }
@@ -117,7 +125,8 @@ public:
     const auto& faces = facts(this->Mesh.elements[location.element].domain).faces;
     for (int f = 0; this->Grid && f < static_cast<int>(faces.size()); ++f)
     {
-      if (!this->Kinks[faceSlot(location.element, f)])
+      const double turn = this->Turns[faceSlot(location.element, f)];
+      if (turn == 0.0)
       {
         continue;
       }
@@ -126,9 +135,10 @@ public:
       const double distance = std::max(0.0, faceMargin(faces[f], location.u) / slope);
       const WorldVector outward{ inward / -slope };
       if (slope > 0.0 && distance <= ClipReach * particle.spacing &&
-        this->goesOnBehind(particle, f, particle.position + distance * outward))
+        (turn <= KinkAngle ||
+          this->goesOnBehind(particle, f, particle.position + distance * outward)))
       {
-        offer(particle, { outward, distance });
+        offer(particle, { outward, distance, turn });
       }
     }
   }
@@ -158,7 +168,7 @@ private:
 
   const ElementMesh& Mesh;
   const FaceLocator* Locator;
-  const std::vector<char>& Kinks;
+  const std::vector<float>& Turns;
   Buffer<glm::dvec3> Positions;
   Buffer<float> Spacings;
   Buffer<int> Elements;
@@ -179,18 +189,18 @@ void markClipPlanes(const Isosurface& surface, const FaceJumps& jumps, Buffer<Ri
       spacings[i] = rims[i].patch.spacing;
     });
   const SpacingGrid grid(positions, spacings, ClipReach, 0.5, parallelFor);
-  const KinkPlanes kinks(surface, jumps.kinks, particles, rims, parallelFor);
+  const FacePlanes faces(surface, jumps.turns, particles, rims, parallelFor);
   forAll(parallelFor, particles.size(),
     [&](std::size_t i)
     {
       offerRims(grid, rims, particles[i]);
-      kinks.offerTo(particles[i], anchors[i].pull);
+      faces.offerTo(particles[i], anchors[i].pull);
     });
   forAll(parallelFor, rims.size(),
     [&](std::size_t i)
     {
       offerRims(grid, rims, rims[i].particle);
-      kinks.offerTo(rims[i].particle, rims[i].pull);
+      faces.offerTo(rims[i].particle, rims[i].pull);
     });
 }
 

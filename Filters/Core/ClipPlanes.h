@@ -8,9 +8,9 @@ namespace hop
 
 /// Tells particles near an edge of the surface where it ends: near a rim the plane through the nearest
 /// particle of the rim, normal to the surface's way out of the domain; near a face at which the normal
-/// turns, that face, if there are particles behind it to cover what is cut off. A splat that reaches
-/// beyond that plane is to be cut off there.
-/// In corners two planes meet.
+/// turns, that face; where it turns by more than KinkAngle only if there are particles behind it to cover
+/// what is cut off. A splat that reaches beyond a plane is to be cut off there, or, where the surface is almost
+/// smooth, to count only where no other does. In corners two planes meet.
 /// \param particles those that are not on rims; particles on rims are marked with them
 /// \param anchors where these particles lie, one for each
 void markClipPlanes(const Isosurface& surface, const FaceJumps& jumps, Buffer<RimParticle>& rims,

@@ -22,6 +22,10 @@ constexpr double smallJump = 0.5;
 /// Nor is it looked at where they miss each other by less than this, in units of the spacing, as far as
 /// samples tell.
 constexpr double clearMiss = 0.1;
+/// Smaller turns and steps (see FaceJumps::turns) are none: 1.5 degrees.
+constexpr double smallestTurn = 0.026;
+/// The largest angle that a step counts as.
+constexpr double largestStep = 0.99 * KinkAngle;
 
 /// The lattice of an element's face: from its first corner along the edges to the second and to the last.
 struct FaceLattice
@@ -112,7 +116,7 @@ private:
     std::size_t there = 0;
     /// Infinite where the sides agree.
     float gap = std::numeric_limits<float>::infinity();
-    bool turns = false;
+    float turn = 0.0f;
   };
 
   /// One walker stays on the face as if the surface ended there, the other passes it.
@@ -161,15 +165,16 @@ std::optional<JumpFinder::Finding> JumpFinder::look(
   const double largest = LargestJumpPerSpacing * spacing;
   Finding finding{ faceSlot(element, crossing.face),
     faceSlot(behind->at.location.element, behind->face) };
-  if (!(SurfaceWalker::missBetween(this->Mesh, here, crossing.face, *behind) <= largest))
+  const double miss = SurfaceWalker::missBetween(this->Mesh, here, crossing.face, *behind);
+  if (!(miss <= largest))
   {
     finding.gap = static_cast<float>(largest);
   }
   else
   {
-    const WorldVector& before = here.point.gradient;
-    const WorldVector& after = behind->at.point.gradient;
-    finding.turns = dot(before, after) < KinkCosine * length(after) * length(before);
+    const double turn = std::max(angleBetween(here.point.gradient, behind->at.point.gradient),
+      std::min(miss / spacing, largestStep));
+    finding.turn = turn >= smallestTurn ? static_cast<float>(turn) : 0.0f;
   }
   return finding;
 }
@@ -269,7 +274,7 @@ FaceJumps JumpFinder::run(const ParallelFor& parallelFor)
     });
   FaceJumps result;
   result.gaps.assign(this->Everywhere.size(), std::numeric_limits<float>::infinity());
-  result.kinks.assign(this->Everywhere.size(), 0);
+  result.turns.assign(this->Everywhere.size(), 0.0f);
   for (const std::vector<Finding>& findings : this->OfElement)
   {
     for (const Finding& finding : findings)
@@ -277,7 +282,7 @@ FaceJumps JumpFinder::run(const ParallelFor& parallelFor)
       for (const std::size_t slot : { finding.here, finding.there })
       {
         result.gaps[slot] = std::min(result.gaps[slot], finding.gap);
-        result.kinks[slot] = result.kinks[slot] || finding.turns;
+        result.turns[slot] = std::max(result.turns[slot], finding.turn);
       }
     }
   }

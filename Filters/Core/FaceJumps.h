@@ -11,8 +11,10 @@ struct FaceJumps
   /// As Isosurface::gaps: infinite at faces where no jump was seen, some part of a spacing at others
   /// and at those that the mesh does not join.
   std::vector<float> gaps;
-  /// MaximumFaces entries an element; nonzero: the normal turns at that face, on both sides of it.
-  std::vector<char> kinks;
+  /// MaximumFaces entries an element: the largest angle seen by which the normal turns at that face, on both
+  /// sides of it, radians; 0 where it hardly turns. A step between sides that count as one is an angle, too:
+  /// step / spacing, below KinkAngle; of sides that are parallel, small ones may be overlooked.
+  std::vector<float> turns;
   std::int64_t evaluations = 0;
 };
 
@@ -20,10 +22,10 @@ struct FaceJumps
 /// count as one.
 constexpr double LargestJumpPerSpacing = 0.4;
 
-/// Cosine of the angle between normals that makes a kink: 10 degrees.
-constexpr double KinkCosine = 0.98480775;
+/// Angle between normals that makes a kink, radians: 10 degrees.
+constexpr double KinkAngle = 0.17453293;
 
-/// Looks at the faces that the surface passes: for kinks at a few places, unless samples on both sides look
+/// Looks at the faces that the surface passes: for turns at a few places, unless samples on both sides look
 /// like one smooth sheet, for jumps at one place for every box that shows it, unless the coefficients of
 /// the two elements on the face differ by too little. Faces that the mesh does not join are left to be judged
 /// place by place.

@@ -21,7 +21,7 @@ public:
   KinkSampler(const Isosurface& surface, const SurfaceProxy& proxy, const FaceJumps& jumps)
     : Mesh(*surface.mesh)
     , Proxy(proxy)
-    , Kinks(jumps.kinks)
+    , Turns(jumps.turns)
     , Walker(surface)
   {
   }
@@ -36,7 +36,7 @@ private:
 
   const ElementMesh& Mesh;
   const SurfaceProxy& Proxy;
-  const std::vector<char>& Kinks;
+  const std::vector<float>& Turns;
   SurfaceWalker Walker;
 };
 
@@ -47,10 +47,9 @@ SpacingLimit KinkSampler::limitAt(const Location& place, int face)
   const auto behind = this->Walker.behind(here, face);
   const WorldVector& before = here.point.gradient;
   const WorldVector after = behind ? behind->at.point.gradient : before;
-  const double cosine = dot(before, after) / (length(before) * length(after));
-  const double turn = cosine < KinkCosine ? std::acos(std::max(-1.0, cosine)) : 0.0;
+  const double turn = angleBetween(before, after);
   return { here.point.map.position.xyz,
-    static_cast<float>(spacingAtKink(this->Proxy.law(), turn)) };
+    static_cast<float>(spacingAtKink(this->Proxy.law(), turn > KinkAngle ? turn : 0.0)) };
 }
 
 /// Places on the line between two crossings, which the surface follows as far as the box shows it.
@@ -78,7 +77,7 @@ void KinkSampler::addBox(std::size_t box, std::vector<SpacingLimit>& limits)
   {
     const int behind = this->Mesh.neighbor(element, face).element;
     // Joined faces are looked at from one side only.
-    return this->Kinks[faceSlot(element, face)] && (behind < 0 || element < behind);
+    return this->Turns[faceSlot(element, face)] > KinkAngle && (behind < 0 || element < behind);
   };
   // Those of one side of the box come in pairs: the surface enters the side and leaves it.
   std::optional<FaceCrossing> entered;

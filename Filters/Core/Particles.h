@@ -17,6 +17,8 @@ struct ClipPlane
   WorldVector normal;
   /// World units, >= 0.
   double distance = 0.0;
+  /// By which the surface turns there, radians, see FaceJumps::turns; pi where it ends.
+  double turn = 0.0;
 
   bool exists() const { return dot(this->normal, this->normal) > 0.0; }
 };
@@ -33,7 +35,7 @@ struct Particle
   double residual = 0.0;
   /// h, the distance to neighbours that this particle wants, world units.
   double spacing = 0.0;
-  /// The nearer first; in corners there are two.
+  /// In corners there are two. Rims and kinks first, then the nearer.
   std::array<ClipPlane, 2> clips;
   /// On a rim where the field jumps between elements: F - c on the other side. Zero elsewhere.
   double jump = 0.0;

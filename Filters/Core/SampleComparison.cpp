@@ -7,8 +7,8 @@ namespace hop
 namespace
 {
 
-/// Cosine of the largest angle between the normals of smooth sheets, 6 degrees: kinks turn more.
-constexpr double smoothCosine = 0.9945;
+/// Cosine of the largest angle between the normals of smooth sheets, 2 degrees.
+constexpr double smoothCosine = 0.9994;
 /// Smooth sheets miss each other by less than this, in units of the distance of the samples.
 constexpr double offSheet = 0.1;
 /// Samples tell about places up to that far off, in units of the spacing, and up to that turn.

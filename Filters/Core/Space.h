@@ -2,6 +2,8 @@
 
 #include <glm/glm.hpp>
 
+#include <cmath>
+
 namespace hop
 {
 
@@ -74,6 +76,13 @@ template <class Space>
 double length(const Vector<Space>& a)
 {
   return glm::length(a.xyz);
+}
+
+/// Radians, 0 to pi; zero if a vector is.
+template <class Space>
+double angleBetween(const Vector<Space>& a, const Vector<Space>& b)
+{
+  return std::atan2(glm::length(glm::cross(a.xyz, b.xyz)), glm::dot(a.xyz, b.xyz));
 }
 
 } // namespace hop

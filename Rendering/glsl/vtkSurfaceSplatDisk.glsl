@@ -8,7 +8,9 @@
 
 uniform samplerBuffer splatCentreRadius; // xyz: centre (MC), w: radius, 0 = draw nothing
 uniform samplerBuffer splatNormal;       // xyz: outward unit normal (MC), w: 1 if translucent, else 0
-uniform samplerBuffer splatClip; // xyz: unit normal of a plane (MC), w: distance; 2 texels a particle
+// 3 texels a particle: xyz: unit normal of a plane (MC), w: distance; the same of another; xy: overlaps, see
+// splatOverlaps()
+uniform samplerBuffer splatClip;
 uniform int splatHasClip;        // 0: there are no such planes
 uniform float splatRadiusScale;
 uniform int splatFacesViewer; // 1: the particles have no normals, their disks face the eye
@@ -57,8 +59,14 @@ vec3 splatClipLine(int particle, int plane, SplatDisk disk)
   {
     return vec3(0.0);
   }
-  vec4 clip = texelFetch(splatClip, 2 * particle + plane);
+  vec4 clip = texelFetch(splatClip, 3 * particle + plane);
   return vec3(dot(clip.xyz, disk.tangentMC), dot(clip.xyz, disk.bitangentMC), clip.w);
+}
+
+// How many radii beyond its clip planes a particle fills gaps that others leave.
+vec2 splatOverlaps(int particle)
+{
+  return splatHasClip == 0 ? vec2(0.0) : texelFetch(splatClip, 3 * particle + 2).xy;
 }
 
 // Corners of the equilateral triangle around the unit circle, counter-clockwise.

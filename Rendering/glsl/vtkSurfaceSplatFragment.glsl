@@ -1,6 +1,6 @@
 // What the fragment stages of the splat passes share. Inserted at //Splat::Fragment::Dec, behind
-// definitions of SPLAT_POINTS (splats are points: 0 or 1), SPLAT_HAS_CLIP (particles have clip planes: 0 or 1) and SPLAT_CLIPPING_PLANES (the
-// number of the mapper's).
+// definitions of SPLAT_POINTS (splats are points: 0 or 1), SPLAT_HAS_CLIP (particles have clip planes: 0 or
+// 1), SPLAT_GAP_SHARE and SPLAT_CLIPPING_PLANES (the number of the mapper's).
 
 #if SPLAT_POINTS
 flat in vec4 splatPixelToDisk;
@@ -28,6 +28,8 @@ in vec3 splatOffsetVC;
 in float splatDepthVC;
 #endif
 flat in vec3 splatClipLines[2];
+flat in vec2 splatBeyondClip;
+float splatShare = 1.0; // of the splat's weight that counts
 in vec3 splatPointMC; // of the disk
 vec3 splatPlaceMC;    // of the splat
 flat in vec3 splatNormalVC;
@@ -132,7 +134,9 @@ bool splatOutside()
   // Also where there is no such place.
   bool outside = !splatMeetRay() || !(dot(splatDiskCoord, splatDiskCoord) <= 1.0);
 #if SPLAT_HAS_CLIP
-  outside = outside || splatBehindClip(0) > 0.0 || splatBehindClip(1) > 0.0;
+  vec2 behind = vec2(splatBehindClip(0), splatBehindClip(1));
+  outside = outside || any(greaterThan(behind, splatBeyondClip));
+  splatShare = any(greaterThan(behind, vec2(0.0))) ? SPLAT_GAP_SHARE : 1.0;
 #endif
 #if SPLAT_CLIPPING_PLANES
   for (int i = 0; i < SPLAT_CLIPPING_PLANES; ++i)
@@ -153,5 +157,5 @@ bool splatAtRim()
 float splatWeight()
 {
   float gaussian = exp(-splatFalloff.x * dot(splatDiskCoord, splatDiskCoord));
-  return (gaussian - splatFalloff.y) / (1.0 - splatFalloff.y);
+  return splatShare * (gaussian - splatFalloff.y) / (1.0 - splatFalloff.y);
 }

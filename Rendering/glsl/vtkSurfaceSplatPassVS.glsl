@@ -37,6 +37,7 @@ out vec3 splatOffsetVC;  // from the centre of the disk
 out float splatDepthVC;  // z
 #endif
 flat out vec3 splatClipLines[2]; // see splatClipLine()
+flat out vec2 splatBeyondClip;   // how far beyond them the splat fills gaps (MC)
 out vec3 splatPointMC;           // for clipping planes
 flat out vec3 splatNormalVC;     // outward, unit if flat
 flat out float splatSeenFromSide;
@@ -56,7 +57,7 @@ mat3 splatShapeOf(int particle)
 #if SPLAT_CURVED
 float splatClipDepth(int particle, int plane, SplatDisk disk)
 {
-  return splatHasClip == 0 ? 0.0 : dot(texelFetch(splatClip, 2 * particle + plane).xyz, disk.normalMC);
+  return splatHasClip == 0 ? 0.0 : dot(texelFetch(splatClip, 3 * particle + plane).xyz, disk.normalMC);
 }
 #endif
 
@@ -90,6 +91,7 @@ void main()
   splatNormalVC = normalize(splatNormalMatrix * disk.normalMC);
   splatClipLines[0] = splatClipLine(splatParticle, 0, disk);
   splatClipLines[1] = splatClipLine(splatParticle, 1, disk);
+  splatBeyondClip = length(disk.tangentMC) * splatOverlaps(splatParticle);
 
   vec3 centreVC = (splatMCVC * vec4(disk.centreMC, 1.0)).xyz;
   mat3 rotateScale = mat3(splatMCVC);

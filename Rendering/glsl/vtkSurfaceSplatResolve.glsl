@@ -1,6 +1,6 @@
-// The resolve pass, inserted into VTK's fragment shader behind definitions of SPLAT_OUTLINE,
-// SPLAT_FOLDS (only with the former) and SPLAT_BACK_LAYER (0 or 1): what the sums say of the surface at a
-// pixel.
+// The resolve pass, inserted into VTK's fragment shader behind definitions of SPLAT_LEAST_WEIGHT (the least
+// that a splat adds), SPLAT_OUTLINE, SPLAT_FOLDS (only with the former) and SPLAT_BACK_LAYER (0 or 1): what
+// the sums say of the surface at a pixel.
 
 //Splat::Ray::Dec
 

@@ -43,8 +43,10 @@ void main()
   splatDiskCoord = splatVerticesAParticle == 1 ? vec2(0.0) : splatCorner[gl_VertexID % 3];
   vec4 vertexMC = vec4(disk.centreMC + splatDiskCoord.x * disk.tangentMC +
       splatDiskCoord.y * disk.bitangentMC, 1.0);
-  splatClipLines[0] = splatClipLine(splatParticle, 0, disk);
-  splatClipLines[1] = splatClipLine(splatParticle, 1, disk);
+  // Disks are not mixed: they go on over planes where the surface is almost smooth, and end at others.
+  vec2 overlaps = splatOverlaps(splatParticle);
+  splatClipLines[0] = overlaps.x > 1.0 ? vec3(0.0) : splatClipLine(splatParticle, 0, disk);
+  splatClipLines[1] = overlaps.y > 1.0 ? vec3(0.0) : splatClipLine(splatParticle, 1, disk);
   splatSeenFromSide = disk.seenFrom;
   splatNormalVC = disk.seenFrom * (normalMatrix * disk.normalMC);
 

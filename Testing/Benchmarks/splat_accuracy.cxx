@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <limits>
 #include <string>
 #include <vector>
@@ -113,6 +114,7 @@ int main(int argc, char* argv[])
     else if (argument == "--pictures" && i + 1 < argc)
     {
       pictures = argv[++i];
+      std::filesystem::create_directories(pictures);
     }
     else
     {

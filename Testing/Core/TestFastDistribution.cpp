@@ -355,39 +355,6 @@ TEST(FastDistribution, DoesNotDoubleWhereTheSidesAgree)
   EXPECT_GE(smallest(nearestSpacings(a.particles)), 0.75);
 }
 
-TEST(FastDistribution, ClipsAtKinks)
-{
-  // A roof: its ridge runs along faces of elements.
-  constexpr double spacing = 0.05;
-  const ElementMesh mesh = twoFields([](const glm::dvec3& x) { return x.z - 0.1 - 0.5 * x.x; },
-    [](const glm::dvec3& x) { return x.z - 0.1 + 0.5 * x.x; });
-  const Distribution result = distribute(mesh, withSpacing(spacing));
-  // Cut off is only what a particle on the other side covers.
-  const auto isCovered = [&](const glm::dvec3& x)
-  {
-    const glm::dvec3 foot(0.0, x.y, x.z);
-    return std::any_of(result.particles.begin(), result.particles.end(),
-      [&](const Particle& other) {
-        return other.position.xyz.x * x.x < 0.0 &&
-          glm::distance(other.position.xyz, foot) <= spacing;
-      });
-  };
-  int atRidge = 0;
-  for (const Particle& p : result.particles)
-  {
-    const glm::dvec3 x = p.position.xyz;
-    if (std::abs(x.x) > 0.8 * spacing || std::abs(x.y) > 1.0 - 2.0 * spacing || !isCovered(x))
-    {
-      continue;
-    }
-    ++atRidge;
-    EXPECT_NEAR(std::abs(p.clips[0].normal.xyz.x), 1.0, 1e-9);
-    EXPECT_NEAR(p.clips[0].distance, std::abs(x.x), 1e-9);
-    EXPECT_EQ(p.jump, 0.0);
-  }
-  EXPECT_GT(atRidge, 30);
-}
-
 TEST(FastDistribution, RefusesMoreParticlesThanTheLimit)
 {
   const ElementMesh mesh = meshOf(Domain::Hexahedron, 2, sphere({ 0, 0, 0 }, 0.6).field);

@@ -23,6 +23,7 @@ OWN_ARRAYS = {
     "Residual": ("vtkDoubleArray", 1),
     "Clip_Normal": ("vtkDoubleArray", 6),
     "Clip_Distance": ("vtkDoubleArray", 2),
+    "Clip_Angle": ("vtkDoubleArray", 2),
     "Jump": ("vtkDoubleArray", 1),
     "Isovalue": ("vtkDoubleArray", 1),
     "vtkOriginalCellIds": ("vtkIdTypeArray", 1),

@@ -81,30 +81,6 @@ void MakeParticles(SurfaceCase& surface, double spacing)
   surface.Particles = filter->GetOutput();
 }
 
-// Gives particles that reach over a plane the plane as theirs; `normalAt` is the unit vector to the
-// side of the plane that a particle does not belong to, `distanceTo` its distance.
-void AddClipPlanes(vtkPolyData* particles, const std::function<glm::dvec3(glm::dvec3)>& normalAt,
-  const std::function<double(glm::dvec3)>& distanceTo)
-{
-  vtkDataArray* radii = particles->GetPointData()->GetArray("Radius");
-  vtkNew<vtkDoubleArray> normals;
-  normals->SetName("Clip_Normal");
-  normals->SetNumberOfComponents(3);
-  vtkNew<vtkDoubleArray> distances;
-  distances->SetName("Clip_Distance");
-  for (vtkIdType i = 0; i < particles->GetNumberOfPoints(); ++i)
-  {
-    glm::dvec3 position;
-    particles->GetPoint(i, &position.x);
-    const double distance = distanceTo(position);
-    const glm::dvec3 normal = distance < radii->GetTuple1(i) ? normalAt(position) : glm::dvec3(0.);
-    normals->InsertNextTuple(&normal.x);
-    distances->InsertNextValue(std::max(distance, 0.));
-  }
-  particles->GetPointData()->AddArray(normals);
-  particles->GetPointData()->AddArray(distances);
-}
-
 SurfaceCase AnalyticCase(
   const std::string& name, int cells, int order, const hop::testing::Field& field, double spacing)
 {
@@ -142,29 +118,15 @@ SurfaceCase NamedFileCase(const std::string& name, double spacing)
     name.substr(first + 1, second - first - 1), std::stod(name.substr(second + 1)), spacing);
 }
 
-SurfaceCase RimCase(double spacing)
-{
-  SurfaceCase surface =
-    AnalyticCase("rim", 4, 2, hop::testing::sphere({ 0., 0., 0.7 }, 0.8).field, spacing);
-  AddClipPlanes(
-    surface.Particles, [](glm::dvec3) { return glm::dvec3(0., 0., 1.); },
-    [](glm::dvec3 x) { return 1. - x.z; });
-  return surface;
-}
-
 SurfaceCase KinkCase(double spacing)
 {
   const hop::testing::Field half = hop::testing::sphere({ 0.35, 0., 0. }, 0.6).field;
-  SurfaceCase surface = AnalyticCase(
+  return AnalyticCase(
     "kink", 4, 2,
     [&half](const glm::dvec3& x) {
       return half({ std::abs(x.x), x.y, x.z });
     },
     spacing);
-  AddClipPlanes(
-    surface.Particles, [](glm::dvec3 x) { return glm::dvec3(x.x < 0. ? 1. : -1., 0., 0.); },
-    [](glm::dvec3 x) { return std::abs(x.x); });
-  return surface;
 }
 }
 
@@ -180,7 +142,7 @@ SurfaceCase MakeSurfaceCase(const std::string& name, double spacing)
   }
   if (name == "rim")
   {
-    return RimCase(spacing);
+    return AnalyticCase(name, 4, 2, hop::testing::sphere({ 0., 0., 0.7 }, 0.8).field, spacing);
   }
   if (name == "kink")
   {

@@ -124,10 +124,16 @@ TEST(SplatShapes, DoNotBendAroundAnEdgeThatParticlesKnowOf)
   EXPECT_GT(BendOfMiddle(unaware), 0.5);
 
   vtkSurfaceSplatParticles aware = ParticlesOn(Edge());
-  aware.Clip.assign(8 * aware.GetNumberOfParticles(), 0.f);
-  aware.Clip[8 * Middle] = 1.f; // x > 0 is cut off
+  aware.Clip.assign(12 * aware.GetNumberOfParticles(), 0.f);
+  aware.Clip[12 * Middle] = 1.f; // x > 0 is cut off
+  vtkSurfaceSplatParticles filling = aware;
   vtkSurfaceSplatFitShapes(aware);
   EXPECT_NEAR(BendOfMiddle(aware), 0., 1e-5);
+
+  // Where the surface is almost smooth, fits go on over it.
+  filling.Clip[12 * Middle + 8] = vtkSurfaceSplatParticles::OverlapAt(5.);
+  vtkSurfaceSplatFitShapes(filling);
+  EXPECT_FLOAT_EQ(BendOfMiddle(filling), BendOfMiddle(unaware));
 }
 
 TEST(SplatShapes, DoNotSeeAnotherSheet)

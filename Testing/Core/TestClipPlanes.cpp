@@ -1,0 +1,129 @@
+#include "ClipPlanes.h"
+
+#include "FastDistribution.h"
+#include "TestMeshes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace hop::testing
+{
+namespace
+{
+
+constexpr double spacing = 0.05;
+
+/// A roof, z = 0.1 - slope |x|, on the right higher by a step: its ridge runs along faces of elements.
+Distribution distributeOnRoof(double slope, double step = 0.0)
+{
+  MeshRecipe left, right;
+  left.field = [=](const glm::dvec3& x) { return x.z - 0.1 - slope * x.x; };
+  right.field = [=](const glm::dvec3& x) { return x.z - 0.1 - step + slope * x.x; };
+  ElementMesh mesh;
+  appendBox(mesh, left, { -1, -1, -1 }, { 0, 1, 1 });
+  appendBox(mesh, right, { 0, -1, -1 }, { 1, 1, 1 });
+  findFaceNeighbors(mesh, 1e-9);
+  DistributionParameters parameters;
+  parameters.law = { spacing, 0.0 };
+  return distributeFast({ &mesh, 0.0, 1e-9 }, parameters, {}, {});
+}
+
+/// Those beside the ridge and far from walls.
+std::vector<Particle> besideRidge(const Distribution& distribution, double farthest)
+{
+  std::vector<Particle> found;
+  std::copy_if(distribution.particles.begin(), distribution.particles.end(),
+    std::back_inserter(found),
+    [=](const Particle& p)
+    {
+      return std::abs(p.position.xyz.x) <= farthest &&
+        std::abs(p.position.xyz.y) <= 1.0 - 2.0 * spacing;
+    });
+  return found;
+}
+
+TEST(ClipPlanes, AreAtKinksWhereAParticleBehindCoversWhatIsCutOff)
+{
+  const Distribution result = distributeOnRoof(0.5);
+  const auto isCovered = [&](const glm::dvec3& x)
+  {
+    const glm::dvec3 foot(0.0, x.y, x.z);
+    return std::any_of(result.particles.begin(), result.particles.end(),
+      [&](const Particle& other) {
+        return other.position.xyz.x * x.x < 0.0 &&
+          glm::distance(other.position.xyz, foot) <= spacing;
+      });
+  };
+  int atRidge = 0;
+  for (const Particle& p : besideRidge(result, 0.8 * spacing))
+  {
+    if (isCovered(p.position.xyz))
+    {
+      ++atRidge;
+      EXPECT_NEAR(std::abs(p.clips[0].normal.xyz.x), 1.0, 1e-9);
+      EXPECT_NEAR(p.clips[0].distance, std::abs(p.position.xyz.x), 1e-9);
+      EXPECT_NEAR(p.clips[0].turn, 2.0 * std::atan(0.5), 1e-6);
+      EXPECT_EQ(p.jump, 0.0);
+    }
+  }
+  EXPECT_GT(atRidge, 30);
+}
+
+/// Of a roof that turns by so many degrees, or makes a step of so many spacings.
+struct AlmostSmooth
+{
+  double degrees = 0.0;
+  double step = 0.0;
+  double expected = 0.0; ///< degrees; 0: no plane
+};
+
+class ClipPlanesWhere : public ::testing::TestWithParam<AlmostSmooth>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(ClipPlanes, ClipPlanesWhere,
+  ::testing::Values(AlmostSmooth{ 1.0, 0.0, 0.0 }, AlmostSmooth{ 3.0, 0.0, 3.0 },
+    AlmostSmooth{ 9.0, 0.0, 9.0 }, AlmostSmooth{ 0.0, 0.01, 0.0 },
+    AlmostSmooth{ 3.0, 0.15, glm::degrees(0.15) }, AlmostSmooth{ 0.0, 0.3, 9.9 }),
+  [](const auto& which) { return "Case" + std::to_string(which.index); });
+
+TEST_P(ClipPlanesWhere, TheSurfaceIsAlmostSmoothSayByHowMuchItTurns)
+{
+  const AlmostSmooth& wanted = this->GetParam();
+  const double slope = std::tan(glm::radians(0.5 * wanted.degrees));
+  const auto particles = besideRidge(distributeOnRoof(slope, wanted.step * spacing), spacing);
+  EXPECT_GT(particles.size(), 60u);
+  for (const Particle& p : particles)
+  {
+    ASSERT_EQ(p.clips[0].exists(), wanted.expected > 0.0);
+    EXPECT_NEAR(glm::degrees(p.clips[0].turn), wanted.expected, 0.01);
+    if (p.clips[0].exists())
+    {
+      EXPECT_NEAR(p.clips[0].distance, std::abs(p.position.xyz.x), 1e-6);
+    }
+  }
+}
+
+TEST(ClipPlanes, OfRimsComeFirstThoughOthersAreNearer)
+{
+  int both = 0;
+  for (const Particle& p : distributeOnRoof(std::tan(glm::radians(1.5))).particles)
+  {
+    const glm::dvec3 x = p.position.xyz;
+    const double toWall = 1.0 - std::abs(x.y);
+    if (std::abs(x.x) < toWall && toWall < spacing)
+    {
+      ++both;
+      EXPECT_EQ(p.clips[0].turn, Pi);
+      EXPECT_GT(std::abs(p.clips[0].normal.xyz.y), 0.99);
+      EXPECT_LT(p.clips[1].turn, KinkAngle);
+      EXPECT_GT(std::abs(p.clips[1].normal.xyz.x), 0.99);
+      EXPECT_LT(p.clips[1].distance, p.clips[0].distance);
+    }
+  }
+  EXPECT_GT(both, 0);
+}
+
+} // namespace
+} // namespace hop::testing

@@ -1,0 +1,176 @@
+// The planes that particles carry, where the surface ends or turns: what is cut off, and what fills gaps.
+#include "SplatScene.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkSurfaceSplatMapper.h"
+#include "vtkSurfaceSplatParticles.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace
+{
+// A point array; `values` tuple by tuple.
+void AddArray(
+  vtkPolyData* particles, const char* name, int components, const std::vector<double>& values)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  for (std::size_t first = 0; first < values.size(); first += components)
+  {
+    array->InsertNextTuple(&values[first]);
+  }
+  particles->GetPointData()->AddArray(array);
+}
+
+// Where a pixel lies in the plane z = 0, in the parallel view along z.
+glm::dvec3 PlaceOf(int x, int y)
+{
+  const double scale = 1.3 / (SplatScene::Size / 2);
+  return scale * (glm::dvec3(x + 0.5, y + 0.5, 0.) - glm::dvec3(128., 128., 0.));
+}
+
+// Of the pixels that a whole splat would draw, those are left for which `isKept` holds.
+void ExpectCut(const std::vector<double>& normals, const std::vector<double>& distances,
+  const std::function<bool(glm::dvec3)>& isKept)
+{
+  for (int mode : { vtkSurfaceSplatMapper::Splats, vtkSurfaceSplatMapper::Disks })
+  {
+    vtkSmartPointer<vtkPolyData> particle = Disks({ { 0., 0., 0. } }, { { 0., 0., 1. } }, 0.8);
+    SplatScene scene(particle);
+    scene.Mapper->SetMode(mode);
+    scene.LookFrom({ 0., 0., 1. }, true);
+    scene.Render();
+    std::vector<glm::ivec2> whole;
+    scene.ForEachDrawnPixel([&](int x, int y, glm::dvec3) { whole.emplace_back(x, y); });
+    ASSERT_GT(whole.size(), 10000u);
+    AddArray(particle, "Clip_Normal", static_cast<int>(normals.size()), normals);
+    AddArray(particle, "Clip_Distance", static_cast<int>(distances.size()), distances);
+    scene.Render();
+    for (const glm::ivec2& pixel : whole)
+    {
+      const glm::dvec3 place = PlaceOf(pixel.x, pixel.y);
+      ASSERT_EQ(scene.PositionAt(pixel.x, pixel.y).has_value(), isKept(place))
+        << "mode " << mode << ", at " << place.x << " " << place.y;
+    }
+  }
+}
+}
+
+TEST(SplatClip, APlaneCutsItsParticlesSplatInALine)
+{
+  ExpectCut({ 1., 0., 0. }, { 0.2 }, [](glm::dvec3 p) { return p.x < 0.2; });
+  ExpectCut({ 0.6, 0.8, 0. }, { 0. }, [](glm::dvec3 p) { return 0.6 * p.x + 0.8 * p.y < 0.; });
+}
+
+TEST(SplatClip, ASplatCanBeCutByTwoPlanes)
+{
+  ExpectCut({ 1., 0., 0., 0., -1., 0. }, { 0.2, 0.1 },
+    [](glm::dvec3 p) { return p.x < 0.2 && p.y > -0.1; });
+}
+
+TEST(SplatClip, PlanesWithoutDirectionOrNumberCutNothing)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  ExpectCut({ 0., 0., 0. }, { 0. }, [](glm::dvec3) { return true; });
+  ExpectCut({ nan, 0., 1. }, { 0. }, [](glm::dvec3) { return true; });
+  ExpectCut({ 1., 0., 0. }, { nan }, [](glm::dvec3) { return true; });
+}
+
+namespace
+{
+constexpr double Radius = 0.8;
+
+// Two disks that would meet at x = 0, each with a plane that lies that far before it.
+vtkSmartPointer<vtkPolyData> Roof(double degrees, double before, bool hasAngles = true)
+{
+  const double half = glm::radians(0.5 * degrees);
+  vtkSmartPointer<vtkPolyData> disks = Disks({ { -0.25, 0., 0. }, { 0.25, 0., 0. } },
+    { { -std::sin(half), 0., std::cos(half) }, { std::sin(half), 0., std::cos(half) } }, Radius);
+  AddArray(disks, "Clip_Normal", 3, { 1., 0., 0., -1., 0., 0. });
+  AddArray(disks, "Clip_Distance", 1, { 0.25 - before, 0.25 - before });
+  if (hasAngles)
+  {
+    AddArray(disks, "Clip_Angle", 1, { degrees, degrees });
+  }
+  return disks;
+}
+
+// Half the width of the gap that is left in the middle of a roof, 0 if there is none. Fails the test unless,
+// of splats, each side has its own normal up to its plane.
+double GapOf(vtkPolyData* roof, int mode, double degrees, double before)
+{
+  SplatScene scene(roof);
+  scene.Mapper->SetMode(mode);
+  scene.LookFrom({ 0., 0., 1. }, true);
+  scene.ShowNormals();
+  scene.Render();
+  double gap = 0.;
+  for (int x = 90; x < SplatScene::Size - 90; ++x)
+  {
+    const double place = PlaceOf(x, 0).x;
+    const double angle = glm::radians(0.5 * std::copysign(degrees, place));
+    if (!scene.PositionAt(x, SplatScene::Size / 2))
+    {
+      gap = std::max(gap, std::abs(place));
+    }
+    else if (mode == vtkSurfaceSplatMapper::Splats && std::abs(place) > before)
+    {
+      EXPECT_NEAR(scene.NormalAt(x, SplatScene::Size / 2).x, std::sin(angle), 0.01)
+        << "at " << place;
+    }
+  }
+  return gap;
+}
+
+constexpr double Pixel = 2.6 / SplatScene::Size;
+}
+
+TEST(SplatClip, WhereTheSurfaceIsAlmostSmoothSplatsFillWholeGaps)
+{
+  for (const double before : { 0., 0.2 })
+  {
+    EXPECT_EQ(GapOf(Roof(9., before), vtkSurfaceSplatMapper::Splats, 9., before), 0.);
+  }
+}
+
+TEST(SplatClip, AtKinksSplatsFillSmallGapsAndStaySharp)
+{
+  for (const double degrees : { 12., 60., 80. })
+  {
+    const double overlap = Radius * vtkSurfaceSplatParticles::OverlapAt(degrees);
+    EXPECT_GT(overlap, 0.) << degrees;
+    EXPECT_LT(overlap, 0.13 * Radius) << degrees;
+    const auto gap = [&](double before)
+    { return GapOf(Roof(degrees, before), vtkSurfaceSplatMapper::Splats, degrees, before); };
+    EXPECT_EQ(gap(0.), 0.) << degrees;
+    EXPECT_EQ(gap(0.9 * overlap), 0.) << degrees;
+    EXPECT_NEAR(gap(0.2), 0.2 - overlap, Pixel) << degrees;
+  }
+}
+
+TEST(SplatClip, NothingIsFilledAtSharpKinksAndRimsNorWithoutAngles)
+{
+  for (const double degrees : { 91., 150., 180. })
+  {
+    EXPECT_EQ(vtkSurfaceSplatParticles::OverlapAt(degrees), 0.) << degrees;
+  }
+  EXPECT_NEAR(GapOf(Roof(120., 0.2), vtkSurfaceSplatMapper::Splats, 120., 0.2), 0.2, Pixel);
+  EXPECT_NEAR(GapOf(Roof(4., 0.2, false), vtkSurfaceSplatMapper::Splats, 4., 0.2), 0.2, Pixel);
+}
+
+TEST(SplatClip, AnglesThatAreNoNumbersAreThoseOfRims)
+{
+  EXPECT_EQ(vtkSurfaceSplatParticles::OverlapAt(std::numeric_limits<double>::quiet_NaN()), 0.);
+}
+
+TEST(SplatClip, DisksGoOnWhereTheSurfaceIsAlmostSmooth)
+{
+  EXPECT_EQ(GapOf(Roof(4., 0.2), vtkSurfaceSplatMapper::Disks, 4., 0.2), 0.);
+  EXPECT_NEAR(GapOf(Roof(60., 0.2), vtkSurfaceSplatMapper::Disks, 60., 0.2), 0.2, Pixel);
+}
