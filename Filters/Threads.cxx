@@ -38,6 +38,6 @@ void withThreads(const std::function<void()>& work)
 
 hop::ParallelFor smpParallelFor()
 {
-  return [](std::ptrdiff_t count, const std::function<void(std::ptrdiff_t, std::ptrdiff_t)>& body)
+  return [](std::ptrdiff_t count, const hop::LoopBody& body)
   { vtkSMPTools::For(0, count, [&](vtkIdType begin, vtkIdType end) { body(begin, end); }); };
 }

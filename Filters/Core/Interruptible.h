@@ -15,8 +15,7 @@ struct Interrupted
 };
 
 /// A ParallelFor that asks a monitor some twenty times a second, and throws Interrupted where it should
-/// stop. Threads take chunks of the work as they come, until all is done or it is time to ask. What is done
-/// before threads have started is done without them.
+/// stop. Threads take chunks of the work as they come, until all is done or it is time to ask.
 class Interruptible
 {
 public:
@@ -36,30 +35,36 @@ public:
     }
   }
 
-  void operator()(
-    std::ptrdiff_t count, const std::function<void(std::ptrdiff_t, std::ptrdiff_t)>& body)
+  void operator()(std::ptrdiff_t count, const LoopBody& body)
   {
     // Chunks enough for many threads to finish together, each short beside the period.
     constexpr std::ptrdiff_t chunkCount = 64;
     constexpr std::ptrdiff_t largestChunk = 4096;
     const std::ptrdiff_t chunk = std::clamp<std::ptrdiff_t>(count / chunkCount, 1, largestChunk);
-    std::atomic<std::ptrdiff_t> next{ doAlone(count, body) };
+    std::atomic<std::ptrdiff_t> next{ 0 };
     this->askAtTimes();
     while (next < count)
     {
       const auto pause = Clock::now() + period;
-      runParallel(this->Parallel, std::min(count, chunkCount),
-        [&](std::ptrdiff_t, std::ptrdiff_t)
+      const auto work = [&](std::ptrdiff_t, std::ptrdiff_t)
+      {
+        while (next < count && Clock::now() < pause)
         {
-          while (next < count && Clock::now() < pause)
+          const std::ptrdiff_t begin = next.fetch_add(chunk);
+          if (begin < count)
           {
-            const std::ptrdiff_t begin = next.fetch_add(chunk);
-            if (begin < count)
-            {
-              body(begin, std::min(count, begin + chunk));
-            }
+            body(begin, std::min(count, begin + chunk));
           }
-        });
+        }
+      };
+      if (this->Parallel)
+      {
+        this->Parallel(std::min(count, chunkCount), work);
+      }
+      else
+      {
+        work(0, 1);
+      }
       this->askAtTimes();
     }
   }
@@ -84,33 +89,6 @@ private:
       this->LastAsked = Clock::now();
       this->ask();
     }
-  }
-
-  /// Does work alone, part by part, as long as all of it seems to take no longer than threads do to start:
-  /// a small part first. Not where there are few pieces, which may be long ones.
-  /// \return how much is done
-  static std::ptrdiff_t doAlone(
-    std::ptrdiff_t count, const std::function<void(std::ptrdiff_t, std::ptrdiff_t)>& body)
-  {
-    constexpr std::chrono::microseconds startOfThreads{ 150 };
-    constexpr std::ptrdiff_t fewPieces = 100;
-    constexpr std::ptrdiff_t firstShare = 1000;
-    constexpr std::ptrdiff_t nextShare = 16;
-    std::ptrdiff_t done = 0;
-    if (count > fewPieces || count == 1)
-    {
-      const auto start = Clock::now();
-      const auto timeOfAll = [&]() { return (Clock::now() - start) * count / done; };
-      done = (count + firstShare - 1) / firstShare;
-      body(0, done);
-      while (done < count && timeOfAll() < startOfThreads)
-      {
-        const std::ptrdiff_t end = std::min(count, done + count / nextShare);
-        body(done, end);
-        done = end;
-      }
-    }
-    return done;
   }
 
   const Monitor& Progress;

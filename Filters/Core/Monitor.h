@@ -16,23 +16,19 @@ struct Monitor
   bool proceed(double fraction) const { return !this->report || this->report(fraction); }
 };
 
+/// What runs over pieces of a loop, each from begin to end - 1.
+using LoopBody = std::function<void(std::ptrdiff_t begin, std::ptrdiff_t end)>;
+
 /// The seam to the caller's threads: runs body(begin, end) over pieces of [0, count), in any order
 /// and number. Results must not depend on either. Serial when empty.
-using ParallelFor = std::function<void(
-  std::ptrdiff_t count, const std::function<void(std::ptrdiff_t, std::ptrdiff_t)>& body)>;
+using ParallelFor = std::function<void(std::ptrdiff_t count, const LoopBody& body)>;
 
-inline void runParallel(const ParallelFor& parallelFor, std::ptrdiff_t count,
-  const std::function<void(std::ptrdiff_t, std::ptrdiff_t)>& body)
-{
-  if (parallelFor)
-  {
-    parallelFor(count, body);
-  }
-  else if (count > 0)
-  {
-    body(0, count);
-  }
-}
+/// Runs a loop alone, in growing pieces, until all of it seems to take longer than threads do to start.
+/// \return where it has got to
+std::ptrdiff_t runAlone(std::ptrdiff_t count, const LoopBody& body);
+
+/// Runs a loop alone as long as that is faster, the rest of it in the caller's threads.
+void runParallel(const ParallelFor& parallelFor, std::ptrdiff_t count, const LoopBody& body);
 
 /// Calls use(i) for every i in [0, count), in the caller's threads.
 template <class Use>

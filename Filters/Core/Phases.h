@@ -20,29 +20,35 @@ template <class PieceCount, class Body>
 void runPhases(
   const ParallelFor& parallelFor, int phases, const PieceCount& pieceCount, const Body& body)
 {
-  // Few enough for Interruptible to leave them to threads.
   constexpr std::ptrdiff_t mostThreads = 64;
   std::vector<std::atomic<std::ptrdiff_t>> taken(phases);
   std::vector<std::atomic<std::ptrdiff_t>> done(phases);
   std::atomic<int> current{ 0 };
-  runParallel(parallelFor, mostThreads,
-    [&](std::ptrdiff_t, std::ptrdiff_t)
+  const auto work = [&](std::ptrdiff_t, std::ptrdiff_t)
+  {
+    for (int phase = current; phase < phases; ++phase)
     {
-      for (int phase = current; phase < phases; ++phase)
+      const std::ptrdiff_t count = pieceCount(phase);
+      for (std::ptrdiff_t piece = taken[phase]++; piece < count; piece = taken[phase]++)
       {
-        const std::ptrdiff_t count = pieceCount(phase);
-        for (std::ptrdiff_t piece = taken[phase]++; piece < count; piece = taken[phase]++)
-        {
-          body(phase, piece);
-          ++done[phase];
-        }
-        while (done[phase] < count)
-        {
-          std::this_thread::yield();
-        }
-        current = phase + 1;
+        body(phase, piece);
+        ++done[phase];
       }
-    });
+      while (done[phase] < count)
+      {
+        std::this_thread::yield();
+      }
+      current = phase + 1;
+    }
+  };
+  if (parallelFor)
+  {
+    parallelFor(mostThreads, work);
+  }
+  else
+  {
+    work(0, 1);
+  }
 }
 
 } // namespace hop

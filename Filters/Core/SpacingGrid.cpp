@@ -29,7 +29,7 @@ SpacingGrid::SpacingGrid(Span<glm::dvec3> positions, Span<float> spacings, doubl
   {
     this->chooseCellSizes(cellsPerReach, parallelFor);
     this->fillSlots(parallelFor);
-    this->sortPoints(parallelFor);
+    this->sortPoints();
   }
 }
 
@@ -91,7 +91,7 @@ void SpacingGrid::fillSlots(const ParallelFor& parallelFor)
 }
 
 /// Counting sort by slot, from the last point to the first: slots start where they ended before.
-void SpacingGrid::sortPoints(const ParallelFor& parallelFor)
+void SpacingGrid::sortPoints()
 {
   for (const int slot : this->SlotOfPoint)
   {

@@ -69,7 +69,7 @@ private:
 
   void chooseCellSizes(double cellsPerReach, const ParallelFor& parallelFor);
   void fillSlots(const ParallelFor& parallelFor);
-  void sortPoints(const ParallelFor& parallelFor);
+  void sortPoints();
   int levelOf(double spacing) const;
   Cell cellOf(const glm::dvec3& position, int level) const;
   static std::uint64_t keyOf(const Cell& cell, int level);

@@ -53,8 +53,6 @@ std::vector<std::pair<int, int>> edgesAlong(Domain domain, const LatticePoint& d
   return edges;
 }
 
-/// Levels of fewer pieces are not worth waking threads for.
-constexpr std::size_t fewPieces = 32;
 /// Levels of so many pieces keep threads busy, whichever of them take long.
 constexpr std::size_t manyPieces = 256;
 /// Fewer elements than this are split one after the other, each in threads.
@@ -155,8 +153,7 @@ public:
           }
         }
       };
-      runParallel(level.size() < fewPieces ? ParallelFor() : parallelFor,
-        static_cast<std::ptrdiff_t>(level.size()), decide);
+      runParallel(parallelFor, static_cast<std::ptrdiff_t>(level.size()), decide);
       std::vector<Piece> next;
       for (std::size_t n = 0; n < level.size(); ++n)
       {

@@ -14,8 +14,7 @@ namespace
 {
 
 /// Half of the work in a thread of its own.
-void inTwoThreads(
-  std::ptrdiff_t count, const std::function<void(std::ptrdiff_t, std::ptrdiff_t)>& body)
+void inTwoThreads(std::ptrdiff_t count, const LoopBody& body)
 {
   std::thread other([&]() { body(0, count / 2); });
   body(count / 2, count);
@@ -47,48 +46,6 @@ TEST(Interruptible, DoesEveryPieceOnce)
   }
 }
 
-TEST(Interruptible, GoesOnInThreadsWhereTheWorkTurnsOutToBeLong)
-{
-  const Monitor monitor;
-  const ParallelFor parallelFor = inTwoThreads;
-  Interruptible work(monitor, parallelFor);
-  constexpr std::ptrdiff_t easy = 100;
-  std::atomic<int> inOtherThread{ 0 };
-  const auto own = std::this_thread::get_id();
-  work(10 * easy,
-    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-    {
-      inOtherThread += std::this_thread::get_id() != own;
-      for (; begin < end; ++begin)
-      {
-        std::this_thread::sleep_for(std::chrono::microseconds(begin < easy ? 0 : 100));
-      }
-    });
-  EXPECT_GT(inOtherThread, 0);
-}
-
-/// Pieces that wait for each other: each of a few is to have a thread.
-TEST(Interruptible, LeavesFewPiecesToThreads)
-{
-  const Monitor monitor;
-  const ParallelFor parallelFor = inTwoThreads;
-  Interruptible work(monitor, parallelFor);
-  std::atomic<int> arrived{ 0 };
-  std::atomic<bool> metOther{ true };
-  const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  work(2,
-    [&](std::ptrdiff_t, std::ptrdiff_t)
-    {
-      ++arrived;
-      while (arrived < 2 && metOther)
-      {
-        metOther = std::chrono::steady_clock::now() < patience;
-        std::this_thread::yield();
-      }
-    });
-  EXPECT_TRUE(metOther);
-}
-
 TEST(Interruptible, StopsWithinAFractionOfASecond)
 {
   const Monitor monitor{ [](double) { return false; } };
@@ -101,7 +58,7 @@ TEST(Interruptible, StopsWithinAFractionOfASecond)
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
   // Many short loops ask as often as a long one.
   EXPECT_THROW(
-    for (int n = 0; n < 1'000; ++n) { work(1, waitForAll); }, Interrupted);
+    for (int n = 0; n < 1'000; ++n) { runParallel(std::ref(work), 1, waitForAll); }, Interrupted);
 }
 
 } // namespace

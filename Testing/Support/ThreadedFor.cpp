@@ -10,8 +10,7 @@ namespace hop::testing
 
 ParallelFor threadedFor(int threads)
 {
-  return
-    [threads](std::ptrdiff_t count, const std::function<void(std::ptrdiff_t, std::ptrdiff_t)>& body)
+  return [threads](std::ptrdiff_t count, const LoopBody& body)
   {
     constexpr std::ptrdiff_t piece = 7;
     std::atomic<std::ptrdiff_t> next{ 0 };

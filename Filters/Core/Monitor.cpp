@@ -1,0 +1,48 @@
+#include "Monitor.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace hop
+{
+
+std::ptrdiff_t runAlone(std::ptrdiff_t count, const LoopBody& body)
+{
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::microseconds startOfThreads{ 150 };
+  // From shorter times nothing follows: what comes first may take long because it comes first.
+  constexpr std::chrono::microseconds leastTime{ 20 };
+  constexpr std::ptrdiff_t firstShare = 1000;
+  const auto start = Clock::now();
+  std::ptrdiff_t done = 0;
+  std::ptrdiff_t end = std::min(count, 1 + count / firstShare);
+  while (done < count)
+  {
+    body(done, end);
+    done = end;
+    const auto time = Clock::now() - start;
+    if (time > leastTime && time * count / done > startOfThreads)
+    {
+      break;
+    }
+    end = std::min(count, 2 * done);
+  }
+  return done;
+}
+
+void runParallel(const ParallelFor& parallelFor, std::ptrdiff_t count, const LoopBody& body)
+{
+  if (!parallelFor)
+  {
+    if (count > 0)
+    {
+      body(0, count);
+    }
+    return;
+  }
+  const std::ptrdiff_t done = runAlone(count, body);
+  parallelFor(count - done,
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end) { body(done + begin, done + end); });
+}
+
+} // namespace hop

@@ -1,0 +1,111 @@
+#include "Monitor.h"
+
+#include "Phases.h"
+#include "ThreadedFor.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+#include <vector>
+
+namespace hop::testing
+{
+namespace
+{
+
+void sleep(std::ptrdiff_t microseconds)
+{
+  std::this_thread::sleep_for(std::chrono::microseconds(microseconds));
+}
+
+TEST(RunParallel, DoesEveryPieceOnce)
+{
+  for (const int microseconds : { 0, 1 })
+  {
+    for (const std::ptrdiff_t count : { 0, 1, 2, 64, 999, 1'000, 1'001, 5'000 })
+    {
+      std::vector<int> visits(count, 0);
+      forAll(threadedFor(2), visits.size(),
+        [&](std::size_t i)
+        {
+          ++visits[i];
+          if (microseconds > 0)
+          {
+            sleep(microseconds);
+          }
+        });
+      EXPECT_EQ(visits, std::vector<int>(count, 1)) << microseconds << " us";
+    }
+  }
+}
+
+TEST(RunParallel, GoesOnInThreadsWhereTheWorkTurnsOutToBeLong)
+{
+  const auto own = std::this_thread::get_id();
+  for (const std::size_t count : { 8, 1'000 })
+  {
+    std::atomic<std::size_t> inOthers{ 0 };
+    forAll(threadedFor(2), count,
+      [&](std::size_t i)
+      {
+        inOthers += std::this_thread::get_id() != own;
+        sleep(i < count / 8 ? 0 : 500);
+      });
+    EXPECT_GT(inOthers, count / 4);
+  }
+}
+
+TEST(RunParallel, TellsTheSeamOfLoopsThatAreOver)
+{
+  // It may ask for an early end between them.
+  std::vector<std::ptrdiff_t> left;
+  const ParallelFor parallelFor = [&](std::ptrdiff_t count, const LoopBody&)
+  { left.push_back(count); };
+  forAll(parallelFor, 1, [](std::size_t) {});
+  EXPECT_EQ(left, std::vector<std::ptrdiff_t>{ 0 });
+}
+
+/// Pieces that wait for each other: threads are there from the start.
+TEST(RunPhases, LeavesAllPiecesToThreads)
+{
+  std::atomic<int> arrived{ 0 };
+  std::atomic<bool> metOther{ true };
+  const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  runPhases(
+    threadedFor(2), 1, [](int) { return std::ptrdiff_t{ 2 }; },
+    [&](int, std::ptrdiff_t)
+    {
+      ++arrived;
+      while (arrived < 2 && metOther)
+      {
+        metOther = std::chrono::steady_clock::now() < patience;
+        std::this_thread::yield();
+      }
+    });
+  EXPECT_TRUE(metOther);
+}
+
+TEST(RunPhases, FinishesOneBeforeTheNext)
+{
+  constexpr int phases = 20;
+  constexpr std::ptrdiff_t pieces = 5;
+  for (const ParallelFor& parallelFor : { ParallelFor(), threadedFor(1), threadedFor(3) })
+  {
+    std::atomic<int> done{ 0 };
+    std::atomic<int> early{ 0 };
+    runPhases(
+      parallelFor, phases, [](int) { return pieces; },
+      [&](int phase, std::ptrdiff_t)
+      {
+        early += done < phase * pieces;
+        ++done;
+      });
+    EXPECT_EQ(done, phases * pieces);
+    EXPECT_EQ(early, 0);
+  }
+}
+
+} // namespace
+} // namespace hop::testing
