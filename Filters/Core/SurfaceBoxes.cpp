@@ -56,7 +56,7 @@ std::vector<std::pair<int, int>> edgesAlong(Domain domain, const LatticePoint& d
 /// Levels of so many pieces keep threads busy, whichever of them take long.
 constexpr std::size_t manyPieces = 256;
 /// Fewer elements than this are split one after the other, each in threads.
-constexpr std::size_t fewElements = 64;
+constexpr std::size_t fewElements = 16;
 /// Halving adds rounding errors of the order of eps times the values themselves.
 constexpr double roundingShare = 1e-14;
 
