@@ -119,7 +119,7 @@ void Packer::fillWith(const Write& write)
 void Packer::fillRows()
 {
   constexpr std::ptrdiff_t rowsAtOnce = 128;
-  this->Work(this->rowCount(),
+  hop::runParallel(std::ref(this->Work), this->rowCount(),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       for (; begin < end; begin += rowsAtOnce)

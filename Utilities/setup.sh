@@ -4,6 +4,7 @@
 # With HOP_WITH_PARAVIEW=OFF in the environment: filter and mapper for VTK alone, into build-vtk/.
 # Asks for nothing but bash and apt-get, and for root or sudo only where a package is missing.
 set -euo pipefail
+case "${1:-}" in -h | --help) sed -n 2,5p "${BASH_SOURCE[0]}" && exit ;; esac
 
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 with_paraview=${HOP_WITH_PARAVIEW:-ON}

@@ -3,6 +3,7 @@
 #   bash Utilities/test.sh [CTEST_OPTION ...]
 # With HOP_WITH_PARAVIEW=OFF in the environment: filter and mapper with VTK alone.
 set -euo pipefail
+case "${1:-}" in -h | --help) sed -n 2,4p "${BASH_SOURCE[0]}" && exit ;; esac
 
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$project/build

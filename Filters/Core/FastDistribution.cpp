@@ -71,7 +71,7 @@ std::vector<int> sweepsOfRounds(Quality quality, bool isWarm)
       return { 5, 8, 8, 10 };
     default:
       // Where particles of a run before crowd or thin out there is more to do.
-      return isWarm ? std::vector<int>{ 8, 14 } : std::vector<int>{ 7, 13 };
+      return isWarm ? std::vector<int>{ 12, 22 } : std::vector<int>{ 7, 13 };
   }
 }
 
