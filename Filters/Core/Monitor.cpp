@@ -13,6 +13,8 @@ std::ptrdiff_t runAlone(std::ptrdiff_t count, const LoopBody& body)
   // From shorter times nothing follows: what comes first may take long because it comes first.
   constexpr std::chrono::microseconds leastTime{ 20 };
   constexpr std::ptrdiff_t firstShare = 1000;
+  // Nor from easy pieces that later ones are easy.
+  constexpr std::ptrdiff_t largestShare = 16;
   const auto start = Clock::now();
   std::ptrdiff_t done = 0;
   std::ptrdiff_t end = std::min(count, 1 + count / firstShare);
@@ -25,7 +27,7 @@ std::ptrdiff_t runAlone(std::ptrdiff_t count, const LoopBody& body)
     {
       break;
     }
-    end = std::min(count, 2 * done);
+    end = std::min(count, done + std::min(done, 1 + count / largestShare));
   }
   return done;
 }

@@ -51,7 +51,7 @@ TEST(RunParallel, GoesOnInThreadsWhereTheWorkTurnsOutToBeLong)
       [&](std::size_t i)
       {
         inOthers += std::this_thread::get_id() != own;
-        sleep(i < count / 8 ? 0 : 500);
+        sleep(i < count / 2 ? 0 : 500);
       });
     EXPECT_GT(inOthers, count / 4);
   }
