@@ -4,8 +4,9 @@
 //
 // A case is one of SurfaceCases.h, or FILE.vtu:ARRAY:ISOVALUE; the spacing a share of the longest side of
 // its grid (default 0.01, as the filter's). Five views of every case in both projections are held against a
-// ray caster that finds the true polynomial surface (RayCaster.h). Prints the worst view of each. Pictures
-// are rays, splats and Contour side by side. Wants a display.
+// ray caster that finds the true polynomial surface (RayCaster.h). Prints the worst view of each; and, as
+// what a picture of that size can tell at all, of the same rays cast a quarter of a pixel aside. Pictures are
+// rays, splats and Contour side by side. Wants a display.
 
 #include "SurfaceCases.h"
 #include "SurfacePicture.h"
@@ -58,6 +59,12 @@ void Print(const std::string& name, const char* what, long long points, const Pi
   std::fflush(stdout);
 }
 
+hop::testing::PictureCamera QuarterOfAPixelAside(hop::testing::PictureCamera camera)
+{
+  camera.centre += 0.25 * camera.pixel() * camera.right();
+  return camera;
+}
+
 void Measure(const std::string& name, double spacing, int size, const std::string& pictures)
 {
   const SurfaceCase surface = MakeSurfaceCase(name, spacing);
@@ -66,6 +73,7 @@ void Measure(const std::string& name, double spacing, int size, const std::strin
   {
     Worst ofSplats;
     Worst ofContour;
+    Worst ofRaysAside;
     int view = 0;
     for (const auto& camera : CamerasAround(surface, parallel, size))
     {
@@ -79,7 +87,9 @@ void Measure(const std::string& name, double spacing, int size, const std::strin
       const SurfacePicture bySplats = DrawSurface(splats, camera);
       const SurfacePicture byContour = DrawSurface(triangles, camera);
       ofSplats.Add(Compare(bySplats, reference, camera, surface.Spacing));
+      const SurfacePicture aside = CastSurface(surface, QuarterOfAPixelAside(camera));
       ofContour.Add(Compare(byContour, reference, camera, surface.Spacing));
+      ofRaysAside.Add(Compare(aside, reference, camera, surface.Spacing));
       if (!pictures.empty())
       {
         const std::string path = pictures + "/" + surface.Name +
@@ -90,6 +100,7 @@ void Measure(const std::string& name, double spacing, int size, const std::strin
     const std::string label = surface.Name + (parallel ? ", parallel" : ", perspective");
     Print(label, "splats", surface.Particles->GetNumberOfPoints(), ofSplats.Figures);
     Print(label, "Contour", contour->GetNumberOfPoints(), ofContour.Figures);
+    Print(label, "rays aside", 0, ofRaysAside.Figures);
   }
 }
 }
