@@ -302,8 +302,8 @@ void FastSystem::makeSeeds(std::int64_t count)
     const std::vector<char> lonely =
       findLonely(this->Proxy->samples(), this->Moving->patches(), this->Parallel);
     this->addSeeds(count, phase, lonely);
-    this->Moving->keep(
-      standApart(this->Moving->patches(), this->Moving->count(), squeezed, this->Parallel));
+    const std::vector<char> all(this->Moving->count(), 1);
+    this->Moving->keep(standApart(this->Moving->patches(), all, squeezed, this->Parallel));
   }
   this->dropNearRims(seedToRim);
   this->coverBoxes();
@@ -405,7 +405,9 @@ void FastSystem::relax(
   moving.add(anchors, patches);
   std::transform(relaxed.splits.begin(), relaxed.splits.end(), std::back_inserter(displacements),
     [](const Split& split) { return split.displacement; });
-  moving.commit(displacements);
+  // Holes that cannot be filled lie beyond the end of the surface.
+  const bool fills = balance.extent == Balance::Defects;
+  moving.commit(displacements, fills ? relaxed.splits.size() : 0);
   this->Result.report.iterations += sweeps;
 }
 
@@ -520,9 +522,7 @@ void FastSystem::finish()
   report.particlesRejected += std::count(kept.begin(), kept.end(), 0);
   if (!this->countIsGiven())
   {
-    const std::vector<char> apart =
-      standApart(this->Moving->patches(), this->Moving->count(), squeezed, this->Parallel);
-    std::transform(kept.begin(), kept.end(), apart.begin(), kept.begin(), std::logical_and<>());
+    kept = standApart(this->Moving->patches(), kept, squeezed, this->Parallel);
   }
   Buffer<Particle>& particles = this->Result.particles;
   particles = std::move(finished.particles);

@@ -226,9 +226,11 @@ bool MovingParticles::retry(
 }
 
 /// Takes some particles where displacements, one for each, and Newton's method lead them.
-void MovingParticles::step(
+/// \return for each of them, whether it got there in one step
+std::vector<char> MovingParticles::step(
   const std::vector<int>& which, const std::vector<glm::vec2>& displacements)
 {
+  std::vector<char> arrived(which.size());
   const std::vector<Location> places = this->targets(which, displacements);
   const std::vector<int> order =
     orderByElement(places, this->Surface.mesh->elements.size(), this->Parallel);
@@ -242,10 +244,9 @@ void MovingParticles::step(
           const int i = which[n];
           Anchor anchor;
           Patch patch;
-          const Patch& before = this->Patches[i];
-          if ((anchorPatch(places[n], jet, this->Surface.isovalue, anchor, patch) &&
-                accepts(this->Anchors[i], before, anchor, patch)) ||
-            this->retry(i, this->stepTo(i, displacements[n]), anchor, patch, cost))
+          arrived[n] = anchorPatch(places[n], jet, this->Surface.isovalue, anchor, patch) &&
+            accepts(this->Anchors[i], this->Patches[i], anchor, patch);
+          if (arrived[n] || this->retry(i, this->stepTo(i, displacements[n]), anchor, patch, cost))
           {
             patch.spacing = this->Proxy.spacingAt(patch.position, patch.curvatureMagnitude());
             this->Anchors[i] = anchor;
@@ -254,13 +255,16 @@ void MovingParticles::step(
         });
       this->Evaluations += cost;
     });
+  return arrived;
 }
 
-void MovingParticles::commit(const std::vector<glm::vec2>& displacements)
+void MovingParticles::commit(const std::vector<glm::vec2>& displacements, std::size_t newcomers)
 {
   std::vector<int> all(this->count());
   std::iota(all.begin(), all.end(), 0);
-  this->step(all, displacements);
+  std::vector<char> arrived = this->step(all, displacements);
+  std::fill(arrived.begin(), arrived.end() - static_cast<std::ptrdiff_t>(newcomers), 1);
+  this->keep(std::move(arrived));
   const std::vector<int> order =
     orderByElement(this->Anchors, this->Surface.mesh->elements.size(), this->Parallel);
   permute(this->Anchors, order, this->Parallel);

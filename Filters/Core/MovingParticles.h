@@ -41,7 +41,9 @@ public:
   /// Takes particles to where relaxation wants them, and to the surface; one evaluation each gives them
   /// new patches there, more where half a step has to do. Afterwards they are sorted by element.
   /// \param displacements in the tangent planes of the patches, one for each that moves at least
-  void commit(const std::vector<glm::vec2>& displacements);
+  /// \param newcomers the last so many of those that move are dropped where they do not get there in one
+  ///   step: they stand where others do
+  void commit(const std::vector<glm::vec2>& displacements, std::size_t newcomers = 0);
 
   /// Where one Newton step takes particle i. Costs evaluations only where it leaves its element.
   Location onSurface(std::size_t i, std::int64_t& cost) const;
@@ -65,7 +67,8 @@ private:
   glm::dvec3 stepTo(std::size_t i, const glm::vec2& displacement) const;
   std::vector<Location> targets(
     const std::vector<int>& which, const std::vector<glm::vec2>& displacements);
-  void step(const std::vector<int>& which, const std::vector<glm::vec2>& displacements);
+  std::vector<char> step(
+    const std::vector<int>& which, const std::vector<glm::vec2>& displacements);
   bool retry(
     std::size_t i, glm::dvec3 step, Anchor& anchor, Patch& patch, std::int64_t& cost) const;
 

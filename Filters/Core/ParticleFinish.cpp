@@ -110,18 +110,23 @@ void Finish::persist()
 {
   const Isosurface& surface = this->Moving.surface();
   SurfaceWalker walker(surface);
+  const std::vector<float> noGaps(faceSlot(surface.mesh->elements.size(), 0), 0.0f);
+  Isosurface sealed = surface.withWalls();
+  sealed.gaps = &noGaps;
+  SurfaceWalker inside(sealed);
   for (const int i : this->Pending)
   {
     Evaluated at;
     const double reach = this->Moving.patches()[i].spacing;
-    if (walker.project(this->Moving.anchors()[i].place, reach, at))
+    const Location& place = this->Moving.anchors()[i].place;
+    if (walker.project(place, reach, at) || inside.project(place, reach, at))
     {
       ++this->Evaluations;
       this->settle(
         i, at.location, evaluateHessian(surface.mesh->form(at.location.element), at.location.u));
     }
   }
-  this->Evaluations += walker.evaluations();
+  this->Evaluations += walker.evaluations() + inside.evaluations();
 }
 
 } // namespace

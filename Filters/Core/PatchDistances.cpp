@@ -118,17 +118,18 @@ std::vector<char> haveDistance(
   return testAll(count, parallelFor, [&](std::size_t i) { return crowd.isAlone(i); });
 }
 
-std::vector<char> standApart(
-  const Buffer<Patch>& patches, std::size_t count, double distance, const ParallelFor& parallelFor)
+std::vector<char> standApart(const Buffer<Patch>& patches, const std::vector<char>& wanted,
+  double distance, const ParallelFor& parallelFor)
 {
+  const std::size_t count = wanted.size();
   const Crowd crowd(patches, distance, parallelFor);
   std::vector<char> kept =
-    testAll(count, parallelFor, [&](std::size_t i) { return crowd.isAlone(i); });
+    testAll(count, parallelFor, [&](std::size_t i) { return wanted[i] && crowd.isAlone(i); });
   kept.resize(patches.size(), 1);
   // The few that have a neighbour too near, one by one.
   for (std::size_t i = 0; i < count; ++i)
   {
-    if (!kept[i])
+    if (wanted[i] && !kept[i])
     {
       bool alone = true;
       crowd.visitNear(i, [&](int j) { alone = alone && !kept[j]; });

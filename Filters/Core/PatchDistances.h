@@ -17,10 +17,11 @@ std::vector<char> keepDistance(const Buffer<Patch>& patches, std::size_t count,
 std::vector<char> haveDistance(
   const Buffer<Patch>& patches, std::size_t count, double distance, const ParallelFor& parallelFor);
 
-/// For each of the first `count` patches, whether to keep it if any two are to be that far apart, in units
-/// of the smaller of their spacings: the first of two stays, and those from `count` on do.
-std::vector<char> standApart(
-  const Buffer<Patch>& patches, std::size_t count, double distance, const ParallelFor& parallelFor);
+/// For each of the first wanted.size() patches, whether to keep it if any two are to be that far apart, in
+/// units of the smaller of their spacings: of two that are wanted the first stays, and those behind all these
+/// do.
+std::vector<char> standApart(const Buffer<Patch>& patches, const std::vector<char>& wanted,
+  double distance, const ParallelFor& parallelFor);
 
 /// For each sample, whether no patch stands on the piece of surface around it.
 std::vector<char> findLonely(const std::vector<SurfaceProxy::Sample>& samples,

@@ -3,6 +3,7 @@
 #include "Energy.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -23,11 +24,11 @@ constexpr double largestCorrection = 0.05;
 constexpr double smallestShare = 0.02;
 /// Largest D h at which energies tell numbers.
 constexpr float largestBend = 1.0f;
-/// Energy, in units of that of hexagonal packing, below which a particle may stand beside a hole; where that
-/// would be, and how far the nearest particles are from its middle, in units of h.
+/// Energy, in units of that of hexagonal packing, below which a particle may stand beside a hole; where its
+/// middle is looked for, and how far the nearest particles are from that, in units of h.
 constexpr double lonelyEnergy = 0.95;
-constexpr float holeDistance = 0.95f;
-constexpr double holeClearance = 0.8;
+constexpr std::array<float, 3> holeDistances{ 0.85f, 0.92f, 1.0f };
+constexpr double holeClearance = 0.82;
 /// How far from a doubled particle the new one starts, in units of h.
 constexpr float childDistance = 0.55f;
 
@@ -124,7 +125,11 @@ public:
         if (this->Energies[i] >= 0.0f && this->Energies[i] < lonely &&
           patch.curvatureMagnitude() * patch.spacing <= largestBend)
         {
-          places[i] = this->freePlace(i, holeDistance);
+          for (const float distance : holeDistances)
+          {
+            const FreePlace place = this->freePlace(i, distance);
+            places[i] = place.clearance > places[i].clearance ? place : places[i];
+          }
         }
       });
     for (std::size_t i = 0; i < places.size(); ++i)

@@ -164,6 +164,18 @@ def test_there_are_as_many_particles_as_the_area_asks_for(run):
     assert 0.95 * fewest <= run.count <= 1.05 * with_rim
 
 
+@pytest.mark.parametrize("spacing", [0.04, 0.05, 0.06, 0.08])
+def test_no_particle_is_lost_where_the_field_jumps_a_little(data, spacing):
+    # Near such faces either side takes the surface for that of the other.
+    reader = support.read(data("mfem_cylinder_hex_prism_p3.vtu"))
+    particles, many = (
+        support.run_quietly(reader, "pressure", 0.2, Spacing=distance, AngularDensity=0)
+        for distance in (spacing, spacing / 3)
+    )
+    assert support.reported(particles, "ParticlesRejected") == 0
+    assert support.distances_to(particles, support.points_of(many)).max() <= 0.8 * spacing
+
+
 # As they come when nothing but the isovalue is chosen: closer where the surface bends
 
 
