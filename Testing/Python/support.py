@@ -205,13 +205,22 @@ def nearest_neighbors(particles, candidates=10):
 
 
 def distances_to(particles, points, unit=None):
-    """Distance of each point to the particle nearest to it, in units of an array of that particle if asked for."""
+    """Distance of each point to the particle nearest to it; if asked for, of distances in units of an array of the
+    particle."""
     locator = vtkStaticPointLocator()
     locator.SetDataSet(particles)
     locator.BuildLocator()
-    nearest = [locator.FindClosestPoint(point) for point in points]
-    distances = np.linalg.norm(points_of(particles)[nearest] - points, axis=1)
-    return distances / array_of(particles, unit)[nearest] if unit else distances
+    positions = points_of(particles)
+    units = array_of(particles, unit) if unit else np.ones(len(positions))
+    candidates = min(len(positions), 50 if unit else 1)  # where units differ, the nearest may be farther off
+    ids = vtkIdList()
+
+    def nearest(point):
+        locator.FindClosestNPoints(candidates, point, ids)
+        some = [ids.GetId(n) for n in range(ids.GetNumberOfIds())]
+        return np.min(np.linalg.norm(positions[some] - point, axis=1) / units[some])
+
+    return np.array([nearest(point) for point in points])
 
 
 def sample_surface(grid, name, isovalue, count, seed=1):
