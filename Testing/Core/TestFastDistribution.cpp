@@ -355,6 +355,30 @@ TEST(FastDistribution, DoesNotDoubleWhereTheSidesAgree)
   EXPECT_GE(smallest(nearestSpacings(a.particles)), 0.75);
 }
 
+TEST(FastDistribution, LosesNoParticleWhereEitherSideTakesTheSurfaceForTheOthers)
+{
+  // x = -slope z on the left and x = -slope (z + slit) on the right, which is none for -slit < z < 0: there
+  // Newton's method goes from either side to the other, for ever.
+  constexpr double spacing = 0.05;
+  constexpr double slope = 0.2;
+  constexpr double slit = 0.3 * spacing;
+  const ElementMesh mesh = twoFields([](const glm::dvec3& x) { return x.x + slope * x.z; },
+    [](const glm::dvec3& x) { return x.x + slope * (x.z + slit); });
+  const Distribution result = distribute(mesh, withSpacing(spacing));
+  EXPECT_EQ(result.report.particlesRejected, 0);
+  std::vector<glm::dvec3> probes;
+  for (double y = -1.0; y < 1.0; y += 0.2 * spacing)
+  {
+    for (double z = 0.0; z < 3.0 * spacing; z += 0.2 * spacing)
+    {
+      probes.emplace_back(-slope * z, y, z);
+      probes.emplace_back(slope * z, y, -slit - z);
+    }
+  }
+  EXPECT_LE(coverageRadius(result.particles, probes), 0.9);
+  EXPECT_GE(smallest(nearestSpacings(result.particles)), 0.65);
+}
+
 TEST(FastDistribution, RefusesMoreParticlesThanTheLimit)
 {
   const ElementMesh mesh = meshOf(Domain::Hexahedron, 2, sphere({ 0, 0, 0 }, 0.6).field);
