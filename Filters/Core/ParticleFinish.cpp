@@ -105,28 +105,34 @@ void Finish::pass()
     pending.end());
 }
 
-/// Follows those that are still pending one by one.
+/// Follows those that are still pending, each on its own. Where the field jumps through the isovalue, each
+/// side of a face sends Newton's method to the other: those go to where the surface of their element ends.
 void Finish::persist()
 {
   const Isosurface& surface = this->Moving.surface();
-  SurfaceWalker walker(surface);
   const std::vector<float> noGaps(faceSlot(surface.mesh->elements.size(), 0), 0.0f);
   Isosurface sealed = surface.withWalls();
   sealed.gaps = &noGaps;
-  SurfaceWalker inside(sealed);
-  for (const int i : this->Pending)
-  {
-    Evaluated at;
-    const double reach = this->Moving.patches()[i].spacing;
-    const Location& place = this->Moving.anchors()[i].place;
-    if (walker.project(place, reach, at) || inside.project(place, reach, at))
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(this->Pending.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
-      ++this->Evaluations;
-      this->settle(
-        i, at.location, evaluateHessian(surface.mesh->form(at.location.element), at.location.u));
-    }
-  }
-  this->Evaluations += walker.evaluations() + inside.evaluations();
+      SurfaceWalker across(surface);
+      SurfaceWalker inside(sealed);
+      for (std::ptrdiff_t n = begin; n < end; ++n)
+      {
+        const int i = this->Pending[n];
+        const Location& start = this->Moving.anchors()[i].place;
+        const double reach = this->Moving.patches()[i].spacing;
+        Evaluated at;
+        if (across.project(start, reach, at) || inside.project(start, reach, at))
+        {
+          const BernsteinForm form = surface.mesh->form(at.location.element);
+          this->settle(i, at.location, evaluateHessian(form, at.location.u));
+          ++this->Evaluations;
+        }
+      }
+      this->Evaluations += across.evaluations() + inside.evaluations();
+    });
 }
 
 } // namespace

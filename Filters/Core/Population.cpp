@@ -25,10 +25,12 @@ constexpr double smallestShare = 0.02;
 /// Largest D h at which energies tell numbers.
 constexpr float largestBend = 1.0f;
 /// Energy, in units of that of hexagonal packing, below which a particle may stand beside a hole; where its
-/// middle is looked for, and how far the nearest particles are from that, in units of h.
+/// middle is looked for, first and then nearer and farther, and how far the nearest particles are from that, in
+/// units of h; at the first distance it is this far at least.
 constexpr double lonelyEnergy = 0.95;
-constexpr std::array<float, 3> holeDistances{ 0.85f, 0.92f, 1.0f };
+constexpr std::array<float, 3> holeDistances{ 0.92f, 0.85f, 1.0f };
 constexpr double holeClearance = 0.82;
+constexpr double firstClearance = 0.7;
 /// How far from a doubled particle the new one starts, in units of h.
 constexpr float childDistance = 0.55f;
 
@@ -125,11 +127,7 @@ public:
         if (this->Energies[i] >= 0.0f && this->Energies[i] < lonely &&
           patch.curvatureMagnitude() * patch.spacing <= largestBend)
         {
-          for (const float distance : holeDistances)
-          {
-            const FreePlace place = this->freePlace(i, distance);
-            places[i] = place.clearance > places[i].clearance ? place : places[i];
-          }
+          places[i] = this->hole(i);
         }
       });
     for (std::size_t i = 0; i < places.size(); ++i)
@@ -227,6 +225,18 @@ private:
     /// To the particle nearest to it among those that are seen from there, in units of the spacing.
     double clearance = -1.0;
   };
+
+  /// The place beside particle i that is farthest from all others, if that may be a hole.
+  FreePlace hole(std::size_t i) const
+  {
+    FreePlace best = this->freePlace(i, holeDistances[0]);
+    for (std::size_t n = 1; n < holeDistances.size() && best.clearance > firstClearance; ++n)
+    {
+      const FreePlace place = this->freePlace(i, holeDistances[n]);
+      best = place.clearance > best.clearance ? place : best;
+    }
+    return best;
+  }
 
   /// Of some places all around particle i, at that distance in units of its spacing, the one farthest from
   /// its neighbours.
