@@ -57,14 +57,7 @@ public:
           }
         }
       };
-      if (this->Parallel)
-      {
-        this->Parallel(std::min(count, chunkCount), work);
-      }
-      else
-      {
-        work(0, 1);
-      }
+      runInThreads(this->Parallel, std::min(count, chunkCount), work);
       this->askAtTimes();
     }
   }

@@ -6,6 +6,18 @@
 namespace hop
 {
 
+void runInThreads(const ParallelFor& parallelFor, std::ptrdiff_t count, const LoopBody& body)
+{
+  if (parallelFor)
+  {
+    parallelFor(count, body);
+  }
+  else if (count > 0)
+  {
+    body(0, count);
+  }
+}
+
 std::ptrdiff_t runAlone(std::ptrdiff_t count, const LoopBody& body)
 {
   using Clock = std::chrono::steady_clock;
@@ -34,16 +46,8 @@ std::ptrdiff_t runAlone(std::ptrdiff_t count, const LoopBody& body)
 
 void runParallel(const ParallelFor& parallelFor, std::ptrdiff_t count, const LoopBody& body)
 {
-  if (!parallelFor)
-  {
-    if (count > 0)
-    {
-      body(0, count);
-    }
-    return;
-  }
-  const std::ptrdiff_t done = runAlone(count, body);
-  parallelFor(count - done,
+  const std::ptrdiff_t done = parallelFor ? runAlone(count, body) : 0;
+  runInThreads(parallelFor, count - done,
     [&](std::ptrdiff_t begin, std::ptrdiff_t end) { body(done + begin, done + end); });
 }
 

@@ -41,14 +41,7 @@ void runPhases(
       current = phase + 1;
     }
   };
-  if (parallelFor)
-  {
-    parallelFor(mostThreads, work);
-  }
-  else
-  {
-    work(0, 1);
-  }
+  runInThreads(parallelFor, mostThreads, work);
 }
 
 } // namespace hop
