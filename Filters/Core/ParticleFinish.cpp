@@ -109,6 +109,10 @@ void Finish::pass()
 /// side of a face sends Newton's method to the other: those go to where the surface of their element ends.
 void Finish::persist()
 {
+  if (this->Pending.empty())
+  {
+    return;
+  }
   const Isosurface& surface = this->Moving.surface();
   const std::vector<float> noGaps(faceSlot(surface.mesh->elements.size(), 0), 0.0f);
   Isosurface sealed = surface.withWalls();
