@@ -578,13 +578,8 @@ bool ClassicSystem::tooMany(int levels)
   const double expected = this->Parameters.particleCount > 0
     ? static_cast<double>(this->Parameters.particleCount)
     : static_cast<double>(this->Movers.size()) * std::pow(4.0, levels);
-  if (expected <= static_cast<double>(this->Parameters.particleLimit))
-  {
-    return false;
-  }
-  this->Report.error = "the spacing asks for about " + std::to_string(std::llround(expected)) +
-    " particles, more than the limit of " + std::to_string(this->Parameters.particleLimit);
-  return true;
+  this->Report.error = this->Parameters.refusal(expected);
+  return !this->Report.error.empty();
 }
 
 Distribution ClassicSystem::run()

@@ -3,7 +3,9 @@
 #include "ElementMesh.h"
 #include "Energy.h"
 
+#include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace hop
@@ -35,6 +37,19 @@ struct DistributionParameters
   std::vector<Location> start;
   /// A request that would need more particles than this is refused before it is begun.
   std::int64_t particleLimit = 100'000'000;
+
+  /// Why a request for that many particles is refused; empty if it is not.
+  std::string refusal(double count) const
+  {
+    if (count <= static_cast<double>(this->particleLimit))
+    {
+      return {};
+    }
+    // No integer holds what tiny spacings ask for.
+    const std::string number = std::to_string(std::round(count));
+    return "the spacing asks for about " + number.substr(0, number.find('.')) +
+      " particles, more than the limit of " + std::to_string(this->particleLimit);
+  }
 };
 
 } // namespace hop

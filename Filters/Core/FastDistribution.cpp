@@ -191,14 +191,8 @@ SurfaceProxy FastSystem::proxyAt(double spacing, double shareOfRun)
 
 bool FastSystem::tooMany(double count)
 {
-  const auto limit = this->Parameters.particleLimit;
-  if (count <= static_cast<double>(limit))
-  {
-    return false;
-  }
-  this->Result.report.error = "the spacing asks for about " + std::to_string(std::llround(count)) +
-    " particles, more than the limit of " + std::to_string(limit);
-  return true;
+  this->Result.report.error = this->Parameters.refusal(count);
+  return !this->Result.report.error.empty();
 }
 
 /// From a coarse look at the surface, before memory is asked for.

@@ -382,13 +382,14 @@ TEST(FastDistribution, LosesNoParticleWhereEitherSideTakesTheSurfaceForTheOthers
 TEST(FastDistribution, RefusesMoreParticlesThanTheLimit)
 {
   const ElementMesh mesh = meshOf(Domain::Hexahedron, 2, sphere({ 0, 0, 0 }, 0.6).field);
-  for (const double spacing : { 0.01, 1e-9 })
+  for (const double spacing : { 0.01, 1e-9, 1e-12 })
   {
     DistributionParameters parameters = withSpacing(spacing);
     parameters.particleLimit = 1000;
     const Distribution result = distribute(mesh, parameters);
     EXPECT_TRUE(result.particles.empty());
     EXPECT_NE(result.report.error.find("limit of 1000"), std::string::npos) << result.report.error;
+    EXPECT_EQ(result.report.error.find('-'), std::string::npos) << result.report.error;
   }
   DistributionParameters parameters = withSpacing(0.01);
   parameters.particleLimit = 1000;
