@@ -1,6 +1,10 @@
 #include "ElementMesh.h"
 
+#include "Buffer.h"
+#include "SortedBy.h"
+
 #include <algorithm>
+#include <tuple>
 
 namespace hop
 {
@@ -141,29 +145,32 @@ FaceNeighbor joinTo(const ElementMesh& mesh, const FaceReference& from, const Fa
 /// A face, and the corners by which it is found.
 struct FaceClaim
 {
-  FaceKey key;
+  FaceKey key{ -1, -1, -1, -1 };
   FaceReference where;
+
+  /// Three distinct corners at least: not an edge or a point.
+  bool isFace() const { return this->key[1] >= 0; }
 };
 
-/// All faces, sorted by their corners.
-std::vector<FaceClaim> faceClaims(const ElementMesh& mesh)
+/// MaximumFaces an element.
+Buffer<FaceClaim> faceClaims(const ElementMesh& mesh, const ParallelFor& parallelFor)
 {
-  std::vector<FaceClaim> claims;
-  claims.reserve(mesh.elements.size() * MaximumFaces);
-  for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
-  {
-    const auto& faces = facts(mesh.elements[e].domain).faces;
-    for (int f = 0; f < static_cast<int>(faces.size()); ++f)
+  Buffer<FaceClaim> claims(mesh.elements.size() * MaximumFaces);
+  forAll(parallelFor, mesh.elements.size(),
+    [&](std::size_t e)
     {
-      const FaceKey key = faceKey(mesh.elements[e], faces[f]);
-      if (key[1] >= 0) // three distinct corners at least: a face, not an edge or a point
+      const int element = static_cast<int>(e);
+      const auto& faces = facts(mesh.elements[e].domain).faces;
+      for (int f = 0; f < MaximumFaces; ++f)
       {
-        claims.push_back({ key, { e, f } });
+        FaceClaim& claim = claims[faceSlot(element, f)];
+        claim = {};
+        if (f < static_cast<int>(faces.size()))
+        {
+          claim = { faceKey(mesh.elements[e], faces[f]), { element, f } };
+        }
       }
-    }
-  }
-  std::stable_sort(claims.begin(), claims.end(),
-    [](const FaceClaim& a, const FaceClaim& b) { return a.key < b.key; });
+    });
   return claims;
 }
 
@@ -172,36 +179,41 @@ FaceNeighbor& neighborAt(ElementMesh& mesh, const FaceReference& face)
   return mesh.neighbors[faceSlot(face.element, face.face)];
 }
 
+/// Joins faces a and b if they are one.
+void join(ElementMesh& mesh, const FaceReference& a, const FaceReference& b, double tolerance)
+{
+  if (glm::distance(faceMiddle(mesh, a), faceMiddle(mesh, b)) <= tolerance)
+  {
+    neighborAt(mesh, a) = joinTo(mesh, a, b);
+    neighborAt(mesh, b) = joinTo(mesh, b, a);
+  }
+}
+
 } // namespace
 
 void findFaceNeighbors(ElementMesh& mesh, double tolerance, const ParallelFor& parallelFor)
 {
   mesh.neighbors.assign(mesh.elements.size() * MaximumFaces, {});
-  const std::vector<FaceClaim> claims = faceClaims(mesh);
-  // Where in the list two faces of one key follow each other, and no third one.
-  std::vector<std::size_t> pairs;
-  for (std::size_t first = 0, end = 0; first < claims.size(); first = end)
-  {
-    for (end = first + 1; end < claims.size() && claims[end].key == claims[first].key;)
+  const Buffer<FaceClaim> claims = faceClaims(mesh, parallelFor);
+  const std::size_t bins = mesh.elements.size();
+  Grouping faces = groupedBy(
+    claims, bins + 1,
+    [bins](const FaceClaim& claim)
+    { return claim.isFace() ? static_cast<std::size_t>(claim.key.back()) % bins : bins; },
+    parallelFor);
+  forAll(parallelFor, bins,
+    [&](std::size_t bin)
     {
-      ++end;
-    }
-    if (end - first == 2)
-    {
-      pairs.push_back(first);
-    }
-  }
-  runParallel(parallelFor, static_cast<std::ptrdiff_t>(pairs.size()),
-    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-    {
-      for (std::ptrdiff_t p = begin; p < end; ++p)
+      const auto begin = faces.order.begin() + faces.start[bin];
+      const auto end = faces.order.begin() + faces.start[bin + 1];
+      std::sort(begin, end,
+        [&](int a, int b) { return std::tie(claims[a].key, a) < std::tie(claims[b].key, b); });
+      for (auto first = begin, next = begin; first != end; first = next)
       {
-        const FaceReference& a = claims[pairs[p]].where;
-        const FaceReference& b = claims[pairs[p] + 1].where;
-        if (glm::distance(faceMiddle(mesh, a), faceMiddle(mesh, b)) <= tolerance)
+        next = std::find_if(first, end, [&](int i) { return claims[i].key != claims[*first].key; });
+        if (next - first == 2)
         {
-          neighborAt(mesh, a) = joinTo(mesh, a, b);
-          neighborAt(mesh, b) = joinTo(mesh, b, a);
+          join(mesh, claims[first[0]].where, claims[first[1]].where, tolerance);
         }
       }
     });
