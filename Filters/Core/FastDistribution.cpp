@@ -385,23 +385,22 @@ void FastSystem::relax(
 {
   const auto reached = [&](double share) { this->Work.raiseFraction(section.at(share)); };
   Relaxed relaxed = relaxOnPatches(moving.patches(), sweeps, balance, this->Parallel, reached);
-  std::vector<glm::vec2>& displacements = relaxed.displacements;
+  const std::size_t count = moving.count();
+  relaxed.displacements.resize(count);
+  relaxed.kept.resize(count);
   Buffer<Anchor> anchors;
   Buffer<Patch> patches;
   for (const Split& split : relaxed.splits)
   {
     anchors.push_back(moving.anchors()[split.particle]);
     patches.push_back(moving.patches()[split.particle]);
+    relaxed.displacements.push_back(split.displacement);
+    relaxed.kept.push_back(1);
   }
-  displacements.resize(moving.count());
-  keepMarked(displacements, relaxed.kept);
-  moving.keep(relaxed.kept);
   moving.add(anchors, patches);
-  std::transform(relaxed.splits.begin(), relaxed.splits.end(), std::back_inserter(displacements),
-    [](const Split& split) { return split.displacement; });
   // Holes that cannot be filled lie beyond the end of the surface.
   const bool fills = balance.extent == Balance::Defects;
-  moving.commit(displacements, fills ? relaxed.splits.size() : 0);
+  moving.commit(relaxed.displacements, std::move(relaxed.kept), fills ? relaxed.splits.size() : 0);
   this->Result.report.iterations += sweeps;
 }
 

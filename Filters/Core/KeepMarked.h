@@ -1,9 +1,7 @@
 #pragma once
 
-#include "Buffer.h"
-#include "Monitor.h"
-
 #include <algorithm>
+#include <cstddef>
 #include <vector>
 
 namespace hop
@@ -52,6 +50,21 @@ std::size_t closeGaps(Items& items, std::size_t end, const std::vector<char>& ma
   return end;
 }
 
+/// Which of the first `count` marks are set.
+inline std::vector<int> markedIndices(const std::vector<char>& marks, std::size_t count)
+{
+  std::vector<int> indices;
+  indices.reserve(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (marks[i])
+    {
+      indices.push_back(static_cast<int>(i));
+    }
+  }
+  return indices;
+}
+
 /// Copies of the items that have a mark, in their order.
 /// \param marks one for each item at most
 template <class Items>
@@ -67,17 +80,6 @@ Items marked(const Items& items, const std::vector<char>& marks)
     }
   }
   return result;
-}
-
-/// Puts items order[0], order[1], ... first, in this order, and leaves the rest.
-template <class T>
-void permute(Buffer<T>& items, const std::vector<int>& order, const ParallelFor& parallelFor)
-{
-  Buffer<T> permuted(items.size());
-  forAll(parallelFor, order.size(), [&](std::size_t n) { permuted[n] = items[order[n]]; });
-  const auto rest = static_cast<std::ptrdiff_t>(order.size());
-  std::copy(items.begin() + rest, items.end(), permuted.begin() + rest);
-  items.swap(permuted);
 }
 
 } // namespace hop

@@ -53,6 +53,9 @@ std::size_t MovingParticles::makeRoom(std::size_t count)
 {
   const std::size_t first = this->count();
   const std::size_t size = this->size();
+  // Rounds of relaxation add some, and with them should not move all.
+  this->Anchors.reserve(this->count() + count + count / 8);
+  this->Patches.reserve(size + count + count / 8);
   this->Anchors.resize(first + count);
   this->Patches.resize(size + count);
   const auto rims = this->Patches.begin() + static_cast<std::ptrdiff_t>(first);
@@ -99,7 +102,7 @@ void MovingParticles::approach(float farthest)
       far.push_back(static_cast<int>(i));
     }
   }
-  this->step(far, std::vector<glm::vec2>(far.size(), glm::vec2(0.0f)));
+  this->step(far, std::vector<glm::vec2>(this->count(), glm::vec2(0.0f)));
 }
 
 /// Gives some particles the patches that belong to places.
@@ -134,11 +137,37 @@ void MovingParticles::add(const Buffer<Anchor>& anchors, const Buffer<Patch>& pa
   this->Anchors.insert(this->Anchors.end(), anchors.begin(), anchors.end());
 }
 
-void MovingParticles::keep(std::vector<char> kept)
+/// Of those that move, puts order[0], order[1], ... first, and leaves out what is not in the order.
+void MovingParticles::arrange(const std::vector<int>& order)
 {
-  keepMarked(this->Anchors, kept);
-  kept.resize(this->Patches.size(), 1);
-  keepMarked(this->Patches, kept);
+  const std::size_t before = this->count();
+  const std::size_t rims = this->size() - before;
+  // More is added later.
+  this->SpareAnchors.reserve(this->Anchors.capacity());
+  this->SparePatches.reserve(this->Patches.capacity());
+  this->SpareAnchors.resize(order.size());
+  this->SparePatches.resize(order.size() + rims);
+  forAll(this->Parallel, this->SparePatches.size(),
+    [&](std::size_t n)
+    {
+      const bool moves = n < order.size();
+      this->SparePatches[n] = this->Patches[moves ? order[n] : n - order.size() + before];
+      if (moves)
+      {
+        this->SpareAnchors[n] = this->Anchors[order[n]];
+      }
+    });
+  this->Anchors.swap(this->SpareAnchors);
+  this->Patches.swap(this->SparePatches);
+}
+
+void MovingParticles::keep(const std::vector<char>& kept)
+{
+  const std::vector<int> order = markedIndices(kept, this->count());
+  if (order.size() < this->count())
+  {
+    this->arrange(order);
+  }
 }
 
 /// Where a step in world space takes particle i: in its own element by its own map, in the next one by that
@@ -188,7 +217,7 @@ glm::dvec3 MovingParticles::stepTo(std::size_t i, const glm::vec2& displacement)
     static_cast<double>(this->Anchors[i].offset) * glm::dvec3(patch.normal);
 }
 
-/// Where displacements, one for each of some particles, take them.
+/// Where displacements, one for each particle, take some of them.
 std::vector<Location> MovingParticles::targets(
   const std::vector<int>& which, const std::vector<glm::vec2>& displacements)
 {
@@ -199,7 +228,7 @@ std::vector<Location> MovingParticles::targets(
       std::int64_t cost = 0;
       for (std::ptrdiff_t n = begin; n < end; ++n)
       {
-        places[n] = this->target(which[n], this->stepTo(which[n], displacements[n]), cost);
+        places[n] = this->target(which[n], this->stepTo(which[n], displacements[which[n]]), cost);
       }
       this->Evaluations += cost;
     });
@@ -225,8 +254,8 @@ bool MovingParticles::retry(
   return false;
 }
 
-/// Takes some particles where displacements, one for each, and Newton's method lead them.
-/// \return for each of them, whether it got there in one step
+/// Takes some particles where displacements, one for each particle, and Newton's method lead them.
+/// \return for each of those some, whether it got there in one step
 std::vector<char> MovingParticles::step(
   const std::vector<int>& which, const std::vector<glm::vec2>& displacements)
 {
@@ -246,7 +275,7 @@ std::vector<char> MovingParticles::step(
           Patch patch;
           arrived[n] = anchorPatch(places[n], jet, this->Surface.isovalue, anchor, patch) &&
             accepts(this->Anchors[i], this->Patches[i], anchor, patch);
-          if (arrived[n] || this->retry(i, this->stepTo(i, displacements[n]), anchor, patch, cost))
+          if (arrived[n] || this->retry(i, this->stepTo(i, displacements[i]), anchor, patch, cost))
           {
             patch.spacing = this->Proxy.spacingAt(patch.position, patch.curvatureMagnitude());
             this->Anchors[i] = anchor;
@@ -258,17 +287,20 @@ std::vector<char> MovingParticles::step(
   return arrived;
 }
 
-void MovingParticles::commit(const std::vector<glm::vec2>& displacements, std::size_t newcomers)
+void MovingParticles::commit(
+  const std::vector<glm::vec2>& displacements, std::vector<char> kept, std::size_t newcomers)
 {
-  std::vector<int> all(this->count());
-  std::iota(all.begin(), all.end(), 0);
-  std::vector<char> arrived = this->step(all, displacements);
-  std::fill(arrived.begin(), arrived.end() - static_cast<std::ptrdiff_t>(newcomers), 1);
-  this->keep(std::move(arrived));
-  const std::vector<int> order =
+  const std::vector<int> which = markedIndices(kept, this->count());
+  const std::vector<char> arrived = this->step(which, displacements);
+  for (std::size_t n = which.size() - newcomers; n < which.size(); ++n)
+  {
+    kept[which[n]] = arrived[n];
+  }
+  std::vector<int> order =
     orderByElement(this->Anchors, this->Surface.mesh->elements.size(), this->Parallel);
-  permute(this->Anchors, order, this->Parallel);
-  permute(this->Patches, order, this->Parallel);
+  order.erase(
+    std::remove_if(order.begin(), order.end(), [&](int i) { return !kept[i]; }), order.end());
+  this->arrange(order);
 }
 
 Location MovingParticles::onSurface(std::size_t i, std::int64_t& cost) const

@@ -35,15 +35,18 @@ public:
   void approach(float farthest);
   /// Adds particles whose patches are known.
   void add(const Buffer<Anchor>& anchors, const Buffer<Patch>& patches);
-  /// Keeps those marked; all that move, and no others, have a mark.
-  void keep(std::vector<char> kept);
+  /// Keeps those marked, of those that move.
+  /// \param kept one for each of them at least
+  void keep(const std::vector<char>& kept);
 
   /// Takes particles to where relaxation wants them, and to the surface; one evaluation each gives them
   /// new patches there, more where half a step has to do. Afterwards they are sorted by element.
-  /// \param displacements in the tangent planes of the patches, one for each that moves at least
-  /// \param newcomers the last so many of those that move are dropped where they do not get there in one
-  ///   step: they stand where others do
-  void commit(const std::vector<glm::vec2>& displacements, std::size_t newcomers = 0);
+  /// \param displacements in the tangent planes of the patches, one for each that moves
+  /// \param kept marks of those that move; others are dropped instead
+  /// \param newcomers the last so many of those kept are dropped where they do not get there in one step:
+  ///   they stand where others do
+  void commit(
+    const std::vector<glm::vec2>& displacements, std::vector<char> kept, std::size_t newcomers = 0);
 
   /// Where one Newton step takes particle i. Costs evaluations only where it leaves its element.
   Location onSurface(std::size_t i, std::int64_t& cost) const;
@@ -62,6 +65,7 @@ public:
 
 private:
   std::size_t makeRoom(std::size_t count);
+  void arrange(const std::vector<int>& order);
   std::vector<char> anchorAt(const std::vector<int>& which, const std::vector<Location>& places);
   Location target(std::size_t i, const glm::dvec3& step, std::int64_t& cost) const;
   glm::dvec3 stepTo(std::size_t i, const glm::vec2& displacement) const;
@@ -77,6 +81,9 @@ private:
   ParallelFor Parallel;
   Buffer<Anchor> Anchors;
   Buffer<Patch> Patches;
+  // Where they are put in another order.
+  Buffer<Anchor> SpareAnchors;
+  Buffer<Patch> SparePatches;
   std::atomic<std::int64_t> Evaluations{ 0 };
 };
 

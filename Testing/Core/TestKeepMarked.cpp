@@ -5,8 +5,6 @@
 namespace
 {
 
-using hop::Buffer;
-
 std::vector<int> kept(std::vector<int> items, const std::vector<char>& marks)
 {
   hop::keepMarked(items, marks);
@@ -52,11 +50,10 @@ TEST(KeepMarked, MarkedItemsAreCopiedInTheirOrder)
   EXPECT_EQ(hop::marked(items, { 0, 1, 1 }), (std::vector<int>{ 2, 3 }));
 }
 
-TEST(KeepMarked, ItemsArePermuted)
+TEST(KeepMarked, SaysWhichAreMarked)
 {
-  Buffer<int> items{ 10, 11, 12, 13 };
-  hop::permute(items, { 2, 0, 1 }, {});
-  EXPECT_EQ(items, (Buffer<int>{ 12, 10, 11, 13 }));
+  EXPECT_EQ(hop::markedIndices({ 0, 1, 1, 0, 1 }, 4), (std::vector<int>{ 1, 2 }));
+  EXPECT_EQ(hop::markedIndices({}, 0), std::vector<int>{});
 }
 
 } // namespace
