@@ -6,7 +6,6 @@
 
 /// Runs `work` with the best threaded back end of vtkSMPTools that this VTK was built with, unless
 /// the caller has already chosen one other than Sequential; restores the caller's choice.
-void withThreads(const std::function<void()>& work);
-
-/// vtkSMPTools::For behind the core's seam.
-hop::ParallelFor smpParallelFor();
+/// \param work receives loops that run in as many threads as vtkSMPTools takes; they are there as long as
+/// it runs
+void withThreads(const std::function<void(const hop::ParallelFor&)>& work);

@@ -192,6 +192,20 @@ std::vector<InputBlock> blocksWithScalars(
 
 } // namespace
 
+/// A part of the run, as far as progress and threads are concerned.
+struct vtkHighOrderParticleIsosurface::Work
+{
+  hop::Monitor monitor;
+  const hop::ParallelFor& parallelFor;
+
+  Work part(double begin, double end) const
+  {
+    return { { [this, begin, end](double fraction)
+               { return this->monitor.proceed(begin + (end - begin) * fraction); } },
+      this->parallelFor };
+  }
+};
+
 vtkStandardNewMacro(vtkHighOrderParticleIsosurface);
 
 vtkHighOrderParticleIsosurface::vtkHighOrderParticleIsosurface()
@@ -330,7 +344,12 @@ int vtkHighOrderParticleIsosurface::RequestData(
     const InputBlocks group(groups[g], component);
     try
     {
-      withThreads([&]() { this->Process(group, scale, g, groups.size()); });
+      const double share = 1.0 / static_cast<double>(groups.size());
+      const double begin = share * static_cast<double>(g);
+      withThreads(
+        [&](const hop::ParallelFor& parallelFor) {
+          this->Process(group, scale, g, { this->MonitorOf(begin, begin + share), parallelFor });
+        });
     }
     catch (const hop::Interrupted&)
     {
@@ -467,18 +486,12 @@ hop::Monitor vtkHighOrderParticleIsosurface::MonitorOf(double begin, double end)
 /// Particles of all isovalues in one group of blocks.
 /// \throw hop::Interrupted
 void vtkHighOrderParticleIsosurface::Process(
-  const InputBlocks& blocks, const Scale& scale, std::size_t group, std::size_t groupCount)
+  const InputBlocks& blocks, const Scale& scale, std::size_t group, const Work& work)
 {
-  const auto monitorOf = [&](double begin, double end)
-  {
-    const auto ofRun = [&](double share)
-    { return (static_cast<double>(group) + share) / static_cast<double>(groupCount); };
-    return this->MonitorOf(ofRun(begin), ofRun(end));
-  };
   const auto isovalueCount = static_cast<std::size_t>(this->GetNumberOfContours());
   const double shareOfIsovalue =
     (distributedShare - convertedShare) / static_cast<double>(isovalueCount);
-  const GridElements elements = this->Convert(blocks, monitorOf(0.0, convertedShare));
+  const GridElements elements = this->Convert(blocks, work.part(0.0, convertedShare));
   RunOrigin origin = this->OriginOf(blocks, scale);
   std::vector<IsovalueParticles> particles;
   for (std::size_t i = 0; i < isovalueCount && !isAborted(this); ++i)
@@ -487,38 +500,35 @@ void vtkHighOrderParticleIsosurface::Process(
     const double begin = convertedShare + static_cast<double>(i) * shareOfIsovalue;
     particles.push_back({ origin.isovalue,
       this->Distribute(elements, scale, origin, group * isovalueCount + i,
-        monitorOf(begin, begin + shareOfIsovalue)) });
+        work.part(begin, begin + shareOfIsovalue)) });
     this->Review(blocks, particles.back().distribution, origin.isovalue);
   }
-  const hop::Monitor packing = monitorOf(distributedShare, 1.0);
-  const hop::ParallelFor parallelFor = smpParallelFor();
-  hop::Interruptible work(packing, parallelFor);
-  packParticles(blocks, elements, particles, work);
+  const Work packing = work.part(distributedShare, 1.0);
+  hop::Interruptible loops(packing.monitor, packing.parallelFor);
+  packParticles(blocks, elements, particles, loops);
 }
 
 /// \throw hop::Interrupted
-GridElements vtkHighOrderParticleIsosurface::Convert(
-  const InputBlocks& blocks, const hop::Monitor& monitor)
+GridElements vtkHighOrderParticleIsosurface::Convert(const InputBlocks& blocks, const Work& work)
 {
-  const hop::ParallelFor parallelFor = smpParallelFor();
-  hop::Interruptible work(monitor, parallelFor);
+  hop::Interruptible loops(work.monitor, work.parallelFor);
   const auto reached = [&](double share)
   {
-    work.raiseFraction(share);
-    work.ask();
+    loops.raiseFraction(share);
+    loops.ask();
   };
   const auto spacing = this->NodeSpacing == UNIFORM ? hop::NodeSpacing::Uniform
                                                     : hop::NodeSpacing::GaussLobattoLegendre;
   const double* values = this->ContourValues->GetValues();
   GridElements elements = buildGridElements(
-    blocks, spacing, { values, values + this->GetNumberOfContours() }, std::ref(work), reached);
+    blocks, spacing, { values, values + this->GetNumberOfContours() }, std::ref(loops), reached);
   this->Review(blocks, elements);
   return elements;
 }
 
 /// \param number tells the isosurfaces of a run from one another
 hop::Distribution vtkHighOrderParticleIsosurface::Distribute(const GridElements& elements,
-  const Scale& scale, const RunOrigin& origin, std::size_t number, const hop::Monitor& monitor)
+  const Scale& scale, const RunOrigin& origin, std::size_t number, const Work& work)
 {
   const bool continues = this->WarmStart && this->Method == FAST;
   hop::DistributionParameters parameters = origin.parameters;
@@ -529,10 +539,10 @@ hop::Distribution vtkHighOrderParticleIsosurface::Distribute(const GridElements&
   const auto distribute = this->Method == CLASSIC ? hop::distributeClassic : hop::distributeFast;
   hop::Distribution distribution =
     distribute({ &elements.mesh, elements.fieldIsovalue(origin.isovalue), scale.Tolerance },
-      parameters, monitor, smpParallelFor());
+      parameters, work.monitor, work.parallelFor);
   if (continues)
   {
-    this->Previous->remember(number, origin, elements.mesh, distribution, smpParallelFor());
+    this->Previous->remember(number, origin, elements.mesh, distribution, work.parallelFor);
   }
   return distribution;
 }

@@ -244,12 +244,12 @@ private:
   bool CheckInput(const GatheredBlocks& gathered);
   std::vector<InputBlock> FindScalars(const GatheredBlocks& gathered);
   RunOrigin OriginOf(const InputBlocks& blocks, const Scale& scale) const;
+  struct Work;
   hop::Monitor MonitorOf(double begin, double end);
-  void Process(
-    const InputBlocks& blocks, const Scale& scale, std::size_t group, std::size_t groupCount);
-  GridElements Convert(const InputBlocks& blocks, const hop::Monitor& monitor);
+  void Process(const InputBlocks& blocks, const Scale& scale, std::size_t group, const Work& work);
+  GridElements Convert(const InputBlocks& blocks, const Work& work);
   hop::Distribution Distribute(const GridElements& elements, const Scale& scale,
-    const RunOrigin& origin, std::size_t number, const hop::Monitor& monitor);
+    const RunOrigin& origin, std::size_t number, const Work& work);
   void Review(const InputBlocks& blocks, const GridElements& elements);
   void Review(const InputBlocks& blocks, const hop::Distribution& distribution, double isovalue);
 

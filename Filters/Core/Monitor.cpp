@@ -21,9 +21,9 @@ void runInThreads(const ParallelFor& parallelFor, std::ptrdiff_t count, const Lo
 std::ptrdiff_t runAlone(std::ptrdiff_t count, const LoopBody& body)
 {
   using Clock = std::chrono::steady_clock;
-  constexpr std::chrono::microseconds startOfThreads{ 150 };
+  constexpr std::chrono::microseconds startOfThreads{ 30 };
   // From shorter times nothing follows: what comes first may take long because it comes first.
-  constexpr std::chrono::microseconds leastTime{ 20 };
+  constexpr std::chrono::microseconds leastTime{ 10 };
   constexpr std::ptrdiff_t firstShare = 1000;
   // Nor from easy pieces that later ones are easy.
   constexpr std::ptrdiff_t largestShare = 16;

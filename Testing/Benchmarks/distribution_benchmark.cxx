@@ -133,7 +133,7 @@ hop::DistributionParameters parametersOf(const Request& request)
 /// VTK 9.3 never takes more threads again than it was once told to take, unless told so.
 Seconds fastestOn(int threads, int repetitions, const std::function<void()>& work)
 {
-  withThreads([threads] { vtkSMPTools::Initialize(threads); });
+  withThreads([threads](const hop::ParallelFor&) { vtkSMPTools::Initialize(threads); });
   return fastest(threads, repetitions, work);
 }
 
@@ -147,12 +147,11 @@ void runStages(const Request& request, Stages& stages)
 {
   const vtkNew<vtkPolyData> output;
   const InputBlocks blocks = blocksOf(request, output);
-  const hop::ParallelFor parallelFor = smpParallelFor();
   constexpr double tolerancePerDiagonal = 1e-10; // the filter's default
-  const auto onTwoThreads = [](const std::function<void()>& work)
+  const auto onTwoThreads = [](const std::function<void(const hop::ParallelFor&)>& work)
   { return fastestOn(2, 1, [&] { withThreads(work); }); };
   stages.setup = onTwoThreads(
-    [&]
+    [&](const hop::ParallelFor& parallelFor)
     {
       stages.elements =
         buildGridElements(blocks, hop::NodeSpacing::Uniform, { request.isovalue }, parallelFor);
@@ -162,17 +161,17 @@ void runStages(const Request& request, Stages& stages)
   // Part of the distribution, done once more: Fast asks for boxes of this size in hexahedra.
   constexpr double boxSizePerSpacing = 6.0;
   stages.isolation = onTwoThreads(
-    [&]
+    [&](const hop::ParallelFor& parallelFor)
     {
       hop::findSurfaceBoxes(stages.elements.mesh, stages.surface.isovalue,
         boxSizePerSpacing * request.spacing, parallelFor);
     });
   const auto distribute =
     request.method == "classic" ? hop::distributeClassic : hop::distributeFast;
-  stages.distributing = onTwoThreads([&]
+  stages.distributing = onTwoThreads([&](const hop::ParallelFor& parallelFor)
     { stages.distribution = distribute(stages.surface, parametersOf(request), {}, parallelFor); });
   stages.packing = onTwoThreads(
-    [&]
+    [&](const hop::ParallelFor& parallelFor)
     {
       const hop::Monitor noMonitor;
       hop::Interruptible work(noMonitor, parallelFor);
@@ -392,11 +391,10 @@ void measureSampled(const Request& request, Record& record)
 {
   const vtkNew<vtkPolyData> unused;
   const InputBlocks blocks = blocksOf(request, unused);
-  const hop::ParallelFor parallelFor = smpParallelFor();
   vtkNew<vtkContour3DLinearGrid> contour;
   contour->MergePointsOn();
   const double before = presentMegabytes();
-  const auto work = [&]
+  const auto work = [&](const hop::ParallelFor& parallelFor)
   {
     const GridElements elements =
       buildGridElements(blocks, hop::NodeSpacing::Uniform, { request.isovalue }, parallelFor);

@@ -50,10 +50,10 @@ struct Timings
   std::size_t boxCount = 0;
 };
 
-Timings measure(vtkUnstructuredGrid* grid, vtkDataArray* array, double isovalue, int repetitions)
+Timings measure(vtkUnstructuredGrid* grid, vtkDataArray* array, double isovalue, int repetitions,
+  const hop::ParallelFor& parallelFor)
 {
   Timings result;
-  const hop::ParallelFor parallelFor = smpParallelFor();
   const InputBlocks blocks({ { grid, array, nullptr, "" } }, 0);
   GridElements elements;
   result.elements = bestSeconds(repetitions,
@@ -99,7 +99,11 @@ int main(int argc, char* argv[])
     {
       Timings inner;
       vtkSMPTools::LocalScope(vtkSMPTools::Config(threads, "STDThread", false),
-        [&]() { inner = measure(grid, array, isovalue, repetitions); });
+        [&]()
+        {
+          withThreads([&](const hop::ParallelFor& parallelFor)
+            { inner = measure(grid, array, isovalue, repetitions, parallelFor); });
+        });
       return inner;
     }();
     std::printf("%d thread(s): %.0f cells to %zu elements %.2f ms (%.2f million cells/s), %zu "

@@ -120,12 +120,11 @@ SurfacePicture CastSurface(const SurfaceCase& surface, const PictureCamera& came
   const InputBlocks blocks({ { surface.Grid, array, nullptr, "" } }, 0);
   SurfacePicture picture;
   withThreads(
-    [&]()
+    [&](const hop::ParallelFor& parallelFor)
     {
-      const GridElements elements = buildGridElements(
-        blocks, hop::NodeSpacing::Uniform, { surface.Isovalue }, smpParallelFor());
-      picture.Seen =
-        hop::testing::castRays(elements.mesh, surface.Isovalue, camera, smpParallelFor());
+      const GridElements elements =
+        buildGridElements(blocks, hop::NodeSpacing::Uniform, { surface.Isovalue }, parallelFor);
+      picture.Seen = hop::testing::castRays(elements.mesh, surface.Isovalue, camera, parallelFor);
     });
   for (int i = 0; i < camera.size * camera.size; ++i)
   {
