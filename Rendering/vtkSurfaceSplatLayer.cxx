@@ -3,6 +3,7 @@
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkSurfaceSplatDrawing.h"
 #include "vtkSurfaceSplatPassState.h"
+#include "vtkSurfaceSplatTiles.h"
 #include "vtkSurfaceSplatView.h"
 
 #include <algorithm>
@@ -24,7 +25,9 @@ bool vtkSurfaceSplatLayer::Update(const vtkSurfaceSplatDrawing& drawing)
     return true;
   }
   this->Key.clear();
-  vtkSurfaceSplatPassState state(drawing.Window->GetState(), drawing.View->GetRectangle());
+  // Whatever is looked at later is cleared.
+  vtkSurfaceSplatPassState state(
+    drawing.Window->GetState(), vtkSurfaceSplatTiles::GetNeighborhood(*drawing.View));
   if (!std::all_of(this->Passes.begin(), this->Passes.end(),
         [&](vtkSurfaceSplatPass* pass) { return pass->Prepare(drawing); }))
   {

@@ -23,6 +23,17 @@ vtkSurfaceSplatTiles::vtkSurfaceSplatTiles(const vtkSurfaceSplatView& view)
 }
 
 //------------------------------------------------------------------------------
+std::array<int, 4> vtkSurfaceSplatTiles::GetNeighborhood(const vtkSurfaceSplatView& view)
+{
+  // Tiles begin and end less than one and a half of them beyond the splats, and are told apart by what lies
+  // half of one around them.
+  constexpr int margin = 2 * Size;
+  const std::array<int, 4>& rectangle = view.GetRectangle();
+  return { rectangle[0] - margin, rectangle[1] - margin, rectangle[2] + 2 * margin,
+    rectangle[3] + 2 * margin };
+}
+
+//------------------------------------------------------------------------------
 void vtkSurfaceSplatTiles::SetUniforms(vtkShaderProgram* program, int kinds) const
 {
   program->SetUniform2i("splatFirstTile", this->First.data());

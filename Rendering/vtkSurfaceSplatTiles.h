@@ -31,6 +31,9 @@ public:
 
   explicit vtkSurfaceSplatTiles(const vtkSurfaceSplatView& view);
 
+  /** Left, bottom, width and height, within the viewport or around it, of all that drawing tiles looks at. */
+  static std::array<int, 4> GetNeighborhood(const vtkSurfaceSplatView& view);
+
   void SetUniforms(vtkShaderProgram* program, int kinds) const;
 
   /** With the program that is in use. */

@@ -153,6 +153,46 @@ TEST(SplatState, AThousandPicturesAndManySizesLeakNothing)
   EXPECT_LT(ResidentMegabytes(), memory + 20.);
 }
 
+namespace
+{
+// How many pixels of the two pictures differ.
+int CountDifferent(const SplatScene& a, const SplatScene& b)
+{
+  int count = 0;
+  for (int y = 0; y < SplatScene::Size; ++y)
+  {
+    for (int x = 0; x < SplatScene::Size; ++x)
+    {
+      count += glm::distance(a.ColorAt(x, y), b.ColorAt(x, y)) > 0.;
+    }
+  }
+  return count;
+}
+}
+
+// From picture to picture the surface fills less of the window, or another part of it.
+TEST(SplatState, NothingIsLeftOfThePictureBefore)
+{
+  const auto look = [](SplatScene& scene, int picture)
+  {
+    scene.Mapper->SetModeToSplats();
+    const bool translucent = picture % 2 == 1;
+    scene.Actor->GetProperty()->SetOpacity(translucent ? 0.5 : 1.);
+    scene.Actor->SetPosition(0.07 * picture, 0.05 * picture * (picture % 3 - 1), 0.);
+    scene.LookFrom({ 0.1 * picture, 0.2, 1. }, picture % 4 > 1, 4., 1. + 0.4 * (picture / 2));
+    scene.Render();
+  };
+  const auto particles = FibonacciSphere(Count, 1., Spacing);
+  SplatScene scene(particles);
+  for (int picture = 0; picture < 14; ++picture)
+  {
+    look(scene, picture);
+    SplatScene fresh(particles);
+    look(fresh, picture);
+    EXPECT_EQ(CountDifferent(scene, fresh), 0) << picture;
+  }
+}
+
 TEST(SplatState, ReleasedResourcesAreBuiltAgain)
 {
   SplatScene scene(FibonacciSphere(Count, 1., Spacing));
