@@ -63,26 +63,26 @@ MonotoneTest::MonotoneTest(Domain domain, const Degrees& degrees)
     }
   }
   this->Begin.push_back(static_cast<int>(this->Differences.size()));
+  this->Mean.resize(latticePoints(domain, degrees).size(), glm::dvec3(0.0));
+  for (std::size_t n = 0; n + 1 < this->Begin.size(); ++n)
+  {
+    const int axis = static_cast<int>(n % 3);
+    for (int d = this->Begin[n]; d < this->Begin[n + 1]; ++d)
+    {
+      const Difference& difference = this->Differences[d];
+      this->Mean[difference.plus][axis] += difference.weight;
+      this->Mean[difference.minus][axis] -= difference.weight;
+    }
+  }
 }
 
 bool MonotoneTest::rises(const std::vector<double>& values) const
 {
-  std::vector<glm::dvec3> gradient(values.size());
   glm::dvec3 mean(0.0);
   double largest = 0.0;
   for (std::size_t point = 0; point < values.size(); ++point)
   {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      double sum = 0.0;
-      for (int d = this->Begin[3 * point + axis]; d < this->Begin[3 * point + axis + 1]; ++d)
-      {
-        const Difference& difference = this->Differences[d];
-        sum += difference.weight * (values[difference.plus] - values[difference.minus]);
-      }
-      gradient[point][axis] = sum;
-    }
-    mean += gradient[point];
+    mean += values[point] * this->Mean[point];
     largest = std::max(largest, std::abs(values[point]));
   }
   const double length = glm::length(mean);
@@ -91,9 +91,29 @@ bool MonotoneTest::rises(const std::vector<double>& values) const
     return false;
   }
   // Differences of values carry the values' rounding errors, times the degree.
-  const double slack = 1e-13 * largest * MaximumDegree;
-  return std::all_of(gradient.begin(), gradient.end(),
-    [&](const glm::dvec3& g) { return glm::dot(g, mean) > slack * length; });
+  const double least = 1e-13 * largest * MaximumDegree * length;
+  for (std::size_t point = 0; point < values.size(); ++point)
+  {
+    if (!(glm::dot(this->gradient(values, point), mean) > least))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+glm::dvec3 MonotoneTest::gradient(const std::vector<double>& values, std::size_t point) const
+{
+  glm::dvec3 result(0.0);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (int d = this->Begin[3 * point + axis]; d < this->Begin[3 * point + axis + 1]; ++d)
+    {
+      const Difference& difference = this->Differences[d];
+      result[axis] += difference.weight * (values[difference.plus] - values[difference.minus]);
+    }
+  }
+  return result;
 }
 
 } // namespace hop

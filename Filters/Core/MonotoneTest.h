@@ -31,9 +31,13 @@ private:
     double weight = 0.0;
   };
 
+  glm::dvec3 gradient(const std::vector<double>& values, std::size_t point) const;
+
   /// For each lattice point and axis the differences [begin, end) of its derivative coefficient.
   std::vector<Difference> Differences;
   std::vector<int> Begin;
+  /// By how much a value counts in the mean gradient.
+  std::vector<glm::dvec3> Mean;
 };
 
 } // namespace hop
