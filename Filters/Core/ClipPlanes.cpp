@@ -5,6 +5,7 @@
 #include "SpacingGrid.h"
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 
 namespace hop
@@ -44,6 +45,16 @@ void offer(Particle& particle, const ClipPlane& plane)
   }
 }
 
+/// Of particles that lie farther beyond a rim's plane than this, in units of their spacing, it is no rim: they
+/// are those of the other side of a jump. Bent rims leave their planes by less.
+constexpr double sameSide = 0.2;
+
+/// How far a particle lies before the plane through a particle on a rim.
+double distanceTo(const RimParticle& rim, const Particle& particle)
+{
+  return dot(rim.particle.position - particle.position, rim.outward);
+}
+
 /// Planes through particles on rims around, each through the nearest that looks its way.
 void offerRims(const SpacingGrid& grid, const Buffer<RimParticle>& rims, Particle& particle)
 {
@@ -60,7 +71,8 @@ void offerRims(const SpacingGrid& grid, const Buffer<RimParticle>& rims, Particl
     {
       const Edge edge{ j, length(rims[j].particle.position - particle.position) };
       if (edge.distance > ClipReach * particle.spacing || length(rims[j].outward) == 0.0 ||
-        dot(rims[j].particle.normal, particle.normal) <= 0.0)
+        dot(rims[j].particle.normal, particle.normal) <= 0.0 ||
+        distanceTo(rims[j], particle) < -sameSide * particle.spacing)
       {
         return;
       }
@@ -79,9 +91,71 @@ void offerRims(const SpacingGrid& grid, const Buffer<RimParticle>& rims, Particl
   {
     if (edge.rim >= 0)
     {
-      const WorldVector& outward = rims[edge.rim].outward;
-      const double distance = dot(rims[edge.rim].particle.position - particle.position, outward);
-      offer(particle, { outward, std::max(0.0, distance), Pi });
+      const double distance = std::max(0.0, distanceTo(rims[edge.rim], particle));
+      offer(particle, { rims[edge.rim].outward, distance, Pi });
+    }
+  }
+}
+
+/// Whether a particle goes on with the surface of one on a rim: right beyond it, and in its plane.
+bool goesOnAt(const RimParticle& rim, const Particle& particle)
+{
+  constexpr double farthest = 1.3;
+  constexpr double aside = 0.6;
+  constexpr double above = 0.25;
+  const glm::dvec3 step = particle.position.xyz - rim.particle.position.xyz;
+  const glm::dvec3 normal = glm::normalize(particle.normal.xyz + rim.particle.normal.xyz);
+  const double height = glm::dot(step, normal);
+  const double beyond = glm::dot(step, rim.outward.xyz);
+  const glm::dvec3 rest = step - height * normal - beyond * rim.outward.xyz;
+  const double h = particle.spacing;
+  return beyond > sameSide * h && beyond < farthest * h && glm::length(rest) < aside * h &&
+    std::abs(height) < above * h && dot(rim.particle.normal, particle.normal) > 0.5;
+}
+
+/// Whether two rims look at each other, across a slit.
+bool areFacing(const RimParticle& a, const RimParticle& b)
+{
+  return dot(a.outward, b.outward) < -0.5 && dot(a.particle.normal, b.particle.normal) > 0.0 &&
+    length(a.particle.position - b.particle.position) < ClipReach * a.particle.spacing;
+}
+
+/// Where a rim comes to an edge of the mesh, and behind that edge the surface goes on though the elements on
+/// both sides of it hold none, it is none: there is a gap far smaller than a spacing.
+void openRimsThatGoOn(const SpacingGrid& grid, const Buffer<Particle>& particles,
+  Buffer<RimParticle>& rims, const ParallelFor& parallelFor)
+{
+  std::vector<std::atomic<char>> goesOn(rims.size());
+  forAll(parallelFor, particles.size(),
+    [&](std::size_t i)
+    {
+      const Particle& particle = particles[i];
+      grid.visit(particle.position.xyz, particle.spacing,
+        [&](int j)
+        {
+          if (goesOnAt(rims[j], particle))
+          {
+            goesOn[j] = 1;
+          }
+        });
+    });
+  forAll(parallelFor, rims.size(),
+    [&](std::size_t i)
+    {
+      bool isSlit = false;
+      grid.visit(rims[i].particle.position.xyz, rims[i].particle.spacing,
+        [&](int j)
+        {
+          isSlit = isSlit || areFacing(rims[i], rims[j]);
+          goesOn[i] = goesOn[i] || goesOnAt(rims[i], rims[j].particle);
+        });
+      goesOn[i] = goesOn[i] && !isSlit;
+    });
+  for (std::size_t i = 0; i < rims.size(); ++i)
+  {
+    if (goesOn[i])
+    {
+      rims[i].outward = {};
     }
   }
 }
@@ -189,6 +263,7 @@ void markClipPlanes(const Isosurface& surface, const FaceJumps& jumps, Buffer<Ri
       spacings[i] = rims[i].patch.spacing;
     });
   const SpacingGrid grid(positions, spacings, ClipReach, 0.5, parallelFor);
+  openRimsThatGoOn(grid, particles, rims, parallelFor);
   const FacePlanes faces(surface, jumps.turns, particles, rims, parallelFor);
   forAll(parallelFor, particles.size(),
     [&](std::size_t i)

@@ -125,5 +125,60 @@ TEST(ClipPlanes, OfRimsComeFirstThoughOthersAreNearer)
   EXPECT_GT(both, 0);
 }
 
+/// The other side of a jump is no part of the sheet that ends at a rim.
+TEST(ClipPlanes, OfRimsCutOnlyTheirOwnSide)
+{
+  int beside = 0;
+  for (const Particle& p : besideRidge(distributeOnRoof(0.2, 0.9 * spacing), 1.3 * spacing))
+  {
+    const double x = p.position.xyz.x;
+    if (std::abs(x) > 0.3 * spacing)
+    {
+      ++beside;
+      ASSERT_TRUE(p.clips[0].exists());
+      EXPECT_LT(p.clips[0].normal.xyz.x * x, 0.0);
+      EXPECT_GT(p.clips[0].distance, 0.2 * spacing);
+      EXPECT_FALSE(p.clips[1].exists());
+    }
+  }
+  EXPECT_GT(beside, 60);
+}
+
+/// The surface passes an edge of the mesh at a small distance, and of the elements there only that behind the
+/// edge goes on with it.
+TEST(ClipPlanes, AreNotWhereTheSurfaceGoesOnBehindAnEdge)
+{
+  constexpr double gap = 0.02 * spacing;
+  const auto box = [](ElementMesh& mesh, double constant, const glm::dvec3& corner)
+  {
+    MeshRecipe recipe;
+    recipe.field = [=](const glm::dvec3& x) { return x.x - x.y + constant; };
+    appendBox(
+      mesh, recipe, glm::min(corner, glm::dvec3(0.0)), glm::max(corner, glm::dvec3(0, 0, 1)));
+  };
+  ElementMesh mesh;
+  box(mesh, gap, { -1, -1, 0 });
+  box(mesh, -gap, { 1, -1, 0 });
+  box(mesh, -0.9, { -1, 1, 0 });
+  box(mesh, -gap, { 1, 1, 0 });
+  findFaceNeighbors(mesh, 1e-9);
+  DistributionParameters parameters;
+  parameters.law = { spacing, 0.0 };
+  int near = 0;
+  int rims = 0;
+  for (const Particle& p : distributeFast({ &mesh, 0.0, 1e-9 }, parameters, {}, {}).particles)
+  {
+    const glm::dvec3& x = p.position.xyz;
+    if (std::hypot(x.x, x.y) < 1.2 * spacing && std::abs(x.z - 0.5) < 0.5 - 2.0 * spacing)
+    {
+      ++near;
+      rims += std::hypot(x.x, x.y) < 2.0 * gap;
+      EXPECT_TRUE(!p.clips[0].exists() || p.clips[0].turn < Pi) << x.x << " " << x.y << " " << x.z;
+    }
+  }
+  EXPECT_GT(near, 30);
+  EXPECT_GT(rims, 10); // as one element says
+}
+
 } // namespace
 } // namespace hop::testing
