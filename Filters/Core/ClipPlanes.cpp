@@ -101,7 +101,7 @@ void offerRims(const SpacingGrid& grid, const Buffer<RimParticle>& rims, Particl
 bool goesOnAt(const RimParticle& rim, const Particle& particle)
 {
   constexpr double farthest = 1.3;
-  constexpr double aside = 0.6;
+  constexpr double aside = 0.8;
   constexpr double above = 0.25;
   const glm::dvec3 step = particle.position.xyz - rim.particle.position.xyz;
   const glm::dvec3 normal = glm::normalize(particle.normal.xyz + rim.particle.normal.xyz);
