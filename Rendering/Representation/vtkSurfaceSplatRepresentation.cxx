@@ -357,6 +357,11 @@ void vtkSurfaceSplatRepresentation::SetSpecularPower(double value)
   this->Actor->GetProperty()->SetSpecularPower(value);
 }
 
+void vtkSurfaceSplatRepresentation::SetPointSize(double value)
+{
+  this->Actor->GetProperty()->SetPointSize(static_cast<float>(value));
+}
+
 void vtkSurfaceSplatRepresentation::SetOpacity(double value)
 {
   this->Actor->GetProperty()->SetOpacity(value);

@@ -85,6 +85,7 @@ public:
   void SetSpecular(double value);
   void SetSpecularColor(double r, double g, double b);
   void SetSpecularPower(double value);
+  void SetPointSize(double value);
   void SetOpacity(double value);
   void SetInterpolation(int value);
   void SetRoughness(double value);

@@ -220,6 +220,15 @@ def test_modes(view, picture, mode, share):
     assert covered == 1.0 if share == 1.0 else 0.01 < covered < share
 
 
+def test_points_have_the_size_of_paraviews_points(view, picture):
+    display = show(particles(), view)
+    display.Mode = "Points"
+    shares = []
+    for display.PointSize in (1.0, 4.0):
+        shares.append(drawn(picture())[disk_of_sphere(radius=0.48)].mean())
+    assert shares[1] > 4.0 * shares[0] > 0.0
+
+
 def test_level_of_detail_shows_the_surface(view):
     sphere = simple.Sphere(ThetaResolution=400, PhiResolution=400)
     source = simple.Calculator(Input=sphere, Function="0.01", ResultArrayName="Radius")
