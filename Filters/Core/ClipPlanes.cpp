@@ -218,12 +218,13 @@ public:
   }
 
 private:
-  /// Whether a particle behind the face is near enough to cover what is cut off: slivers of elements hold
-  /// none.
+  /// Whether a particle behind the face is near enough to cover what is cut off, but for the little that splats
+  /// reach beyond their planes: slivers of elements hold none.
   bool goesOnBehind(const Particle& particle, int face, const WorldPoint& foot) const
   {
     const int element = particle.location.element;
     const int joined = this->Mesh.neighbor(element, face).element;
+    constexpr double nearEnough = 1.1;
     const auto isBehind = [&](int other)
     {
       return joined >= 0 ? other == joined
@@ -234,7 +235,8 @@ private:
       [&](int j)
       {
         found = found ||
-          (glm::distance(this->Positions[j], foot.xyz) <= particle.spacing &&
+          (glm::distance(this->Positions[j], foot.xyz) <=
+              nearEnough * std::max<double>(particle.spacing, this->Spacings[j]) &&
             isBehind(this->Elements[j]));
       });
     return found;

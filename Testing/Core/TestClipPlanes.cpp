@@ -15,7 +15,7 @@ namespace
 constexpr double spacing = 0.05;
 
 /// A roof, z = 0.1 - slope |x|, on the right higher by a step: its ridge runs along faces of elements.
-Distribution distributeOnRoof(double slope, double step = 0.0)
+Distribution distributeOnRoof(double slope, double step = 0.0, double density = 0.0)
 {
   MeshRecipe left, right;
   left.field = [=](const glm::dvec3& x) { return x.z - 0.1 - slope * x.x; };
@@ -25,7 +25,7 @@ Distribution distributeOnRoof(double slope, double step = 0.0)
   appendBox(mesh, right, { 0, -1, -1 }, { 1, 1, 1 });
   findFaceNeighbors(mesh, 1e-9);
   DistributionParameters parameters;
-  parameters.law = { spacing, 0.0 };
+  parameters.law = { spacing, density };
   return distributeFast({ &mesh, 0.0, 1e-9 }, parameters, {}, {});
 }
 
@@ -68,6 +68,17 @@ TEST(ClipPlanes, AreAtKinksWhereAParticleBehindCoversWhatIsCutOff)
     }
   }
   EXPECT_GT(atRidge, 30);
+}
+
+/// Where spacings are finest, a little farther off coarser splats cover what is cut off.
+TEST(ClipPlanes, AreAtKinksThatParticlesStandCloserTo)
+{
+  const auto particles = besideRidge(distributeOnRoof(0.5, 0.0, 10.0), 0.1 * spacing);
+  EXPECT_GT(particles.size(), 5u);
+  for (const Particle& p : particles)
+  {
+    EXPECT_TRUE(p.clips[0].exists());
+  }
 }
 
 /// Of a roof that turns by so many degrees, or makes a step of so many spacings.
