@@ -94,6 +94,7 @@ void vtkSurfaceSplatBuffers::Upload(
   const GLint texels = this->HasClip ? 3 : this->HasShape ? 2 : 1; // a particle, at most
   const vtkIdType count = std::min<vtkIdType>(particles.GetNumberOfParticles(), limit / texels);
   this->NumberOfParticles = count;
+  this->NumberOfSheets = particles.NumberOfSheets;
   this->Origin = particles.Origin;
   this->MeasureRadii(particles.CentreRadius);
   if (count == 0)

@@ -64,6 +64,9 @@ public:
 
   vtkIdType GetNumberOfParticles() const { return this->NumberOfParticles; }
 
+  /** How many sheets the particles tell apart. */
+  int GetNumberOfSheets() const { return this->NumberOfSheets; }
+
   /** Whether particles carry clip planes. */
   bool GetHasClip() const { return this->HasClip; }
 
@@ -87,6 +90,7 @@ public:
 
 private:
   vtkIdType NumberOfParticles = 0;
+  int NumberOfSheets = 1;
   double MeanRadius = 0.;
   double LargestRadius = 0.;
 

@@ -15,9 +15,10 @@ std::vector<double> vtkSurfaceSplatDrawing::GetWholeKey() const
 {
   std::vector<double> key = this->Key;
   this->View->AppendTo(key);
-  for (double value : { this->RadiusScale, this->Sharpness, double(this->Stride),
-         double(this->Kind), double(this->FacesViewer), double(this->HiddenSide),
-         double(this->Colors), double(this->Strongest), double(this->NumberOfClippingPlanes) })
+  for (double value :
+    { this->RadiusScale, this->Sharpness, double(this->Stride), double(this->Kind),
+      double(this->Sheet), double(this->FacesViewer), double(this->HiddenSide),
+      double(this->Colors), double(this->Strongest), double(this->NumberOfClippingPlanes) })
   {
     key.push_back(value);
   }

@@ -20,6 +20,7 @@ struct vtkSurfaceSplatDrawing
   double RadiusScale = 1.;
   double Sharpness = 2.;
   int Kind = 2;             // 0: opaque particles; 1: translucent ones; 2: all
+  int Sheet = -1;           // of these, the ones of this sheet; -1: of all
   int Stride = 1;           // every how-manieth particle is drawn
   bool FacesViewer = false; // there are no normals
   int HiddenSide = 0;       // 1: splats seen from outward are left out; -1: from inward; 0: none

@@ -62,6 +62,7 @@ constexpr const char* ClipNormalName = "Clip_Normal";
 constexpr const char* ShapeOperatorName = "Shape_Operator";
 constexpr const char* ClipDistanceName = "Clip_Distance";
 constexpr const char* ClipAngleName = "Clip_Angle";
+constexpr const char* SheetName = "Isovalue";
 }
 
 struct vtkSurfaceSplatMapper::Internals
@@ -271,6 +272,7 @@ void vtkSurfaceSplatMapper::UploadParticles(vtkRenderer* renderer, vtkPolyData* 
   arrays.ClipDistances = data->GetArray(ClipDistanceName);
   arrays.ClipAngles = data->GetArray(ClipAngleName);
   arrays.ShapeOperators = data->GetArray(ShapeOperatorName);
+  arrays.Sheets = data->GetArray(SheetName);
   arrays.CellColors = this->GetCellColors(input);
   vtkSurfaceSplatParticles particles = vtkSurfaceSplatParticles::FromPolyData(input, arrays);
   gpu.Buffers.Upload(vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()), particles);
@@ -467,9 +469,14 @@ bool vtkSurfaceSplatMapper::DrawSplats(vtkRenderer* renderer, vtkActor* actor)
   }
   vtkSurfaceSplatDrawing drawing;
   this->DescribeDrawing(renderer, actor, drawing);
-  for (vtkSurfaceSplatLayer* layer : layers)
+  // Nested sheets shine through each other: each has layers of its own, one after the other in the same
+  // textures.
+  const int sheets = translucent ? this->Internal->Buffers.GetNumberOfSheets() : 1;
+  for (int sheet = 0; sheet < sheets; ++sheet)
   {
-    if (!layer->Update(drawing))
+    drawing.Sheet = sheets > 1 ? sheet : -1;
+    if (!std::all_of(layers.begin(), layers.end(),
+          [&](vtkSurfaceSplatLayer* layer) { return layer->Update(drawing); }))
     {
       vtkWarningMacro("This graphics driver cannot draw into floating-point textures: the "
                       "particles are drawn as disks.");
@@ -478,10 +485,10 @@ bool vtkSurfaceSplatMapper::DrawSplats(vtkRenderer* renderer, vtkActor* actor)
       this->ForgetShaders();
       return false;
     }
-  }
-  for (vtkSurfaceSplatLayer* layer : layers)
-  {
-    this->DrawLayer(*layer, renderer, actor);
+    for (vtkSurfaceSplatLayer* layer : layers)
+    {
+      this->DrawLayer(*layer, renderer, actor);
+    }
   }
   return true;
 }
@@ -817,6 +824,7 @@ void vtkSurfaceSplatMapper::SetMapperShaderParameters(
   program->SetUniformf("splatRadiusScale", static_cast<float>(this->GetDrawnRadiusScale()));
   program->SetUniformi("splatStride", this->Stride);
   program->SetUniformi("splatKind", this->Internal->DrawnKind);
+  program->SetUniformi("splatSheet", -1);
   program->SetUniformi(
     "splatFacesViewer", this->CurrentInput->GetPointData()->GetNormals() ? 0 : 1);
   if (this->ColorByNormalDirection)

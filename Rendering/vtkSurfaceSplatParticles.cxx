@@ -138,6 +138,29 @@ void ReadClipPlanes(const vtkSurfaceSplatArrays& arrays, vtkIdType id, float pla
 }
 }
 
+namespace
+{
+// The different values that particles have in an array, in order of appearance; none if they are too many.
+std::vector<double> FindSheets(vtkDataArray* values, const std::vector<vtkIdType>& ids)
+{
+  std::vector<double> found;
+  for (std::size_t i = 0; values && i < ids.size(); ++i)
+  {
+    const double value = values->GetComponent(ids[i], 0);
+    if (std::find(found.begin(), found.end(), value) == found.end())
+    {
+      if (!std::isfinite(value) || found.size() == vtkSurfaceSplatParticles::MaximumNumberOfSheets)
+      {
+        return {};
+      }
+      found.push_back(value);
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+}
+
 //------------------------------------------------------------------------------
 float vtkSurfaceSplatParticles::OverlapAt(double degrees)
 {
@@ -183,6 +206,8 @@ vtkSurfaceSplatParticles vtkSurfaceSplatParticles::FromPolyData(
     arrays.ShapeOperators && arrays.Normals && arrays.ShapeOperators->GetNumberOfComponents() == 6;
   particles.Shape.assign(shaped ? 8 * count : 0, 0.f);
   particles.Clip.assign(clipped ? 12 * count : 0, 0.f);
+  const std::vector<double> sheets = FindSheets(arrays.Sheets, particles.PointIds);
+  particles.NumberOfSheets = std::max(1, static_cast<int>(sheets.size()));
   std::atomic<vtkIdType> skipped(0);
   vtkSMPTools::For(0, count,
     [&](vtkIdType begin, vtkIdType end)
@@ -201,6 +226,12 @@ vtkSurfaceSplatParticles vtkSurfaceSplatParticles::FromPolyData(
         if (colored && arrays.CellColors->GetComponent(particles.CellIds[i], 3) < 1.)
         {
           particles.Normal[4 * i + 3] = 1.f;
+        }
+        if (!sheets.empty())
+        {
+          const auto sheet =
+            std::lower_bound(sheets.begin(), sheets.end(), arrays.Sheets->GetComponent(id, 0));
+          particles.Normal[4 * i + 3] += 2.f * static_cast<float>(sheet - sheets.begin());
         }
         if (shaped)
         {

@@ -41,6 +41,7 @@ struct vtkSurfaceSplatArrays
    */
   vtkDataArray* ClipAngles = nullptr;
   vtkDataArray* ShapeOperators = nullptr; ///< dn/dx, 6 components: xx, yy, zz, xy, yz, xz
+  vtkDataArray* Sheets = nullptr;         ///< one value a point that tells nested surfaces apart
   vtkDataArray* CellColors = nullptr;     ///< see vtkSurfaceSplatMapper::SetCellColorArrayName()
 };
 
@@ -48,7 +49,10 @@ struct vtkSurfaceSplatParticles
 {
   std::array<double, 3> Origin = { 0., 0., 0. };
   std::vector<float> CentreRadius; ///< 4 a particle: position - Origin, radius (world units)
-  std::vector<float> Normal; ///< 4 a particle: unit normal, 1 if its cell is translucent else 0
+  /**
+   * 4 a particle: unit normal; 1 if its cell is translucent else 0, and twice the number of its sheet more.
+   */
+  std::vector<float> Normal;
   /**
    * 12 a particle: normal and distance of two planes; how far beyond either the splat fills gaps, in radii;
    * 0, 0. Empty without planes.
@@ -62,7 +66,11 @@ struct vtkSurfaceSplatParticles
   std::vector<float> Shape;
   std::vector<vtkIdType> PointIds; ///< 1 a particle: the point it was made from
   std::vector<vtkIdType> CellIds;  ///< 1 a particle: its vertex cell; empty without vertex cells
+  int NumberOfSheets = 1;          ///< told apart by vtkSurfaceSplatArrays::Sheets
   vtkIdType Skipped = 0;           ///< particles that cannot be drawn
+
+  /** More values than these tell no sheets apart. */
+  static constexpr int MaximumNumberOfSheets = 8;
 
   vtkIdType GetNumberOfParticles() const { return static_cast<vtkIdType>(this->PointIds.size()); }
 

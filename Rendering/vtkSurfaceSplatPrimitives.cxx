@@ -92,6 +92,7 @@ vtkShaderProgram* vtkSurfaceSplatPrimitives::Use(
   program->SetUniformi("splatFacesViewer", drawing.FacesViewer ? 1 : 0);
   program->SetUniformi("splatStride", drawing.Stride);
   program->SetUniformi("splatKind", drawing.Kind);
+  program->SetUniformi("splatSheet", drawing.Sheet);
   program->SetUniform4fv("splatClippingPlane", 6, drawing.ClippingPlanes);
   return program;
 }

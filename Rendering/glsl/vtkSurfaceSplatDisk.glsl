@@ -7,7 +7,8 @@
 // vtkSurfaceSplatParticles), VC view, DC device.
 
 uniform samplerBuffer splatCentreRadius; // xyz: centre (MC), w: radius, 0 = draw nothing
-uniform samplerBuffer splatNormal;       // xyz: outward unit normal (MC), w: 1 if translucent, else 0
+// xyz: outward unit normal (MC), w: 1 if translucent, else 0, and twice the number of the sheet more
+uniform samplerBuffer splatNormal;
 // 3 texels a particle: xyz: unit normal of a plane (MC), w: distance; the same of another; xy: overlaps, see
 // splatOverlaps()
 uniform samplerBuffer splatClip;
@@ -16,6 +17,7 @@ uniform float splatRadiusScale;
 uniform int splatFacesViewer; // 1: the particles have no normals, their disks face the eye
 uniform int splatStride;      // every how-manieth particle is drawn
 uniform int splatKind;        // particles drawn: 0: the opaque ones; 1: the translucent ones; 2: all
+uniform int splatSheet;       // of these, the ones of this sheet; -1: of all
 uniform vec4 splatEyeMC;      // position of the eye, or, with w = 0, the direction to it
 
 struct SplatDisk
@@ -44,7 +46,8 @@ SplatDisk splatDiskOf(int particle)
   disk.normalMC = splatFacesViewer == 1 ? normalize(toEyeMC) : normal.xyz;
   // The eye lies on one side of the whole disk, so the centre decides for all its fragments.
   disk.seenFrom = dot(disk.normalMC, toEyeMC) < 0.0 ? -1.0 : 1.0;
-  bool drawn = splatKind == 2 || int(normal.w) == splatKind;
+  int tag = int(normal.w);
+  bool drawn = (splatKind == 2 || tag % 2 == splatKind) && (splatSheet < 0 || tag / 2 == splatSheet);
   float radius = drawn ? centreRadius.w * splatRadiusScale : 0.0;
   disk.tangentMC = radius * splatTangent(disk.normalMC);
   disk.bitangentMC = cross(disk.normalMC, disk.tangentMC);

@@ -2,8 +2,10 @@
 #include "SplatScene.h"
 
 #include "vtkActor.h"
+#include "vtkAppendPolyData.h"
 #include "vtkCamera.h"
 #include "vtkCameraPass.h"
+#include "vtkDoubleArray.h"
 #include "vtkEDLShading.h"
 #include "vtkLightKit.h"
 #include "vtkNew.h"
@@ -11,6 +13,7 @@
 #include "vtkOpenGLRenderer.h"
 #include "vtkOrderIndependentTranslucentPass.h"
 #include "vtkPlaneSource.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
@@ -71,17 +74,23 @@ void Draw(vtkPolyDataMapper* sphere, const Style& style, vtkUnsignedCharArray* p
   window->GetPixelData(0, 0, Size - 1, Size - 1, 0, pixels, 0);
 }
 
-// The share of pixels that differ visibly, and only at outlines may a few.
-void ExpectTheSame(const Style& style)
+vtkSmartPointer<vtkPolyData> TriangulatedSphere(double radius)
 {
-  vtkNew<vtkSurfaceSplatMapper> splats;
-  splats->SetInputData(FibonacciSphere(20000, 1., 0.027));
   vtkNew<vtkSphereSource> source;
-  source->SetRadius(1.);
+  source->SetRadius(radius);
   source->SetThetaResolution(200);
   source->SetPhiResolution(200);
+  source->Update();
+  return source->GetOutput();
+}
+
+// The share of pixels that differ visibly, and only at outlines may a few.
+void ExpectTheSame(const Style& style, vtkPolyData* particles, vtkPolyData* mesh)
+{
+  vtkNew<vtkSurfaceSplatMapper> splats;
+  splats->SetInputData(particles);
   vtkNew<vtkPolyDataMapper> triangles;
-  triangles->SetInputConnection(source->GetOutputPort());
+  triangles->SetInputData(mesh);
   vtkNew<vtkUnsignedCharArray> bySplats;
   vtkNew<vtkUnsignedCharArray> byTriangles;
   Draw(splats, style, bySplats);
@@ -96,6 +105,11 @@ void ExpectTheSame(const Style& style)
   }
   EXPECT_LT(different, 0.015 * bySplats->GetNumberOfValues());
   EXPECT_GT(brightness / bySplats->GetNumberOfValues(), 20.); // neither of them black
+}
+
+void ExpectTheSame(const Style& style)
+{
+  ExpectTheSame(style, FibonacciSphere(20000, 1., 0.027), TriangulatedSphere(1.));
 }
 
 void UsePass(vtkRenderer* renderer, vtkRenderPass* pass)
@@ -146,6 +160,33 @@ TEST(SplatPasses, DepthPeeling)
       actor->GetProperty()->SetOpacity(0.5);
       renderer->SetUseDepthPeeling(true);
     });
+}
+
+TEST(SplatPasses, IsosurfacesShineThroughEachOther)
+{
+  vtkNew<vtkAppendPolyData> particles;
+  vtkNew<vtkAppendPolyData> triangles;
+  for (const double radius : { 1., 0.6, 0.3 })
+  {
+    const auto sphere = FibonacciSphere(20000, radius, 0.027 * radius);
+    vtkNew<vtkDoubleArray> isovalues;
+    isovalues->SetName("Isovalue");
+    isovalues->SetNumberOfTuples(sphere->GetNumberOfPoints());
+    isovalues->Fill(radius);
+    sphere->GetPointData()->AddArray(isovalues);
+    particles->AddInputData(sphere);
+    triangles->AddInputData(TriangulatedSphere(radius));
+  }
+  particles->Update();
+  triangles->Update();
+  ExpectTheSame(
+    [](vtkActor* actor, vtkRenderer* renderer, vtkRenderWindow*)
+    {
+      actor->GetProperty()->SetOpacity(0.3);
+      renderer->SetUseDepthPeeling(true);
+      renderer->SetMaximumNumberOfPeels(16);
+    },
+    particles->GetOutput(), triangles->GetOutput());
 }
 
 TEST(SplatPasses, OrderIndependentTranslucency)
