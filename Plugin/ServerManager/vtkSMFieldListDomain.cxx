@@ -51,7 +51,10 @@ int vtkSMFieldListDomain::SetDefaultValues(vtkSMProperty* property, bool useUnch
   vtkPVDataInformation* input = this->GetInputInformation();
   vtkSMPropertyHelper choice(property);
   choice.SetUseUnchecked(useUnchecked);
-  if (!isSet || !input || isField(input, choice.GetInputArrayNameToProcess()))
+  // Scripts set the active source as input before the one they name. On particles that were made before the
+  // active scalars are those that their isosurface was made of, constant there.
+  if (!isSet || !input || input->DataSetTypeIsA("vtkPolyData") ||
+    isField(input, choice.GetInputArrayNameToProcess()))
   {
     return isSet;
   }

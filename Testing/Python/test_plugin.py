@@ -96,6 +96,18 @@ def test_one_odd_value_does_not_move_the_default_isovalue():
         assert list(proxy.Isosurfaces) == pytest.approx([x.max() / 2], rel=0.02)
 
 
+def test_another_filter_on_a_reader_has_the_same_defaults():
+    """Though the particles of the first one are the active source when it is made."""
+    reader = filter_on(u=np.linspace(0.0, 7.0, 8)).Input
+    first, second = (simple.HighOrderParticleIsosurface(Input=reader) for _ in range(2))
+    simple.SetActiveSource(first)
+    simple.UpdatePipeline(proxy=first)
+    third = simple.HighOrderParticleIsosurface(Input=reader)
+    for proxy in (second, third):
+        assert list(proxy.ContourBy) == ["POINTS", "u"] == list(first.ContourBy)
+        assert list(proxy.Isosurfaces) == list(first.Isosurfaces)
+
+
 def test_default_isovalue_of_a_magnitude():
     corners = filter_on(v=np.tile([3.0, 4.0, 0.0], (8, 1)) * np.linspace(0, 2, 8)[:, None])
     corners.Component = 3
