@@ -1,6 +1,7 @@
 #include "GridElements.h"
 
 #include "BernsteinProduct.h"
+#include "CornerNumbers.h"
 #include "GatherValues.h"
 #include "VtkCompatibility.h"
 
@@ -13,7 +14,6 @@
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
-#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
@@ -103,8 +103,6 @@ private:
   hop::JacobianSign convert(int element, CellValues& values);
   std::vector<double> controlValues(
     vtkUnstructuredGrid* grid, const CellBasis& cell, const CellValues& values) const;
-  vtkSmartPointer<vtkPoints> collectCorners();
-  void numberCorners();
   void dropDoubledGhosts();
   void dropCollapsed();
   bool canHoldSurface(const CellBasis& basis, const CellValues& values) const;
@@ -123,7 +121,8 @@ private:
   int Components = 1;
   GridElements Result;
   std::vector<hop::JacobianSign> Signs;
-  double Tolerance = 0.0;
+  /// How near to each other coincident corners are, one an element.
+  std::vector<double> Tolerances;
 };
 
 GridElements Builder::build()
@@ -133,10 +132,13 @@ GridElements Builder::build()
   this->convertElements();
   this->Reached(0.3);
   this->dropCollapsed();
-  this->numberCorners();
+  hop::ElementMesh& mesh = this->Result.mesh;
+  this->Tolerances = hop::cornerTolerances(mesh, this->Parallel);
+  this->Reached(0.5);
+  hop::numberCorners(mesh, this->Tolerances, this->Parallel);
   this->Reached(0.9);
   this->dropDoubledGhosts();
-  hop::findFaceNeighbors(this->Result.mesh, this->Tolerance, this->Parallel);
+  hop::findFaceNeighbors(mesh, this->Tolerances, this->Parallel);
   return std::move(this->Result);
 }
 
@@ -459,62 +461,6 @@ void Builder::dropCollapsed()
   this->Result.bases.resize(kept);
 }
 
-/// Of all elements, one after the other. Finds out how near to each other coincident ones are, too.
-vtkSmartPointer<vtkPoints> Builder::collectCorners()
-{
-  const hop::ElementMesh& mesh = this->Result.mesh;
-  auto corners = vtkSmartPointer<vtkPoints>::New();
-  corners->SetDataTypeToDouble();
-  double largest = 0.0;
-  double shortestEdge = std::numeric_limits<double>::infinity();
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
-  {
-    const hop::BernsteinForm form = mesh.form(static_cast<int>(e));
-    glm::dvec3 previous;
-    for (int c = 0; c < static_cast<int>(hop::facts(form.domain).corners.size()); ++c)
-    {
-      const glm::dvec3 x(hop::controlPoint(form,
-        hop::coefficientIndex(
-          form.domain, form.degrees, hop::cornerLatticePoint(form.domain, form.degrees, c))));
-      corners->InsertNextPoint(x.x, x.y, x.z);
-      largest = std::max({ largest, std::abs(x.x), std::abs(x.y), std::abs(x.z) });
-      const double edge = c > 0 ? glm::distance(x, previous) : 0.0;
-      shortestEdge = edge > 0.0 ? std::min(shortestEdge, edge) : shortestEdge;
-      previous = x;
-    }
-  }
-  // Files may hold single precision or six decimal digits, whatever the type of their arrays; but
-  // corners of one element must stay apart.
-  this->Tolerance = std::min(1e-5 * largest, 1e-2 * shortestEdge);
-  return corners;
-}
-
-/// Equal numbers for coincident corners: most solvers write every cell with points of its own.
-void Builder::numberCorners()
-{
-  if (this->Result.mesh.elements.empty())
-  {
-    return;
-  }
-  const vtkSmartPointer<vtkPoints> corners = this->collectCorners();
-  vtkNew<vtkPolyData> cloud;
-  cloud->SetPoints(corners);
-  vtkNew<vtkStaticPointLocator> locator;
-  locator->SetDataSet(cloud);
-  locator->BuildLocator();
-  this->Reached(0.6);
-  std::vector<vtkIdType> merged(corners->GetNumberOfPoints());
-  mergePoints(locator, this->Tolerance, merged.data());
-  auto next = merged.begin();
-  for (hop::Element& element : this->Result.mesh.elements)
-  {
-    element.corners.fill(-1);
-    const std::size_t count = hop::facts(element.domain).corners.size();
-    std::copy_n(next, count, element.corners.begin());
-    next += static_cast<std::ptrdiff_t>(count);
-  }
-}
-
 bool Builder::isGhost(const hop::Element& element) const
 {
   const auto [block, cell] = this->Blocks.locate(element.cell);
@@ -556,10 +502,12 @@ void Builder::dropDoubledGhosts()
     if (!ghosts[e] || present.insert(sortedCorners(mesh.elements[e])).second)
     {
       mesh.elements[kept] = mesh.elements[e];
+      this->Tolerances[kept] = this->Tolerances[e];
       this->Result.bases[kept++] = this->Result.bases[e];
     }
   }
   mesh.elements.resize(kept);
+  this->Tolerances.resize(kept);
   this->Result.bases.resize(kept);
 }
 

@@ -5,7 +5,6 @@
 #include "vtkAlgorithm.h"
 #include "vtkCellArray.h"
 #include "vtkIdList.h"
-#include "vtkStaticPointLocator.h"
 #include "vtkVersionMacros.h"
 
 #if __has_include("vtkCellTypeUtilities.h") // from VTK 9.6 on
@@ -14,10 +13,6 @@ using CellTypeNames = vtkCellTypeUtilities;
 #else
 #include "vtkCellTypes.h"
 using CellTypeNames = vtkCellTypes;
-#endif
-
-#if VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 2, 20220801)
-#include "vtkSMPTools.h"
 #endif
 
 /// Whether a user, or the pipeline, wants the algorithm to stop.
@@ -41,17 +36,5 @@ inline void cellPoints(
   cells->GetCellAtId(cell, copied);
   count = copied->GetNumberOfIds();
   ids = copied->GetPointer(0);
-#endif
-}
-
-/// vtkStaticPointLocator::MergePoints with the same result for any number of threads.
-inline void mergePoints(vtkStaticPointLocator* locator, double tolerance, vtkIdType* merged)
-{
-#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20220801)
-  locator->SetTraversalOrderToPointOrder();
-  locator->MergePoints(tolerance, merged);
-#else
-  vtkSMPTools::LocalScope(
-    vtkSMPTools::Config{ 1 }, [&]() { locator->MergePoints(tolerance, merged); });
 #endif
 }

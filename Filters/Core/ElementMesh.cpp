@@ -180,8 +180,10 @@ FaceNeighbor& neighborAt(ElementMesh& mesh, const FaceReference& face)
 }
 
 /// Joins faces a and b if they are one.
-void join(ElementMesh& mesh, const FaceReference& a, const FaceReference& b, double tolerance)
+void join(ElementMesh& mesh, const FaceReference& a, const FaceReference& b,
+  const std::vector<double>& tolerances)
 {
+  const double tolerance = std::min(tolerances[a.element], tolerances[b.element]);
   if (glm::distance(faceMiddle(mesh, a), faceMiddle(mesh, b)) <= tolerance)
   {
     neighborAt(mesh, a) = joinTo(mesh, a, b);
@@ -192,6 +194,13 @@ void join(ElementMesh& mesh, const FaceReference& a, const FaceReference& b, dou
 } // namespace
 
 void findFaceNeighbors(ElementMesh& mesh, double tolerance, const ParallelFor& parallelFor)
+{
+  findFaceNeighbors(
+    mesh, std::vector<double>(mesh.elements.size(), tolerance), parallelFor);
+}
+
+void findFaceNeighbors(
+  ElementMesh& mesh, const std::vector<double>& tolerances, const ParallelFor& parallelFor)
 {
   mesh.neighbors.assign(mesh.elements.size() * MaximumFaces, {});
   const Buffer<FaceClaim> claims = faceClaims(mesh, parallelFor);
@@ -213,7 +222,7 @@ void findFaceNeighbors(ElementMesh& mesh, double tolerance, const ParallelFor& p
         next = std::find_if(first, end, [&](int i) { return claims[i].key != claims[*first].key; });
         if (next - first == 2)
         {
-          join(mesh, claims[first[0]].where, claims[first[1]].where, tolerance);
+          join(mesh, claims[first[0]].where, claims[first[1]].where, tolerances);
         }
       }
     });

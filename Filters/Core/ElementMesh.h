@@ -78,7 +78,10 @@ double meshExtent(const ElementMesh& mesh);
 /// middles coincide within `tolerance` (world units; two curved faces may share all corners and
 /// still be different). A quadrilateral of which two corners coincide joins triangles. Where three
 /// or more elements claim one face, none is joined.
+/// \param tolerances instead: one an element; of two the smaller one counts
 void findFaceNeighbors(ElementMesh& mesh, double tolerance, const ParallelFor& parallelFor = {});
+void findFaceNeighbors(
+  ElementMesh& mesh, const std::vector<double>& tolerances, const ParallelFor& parallelFor = {});
 
 /// The same place, seen from the element behind `face`, on which `location` lies.
 /// \pre the face has a neighbour
