@@ -179,12 +179,13 @@ FaceNeighbor& neighborAt(ElementMesh& mesh, const FaceReference& face)
   return mesh.neighbors[faceSlot(face.element, face.face)];
 }
 
-/// Joins faces a and b if they are one.
+/// Joins faces a and b if they are one, and of two elements.
 void join(ElementMesh& mesh, const FaceReference& a, const FaceReference& b,
   const std::vector<double>& tolerances)
 {
   const double tolerance = std::min(tolerances[a.element], tolerances[b.element]);
-  if (glm::distance(faceMiddle(mesh, a), faceMiddle(mesh, b)) <= tolerance)
+  if (a.element != b.element &&
+    glm::distance(faceMiddle(mesh, a), faceMiddle(mesh, b)) <= tolerance)
   {
     neighborAt(mesh, a) = joinTo(mesh, a, b);
     neighborAt(mesh, b) = joinTo(mesh, b, a);

@@ -77,7 +77,7 @@ double meshExtent(const ElementMesh& mesh);
 /// Fills mesh.neighbors: two faces are joined when their corners carry the same numbers and their
 /// middles coincide within `tolerance` (world units; two curved faces may share all corners and
 /// still be different). A quadrilateral of which two corners coincide joins triangles. Where three
-/// or more elements claim one face, none is joined.
+/// or more elements claim one face, none is joined, nor are two faces of one element.
 /// \param tolerances instead: one an element; of two the smaller one counts
 void findFaceNeighbors(ElementMesh& mesh, double tolerance, const ParallelFor& parallelFor = {});
 void findFaceNeighbors(

@@ -213,6 +213,20 @@ TEST(ElementMesh, AFaceThatThreeElementsClaimJoinsNone)
   }
 }
 
+TEST(ElementMesh, FacesOfOneElementAreNotJoined)
+{
+  // A plate thinner than the tolerance: its corners were taken for one another.
+  ElementMesh mesh;
+  Block block = referenceBlock(Domain::Hexahedron);
+  block.numbers = { 0, 1, 2, 3, 0, 1, 2, 3 };
+  append(mesh, block, [](const glm::dvec3& x) { return x * glm::dvec3(1, 1, 1e-12); });
+  findFaceNeighbors(mesh, 1e-9);
+  for (int face = 0; face < MaximumFaces; ++face)
+  {
+    EXPECT_EQ(mesh.neighbor(0, face).element, -1);
+  }
+}
+
 TEST(ElementMesh, FacesOfTheSameCornersButDifferentMiddlesAreNotJoined)
 {
   for (const Domain domain : allDomains)
