@@ -55,7 +55,7 @@ void visitFaceCrossings(
           glm::dvec3 u = glm::mix(ends[0], ends[1], t);
           u -= (margin(u) / glm::dot(inward, inward)) * inward;
           use(FaceCrossing{ { element, { u } }, f, ends,
-            std::abs(static_cast<double>(box.values[a]) - box.values[b]) });
+            box.valueUnit * std::abs(static_cast<double>(box.values[a]) - box.values[b]) });
         }
       }
     }

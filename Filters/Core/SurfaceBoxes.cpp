@@ -111,6 +111,17 @@ private:
   std::atomic<std::size_t> Empty{ 0 };
 };
 
+/// One that the largest of some values is 1 to 2 times; 1 if all are zero.
+double powerOfTwoNear(const std::array<double, MaximumCorners>& values)
+{
+  double largest = 0.0;
+  for (const double value : values)
+  {
+    largest = std::max(largest, std::abs(value));
+  }
+  return largest > 0.0 ? std::ldexp(1.0, std::ilogb(largest)) : 1.0;
+}
+
 class ElementSplitter
 {
 public:
@@ -308,19 +319,32 @@ private:
     int lowest = 0;
     int highest = 0;
     const auto value = [&](int c) { return piece.coefficients[this->CornerPlaces[c]].w; };
+    const std::array<double, MaximumCorners> values = this->cornerValues(piece);
+    box.valueUnit = powerOfTwoNear(values);
     for (int c = 0; c < static_cast<int>(this->CornerPlaces.size()); ++c)
     {
       box.referenceRadius =
         std::max(box.referenceRadius, glm::distance(this->corner(piece, c), box.middle.u.xyz));
       box.corners[c] = glm::vec3(this->corner(piece, c));
-      box.values[c] = static_cast<float>(
-        piece.weights.empty() ? value(c) : value(c) / piece.weights[this->CornerPlaces[c]]);
+      box.values[c] = static_cast<float>(values[c] / box.valueUnit);
       lowest = value(c) < value(lowest) ? c : lowest;
       highest = value(c) > value(highest) ? c : highest;
     }
     box.straddles = value(lowest) < 0.0 && value(highest) > 0.0;
     box.ends = { { { this->corner(piece, lowest) }, { this->corner(piece, highest) } } };
     return box;
+  }
+
+  /// F - c at the corners of a piece.
+  std::array<double, MaximumCorners> cornerValues(const Piece& piece) const
+  {
+    std::array<double, MaximumCorners> values{};
+    for (std::size_t c = 0; c < this->CornerPlaces.size(); ++c)
+    {
+      const int place = this->CornerPlaces[c];
+      values[c] = piece.coefficients[place].w / (piece.weights.empty() ? 1.0 : piece.weights[place]);
+    }
+    return values;
   }
 
   /// A corner of the piece in the element's reference space.

@@ -21,9 +21,11 @@ struct SurfaceBox
   /// straight line between them.
   bool straddles = false;
   std::array<ReferencePoint, 2> ends;
-  /// In the order of facts(domain).corners: where they are in reference space, and F - c there.
+  /// In the order of facts(domain).corners: where they are in reference space, and F - c there in units
+  /// of `valueUnit`, a power of two near the largest, as fields need not fit into single precision.
   std::array<glm::vec3, MaximumCorners> corners{};
   std::array<float, MaximumCorners> values{};
+  double valueUnit = 1.0;
 };
 
 /// Splits every element into boxes by de Casteljau's algorithm. A box is
