@@ -3,11 +3,13 @@
 #include "Bisection.h"
 #include "BoundaryTest.h"
 #include "MonotoneTest.h"
+#include "TouchTest.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 namespace hop
 {
@@ -22,6 +24,9 @@ struct Piece
   std::vector<double> weights;
   std::vector<glm::dvec3> corners;
   int bisections = 0;
+  /// Which of the parts of its element it is, or lies in: a one, then a bit for each of the first
+  /// PartBisections halvings.
+  int part = 1;
   bool certified = false;
 };
 
@@ -57,6 +62,17 @@ std::vector<std::pair<int, int>> edgesAlong(Domain domain, const LatticePoint& d
 constexpr std::size_t manyPieces = 256;
 /// Fewer elements than this are split one after the other, each in threads.
 constexpr std::size_t fewElements = 16;
+/// Pieces are looked at every so many halvings, as soon as each axis had so many, for whether they touch the
+/// isovalue only.
+constexpr int halvingsOfAllAxes = 3;
+constexpr int firstTouchBisections = 9;
+/// As many pieces with one sign at their corners are normal in an element that the surface crosses, and
+/// where nothing tells that it does. None are after so many halvings.
+constexpr int fewOneSided = 1024;
+constexpr int fewOneSidedWithoutSurface = 64;
+constexpr int smallBisections = 18;
+/// As many pieces given up are boxes of their own.
+constexpr std::size_t fewLeft = 16;
 /// Halving adds rounding errors of the order of eps times the values themselves.
 constexpr double roundingShare = 1e-14;
 
@@ -145,9 +161,13 @@ public:
     {
       return;
     }
+    this->ElementSlack = this->slackOf(rangeOf(level.front()));
+    const std::size_t before = boxes.size();
+    std::vector<SurfaceBox> left;
+    std::set<int> partsLeft;
     while (!level.empty())
     {
-      const bool tooMany = this->undecided(level) > MaximumPieces;
+      const GivenUp givenUp = this->givenUp(level, boxes.size() > before);
       // Pieces of high degree are large: once there are enough for all threads, certified ones are
       // followed to their boxes one by one.
       const bool toTheEnd = level.size() >= manyPieces;
@@ -157,7 +177,7 @@ public:
       {
         for (std::ptrdiff_t n = begin; n < end; ++n)
         {
-          outcomes[n] = this->decide(element, level[n], tooMany, toTheEnd);
+          outcomes[n] = this->decide(element, level[n], givenUp, toTheEnd);
           if (!outcomes[n].isHalved)
           {
             share.closePiece(outcomes[n].boxes.empty());
@@ -168,7 +188,12 @@ public:
       std::vector<Piece> next;
       for (std::size_t n = 0; n < level.size(); ++n)
       {
-        boxes.insert(boxes.end(), outcomes[n].boxes.begin(), outcomes[n].boxes.end());
+        std::vector<SurfaceBox>& list = outcomes[n].isLeft ? left : boxes;
+        list.insert(list.end(), outcomes[n].boxes.begin(), outcomes[n].boxes.end());
+        if (outcomes[n].isLeft)
+        {
+          partsLeft.insert(level[n].part);
+        }
         if (outcomes[n].isHalved)
         {
           next.push_back(std::move(outcomes[n].second));
@@ -177,18 +202,88 @@ public:
       }
       level = std::move(next);
     }
+    if (left.size() <= fewLeft)
+    {
+      boxes.insert(boxes.end(), left.begin(), left.end());
+      return;
+    }
+    for (const int part : partsLeft)
+    {
+      boxes.push_back(this->boxOfPart(element, part));
+    }
   }
 
 private:
-  /// What becomes of a piece: nothing, boxes, or two halves, of which it keeps the first.
+  /// What becomes of a piece: nothing, boxes, one that is left undecided, or two halves, of which it
+  /// keeps the first.
   struct Outcome
   {
     std::vector<SurfaceBox> boxes;
     bool isHalved = false;
+    bool isLeft = false;
     Piece second;
   };
 
-  Outcome decide(int element, Piece& piece, bool tooMany, bool toTheEnd) const
+  /// Which undecided pieces of a level are not halved any more.
+  struct GivenUp
+  {
+    bool all = false;
+    bool touching = false;
+    bool missing = false;
+  };
+
+  /// Where a field only touches the isovalue its pieces stay undecided, on and on, and have one sign
+  /// at their corners.
+  /// \param isCrossed whether there are boxes already
+  GivenUp givenUp(const std::vector<Piece>& level, bool isCrossed) const
+  {
+    GivenUp result;
+    result.all = this->undecided(level) > this->mostUndecided(level.front());
+    const int bisections = level.front().bisections;
+    if (bisections < firstTouchBisections || bisections % halvingsOfAllAxes != 0)
+    {
+      return result;
+    }
+    int oneSided = 0;
+    for (const Piece& piece : level)
+    {
+      const bool isOneSided = !piece.certified && this->signAtCorners(piece) != 0.0;
+      isCrossed = isCrossed || !isOneSided;
+      oneSided += isOneSided && this->mayHoldSurface(piece);
+    }
+    const bool areSmall = bisections >= smallBisections;
+    result.touching =
+      areSmall || oneSided > (isCrossed ? fewOneSided : fewOneSidedWithoutSurface);
+    result.missing = areSmall && oneSided > fewOneSided;
+    return result;
+  }
+
+  std::ptrdiff_t mostUndecided(const Piece& piece) const
+  {
+    const std::size_t bytes =
+      piece.coefficients.size() * sizeof(Coefficient) + piece.weights.size() * sizeof(double);
+    return piece.bisections >= LongBisections
+      ? MaximumLongPieces
+      : std::min<std::ptrdiff_t>(MaximumPieces, MaximumPieceBytes / bytes);
+  }
+
+  /// Whether a piece that is not certified is not worth halving.
+  bool isGivenUp(const Piece& piece, const GivenUp& givenUp) const
+  {
+    if (piece.bisections == 0)
+    {
+      return this->isZero(piece);
+    }
+    const double sign = givenUp.touching ? this->signAtCorners(piece) : 0.0;
+    if (sign == 0.0 || this->Monotone.rises(valuesOf(piece)))
+    {
+      return false;
+    }
+    const Approach approach = approachToZero(this->formOf(piece), sign);
+    return approach == Approach::Touches || (givenUp.missing && approach == Approach::Misses);
+  }
+
+  Outcome decide(int element, Piece& piece, const GivenUp& givenUp, bool toTheEnd) const
   {
     Outcome outcome;
     if (!this->mayHoldSurface(piece))
@@ -202,13 +297,21 @@ private:
       return outcome;
     }
     const double size = this->worldSize(piece);
+    if (!piece.certified && this->isGivenUp(piece, givenUp))
+    {
+      outcome.isLeft = true;
+      outcome.boxes.push_back(this->boxOf(piece, element, size));
+      return outcome;
+    }
     const bool last = piece.bisections == MaximumBisections;
     const bool isDone =
-      piece.certified ? last || this->IsSmall({ element, middle(piece) }, size) : last || tooMany;
+      piece.certified ? last || this->IsSmall({ element, middle(piece) }, size) : last || givenUp.all;
     if (isDone)
     {
       piece.certified = piece.certified || this->Monotone.rises(valuesOf(piece));
-      outcome.boxes.push_back(this->boxOf(piece, element, size));
+      const SurfaceBox box = this->boxOf(piece, element, size);
+      outcome.isLeft = !box.certified && !box.straddles && !last;
+      outcome.boxes.push_back(box);
     }
     else
     {
@@ -300,14 +403,71 @@ private:
       piece.weights.empty() ? nullptr : piece.weights.data() };
   }
 
-  bool mayHoldSurface(const Piece& piece) const
+  /// Of the coefficients of F - c.
+  static Range rangeOf(const Piece& piece)
   {
     const auto [lowest, highest] =
       std::minmax_element(piece.coefficients.begin(), piece.coefficients.end(),
         [](const Coefficient& a, const Coefficient& b) { return a.w < b.w; });
-    const double slack = roundingShare *
-      (std::max(std::abs(lowest->w), std::abs(highest->w)) + std::abs(this->Isovalue));
-    return lowest->w <= slack && highest->w >= -slack;
+    return { lowest->w, highest->w };
+  }
+
+  double slackOf(const Range& range) const
+  {
+    return roundingShare *
+      (std::max(std::abs(range.lower), std::abs(range.upper)) + std::abs(this->Isovalue));
+  }
+
+  bool mayHoldSurface(const Piece& piece) const
+  {
+    const Range range = rangeOf(piece);
+    const double slack = this->slackOf(range);
+    return range.lower <= slack && range.upper >= -slack;
+  }
+
+  /// Whether the field is nothing but the isovalue.
+  bool isZero(const Piece& piece) const
+  {
+    const Range range = rangeOf(piece);
+    const double slack = this->slackOf(range);
+    return range.lower >= -slack && range.upper <= slack;
+  }
+
+  /// 1 or -1 if corners have that sign, or are at zero; 0 if they have both.
+  double signAtCorners(const Piece& piece) const
+  {
+    double lowest = 0.0;
+    double highest = 0.0;
+    for (const int place : this->CornerPlaces)
+    {
+      lowest = std::min(lowest, piece.coefficients[place].w);
+      highest = std::max(highest, piece.coefficients[place].w);
+    }
+    return lowest >= -this->ElementSlack ? 1.0 : highest <= this->ElementSlack ? -1.0 : 0.0;
+  }
+
+  /// All of a part of the element, in place of what in it was left undecided: nothing is known of what the
+  /// surface does there.
+  SurfaceBox boxOfPart(int element, int part) const
+  {
+    int bits = 0;
+    while (part >> (bits + 1) != 0)
+    {
+      ++bits;
+    }
+    Piece piece = this->wholeElement();
+    while (bits-- > 0)
+    {
+      Piece second = this->halve(piece);
+      if ((part >> bits) & 1)
+      {
+        piece = std::move(second);
+      }
+    }
+    SurfaceBox box = this->boxOf(piece, element, this->worldSize(piece));
+    box.straddles = false;
+    box.values.fill(1.0f);
+    return box;
   }
 
   SurfaceBox boxOf(const Piece& piece, int element, double size) const
@@ -438,7 +598,13 @@ private:
     }
     direction.corners.bisect(piece.corners, second.corners);
     second.bisections = ++piece.bisections;
+    second.part = piece.part;
     second.certified = piece.certified;
+    if (piece.bisections <= PartBisections)
+    {
+      piece.part = 2 * piece.part;
+      second.part = 2 * second.part + 1;
+    }
     return second;
   }
 
@@ -472,6 +638,8 @@ private:
   double Isovalue;
   const std::function<bool(const Location&, double)>& IsSmall;
   BernsteinForm Form;
+  /// What rounding errors of values may amount to.
+  double ElementSlack = 0.0;
   MonotoneTest Monotone{ Domain::Hexahedron, cornerDegrees };
   BoundaryTest Boundary{ Domain::Hexahedron, cornerDegrees };
   std::vector<int> CornerPlaces;

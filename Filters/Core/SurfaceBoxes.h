@@ -36,9 +36,13 @@ struct SurfaceBox
 ///    one piece of the sheet only (BoundaryTest.h), as a corner that it cuts off there may be all that
 ///    the mesh has of a component;
 ///  - split otherwise, until it was halved MaximumBisections times, or its element had to be split
-///    into more than MaximumPieces undecided pieces. What is left then is certified if its field rises
-///    along some direction all the same: the surface touches such a box, or cuts off less of it than
-///    counts. Otherwise it is returned uncertified.
+///    into more than MaximumPieces undecided pieces, or MaximumPieceBytes of them, or MaximumLongPieces
+///    where they were halved LongBisections times: then the surface is singular along lines. What is left
+///    then is certified if its field rises along some direction all the same: the surface touches such a
+///    box, or cuts off less of it than counts. Otherwise it is returned uncertified.
+/// Where the field only touches the isovalue (TouchTest.h) an element is given up much earlier. What has
+/// one sign at its corners and is left so is returned as a few large boxes, that do not straddle: of the
+/// parts of the element, halved PartBisections times, that it lies in.
 /// Certified boxes are split on until no larger than `wantedSize`, and dropped where empty.
 ///
 /// All of the surface lies in the boxes returned, and every component of it that is larger than
@@ -84,5 +88,9 @@ constexpr int MaximumBisections = 36;
 /// Boxes on the rim of their element, halved that often, need not hold one piece of their sheet only.
 constexpr int MaximumRimBisections = 30;
 constexpr int MaximumPieces = 16384;
+constexpr std::size_t MaximumPieceBytes = std::size_t{ 1 } << 29;
+constexpr int LongBisections = 24;
+constexpr int MaximumLongPieces = 1024;
+constexpr int PartBisections = 3;
 
 } // namespace hop

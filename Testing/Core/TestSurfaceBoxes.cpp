@@ -2,6 +2,7 @@
 
 #include "AnalyticFields.h"
 #include "ElementCases.h"
+#include "SurfaceSeeds.h"
 #include "SurfaceWalker.h"
 #include "ThreadedFor.h"
 
@@ -29,11 +30,6 @@ ElementMesh randomField(const ElementCase& which, Random& random)
   }
   findFaceNeighbors(mesh, 1e-9);
   return mesh;
-}
-
-glm::dvec3 positionAt(const ElementMesh& mesh, const Location& location)
-{
-  return glm::dvec3(evaluateGradient(mesh.form(location.element), location.u).value);
 }
 
 /// Every point of a box lies within its size of its middle.
@@ -222,6 +218,134 @@ TEST(SurfaceBoxes, ATinySphereInALargeElementIsFound)
   const ElementMesh mesh = makeMesh(recipe);
   const std::vector<SurfaceBox> boxes = findSurfaceBoxes(mesh, 0.0, 0.5, {});
   EXPECT_TRUE(inSomeBox(mesh, boxes, center + glm::dvec3(0.003, 0, 0)));
+}
+
+/// A mesh of one cell of the cube, of degree 6.
+ElementMesh oneCell(Domain domain, const Field& field)
+{
+  MeshRecipe recipe;
+  recipe.domain = domain;
+  recipe.degrees = { 6, 6, 6 };
+  recipe.cells = 1;
+  recipe.field = field;
+  return makeMesh(recipe);
+}
+
+/// Fields that come to zero without crossing it.
+const std::vector<std::pair<const char*, Field>>& touchingFields()
+{
+  static const std::vector<std::pair<const char*, Field>> all{
+    { "a double plane", [](const glm::dvec3& x) { return (x.x - 0.113) * (x.x - 0.113); } },
+    { "the square of a velocity at a wall",
+      [](const glm::dvec3& x)
+      {
+        const double z = x.z + 1.0;
+        return z * z * ((1.0 + 0.3 * x.x) * (1.0 + 0.3 * x.x) + 0.04 * x.y * x.y);
+      } },
+    { "a double sphere",
+      [](const glm::dvec3& x)
+      {
+        const double f = glm::dot(x, x) - 0.49;
+        return -f * f;
+      } },
+    { "the corner between two walls",
+      [](const glm::dvec3& x)
+      { return (x.z + 1.0) * (x.z + 1.0) * (x.y + 1.0) * (x.y + 1.0) * (1.1 + x.x); } },
+    { "an edge",
+      [](const glm::dvec3& x) { return (x.z + 1.0) * (x.z + 1.0) + (x.y + 1.0) * (x.y + 1.0); } },
+    { "nothing but the isovalue", [](const glm::dvec3&) { return 0.0; } },
+  };
+  return all;
+}
+
+TEST(SurfaceBoxes, FieldsThatOnlyTouchAreGivenUpEarlyInFewBoxes)
+{
+  for (const Domain domain : allDomains)
+  {
+    for (const auto& [name, field] : touchingFields())
+    {
+      SCOPED_TRACE(::testing::Message() << domain << ", " << name);
+      const ElementMesh mesh = oneCell(domain, field);
+      std::size_t pieces = 0;
+      const auto isSmall = [](const Location&, double) { return true; };
+      const std::vector<SurfaceBox> boxes =
+        findSurfaceBoxes(mesh, 0.0, isSmall, {}, [&](double) { ++pieces; });
+      EXPECT_GT(uncertifiedCount(boxes), 0);
+      EXPECT_LE(boxes.size(), 16 * mesh.elements.size());
+      EXPECT_LE(pieces, 1000 * mesh.elements.size());
+    }
+  }
+}
+
+TEST(SurfaceBoxes, WhereTheSurfaceCrossesItselfBoxesAreBounded)
+{
+  for (const Domain domain : allDomains)
+  {
+    const ElementMesh mesh =
+      oneCell(domain, [](const glm::dvec3& x) { return (x.x - 0.113) * (x.y + 0.207); });
+    const auto boxes = findSurfaceBoxes(mesh, 0.0, 10.0, {});
+    EXPECT_GT(uncertifiedCount(boxes), 0) << domain;
+    EXPECT_LE(boxes.size(), 3 * MaximumLongPieces * mesh.elements.size()) << domain;
+  }
+}
+
+TEST(SurfaceBoxes, WhatCrossesIsFoundBesideWhatOnlyTouches)
+{
+  const glm::dvec3 center(0.312, -0.417, 0.233);
+  for (const Domain domain : allDomains)
+  {
+    for (const double radius : { 0.003, 0.02, 0.2 })
+    {
+      SCOPED_TRACE(::testing::Message() << domain << ", radius " << radius);
+      const Field ball = sphere(center, radius).field;
+      const ElementMesh mesh = oneCell(
+        domain, [&](const glm::dvec3& x) { return (x.x + 0.4) * (x.x + 0.4) * ball(x); });
+      std::vector<SurfaceBox> boxes = findSurfaceBoxes(mesh, 0.0, 0.5, {});
+      EXPECT_GT(uncertifiedCount(boxes), 0);
+      boxes.erase(std::remove_if(boxes.begin(), boxes.end(),
+                    [](const SurfaceBox& box) { return !box.certified; }),
+        boxes.end());
+      for (const glm::dvec3& axis : { glm::dvec3(1, 0, 0), { 0, 1, 0 }, { 0, 0, -1 } })
+      {
+        EXPECT_TRUE(inSomeBox(mesh, boxes, center + radius * axis));
+      }
+    }
+  }
+}
+
+TEST(SurfaceBoxes, TwoSheetsNearEachOtherAreToldFromOneThatTouches)
+{
+  for (const Domain domain : allDomains)
+  {
+    const ElementMesh mesh = oneCell(
+      domain, [](const glm::dvec3& x) { return (x.x - 0.3337) * (x.x - 0.3337) - 9e-4; });
+    const auto boxes = findSurfaceBoxes(mesh, 0.0, 10.0, {});
+    EXPECT_EQ(uncertifiedCount(boxes), 0) << domain;
+    EXPECT_TRUE(inSomeBox(mesh, boxes, { 0.3637, 0.1, 0.2 })) << domain;
+    EXPECT_TRUE(inSomeBox(mesh, boxes, { 0.3037, 0.1, 0.2 })) << domain;
+  }
+}
+
+TEST(SurfaceBoxes, FieldsOfAnySizeGiveTheSameBoxes)
+{
+  const Field field = gyroid(0.7);
+  const auto boxesOf = [&](double unit)
+  {
+    return findSurfaceBoxes(
+      oneCell(Domain::Hexahedron, [&](const glm::dvec3& x) { return unit * field(x); }), 0.0, 0.3,
+      {});
+  };
+  const std::vector<SurfaceBox> expected = boxesOf(1.0);
+  for (const double unit : { std::ldexp(1.0, -140), std::ldexp(1.0, 140) })
+  {
+    const std::vector<SurfaceBox> boxes = boxesOf(unit);
+    ASSERT_EQ(boxes.size(), expected.size());
+    for (std::size_t b = 0; b < boxes.size(); ++b)
+    {
+      ASSERT_EQ(boxes[b].values, expected[b].values);
+      ASSERT_EQ(boxes[b].valueUnit, unit * expected[b].valueUnit);
+    }
+  }
 }
 
 TEST(SurfaceBoxes, EndAtNaN)

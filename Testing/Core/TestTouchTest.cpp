@@ -1,0 +1,89 @@
+#include "TouchTest.h"
+
+#include "ElementCases.h"
+#include "TestMeshes.h"
+
+#include <gtest/gtest.h>
+
+namespace hop::testing
+{
+namespace
+{
+
+/// A field over the reference domain, on straight elements of degree 4.
+Approach approachOf(Domain domain, const Field& field, double sign = 1.0)
+{
+  MeshRecipe recipe;
+  recipe.domain = domain;
+  recipe.degrees = { 4, 4, 4 };
+  recipe.field = field;
+  ElementMesh mesh;
+  std::vector<glm::dvec3> corners;
+  std::vector<std::int64_t> numbers;
+  for (const ReferencePoint& corner : facts(domain).corners)
+  {
+    numbers.push_back(static_cast<std::int64_t>(corners.size()));
+    corners.push_back(corner.xyz);
+  }
+  appendElement(mesh, recipe, corners, numbers);
+  return approachToZero(mesh.form(0), sign);
+}
+
+class Touch : public ::testing::TestWithParam<Domain>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(TouchTest, Touch, ::testing::ValuesIn(allDomains),
+  [](const auto& which) { return ::testing::PrintToString(which.param); });
+
+TEST_P(Touch, SquaresTouch)
+{
+  const Domain domain = this->GetParam();
+  const glm::dvec3 normal = glm::normalize(glm::dvec3(1.0, -0.4, 0.3));
+  const auto distance = [&](const glm::dvec3& x) { return glm::dot(normal, x) - 0.23; };
+  const auto square = [&](const glm::dvec3& x) { return distance(x) * distance(x); };
+  EXPECT_EQ(approachOf(domain, square), Approach::Touches);
+  EXPECT_EQ(approachOf(domain, [&](const glm::dvec3& x) { return -square(x); }, -1.0),
+    Approach::Touches);
+  EXPECT_EQ(approachOf(domain, [&](const glm::dvec3& x) { return square(x) * square(x); }),
+    Approach::Touches);
+  EXPECT_EQ(approachOf(domain,
+              [&](const glm::dvec3& x) { return square(x) * (0.3 + x.x + 2.0 * x.y * x.z); }),
+    Approach::Touches);
+}
+
+TEST_P(Touch, SquaresTouchFacesEdgesAndCorners)
+{
+  const Domain domain = this->GetParam();
+  EXPECT_EQ(approachOf(domain, [](const glm::dvec3& x) { return x.z * x.z; }), Approach::Touches);
+  EXPECT_EQ(approachOf(domain, [](const glm::dvec3& x) { return x.x * x.x + x.y * x.y; }),
+    Approach::Touches);
+  EXPECT_EQ(approachOf(domain, [](const glm::dvec3& x) { return glm::dot(x, x); }),
+    Approach::Touches);
+}
+
+TEST_P(Touch, TwoSheetsCross)
+{
+  for (const double apart : { 0.3, 0.1, 0.01 })
+  {
+    EXPECT_EQ(approachOf(this->GetParam(), [&](const glm::dvec3& x)
+                { return (x.x - 0.23) * (x.x - 0.23) - 0.25 * apart * apart; }),
+      Approach::Crosses)
+      << apart;
+  }
+}
+
+TEST_P(Touch, OtherFieldsMiss)
+{
+  const Domain domain = this->GetParam();
+  EXPECT_EQ(approachOf(domain, [](const glm::dvec3& x) { return 0.01 + x.x * x.x; }),
+    Approach::Misses);
+  EXPECT_EQ(approachOf(domain, [](const glm::dvec3& x) { return 0.1 + x.x; }), Approach::Misses);
+  EXPECT_EQ(approachOf(domain, [](const glm::dvec3&) { return 1.0; }), Approach::Misses);
+  // A zero at a corner that the field does not stay near.
+  EXPECT_EQ(approachOf(domain, [](const glm::dvec3& x) { return x.x + x.y + x.z; }),
+    Approach::Misses);
+}
+
+} // namespace
+} // namespace hop::testing
