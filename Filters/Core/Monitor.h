@@ -33,6 +33,12 @@ std::ptrdiff_t runAlone(std::ptrdiff_t count, const LoopBody& body);
 /// Runs a loop alone as long as that is faster, the rest of it in the caller's threads.
 void runParallel(const ParallelFor& parallelFor, std::ptrdiff_t count, const LoopBody& body);
 
+/// For long work on one thread, now and then: the caller may end it as between loops.
+inline void askCaller(const ParallelFor& parallelFor)
+{
+  runInThreads(parallelFor, 0, [](std::ptrdiff_t, std::ptrdiff_t) {});
+}
+
 /// Calls use(i) for every i in [0, count), in the caller's threads.
 template <class Use>
 void forAll(const ParallelFor& parallelFor, std::size_t count, const Use& use)

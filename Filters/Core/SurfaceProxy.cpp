@@ -1,5 +1,6 @@
 #include "SurfaceProxy.h"
 
+#include "KeepMarked.h"
 #include "ProxyPolygons.h"
 #include "SpacingGrid.h"
 
@@ -27,6 +28,12 @@ constexpr double guessReach = 1.5;
 constexpr double guessTurn = 0.5;
 /// How far a sample's spacing is felt, in units of its own, where spacings are looked up.
 constexpr double lookUpReach = 4.0;
+/// Of more than so many samples in a cell of a quarter to half of their spacings the one that wants the least
+/// stands for all; where cells hold more than two on average, elements are finer than spacings, of any more
+/// than one. What differs is the way from a place in the cell to another.
+constexpr double cellPerSpacing = 0.25;
+constexpr std::ptrdiff_t mostInCell = 4;
+constexpr double fineAverage = 2.0;
 
 /// A sample's map tells where places lie that are no farther from it, in units of its spacing.
 constexpr double mapReach = 1.2;
@@ -43,6 +50,38 @@ std::vector<std::size_t> boxRanges(const std::vector<SurfaceBox>& boxes, std::si
   }
   std::partial_sum(first.begin(), first.end(), first.begin());
   return first;
+}
+
+/// Which samples tell others their spacings: all, unless they stand close together beside their spacings, when
+/// each would be looked at from all others around.
+std::vector<char> markStandIns(Span<glm::dvec3> positions, Span<float> spacings)
+{
+  const SpacingGrid cells(positions, spacings, cellPerSpacing);
+  std::vector<SpacingGrid::Points> groups;
+  for (std::size_t i = 0; i < positions.size(); ++i)
+  {
+    const SpacingGrid::Points mates = cells.cellMates(static_cast<int>(i));
+    if (*mates.begin() == static_cast<int>(i))
+    {
+      groups.push_back(mates);
+    }
+  }
+  const bool isFine =
+    static_cast<double>(positions.size()) > fineAverage * static_cast<double>(groups.size());
+  const auto lessSpacing = [&](int a, int b) { return spacings[a] < spacings[b]; };
+  std::vector<char> marks(positions.size(), 1);
+  for (const SpacingGrid::Points& group : groups)
+  {
+    if (group.end() - group.begin() > (isFine ? 1 : mostInCell))
+    {
+      for (const int one : group)
+      {
+        marks[one] = 0;
+      }
+      marks[*std::min_element(group.begin(), group.end(), lessSpacing)] = 1;
+    }
+  }
+  return marks;
 }
 
 } // namespace
@@ -62,15 +101,8 @@ SurfaceProxy::SurfaceProxy(const Isosurface& surface, const SpacingLaw& law,
   }
   if (law.angularDensity > 0.0)
   {
-    for (const Sample& sample : this->Samples)
-    {
-      if (sample.found)
-      {
-        this->Positions.push_back(sample.patch.position);
-        this->Spacings.push_back(sample.patch.spacing);
-      }
-    }
-    this->gradeSpacings(0);
+    this->collectSpacings();
+    this->gradeSpacings(0, parallelFor);
   }
   this->findSmallestSpacing();
   this->sumWeights(parallelFor);
@@ -135,7 +167,7 @@ void SurfaceProxy::limitSpacings(
       this->Positions.push_back(limit.position);
       this->Spacings.push_back(limit.spacing);
     }
-    this->gradeSpacings(first);
+    this->gradeSpacings(first, parallelFor);
     this->findSmallestSpacing();
     this->sumWeights(parallelFor);
   }
@@ -239,9 +271,29 @@ bool SurfaceProxy::samplePatiently(std::size_t b, std::int64_t& evaluations)
   return found && sample(at.location);
 }
 
+/// Fills the list of places where spacings are known. What lies in boxes that are neither certified nor
+/// straddle may be no surface: it does not tell others their spacings.
+void SurfaceProxy::collectSpacings()
+{
+  for (std::size_t b = 0; b < this->Samples.size(); ++b)
+  {
+    const bool isTrusted = this->Boxes[b].certified || this->Boxes[b].straddles;
+    if (this->Samples[b].found && isTrusted)
+    {
+      this->Graded.push_back(static_cast<int>(b));
+      this->Positions.push_back(this->Samples[b].patch.position);
+      this->Spacings.push_back(this->Samples[b].patch.spacing);
+    }
+  }
+  const std::vector<char> marks = markStandIns(this->Positions, this->Spacings);
+  keepMarked(this->Graded, marks);
+  keepMarked(this->Positions, marks);
+  keepMarked(this->Spacings, marks);
+}
+
 /// Dijkstra's method: from the smallest spacing on, each place limits those around it.
 /// \param first of the places that are new; those before are graded among themselves
-void SurfaceProxy::gradeSpacings(std::size_t first)
+void SurfaceProxy::gradeSpacings(std::size_t first, const ParallelFor& parallelFor)
 {
   using Entry = std::pair<float, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
@@ -251,8 +303,13 @@ void SurfaceProxy::gradeSpacings(std::size_t first)
   }
   const std::vector<float> before = this->Spacings;
   const SpacingGrid grid(this->Positions, before, lookUpReach);
-  while (!queue.empty())
+  constexpr std::size_t someEntries = 256;
+  for (std::size_t n = 1; !queue.empty(); ++n)
   {
+    if (n % someEntries == 0)
+    {
+      askCaller(parallelFor);
+    }
     const auto [spacing, i] = queue.top();
     queue.pop();
     if (spacing > this->Spacings[i])
@@ -272,13 +329,17 @@ void SurfaceProxy::gradeSpacings(std::size_t first)
       });
   }
   this->Grid = std::make_unique<SpacingGrid>(this->Positions, this->Spacings, lookUpReach);
-  std::size_t place = 0;
-  for (Sample& sample : this->Samples)
-  {
-    if (sample.found)
+  forAll(parallelFor, this->Samples.size(),
+    [this](std::size_t b)
     {
-      sample.patch.spacing = this->Spacings[place++];
-    }
+      Patch& patch = this->Samples[b].patch;
+      patch.spacing = this->Samples[b].found
+        ? this->Grid->graded(patch.position, patch.spacing, GradationSlope)
+        : patch.spacing;
+    });
+  for (std::size_t i = 0; i < this->Graded.size(); ++i)
+  {
+    this->Samples[this->Graded[i]].patch.spacing = this->Spacings[i];
   }
 }
 

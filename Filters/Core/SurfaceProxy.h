@@ -73,6 +73,9 @@ public:
 
   const SpacingLaw& law() const { return this->Law; }
 
+  /// How many samples and limits tell the spacings around them; none where all want the same.
+  std::size_t spacingPlaces() const { return this->Spacings.size(); }
+
   /// Of all samples.
   double smallestSpacing() const { return this->SmallestSpacing; }
 
@@ -108,7 +111,8 @@ private:
   bool stepInBox(std::size_t box, Location& place) const;
   bool samplePatiently(std::size_t box, std::int64_t& evaluations);
   bool sampleAt(std::size_t box, const Location& place, const Jet& jet);
-  void gradeSpacings(std::size_t first);
+  void collectSpacings();
+  void gradeSpacings(std::size_t first, const ParallelFor& parallelFor);
   void findSmallestSpacing();
   void sumWeights(const ParallelFor& parallelFor);
   void seedBox(std::size_t box, std::int64_t first, std::int64_t last, double phase, double stride,
@@ -125,7 +129,8 @@ private:
   std::vector<double> Sums;
   std::int64_t Evaluations = 0;
   double SmallestSpacing = 0.0;
-  // For looking up spacings, where they vary: those of samples, then limits.
+  // For looking up spacings, where they vary: those of samples, as many as tell them, then limits.
+  std::vector<int> Graded;
   std::vector<glm::dvec3> Positions;
   std::vector<float> Spacings;
   std::unique_ptr<SpacingGrid> Grid;

@@ -113,6 +113,76 @@ TEST(SurfaceProxy, KnowsOfASmallSpacingHoweverLargeThoseAroundIt)
   }
 }
 
+/// A dent in a plane, in elements far smaller than spacings: elsewhere these are 0.5.
+ElementMesh fineMesh()
+{
+  MeshRecipe recipe;
+  recipe.degrees = { 1, 1, 1 };
+  recipe.cells = 40;
+  recipe.field = [](const glm::dvec3& x)
+  { return x.z - 0.31 * std::exp(-8.0 * (x.x * x.x + x.y * x.y)); };
+  return makeMesh(recipe);
+}
+
+TEST(SurfaceProxy, OfSamplesCloserThanTheirSpacingsFewTellThem)
+{
+  const ElementMesh mesh = fineMesh();
+  const SurfaceProxy proxy(
+    { &mesh, 0.0, 1e-9 }, { 0.5, 15.0 }, findSurfaceBoxes(mesh, 0.0, 3.0, {}), {});
+  const auto& samples = proxy.samples();
+  ASSERT_GT(samples.size(), 1600u);
+  EXPECT_LT(proxy.spacingPlaces(), samples.size() / 3);
+  for (const SurfaceProxy::Sample& one : samples)
+  {
+    double limit = proxy.law().at(one.patch.curvatureMagnitude());
+    for (const SurfaceProxy::Sample& other : samples)
+    {
+      limit = std::min(limit,
+        other.patch.spacing +
+          SurfaceProxy::GradationSlope *
+            glm::distance(one.patch.position, other.patch.position));
+    }
+    ASSERT_LE(one.patch.spacing, 1.1 * limit);
+    ASSERT_GE(one.patch.spacing, 0.999 * limit);
+  }
+}
+
+TEST(SurfaceProxy, WhatMayBeNoSurfaceDoesNotTellSpacings)
+{
+  const ElementMesh mesh = curvedMesh(Domain::Hexahedron);
+  std::vector<SurfaceBox> boxes = findSurfaceBoxes(mesh, 0.0, 5.0 * spacing, {});
+  const auto places = [&]() {
+    return SurfaceProxy({ &mesh, 0.0, 1e-9 }, { spacing, 10.0 }, boxes, {}).spacingPlaces();
+  };
+  const std::size_t all = places();
+  boxes[3].certified = false;
+  boxes[3].straddles = true;
+  EXPECT_EQ(places(), all);
+  boxes[3].straddles = false;
+  EXPECT_EQ(places(), all - 1);
+}
+
+/// A loop of no length ends work as a loop of some length does.
+TEST(SurfaceProxy, AsksForAnEarlyEndWhileItGradesSpacings)
+{
+  const ElementMesh mesh = fineMesh();
+  int askings = 0;
+  const ParallelFor counting = [&](std::ptrdiff_t count, const LoopBody& body)
+  {
+    askings += count == 0;
+    runInThreads({}, count, body);
+  };
+  const auto boxes = findSurfaceBoxes(mesh, 0.0, 3.0, {});
+  const auto askingsAt = [&](double wanted)
+  {
+    askings = 0;
+    const SurfaceProxy proxy({ &mesh, 0.0, 1e-9 }, { wanted, 15.0 }, boxes, counting);
+    return askings;
+  };
+  // All of the samples are graded where spacings are small.
+  EXPECT_GT(askingsAt(0.02), askingsAt(0.5));
+}
+
 TEST(SampleComparison, KnowsSmallJumpsFromLargeOnes)
 {
   // z = 0 for x < 0; behind x = 0 the surface is that much higher.
