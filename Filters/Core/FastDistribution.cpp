@@ -487,22 +487,7 @@ void FastSystem::coverBoxes()
 {
   const auto& samples = this->Proxy->samples();
   const std::vector<char> lonely = findLonely(samples, this->Moving->patches(), this->Parallel);
-  std::vector<int> added;
-  for (std::size_t b = 0; b < samples.size(); ++b)
-  {
-    const auto covers = [&](int other)
-    {
-      const Patch& sample = samples[b].patch;
-      const Patch& patch = samples[other].patch;
-      return glm::distance(patch.position, sample.position) <= 0.7 * patch.spacing &&
-        glm::dot(patch.normal, sample.normal) > 0.0f;
-    };
-    if (lonely[b] && std::none_of(added.begin(), added.end(), covers))
-    {
-      added.push_back(static_cast<int>(b));
-    }
-  }
-  this->addSamples(added);
+  this->addSamples(chooseUncovered(samples, lonely, this->Parallel));
 }
 
 /// Takes all particles to the tolerance and says what there is to say about them.

@@ -1,5 +1,6 @@
 #include "PatchDistances.h"
 
+#include "KeepMarked.h"
 #include "SpacingGrid.h"
 
 #include <algorithm>
@@ -154,6 +155,41 @@ std::vector<char> findLonely(const std::vector<SurfaceProxy::Sample>& samples,
         [&](int j) { covered = covered || covers(patches[j], sample); });
       return !covered;
     });
+}
+
+std::vector<int> chooseUncovered(const std::vector<SurfaceProxy::Sample>& samples,
+  const std::vector<char>& marks, const ParallelFor& parallelFor)
+{
+  constexpr double coverDistance = 0.7;
+  Buffer<Patch> patches;
+  const std::vector<int> marked = markedIndices(marks, samples.size());
+  for (const int b : marked)
+  {
+    patches.push_back(samples[b].patch);
+  }
+  const SpacedPoints points(patches, parallelFor);
+  // So far because of the harmonic mean: the other may want half as much.
+  const SpacingGrid grid(points.positions, points.spacings, 1.0, cellsPerReach, parallelFor);
+  std::vector<char> isChosen(marked.size(), 0);
+  std::vector<int> chosen;
+  for (std::size_t i = 0; i < marked.size(); ++i)
+  {
+    bool covered = false;
+    const auto cover = [&](int j)
+    {
+      const double distance = glm::distance(points.positions[i], points.positions[j]);
+      covered = covered ||
+        (isChosen[j] && distance <= coverDistance * points.spacings[j] &&
+          glm::dot(patches[i].normal, patches[j].normal) > 0.0f);
+    };
+    grid.visit(points.positions[i], points.spacings[i], cover);
+    if (!covered)
+    {
+      isChosen[i] = 1;
+      chosen.push_back(marked[i]);
+    }
+  }
+  return chosen;
 }
 
 } // namespace hop

@@ -27,4 +27,9 @@ std::vector<char> standApart(const Buffer<Patch>& patches, const std::vector<cha
 std::vector<char> findLonely(const std::vector<SurfaceProxy::Sample>& samples,
   const Buffer<Patch>& patches, const ParallelFor& parallelFor);
 
+/// Of the samples that are marked, one after the other, those that none chosen before covers: by standing
+/// nearer than 0.7 of its spacing, and not turned away.
+std::vector<int> chooseUncovered(const std::vector<SurfaceProxy::Sample>& samples,
+  const std::vector<char>& marks, const ParallelFor& parallelFor);
+
 } // namespace hop

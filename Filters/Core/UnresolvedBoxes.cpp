@@ -9,7 +9,7 @@ void reportUnresolved(
   const Isosurface& surface, const std::vector<SurfaceBox>& boxes, DistributionReport& report)
 {
   const ElementMesh& mesh = *surface.mesh;
-  std::vector<CriticalPoint> singular;
+  std::vector<CriticalPoint> singular; // of the element at hand
   report.boxes = static_cast<std::int64_t>(boxes.size());
   for (const SurfaceBox& box : boxes)
   {
@@ -25,17 +25,19 @@ void reportUnresolved(
     }
     CriticalPoint point;
     const auto same = [&](const CriticalPoint& other)
+    { return glm::distance(other.location.u.xyz, point.location.u.xyz) < 1e-6; };
+    // Boxes come in the order of the elements.
+    if (!singular.empty() && singular.back().location.element != box.middle.element)
     {
-      return other.location.element == point.location.element &&
-        glm::distance(other.location.u.xyz, point.location.u.xyz) < 1e-6;
-    };
+      singular.clear();
+    }
     if (findCriticalPoint(mesh, surface.isovalue, box, point) && point.onSurface &&
       std::none_of(singular.begin(), singular.end(), same))
     {
       singular.push_back(point);
+      ++report.singularPoints;
     }
   }
-  report.singularPoints = static_cast<std::int64_t>(singular.size());
 }
 
 } // namespace hop
