@@ -115,7 +115,7 @@ private:
     this->Work.raiseFraction(fraction);
     this->Work.ask();
   }
-  SurfaceProxy proxyAt(double spacing, double shareOfRun);
+  SurfaceProxy proxyOfBoxesAt(double spacing, double shareOfRun);
   bool tooMany(double count);
   bool estimateCount();
   void lookAtSurface();
@@ -154,8 +154,9 @@ private:
   Distribution Result;
 };
 
+/// \param spacing that boxes are to suit; the proxy's own is the law's
 /// \param shareOfRun how far the run is when the surface is found
-SurfaceProxy FastSystem::proxyAt(double spacing, double shareOfRun)
+SurfaceProxy FastSystem::proxyOfBoxesAt(double spacing, double shareOfRun)
 {
   SpacingLaw law = this->Law;
   law.spacing = spacing;
@@ -182,7 +183,7 @@ SurfaceProxy FastSystem::proxyAt(double spacing, double shareOfRun)
     return size <= perSpacing * law.at(patch.curvatureMagnitude());
   };
   const auto found = [&](double share) { this->Work.raiseFraction(shareOfRun * share); };
-  SurfaceProxy proxy(this->Surface, law,
+  SurfaceProxy proxy(this->Surface, this->Law,
     findSurfaceBoxes(this->Mesh, this->Surface.isovalue, isSmall, this->Parallel, found),
     this->Parallel);
   this->Evaluations += proxy.evaluations();
@@ -195,7 +196,9 @@ bool FastSystem::tooMany(double count)
   return !this->Result.report.error.empty();
 }
 
-/// From a coarse look at the surface, before memory is asked for.
+/// From a coarse look at the surface, before memory is asked for: particles are counted at the spacing wanted.
+/// Counted at the coarse one, as many more as it is larger, those that stand closer where the surface bends
+/// would count twice.
 /// \return whether there are few enough
 bool FastSystem::estimateCount()
 {
@@ -204,9 +207,8 @@ bool FastSystem::estimateCount()
     return !this->tooMany(static_cast<double>(this->Parameters.particleCount));
   }
   const double coarse = meshExtent(this->Mesh) * coarseSpacingPerExtent;
-  const double ratio = coarse / this->Law.spacing;
-  return ratio <= 1.0 ||
-    !this->tooMany(this->proxyAt(coarse, 0.05).particleCount() * ratio * ratio);
+  return coarse <= this->Law.spacing ||
+    !this->tooMany(this->proxyOfBoxesAt(coarse, 0.05).particleCount());
 }
 
 /// Makes the proxy. From then on the surface ends where its two sides miss each other, particles are to
@@ -214,7 +216,7 @@ bool FastSystem::estimateCount()
 void FastSystem::lookAtSurface()
 {
   this->Surface.gaps = nullptr;
-  this->Proxy = std::make_unique<SurfaceProxy>(this->proxyAt(this->Law.spacing, 0.3));
+  this->Proxy = std::make_unique<SurfaceProxy>(this->proxyOfBoxesAt(this->Law.spacing, 0.3));
   this->Work.ask();
   this->Jumps = findFaceJumps(this->Surface, *this->Proxy, this->Parallel);
   std::int64_t cost = this->Jumps.evaluations;

@@ -168,12 +168,18 @@ std::vector<int> chooseUncovered(const std::vector<SurfaceProxy::Sample>& sample
     patches.push_back(samples[b].patch);
   }
   const SpacedPoints points(patches, parallelFor);
-  // So far because of the harmonic mean: the other may want half as much.
-  const SpacingGrid grid(points.positions, points.spacings, 1.0, cellsPerReach, parallelFor);
+  // So far because of the harmonic mean: the other may want half as much. Where many are marked they stand
+  // close together: in small cells.
+  const SpacingGrid grid(points.positions, points.spacings, 1.0, 1.0, parallelFor);
   std::vector<char> isChosen(marked.size(), 0);
   std::vector<int> chosen;
+  constexpr std::size_t some = 4096;
   for (std::size_t i = 0; i < marked.size(); ++i)
   {
+    if (i % some == 0)
+    {
+      askCaller(parallelFor);
+    }
     bool covered = false;
     const auto cover = [&](int j)
     {

@@ -397,6 +397,26 @@ TEST(FastDistribution, RefusesMoreParticlesThanTheLimit)
   EXPECT_FALSE(distribute(mesh, parameters).report.error.empty());
 }
 
+TEST(FastDistribution, CountsParticlesBeforehandWhereMostStandCloseBecauseTheSurfaceBends)
+{
+  // Two droplets far apart: at a thousandth of their distance they bend more than at the spacing wanted.
+  ElementMesh mesh;
+  for (const double middle : { 0.0, 300.0 })
+  {
+    MeshRecipe recipe;
+    recipe.field = sphere(glm::dvec3(middle), 0.5).field;
+    appendBox(mesh, recipe, glm::dvec3(middle - 1.0), glm::dvec3(middle + 1.0));
+  }
+  findFaceNeighbors(mesh, 1e-9);
+  DistributionParameters parameters = withSpacing(0.04, 15.0);
+  const auto count = static_cast<std::int64_t>(distribute(mesh, parameters).particles.size());
+  ASSERT_GT(count, 1000);
+  parameters.particleLimit = count + count / 5;
+  EXPECT_TRUE(distribute(mesh, parameters).report.error.empty());
+  parameters.particleLimit = count - count / 5;
+  EXPECT_FALSE(distribute(mesh, parameters).report.error.empty());
+}
+
 TEST(FastDistribution, ReportsUndersampledParticles)
 {
   const ElementMesh mesh = meshOf(Domain::Hexahedron, 2, sphere({ 0, 0, 0 }, 0.3).field);
