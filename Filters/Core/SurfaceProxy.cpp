@@ -1,5 +1,6 @@
 #include "SurfaceProxy.h"
 
+#include "FaceSheets.h"
 #include "KeepMarked.h"
 #include "ProxyPolygons.h"
 #include "SpacingGrid.h"
@@ -90,7 +91,7 @@ SurfaceProxy::SurfaceProxy(const Isosurface& surface, const SpacingLaw& law,
   std::vector<SurfaceBox> boxes, const ParallelFor& parallelFor)
   : Surface(surface)
   , Law(law)
-  , Boxes(std::move(boxes))
+  , Boxes(giveFaceSheetsOnce(surface, std::move(boxes), parallelFor))
   , Samples(this->Boxes.size())
   , FirstBox(boxRanges(this->Boxes, surface.mesh->elements.size()))
 {
