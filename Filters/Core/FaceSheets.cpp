@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace hop
 {
@@ -29,6 +30,17 @@ double largestValue(const BernsteinForm& form, double isovalue)
   return largest;
 }
 
+/// Whether a face is one in world space, too: at the tip of a pyramid one is a point.
+bool hasArea(const Element& element, const Face& face)
+{
+  std::set<std::int64_t> numbers;
+  for (int c = 0; c < face.cornerCount; ++c)
+  {
+    numbers.insert(element.corners[face.corners[c]]);
+  }
+  return numbers.size() >= 3;
+}
+
 /// A side of a box that lies on a face of its element, and in the surface.
 struct Sheet
 {
@@ -44,12 +56,12 @@ public:
   SheetGiver(const Isosurface& surface, int element)
     : Surface(surface)
     , Facts(facts(surface.mesh->elements[element].domain))
-    , Element(element)
+    , Number(element)
     , Slack(roundingShare * largestValue(surface.mesh->form(element), surface.isovalue))
   {
   }
 
-  int element() const { return this->Element; }
+  int element() const { return this->Number; }
 
   /// \return whether the box is to stay
   bool settle(SurfaceBox& box) const
@@ -104,12 +116,14 @@ private:
     {
       sheet.middle.xyz += glm::dvec3(box.corners[side.corners[c]]) / static_cast<double>(side.cornerCount);
     }
+    const Element& element = this->Surface.mesh->elements[this->Number];
     const auto& faces = this->Facts.faces;
     for (int f = 0; f < static_cast<int>(faces.size()); ++f)
     {
       const auto margin = [&](const glm::dvec3& u)
       { return glm::dot(faces[f].inward.xyz, u) + faces[f].offset; };
-      if (std::all_of(side.corners.begin(), side.corners.begin() + side.cornerCount,
+      if (hasArea(element, faces[f]) &&
+        std::all_of(side.corners.begin(), side.corners.begin() + side.cornerCount,
             [&](int c) { return margin(glm::dvec3(box.corners[c])) < cornerRounding; }))
       {
         sheet.face = f;
@@ -142,8 +156,8 @@ private:
   std::optional<LocatedPlace> placeBehind(const Sheet& sheet) const
   {
     const ElementMesh& mesh = *this->Surface.mesh;
-    const Location here{ this->Element, sheet.middle };
-    const FaceNeighbor& neighbor = mesh.neighbor(this->Element, sheet.face);
+    const Location here{ this->Number, sheet.middle };
+    const FaceNeighbor& neighbor = mesh.neighbor(this->Number, sheet.face);
     if (neighbor.element >= 0)
     {
       return LocatedPlace{ crossFace(mesh, here, sheet.face), neighbor.face, 0.0 };
@@ -153,17 +167,17 @@ private:
       return std::nullopt;
     }
     const WorldPoint point{ glm::dvec3(
-      evaluateGradient(mesh.form(this->Element), sheet.middle).value) };
+      evaluateGradient(mesh.form(this->Number), sheet.middle).value) };
     std::int64_t evaluations = 0;
     return this->Surface.locator->locate(
-      point, this->Element, sheet.face, std::numeric_limits<double>::infinity(), evaluations);
+      point, this->Number, sheet.face, std::numeric_limits<double>::infinity(), evaluations);
   }
 
   bool has(const Sheet& sheet, int behind) const
   {
     if (behind == sheet.sign)
     {
-      return this->Element < this->placeBehind(sheet)->location.element;
+      return this->Number < this->placeBehind(sheet)->location.element;
     }
     return behind == 0 || sheet.sign > 0;
   }
@@ -173,7 +187,7 @@ private:
 
   const Isosurface& Surface;
   const DomainFacts& Facts;
-  int Element;
+  int Number;
   double Slack;
 };
 

@@ -112,5 +112,26 @@ TEST(FaceSheets, RoundedValuesMakeNoHoles)
   }
 }
 
+TEST(FaceSheets, TipsOfPyramidsAreNone)
+{
+  ElementMesh mesh;
+  std::vector<glm::dvec3> corners;
+  for (const ReferencePoint& corner : facts(Domain::Hexahedron).corners)
+  {
+    corners.push_back(corner.xyz.z == 0.0 ? corner.xyz : glm::dvec3(0.5, 0.5, 1.0));
+  }
+  appendElement(mesh, recipeOf(Domain::Hexahedron, [](const glm::dvec3& x) { return x.z - 1.0; }),
+    corners, { 0, 1, 2, 3, 4, 4, 4, 4 });
+  findFaceNeighbors(mesh, 1e-9);
+  const std::vector<SurfaceBox> boxes = findSurfaceBoxes(mesh, 0.0, spacing, {});
+  ASSERT_FALSE(boxes.empty());
+  const std::vector<SurfaceBox> same = giveFaceSheetsOnce({ &mesh, 0.0, 1e-9 }, boxes, {});
+  ASSERT_EQ(same.size(), boxes.size());
+  for (std::size_t b = 0; b < boxes.size(); ++b)
+  {
+    EXPECT_EQ(same[b].values, boxes[b].values);
+  }
+}
+
 } // namespace
 } // namespace hop::testing
