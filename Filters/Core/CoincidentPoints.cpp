@@ -166,8 +166,8 @@ void Places::joinEqual()
 void Places::joinEqualOf(int point, std::vector<int>& places)
 {
   const double reach = this->Points[point].reach;
-  const auto same = std::find_if(places.begin(), places.end(),
-    [&](int place) { return this->at(place) == this->at(point); });
+  const auto same = std::find_if(
+    places.begin(), places.end(), [&](int place) { return this->at(place) == this->at(point); });
   if (same == places.end())
   {
     places.push_back(point);

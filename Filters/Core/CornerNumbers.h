@@ -12,7 +12,7 @@ std::vector<double> cornerTolerances(const ElementMesh& mesh, const ParallelFor&
 
 /// Equal numbers for coincident corners: most solvers write every cell with points of its own.
 /// \param tolerances one an element
-void numberCorners(ElementMesh& mesh, const std::vector<double>& tolerances,
-  const ParallelFor& parallelFor = {});
+void numberCorners(
+  ElementMesh& mesh, const std::vector<double>& tolerances, const ParallelFor& parallelFor = {});
 
 } // namespace hop

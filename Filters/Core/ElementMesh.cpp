@@ -196,8 +196,7 @@ void join(ElementMesh& mesh, const FaceReference& a, const FaceReference& b,
 
 void findFaceNeighbors(ElementMesh& mesh, double tolerance, const ParallelFor& parallelFor)
 {
-  findFaceNeighbors(
-    mesh, std::vector<double>(mesh.elements.size(), tolerance), parallelFor);
+  findFaceNeighbors(mesh, std::vector<double>(mesh.elements.size(), tolerance), parallelFor);
 }
 
 void findFaceNeighbors(

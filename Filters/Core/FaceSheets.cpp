@@ -76,9 +76,7 @@ public:
     for (std::size_t c = 0; c < this->Facts.corners.size(); ++c)
     {
       float& value = box.values[c];
-      value = std::abs(value) <= this->Slack ? 0.0f
-        : isOurs                             ? std::abs(value)
-                                             : -std::abs(value);
+      value = std::abs(value) <= this->Slack ? 0.0f : isOurs ? std::abs(value) : -std::abs(value);
     }
     return isOurs || behind != sheet.sign;
   }
@@ -114,7 +112,8 @@ private:
     sheet.sign = sign;
     for (int c = 0; c < side.cornerCount; ++c)
     {
-      sheet.middle.xyz += glm::dvec3(box.corners[side.corners[c]]) / static_cast<double>(side.cornerCount);
+      sheet.middle.xyz +=
+        glm::dvec3(box.corners[side.corners[c]]) / static_cast<double>(side.cornerCount);
     }
     const Element& element = this->Surface.mesh->elements[this->Number];
     const auto& faces = this->Facts.faces;
@@ -124,7 +123,7 @@ private:
       { return glm::dot(faces[f].inward.xyz, u) + faces[f].offset; };
       if (hasArea(element, faces[f]) &&
         std::all_of(side.corners.begin(), side.corners.begin() + side.cornerCount,
-            [&](int c) { return margin(glm::dvec3(box.corners[c])) < cornerRounding; }))
+          [&](int c) { return margin(glm::dvec3(box.corners[c])) < cornerRounding; }))
       {
         sheet.face = f;
         sheet.middle.xyz -= margin(sheet.middle.xyz) /

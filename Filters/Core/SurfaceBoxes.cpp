@@ -252,8 +252,7 @@ private:
       oneSided += isOneSided && this->mayHoldSurface(piece);
     }
     const bool areSmall = bisections >= smallBisections;
-    result.touching =
-      areSmall || oneSided > (isCrossed ? fewOneSided : fewOneSidedWithoutSurface);
+    result.touching = areSmall || oneSided > (isCrossed ? fewOneSided : fewOneSidedWithoutSurface);
     result.missing = areSmall && oneSided > fewOneSided;
     return result;
   }
@@ -304,8 +303,8 @@ private:
       return outcome;
     }
     const bool last = piece.bisections == MaximumBisections;
-    const bool isDone =
-      piece.certified ? last || this->IsSmall({ element, middle(piece) }, size) : last || givenUp.all;
+    const bool isDone = piece.certified ? last || this->IsSmall({ element, middle(piece) }, size)
+                                        : last || givenUp.all;
     if (isDone)
     {
       piece.certified = piece.certified || this->Monotone.rises(valuesOf(piece));
@@ -502,7 +501,8 @@ private:
     for (std::size_t c = 0; c < this->CornerPlaces.size(); ++c)
     {
       const int place = this->CornerPlaces[c];
-      values[c] = piece.coefficients[place].w / (piece.weights.empty() ? 1.0 : piece.weights[place]);
+      values[c] =
+        piece.coefficients[place].w / (piece.weights.empty() ? 1.0 : piece.weights[place]);
     }
     return values;
   }

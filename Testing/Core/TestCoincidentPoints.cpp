@@ -53,8 +53,8 @@ TEST(CoincidentPoints, AreNamedByTheFirstOfThem)
 
 TEST(CoincidentPoints, ZeroHasNoSign)
 {
-  EXPECT_EQ(coincidentPoints(onLine({ 0.0, -0.0 }, { 1e-300, 1e-300 })),
-    (std::vector<int>{ 0, 0 }));
+  EXPECT_EQ(
+    coincidentPoints(onLine({ 0.0, -0.0 }, { 1e-300, 1e-300 })), (std::vector<int>{ 0, 0 }));
 }
 
 TEST(CoincidentPoints, SidesOfAThinLayerStayApartWherePointsBesideItReachAcross)

@@ -101,8 +101,8 @@ TEST(FaceSheets, RoundedValuesMakeNoHoles)
 {
   for (const double sign : { 1.0, -1.0 })
   {
-    ElementMesh mesh = makeMesh(recipeOf(
-      Domain::Hexahedron, [=](const glm::dvec3& x) { return sign * (x.z - 1.0); }));
+    ElementMesh mesh = makeMesh(
+      recipeOf(Domain::Hexahedron, [=](const glm::dvec3& x) { return sign * (x.z - 1.0); }));
     int n = 0;
     for (Coefficient& c : mesh.coefficients)
     {

@@ -249,8 +249,7 @@ const std::vector<std::pair<const char*, Field>>& touchingFields()
         return -f * f;
       } },
     { "the corner between two walls",
-      [](const glm::dvec3& x)
-      { return (x.z + 1.0) * (x.z + 1.0) * (x.y + 1.0) * (x.y + 1.0); } },
+      [](const glm::dvec3& x) { return (x.z + 1.0) * (x.z + 1.0) * (x.y + 1.0) * (x.y + 1.0); } },
     { "an edge",
       [](const glm::dvec3& x) { return (x.z + 1.0) * (x.z + 1.0) + (x.y + 1.0) * (x.y + 1.0); } },
     { "nothing but the isovalue", [](const glm::dvec3&) { return 0.0; } },

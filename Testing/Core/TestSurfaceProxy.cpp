@@ -139,8 +139,7 @@ TEST(SurfaceProxy, OfSamplesCloserThanTheirSpacingsFewTellThem)
     {
       limit = std::min(limit,
         other.patch.spacing +
-          SurfaceProxy::GradationSlope *
-            glm::distance(one.patch.position, other.patch.position));
+          SurfaceProxy::GradationSlope * glm::distance(one.patch.position, other.patch.position));
     }
     ASSERT_LE(one.patch.spacing, 1.1 * limit);
     ASSERT_GE(one.patch.spacing, 0.999 * limit);

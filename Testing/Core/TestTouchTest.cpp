@@ -43,7 +43,8 @@ TEST_P(Touch, SquaresTouch)
   const auto distance = [&](const glm::dvec3& x) { return glm::dot(normal, x) - 0.23; };
   const auto square = [&](const glm::dvec3& x) { return distance(x) * distance(x); };
   EXPECT_EQ(approachOf(domain, square), Approach::Touches);
-  EXPECT_EQ(approachOf(domain, [&](const glm::dvec3& x) { return -square(x); }, -1.0),
+  EXPECT_EQ(approachOf(
+              domain, [&](const glm::dvec3& x) { return -square(x); }, -1.0),
     Approach::Touches);
   EXPECT_EQ(approachOf(domain, [&](const glm::dvec3& x) { return square(x) * square(x); }),
     Approach::Touches);
@@ -58,16 +59,17 @@ TEST_P(Touch, SquaresTouchFacesEdgesAndCorners)
   EXPECT_EQ(approachOf(domain, [](const glm::dvec3& x) { return x.z * x.z; }), Approach::Touches);
   EXPECT_EQ(approachOf(domain, [](const glm::dvec3& x) { return x.x * x.x + x.y * x.y; }),
     Approach::Touches);
-  EXPECT_EQ(approachOf(domain, [](const glm::dvec3& x) { return glm::dot(x, x); }),
-    Approach::Touches);
+  EXPECT_EQ(
+    approachOf(domain, [](const glm::dvec3& x) { return glm::dot(x, x); }), Approach::Touches);
 }
 
 TEST_P(Touch, TwoSheetsCross)
 {
   for (const double apart : { 0.3, 0.1, 0.01 })
   {
-    EXPECT_EQ(approachOf(this->GetParam(), [&](const glm::dvec3& x)
-                { return (x.x - 0.23) * (x.x - 0.23) - 0.25 * apart * apart; }),
+    EXPECT_EQ(
+      approachOf(this->GetParam(),
+        [&](const glm::dvec3& x) { return (x.x - 0.23) * (x.x - 0.23) - 0.25 * apart * apart; }),
       Approach::Crosses)
       << apart;
   }
@@ -76,13 +78,13 @@ TEST_P(Touch, TwoSheetsCross)
 TEST_P(Touch, OtherFieldsMiss)
 {
   const Domain domain = this->GetParam();
-  EXPECT_EQ(approachOf(domain, [](const glm::dvec3& x) { return 0.01 + x.x * x.x; }),
-    Approach::Misses);
+  EXPECT_EQ(
+    approachOf(domain, [](const glm::dvec3& x) { return 0.01 + x.x * x.x; }), Approach::Misses);
   EXPECT_EQ(approachOf(domain, [](const glm::dvec3& x) { return 0.1 + x.x; }), Approach::Misses);
   EXPECT_EQ(approachOf(domain, [](const glm::dvec3&) { return 1.0; }), Approach::Misses);
   // A zero at a corner that the field does not stay near.
-  EXPECT_EQ(approachOf(domain, [](const glm::dvec3& x) { return x.x + x.y + x.z; }),
-    Approach::Misses);
+  EXPECT_EQ(
+    approachOf(domain, [](const glm::dvec3& x) { return x.x + x.y + x.z; }), Approach::Misses);
 }
 
 } // namespace
