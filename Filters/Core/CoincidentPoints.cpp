@@ -3,13 +3,13 @@
 #include "SortedBy.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 #include <mutex>
 #include <numeric>
-#include <tuple>
 
 namespace hop
 {
@@ -57,7 +57,7 @@ std::uint64_t bitsOf(double value)
   return bits;
 }
 
-std::tuple<double, double, double> lexical(const glm::dvec3& x)
+std::array<double, 3> lexical(const glm::dvec3& x)
 {
   return { x.x, x.y, x.z };
 }
@@ -268,20 +268,14 @@ int Places::placeOf(int point)
 /// The nearest first (Kruskal's method), those as near in the order of their coordinates.
 void Places::joinNearest(std::vector<Pair>& pairs)
 {
-  for (Pair& pair : pairs)
-  {
-    if (lexical(this->at(pair.second)) < lexical(this->at(pair.first)))
+  const auto ends = [&](const Pair& pair)
+  { return std::minmax({ lexical(this->at(pair.first)), lexical(this->at(pair.second)) }); };
+  std::sort(pairs.begin(), pairs.end(),
+    [&](const Pair& a, const Pair& b)
     {
-      std::swap(pair.first, pair.second);
-    }
-  }
-  const auto key = [&](const Pair& pair)
-  {
-    return std::make_tuple(
-      pair.distance, lexical(this->at(pair.first)), lexical(this->at(pair.second)));
-  };
-  std::sort(
-    pairs.begin(), pairs.end(), [&](const Pair& a, const Pair& b) { return key(a) < key(b); });
+      // Coordinates are seldom needed, and far off in memory.
+      return a.distance != b.distance ? a.distance < b.distance : ends(a) < ends(b);
+    });
   for (const Pair& pair : pairs)
   {
     const auto [first, second] =

@@ -443,3 +443,25 @@ def test_an_island_between_the_nodes_is_found():
     assert particles.GetNumberOfPoints() > 30
     _, values, _ = support.evaluate_by_vtk(grid, particles, ["f"])
     np.testing.assert_allclose(values["f"], isovalue, atol=1e-7)
+
+
+# Thin cells far from the origin
+
+
+@pytest.mark.parametrize("axis", range(3))
+def test_plates_far_from_the_origin_keep_their_thickness(axis):
+    """Single precision could not tell their two sides apart, but double precision does."""
+    counts = []
+    for offset in (0.0, 5e6):
+        grid = cells.straight_grid("LAGRANGE_HEXAHEDRON", 2)
+        scale = np.ones(3)
+        scale[axis] = 0.004
+        flat = support.points_of(grid) * scale
+        across, along = flat[:, axis - 1], flat[:, axis - 2]
+        support.add_point_array(grid, "f", np.hypot(across - 0.1, along - 0.2))
+        shift = np.full(3, offset)
+        shift[axis] = 0.0
+        cells.set_points(grid, flat + shift)
+        counts.append(support.run_quietly(grid, "f", 0.7, Spacing=0.001).GetNumberOfPoints())
+    assert counts[0] > 200
+    assert counts[1] == pytest.approx(counts[0], rel=0.02)
