@@ -30,11 +30,11 @@ constexpr double guessTurn = 0.5;
 /// How far a sample's spacing is felt, in units of its own, where spacings are looked up.
 constexpr double lookUpReach = 4.0;
 /// Of more than so many samples in a cell of a quarter to half of their spacings the one that wants the least
-/// stands for all; where cells hold more than two on average, elements are finer than spacings, of any more
+/// stands for all; where cells hold more than four on average, elements are finer than spacings, of any more
 /// than one. What differs is the way from a place in the cell to another.
 constexpr double cellPerSpacing = 0.25;
-constexpr std::ptrdiff_t mostInCell = 4;
-constexpr double fineAverage = 2.0;
+constexpr std::ptrdiff_t mostInCell = 16;
+constexpr double fineAverage = 4.0;
 
 /// A sample's map tells where places lie that are no farther from it, in units of its spacing.
 constexpr double mapReach = 1.2;
