@@ -268,8 +268,9 @@ int Places::placeOf(int point)
 /// The nearest first (Kruskal's method), those as near in the order of their coordinates.
 void Places::joinNearest(std::vector<Pair>& pairs)
 {
-  const auto ends = [&](const Pair& pair)
-  { return std::minmax({ lexical(this->at(pair.first)), lexical(this->at(pair.second)) }); };
+  const auto ends = [&](const Pair& pair) {
+    return std::minmax({ lexical(this->at(pair.first)), lexical(this->at(pair.second)) });
+  };
   std::sort(pairs.begin(), pairs.end(),
     [&](const Pair& a, const Pair& b)
     {
