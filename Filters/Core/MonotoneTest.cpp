@@ -91,15 +91,30 @@ bool MonotoneTest::rises(const std::vector<double>& values) const
     return false;
   }
   // Differences of values carry the values' rounding errors, times the degree.
-  const double least = 1e-13 * largest * MaximumDegree * length;
+  const double rounding = 1e-13 * largest * MaximumDegree * length;
+  // Where the field does not rise it must have one sign, and not be zero.
+  const double smallest = 1e-6 * largest;
+  bool hasSlope = false;
+  bool isBelow = false;
+  bool isAbove = false;
   for (std::size_t point = 0; point < values.size(); ++point)
   {
-    if (!(glm::dot(this->gradient(values, point), mean) > least))
+    const double rise = glm::dot(this->gradient(values, point), mean);
+    if (rise > rounding)
     {
-      return false;
+      hasSlope = true;
+    }
+    else
+    {
+      isBelow = isBelow || values[point] < -smallest;
+      isAbove = isAbove || values[point] > smallest;
+      if (!(rise >= -rounding) || !(std::abs(values[point]) > smallest) || (isBelow && isAbove))
+      {
+        return false;
+      }
     }
   }
-  return true;
+  return hasSlope;
 }
 
 glm::dvec3 MonotoneTest::gradient(const std::vector<double>& values, std::size_t point) const

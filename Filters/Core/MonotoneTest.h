@@ -20,7 +20,8 @@ public:
   MonotoneTest(Domain domain, const Degrees& degrees);
 
   /// \param values one coefficient a lattice point
-  /// \return true only if the derivative along the mean gradient is positive everywhere
+  /// \return true only if the derivative along the mean gradient is positive everywhere, but for places, as
+  ///   walls where a velocity's square is least, at which it is zero and the polynomial is not
   bool rises(const std::vector<double>& values) const;
 
 private:

@@ -115,7 +115,7 @@ int SpacingGrid::levelOf(double spacing) const
 float SpacingGrid::graded(const glm::dvec3& position, float spacing, double slope) const
 {
   double least = spacing;
-  for (int level = 0; level <= this->levelOf(least); ++level)
+  for (int level = 0; level < this->LevelCount && level <= this->levelOf(least); ++level)
   {
     const double smallest = std::ldexp(this->SmallestSpacing, level);
     const double radius =

@@ -511,6 +511,18 @@ TEST(FastDistribution, SurvivesElementsThatAreFlatFoldedOrConstant)
   }
 }
 
+TEST(FastDistribution, FieldsThatOnlyTouchTheIsovalueAreReported)
+{
+  for (const double density : { 0.0, 10.0 })
+  {
+    const ElementMesh mesh =
+      meshOf(Domain::Tetrahedron, 3, [](const glm::dvec3& x) { return (1.0 - x.x) * (1.0 - x.x); });
+    const Distribution result = distribute(mesh, withSpacing(0.1, density));
+    EXPECT_GT(result.report.boxesUnresolved, 0);
+    EXPECT_TRUE(result.report.error.empty());
+  }
+}
+
 TEST(FastDistribution, DoesNotDependOnTheUnitOfLength)
 {
   const auto at = [](double scale)

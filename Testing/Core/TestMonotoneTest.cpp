@@ -178,5 +178,28 @@ TEST(MonotoneTest, NoiseOfTheSizeOfRoundingIsNoSlope)
   }
 }
 
+/// The square of a speed that grows with the distance from a wall at u = 0, less a constant.
+std::vector<double> squareOfSpeed(double constant)
+{
+  const Degrees degrees{ 2, 1, 1 };
+  std::vector<double> values;
+  for (const LatticePoint& point : latticePoints(Domain::Hexahedron, degrees))
+  {
+    values.push_back((point.i == 2 ? 1.0 : 0.0) - constant);
+  }
+  return values;
+}
+
+TEST(MonotoneTest, MayStandStillWhereItIsNotZero)
+{
+  const MonotoneTest test(Domain::Hexahedron, { 2, 1, 1 });
+  EXPECT_TRUE(test.rises(squareOfSpeed(1e-4)));
+  EXPECT_TRUE(test.rises(squareOfSpeed(-1e-4)));
+  EXPECT_FALSE(test.rises(squareOfSpeed(0.0)));
+  std::vector<double> falling = squareOfSpeed(1e-4);
+  falling[coefficientIndex(Domain::Hexahedron, { 2, 1, 1 }, { 1, 0, 0 })] -= 1e-3;
+  EXPECT_FALSE(test.rises(falling));
+}
+
 } // namespace
 } // namespace hop::testing
