@@ -76,7 +76,7 @@ MonotoneTest::MonotoneTest(Domain domain, const Degrees& degrees)
   }
 }
 
-bool MonotoneTest::rises(const std::vector<double>& values) const
+bool MonotoneTest::rises(const std::vector<double>& values, bool mayStandStill) const
 {
   glm::dvec3 mean(0.0);
   double largest = 0.0;
@@ -108,7 +108,8 @@ bool MonotoneTest::rises(const std::vector<double>& values) const
     {
       isBelow = isBelow || values[point] < -smallest;
       isAbove = isAbove || values[point] > smallest;
-      if (!(rise >= -rounding) || !(std::abs(values[point]) > smallest) || (isBelow && isAbove))
+      if (!mayStandStill || !(rise >= -rounding) || !(std::abs(values[point]) > smallest) ||
+        (isBelow && isAbove))
       {
         return false;
       }

@@ -20,9 +20,10 @@ public:
   MonotoneTest(Domain domain, const Degrees& degrees);
 
   /// \param values one coefficient a lattice point
-  /// \return true only if the derivative along the mean gradient is positive everywhere, but for places, as
-  ///   walls where a velocity's square is least, at which it is zero and the polynomial is not
-  bool rises(const std::vector<double>& values) const;
+  /// \param mayStandStill the derivative may be zero where the polynomial is not, as at walls where a
+  ///   velocity's square is least
+  /// \return true only if the derivative along the mean gradient is positive everywhere
+  bool rises(const std::vector<double>& values, bool mayStandStill = false) const;
 
 private:
   struct Difference

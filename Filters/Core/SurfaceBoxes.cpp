@@ -60,6 +60,9 @@ std::vector<std::pair<int, int>> edgesAlong(Domain domain, const LatticePoint& d
 
 /// Levels of so many pieces keep threads busy, whichever of them take long.
 constexpr std::size_t manyPieces = 256;
+/// After so many bisections a field may stand still where it is not zero, as the square of a velocity does at a
+/// wall: strictly it rises only in pieces that do not touch the wall.
+constexpr int smallPiece = 9;
 /// Fewer elements than this are split one after the other, each in threads.
 constexpr std::size_t fewElements = 16;
 /// Pieces are looked at every so many halvings, as soon as each axis had so many, for whether they touch the
@@ -274,7 +277,7 @@ private:
       return this->isZero(piece);
     }
     const double sign = givenUp.touching ? this->signAtCorners(piece) : 0.0;
-    if (sign == 0.0 || this->Monotone.rises(valuesOf(piece)))
+    if (sign == 0.0 || this->Monotone.rises(valuesOf(piece), true))
     {
       return false;
     }
@@ -307,7 +310,8 @@ private:
                                         : last || givenUp.all;
     if (isDone)
     {
-      piece.certified = piece.certified || this->Monotone.rises(valuesOf(piece));
+      piece.certified =
+        piece.certified || this->Monotone.rises(valuesOf(piece), piece.bisections >= smallPiece);
       const SurfaceBox box = this->boxOf(piece, element, size);
       outcome.isLeft = !box.certified && !box.straddles && !last;
       outcome.boxes.push_back(box);
@@ -543,7 +547,8 @@ private:
         [&](int corner) { return holds(values[corner]); });
     };
     return atCorner([slack](double value) { return value >= -slack; }) &&
-      atCorner([slack](double value) { return value <= slack; }) && this->Monotone.rises(values) &&
+      atCorner([slack](double value) { return value <= slack; }) &&
+      this->Monotone.rises(values, piece.bisections >= smallPiece) &&
       (piece.bisections >= MaximumRimBisections || !this->onRim(piece) ||
         this->Boundary.crossedOnce(values, slack));
   }

@@ -193,12 +193,13 @@ std::vector<double> squareOfSpeed(double constant)
 TEST(MonotoneTest, MayStandStillWhereItIsNotZero)
 {
   const MonotoneTest test(Domain::Hexahedron, { 2, 1, 1 });
-  EXPECT_TRUE(test.rises(squareOfSpeed(1e-4)));
-  EXPECT_TRUE(test.rises(squareOfSpeed(-1e-4)));
-  EXPECT_FALSE(test.rises(squareOfSpeed(0.0)));
+  EXPECT_TRUE(test.rises(squareOfSpeed(1e-4), true));
+  EXPECT_TRUE(test.rises(squareOfSpeed(-1e-4), true));
+  EXPECT_FALSE(test.rises(squareOfSpeed(0.0), true));
+  EXPECT_FALSE(test.rises(squareOfSpeed(1e-4)));
   std::vector<double> falling = squareOfSpeed(1e-4);
   falling[coefficientIndex(Domain::Hexahedron, { 2, 1, 1 }, { 1, 0, 0 })] -= 1e-3;
-  EXPECT_FALSE(test.rises(falling));
+  EXPECT_FALSE(test.rises(falling, true));
 }
 
 } // namespace
