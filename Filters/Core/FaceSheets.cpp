@@ -13,8 +13,6 @@ namespace hop
 namespace
 {
 
-/// As SurfaceBoxes has it.
-constexpr double roundingShare = 1e-14;
 /// Corners of boxes are kept in single precision.
 constexpr double cornerRounding = 1e-6;
 
@@ -57,7 +55,7 @@ public:
     : Surface(surface)
     , Facts(facts(surface.mesh->elements[element].domain))
     , Number(element)
-    , Slack(roundingShare * largestValue(surface.mesh->form(element), surface.isovalue))
+    , Slack(RoundingShare * largestValue(surface.mesh->form(element), surface.isovalue))
   {
   }
 
@@ -75,18 +73,23 @@ public:
     const bool isOurs = this->has(sheet, behind);
     for (std::size_t c = 0; c < this->Facts.corners.size(); ++c)
     {
-      float& value = box.values[c];
-      value = std::abs(value) <= this->Slack ? 0.0f : isOurs ? std::abs(value) : -std::abs(value);
+      const float size = std::abs(box.values[c]);
+      box.values[c] = this->isZero(box, static_cast<int>(c)) ? 0.0f : isOurs ? size : -size;
     }
     return isOurs || behind != sheet.sign;
   }
 
 private:
+  bool isZero(const SurfaceBox& box, int corner) const
+  {
+    return std::abs(box.values[corner]) * box.valueUnit <= this->Slack;
+  }
+
   /// Where all corners of a side, and no others, are at zero, and the others on one side of it.
   Sheet sheetOf(const SurfaceBox& box) const
   {
     const int corners = static_cast<int>(this->Facts.corners.size());
-    const auto isZero = [&](int c) { return std::abs(box.values[c]) <= this->Slack; };
+    const auto isZero = [&](int c) { return this->isZero(box, c); };
     std::array<int, 3> counts{};
     for (int c = 0; c < corners; ++c)
     {
@@ -148,7 +151,7 @@ private:
     const glm::dvec3 slopes(jet.first[0].w, jet.first[1].w, jet.first[2].w);
     const double rise = glm::dot(slopes, facts(form.domain).faces[place->face].inward.xyz);
     const double value = std::abs(jet.value.w - this->Surface.isovalue);
-    const double slack = roundingShare * largestValue(form, this->Surface.isovalue);
+    const double slack = RoundingShare * largestValue(form, this->Surface.isovalue);
     return value > std::max(slack, sameSheet * std::abs(rise)) ? 0 : (rise > 0.0) - (rise < 0.0);
   }
 

@@ -76,8 +76,6 @@ constexpr int fewOneSidedWithoutSurface = 64;
 constexpr int smallBisections = 18;
 /// As many pieces given up are boxes of their own.
 constexpr std::size_t fewLeft = 16;
-/// Halving adds rounding errors of the order of eps times the values themselves.
-constexpr double roundingShare = 1e-14;
 
 using ReportShare = std::function<void(double)>;
 
@@ -417,7 +415,7 @@ private:
 
   double slackOf(const Range& range) const
   {
-    return roundingShare *
+    return RoundingShare *
       (std::max(std::abs(range.lower), std::abs(range.upper)) + std::abs(this->Isovalue));
   }
 
@@ -540,7 +538,7 @@ private:
     {
       largest = std::max(largest, std::abs(value));
     }
-    const double slack = roundingShare * largest;
+    const double slack = RoundingShare * largest;
     const auto atCorner = [&](const auto& holds)
     {
       return std::any_of(this->CornerPlaces.begin(), this->CornerPlaces.end(),

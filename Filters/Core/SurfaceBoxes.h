@@ -85,6 +85,8 @@ bool findCriticalPoint(
   const ElementMesh& mesh, double isovalue, const SurfaceBox& box, CriticalPoint& result);
 
 constexpr int MaximumBisections = 36;
+/// Halving adds rounding errors of the order of eps times the values themselves.
+constexpr double RoundingShare = 1e-14;
 /// Boxes on the rim of their element, halved that often, need not hold one piece of their sheet only.
 constexpr int MaximumRimBisections = 30;
 constexpr int MaximumPieces = 16384;

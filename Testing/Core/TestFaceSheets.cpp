@@ -44,6 +44,27 @@ std::size_t particleCount(const ElementMesh& mesh, double isovalue)
   return distributeFast({ &mesh, isovalue, 1e-9 }, parameters, {}, {}).particles.size();
 }
 
+/// Rounding errors are shares of the field, in whatever unit it comes.
+TEST(FaceSheets, DoNotDependOnTheUnitOfTheField)
+{
+  for (const double unit : { 1e-20, 1.0, 1e13 })
+  {
+    for (const double place : { -1.0, 0.0, 1.0 })
+    {
+      for (const double sign : { -1.0, 1.0 })
+      {
+        const double factor = sign * unit;
+        MeshRecipe recipe = recipeOf(Domain::Hexahedron,
+          [=](const glm::dvec3& x)
+          { return factor * (0.7 + (x.z - place) * (1.1 + 0.3 * x.x + 0.2 * x.y * x.y)); });
+        recipe.degrees = { 3, 3, 3 };
+        EXPECT_NEAR(wanted(makeMesh(recipe), factor * 0.7), packed, 1e-3 * packed)
+          << "unit " << factor << ", at " << place;
+      }
+    }
+  }
+}
+
 class Sheets : public ::testing::TestWithParam<Domain>
 {
 };
