@@ -1,12 +1,11 @@
 #include "CoincidentPoints.h"
 
 #include "SortedBy.h"
+#include "VectorHash.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <limits>
 #include <mutex>
 #include <numeric>
@@ -32,29 +31,6 @@ double cellSize(int level, double largest)
   constexpr int mostBits = 50;
   return std::max(
     std::ldexp(1.0, levelBits * (level + 1) + cellBits), std::ldexp(largest, -mostBits));
-}
-
-/// Spreads the bits of three numbers over one (the finishing steps of MurmurHash3).
-std::uint64_t hashOf(std::uint64_t x, std::uint64_t y, std::uint64_t z)
-{
-  std::uint64_t hash = 0;
-  for (const std::uint64_t part : { x, y, z })
-  {
-    hash ^= part;
-    hash *= 0xff51afd7ed558ccdULL;
-    hash ^= hash >> 33;
-    hash *= 0xc4ceb9fe1a85ec53ULL;
-    hash ^= hash >> 29;
-  }
-  return hash;
-}
-
-std::uint64_t bitsOf(double value)
-{
-  const double oneZero = value + 0.0; // -0 equals 0
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, &oneZero, sizeof(bits));
-  return bits;
 }
 
 std::array<double, 3> lexical(const glm::dvec3& x)
@@ -140,12 +116,7 @@ void Places::joinEqual()
 {
   const std::size_t bins = std::max<std::size_t>(1, this->Points.size());
   const Grouping equal = groupedBy(
-    this->Points, bins,
-    [bins](const RoundedPoint& point)
-    {
-      const glm::dvec3& x = point.position;
-      return hashOf(bitsOf(x.x), bitsOf(x.y), bitsOf(x.z)) % bins;
-    },
+    this->Points, bins, [bins](const RoundedPoint& point) { return hashOf(point.position) % bins; },
     this->Parallel);
   runParallel(this->Parallel, static_cast<std::ptrdiff_t>(bins),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
@@ -212,12 +183,7 @@ void Places::addPairs(const std::vector<int>& members, int level, std::vector<Pa
   }
   const double size = cellSize(level, largest);
   const std::size_t bins = members.size();
-  const auto binOf = [&](const glm::dvec3& cell)
-  {
-    const auto part = [](double number)
-    { return static_cast<std::uint64_t>(static_cast<std::int64_t>(number)); };
-    return hashOf(part(cell.x), part(cell.y), part(cell.z)) % bins;
-  };
+  const auto binOf = [&](const glm::dvec3& cell) { return hashOf(cell) % bins; };
   const Grouping cells = groupedBy(
     members, bins, [&](int i) { return binOf(glm::floor(this->at(i) / size)); }, this->Parallel);
   std::mutex mutex;

@@ -18,21 +18,11 @@ constexpr double shareOfEdge = 1e-2;
 
 std::vector<std::pair<int, int>> edgesOf(Domain domain)
 {
-  const auto& corners = facts(domain).corners;
   std::vector<std::pair<int, int>> edges;
   for (const LatticePoint& direction : facts(domain).edgeDirections)
   {
-    const glm::dvec3 step(direction.i, direction.j, direction.k);
-    for (int a = 0; a < static_cast<int>(corners.size()); ++a)
-    {
-      for (int b = 0; b < static_cast<int>(corners.size()); ++b)
-      {
-        if (corners[a].xyz + step == corners[b].xyz)
-        {
-          edges.emplace_back(a, b);
-        }
-      }
-    }
+    const auto some = edgesAlong(domain, direction);
+    edges.insert(edges.end(), some.begin(), some.end());
   }
   return edges;
 }

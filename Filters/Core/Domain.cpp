@@ -96,6 +96,24 @@ const DomainFacts& facts(Domain domain)
   return all[static_cast<std::size_t>(domain)];
 }
 
+std::vector<std::pair<int, int>> edgesAlong(Domain domain, const LatticePoint& direction)
+{
+  const auto& corners = facts(domain).corners;
+  const glm::dvec3 step(direction.i, direction.j, direction.k);
+  std::vector<std::pair<int, int>> edges;
+  for (int a = 0; a < static_cast<int>(corners.size()); ++a)
+  {
+    for (int b = 0; b < static_cast<int>(corners.size()); ++b)
+    {
+      if (corners[a].xyz + step == corners[b].xyz)
+      {
+        edges.emplace_back(a, b);
+      }
+    }
+  }
+  return edges;
+}
+
 int coefficientCount(Domain domain, const Degrees& degrees)
 {
   switch (domain)

@@ -72,6 +72,10 @@ constexpr int MaximumCorners = 8;
 
 const DomainFacts& facts(Domain domain);
 
+/// Pairs of corners that are joined by an edge in that direction.
+/// \param direction one of facts(domain).edgeDirections
+std::vector<std::pair<int, int>> edgesAlong(Domain domain, const LatticePoint& direction);
+
 /// Number of coefficients (and of nodes of the full Lagrange element).
 int coefficientCount(Domain domain, const Degrees& degrees);
 

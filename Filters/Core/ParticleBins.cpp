@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numeric>
 
 namespace hop
@@ -60,17 +59,6 @@ std::uint64_t ParticleBins::key(const glm::i64vec3& bin)
   // Bin -1, just outside, exists for queries; shifted by one it is a key like any other.
   const glm::u64vec3 b(bin + std::int64_t{ 1 });
   return (b.z << (2 * bitsPerAxis)) | (b.y << bitsPerAxis) | b.x;
-}
-
-std::uint64_t GrowingBins::key(const glm::dvec3& bin)
-{
-  std::uint64_t hash = 0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    hash = (hash ^ std::hash<double>()(bin[axis])) * 0x9e3779b97f4a7c15ULL;
-    hash ^= hash >> 32;
-  }
-  return hash;
 }
 
 NeighborLists findNeighbors(const std::vector<glm::dvec3>& points, const std::vector<double>& radii,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Monitor.h"
+#include "VectorHash.h"
 
 #include <glm/glm.hpp>
 
@@ -46,7 +47,7 @@ public:
 
   void insert(int index, const glm::dvec3& position)
   {
-    this->Bins[key(this->binOf(position))].push_back(index);
+    this->Bins[hashOf(this->binOf(position))].push_back(index);
   }
 
   /// Calls visit(index) for the points in the bins around a position: all within binSize of it and
@@ -59,7 +60,6 @@ private:
   {
     return glm::floor(position / this->BinSize);
   }
-  static std::uint64_t key(const glm::dvec3& bin);
 
   double BinSize;
   std::unordered_map<std::uint64_t, std::vector<int>> Bins;
@@ -104,7 +104,8 @@ void GrowingBins::visit(const glm::dvec3& position, const Visit& visit) const
   const glm::dvec3 middle = this->binOf(position);
   for (int n = 0; n < 27; ++n)
   {
-    const auto bin = this->Bins.find(key(middle + glm::dvec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1)));
+    const auto bin =
+      this->Bins.find(hashOf(middle + glm::dvec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1)));
     for (std::size_t i = 0; bin != this->Bins.end() && i < bin->second.size(); ++i)
     {
       visit(bin->second[i]);

@@ -40,24 +40,6 @@ struct Direction
   std::vector<std::pair<int, int>> edges;
 };
 
-std::vector<std::pair<int, int>> edgesAlong(Domain domain, const LatticePoint& direction)
-{
-  const auto& corners = facts(domain).corners;
-  const glm::dvec3 step(direction.i, direction.j, direction.k);
-  std::vector<std::pair<int, int>> edges;
-  for (int a = 0; a < static_cast<int>(corners.size()); ++a)
-  {
-    for (int b = 0; b < static_cast<int>(corners.size()); ++b)
-    {
-      if (corners[a].xyz + step == corners[b].xyz)
-      {
-        edges.emplace_back(a, b);
-      }
-    }
-  }
-  return edges;
-}
-
 /// Levels of so many pieces keep threads busy, whichever of them take long.
 constexpr std::size_t manyPieces = 256;
 /// After so many bisections a field may stand still where it is not zero, as the square of a velocity does at a
@@ -164,54 +146,15 @@ public:
     }
     this->ElementSlack = this->slackOf(rangeOf(level.front()));
     const std::size_t before = boxes.size();
-    std::vector<SurfaceBox> left;
-    std::set<int> partsLeft;
+    Left left;
     while (!level.empty())
     {
       const GivenUp givenUp = this->givenUp(level, boxes.size() > before);
-      // Pieces of high degree are large: once there are enough for all threads, certified ones are
-      // followed to their boxes one by one.
-      const bool toTheEnd = level.size() >= manyPieces;
       share.beginLevel(level.size());
-      std::vector<Outcome> outcomes(level.size());
-      const auto decide = [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-      {
-        for (std::ptrdiff_t n = begin; n < end; ++n)
-        {
-          outcomes[n] = this->decide(element, level[n], givenUp, toTheEnd);
-          if (!outcomes[n].isHalved)
-          {
-            share.closePiece(outcomes[n].boxes.empty());
-          }
-        }
-      };
-      runParallel(parallelFor, static_cast<std::ptrdiff_t>(level.size()), decide);
-      std::vector<Piece> next;
-      for (std::size_t n = 0; n < level.size(); ++n)
-      {
-        std::vector<SurfaceBox>& list = outcomes[n].isLeft ? left : boxes;
-        list.insert(list.end(), outcomes[n].boxes.begin(), outcomes[n].boxes.end());
-        if (outcomes[n].isLeft)
-        {
-          partsLeft.insert(level[n].part);
-        }
-        if (outcomes[n].isHalved)
-        {
-          next.push_back(std::move(outcomes[n].second));
-          next.push_back(std::move(level[n]));
-        }
-      }
-      level = std::move(next);
+      std::vector<Outcome> outcomes = this->decideAll(element, level, givenUp, parallelFor, share);
+      level = sortOut(std::move(level), std::move(outcomes), boxes, left);
     }
-    if (left.size() <= fewLeft)
-    {
-      boxes.insert(boxes.end(), left.begin(), left.end());
-      return;
-    }
-    for (const int part : partsLeft)
-    {
-      boxes.push_back(this->boxOfPart(element, part));
-    }
+    this->addLeft(element, left, boxes);
   }
 
 private:
@@ -223,6 +166,13 @@ private:
     bool isHalved = false;
     bool isLeft = false;
     Piece second;
+  };
+
+  /// Boxes of pieces that were left undecided, and the parts of the element that they lie in.
+  struct Left
+  {
+    std::vector<SurfaceBox> boxes;
+    std::set<int> parts;
   };
 
   /// Which undecided pieces of a level are not halved any more.
@@ -281,6 +231,65 @@ private:
     }
     const Approach approach = approachToZero(this->formOf(piece), sign);
     return approach == Approach::Touches || (givenUp.missing && approach == Approach::Misses);
+  }
+
+  std::vector<Outcome> decideAll(int element, std::vector<Piece>& level, const GivenUp& givenUp,
+    const ParallelFor& parallelFor, FoundShare& share) const
+  {
+    // Pieces of high degree are large: once there are enough for all threads, certified ones are
+    // followed to their boxes one by one.
+    const bool toTheEnd = level.size() >= manyPieces;
+    std::vector<Outcome> outcomes(level.size());
+    runParallel(parallelFor, static_cast<std::ptrdiff_t>(level.size()),
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+      {
+        for (std::ptrdiff_t n = begin; n < end; ++n)
+        {
+          outcomes[n] = this->decide(element, level[n], givenUp, toTheEnd);
+          if (!outcomes[n].isHalved)
+          {
+            share.closePiece(outcomes[n].boxes.empty());
+          }
+        }
+      });
+    return outcomes;
+  }
+
+  /// \return the next level
+  static std::vector<Piece> sortOut(std::vector<Piece> level, std::vector<Outcome> outcomes,
+    std::vector<SurfaceBox>& boxes, Left& left)
+  {
+    std::vector<Piece> next;
+    for (std::size_t n = 0; n < level.size(); ++n)
+    {
+      Outcome& outcome = outcomes[n];
+      std::vector<SurfaceBox>& list = outcome.isLeft ? left.boxes : boxes;
+      list.insert(list.end(), outcome.boxes.begin(), outcome.boxes.end());
+      if (outcome.isLeft)
+      {
+        left.parts.insert(level[n].part);
+      }
+      if (outcome.isHalved)
+      {
+        next.push_back(std::move(outcome.second));
+        next.push_back(std::move(level[n]));
+      }
+    }
+    return next;
+  }
+
+  /// Few boxes that were left undecided as they are, in place of many the parts that they lie in.
+  void addLeft(int element, const Left& left, std::vector<SurfaceBox>& boxes) const
+  {
+    if (left.boxes.size() <= fewLeft)
+    {
+      boxes.insert(boxes.end(), left.boxes.begin(), left.boxes.end());
+      return;
+    }
+    for (const int part : left.parts)
+    {
+      boxes.push_back(this->boxOfPart(element, part));
+    }
   }
 
   Outcome decide(int element, Piece& piece, const GivenUp& givenUp, bool toTheEnd) const
