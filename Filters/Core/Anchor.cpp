@@ -14,7 +14,7 @@ namespace
 double offsetAlong(double newton, double bend)
 {
   const double product = newton * bend;
-  return std::abs(product) <= 0.5 ? 2.0 * newton / (1.0 + std::sqrt(1.0 - 2.0 * product)) : newton;
+  return product <= 0.5 ? 2.0 * newton / (1.0 + std::sqrt(1.0 - 2.0 * product)) : newton;
 }
 
 /// What a bilinear form does in the basis of tangentsOf(normal).

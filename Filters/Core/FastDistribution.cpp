@@ -28,6 +28,7 @@ namespace
 constexpr double hexahedronPerSpacing = 6.0;
 constexpr double wedgePerSpacing = 7.0;
 constexpr double tetrahedronPerSpacing = 7.5;
+constexpr double weaklyPerSpacing = 3.0;
 /// Spacing of the first look, in units of the mesh's diagonal. Where more is asked for, the number of
 /// particles cannot get out of hand.
 constexpr double coarseSpacingPerExtent = 0.001;
@@ -115,6 +116,7 @@ private:
     this->Work.raiseFraction(fraction);
     this->Work.ask();
   }
+  bool isSmall(const SurfaceBox& box, const SpacingLaw& law);
   SurfaceProxy proxyOfBoxesAt(double spacing, double shareOfRun);
   bool tooMany(double count);
   bool estimateCount();
@@ -154,34 +156,42 @@ private:
   Distribution Result;
 };
 
+/// Whether a box is small enough to be looked at in one place. Where the field stands still nearby that says
+/// less; what is thinner than spacings gets boxes no larger than one, each with a particle of its own.
+bool FastSystem::isSmall(const SurfaceBox& box, const SpacingLaw& law)
+{
+  const int element = box.middle.element;
+  const Domain domain = this->Mesh.elements[element].domain;
+  const double perSpacing = domain == Domain::Hexahedron ? hexahedronPerSpacing
+    : domain == Domain::Wedge                            ? wedgePerSpacing
+                                                         : tetrahedronPerSpacing;
+  const double largest = perSpacing * law.spacing;
+  const double smallest = (box.weakly ? law.spacing : largest) / (1.0 + law.angularDensity);
+  if (box.size > largest || box.size <= smallest || (law.angularDensity == 0.0 && !box.weakly))
+  {
+    return box.size <= largest;
+  }
+  ++this->Evaluations;
+  Anchor anchor;
+  Patch patch;
+  const Location place{ element, proxyMiddle(domain, box) };
+  const Jet jet = evaluateHessian(this->Mesh.form(element), place.u);
+  if (!anchorPatch(place, jet, this->Surface.isovalue, anchor, patch))
+  {
+    return true;
+  }
+  const double spacing = law.at(patch.curvatureMagnitude());
+  const bool isThin =
+    patch.curvatureMagnitude() * spacing > 1.0 || std::abs(anchor.offset) > seedOffset * spacing;
+  return box.size <= spacing * (!box.weakly ? perSpacing : isThin ? 1.0 : weaklyPerSpacing);
+}
+
 /// \param spacing that boxes are to suit; the proxy's own is the law's
 /// \param shareOfRun how far the run is when the surface is found
 SurfaceProxy FastSystem::proxyOfBoxesAt(double spacing, double shareOfRun)
 {
-  SpacingLaw law = this->Law;
-  law.spacing = spacing;
-  const auto isSmall = [&](const Location& middle, double size)
-  {
-    const Domain domain = this->Mesh.elements[middle.element].domain;
-    const double perSpacing = domain == Domain::Hexahedron ? hexahedronPerSpacing
-      : domain == Domain::Wedge                            ? wedgePerSpacing
-                                                           : tetrahedronPerSpacing;
-    const double largest = perSpacing * law.spacing;
-    const double smallest = largest / (1.0 + law.angularDensity);
-    if (law.angularDensity == 0.0 || size > largest || size <= smallest)
-    {
-      return size <= largest;
-    }
-    ++this->Evaluations;
-    Anchor anchor;
-    Patch patch;
-    const Jet jet = evaluateHessian(this->Mesh.form(middle.element), middle.u);
-    if (!anchorPatch(middle, jet, this->Surface.isovalue, anchor, patch))
-    {
-      return true;
-    }
-    return size <= perSpacing * law.at(patch.curvatureMagnitude());
-  };
+  const SpacingLaw law{ spacing, this->Law.angularDensity };
+  const auto isSmall = [&](const SurfaceBox& box) { return this->isSmall(box, law); };
   const auto found = [&](double share) { this->Work.raiseFraction(shareOfRun * share); };
   SurfaceProxy proxy(this->Surface, this->Law,
     findSurfaceBoxes(this->Mesh, this->Surface.isovalue, isSmall, this->Parallel, found),

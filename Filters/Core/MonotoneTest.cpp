@@ -76,7 +76,7 @@ MonotoneTest::MonotoneTest(Domain domain, const Degrees& degrees)
   }
 }
 
-bool MonotoneTest::rises(const std::vector<double>& values, bool mayStandStill) const
+Monotony MonotoneTest::monotony(const std::vector<double>& values) const
 {
   glm::dvec3 mean(0.0);
   double largest = 0.0;
@@ -88,34 +88,35 @@ bool MonotoneTest::rises(const std::vector<double>& values, bool mayStandStill) 
   const double length = glm::length(mean);
   if (!(length > 0.0))
   {
-    return false;
+    return Monotony::None;
   }
   // Differences of values carry the values' rounding errors, times the degree.
   const double rounding = 1e-13 * largest * MaximumDegree * length;
-  // Where the field does not rise it must have one sign, and not be zero.
   const double smallest = 1e-6 * largest;
-  bool hasSlope = false;
-  bool isBelow = false;
-  bool isAbove = false;
+  const double slow = 1e-3 * length * length / static_cast<double>(values.size());
+  bool rises = false;
+  bool isSlow = false;
+  bool standsStillBelow = false;
+  bool standsStillAbove = false;
   for (std::size_t point = 0; point < values.size(); ++point)
   {
     const double rise = glm::dot(this->gradient(values, point), mean);
     if (rise > rounding)
     {
-      hasSlope = true;
+      rises = true;
+      isSlow = isSlow || rise < slow;
+      continue;
     }
-    else
+    standsStillBelow = standsStillBelow || values[point] < 0.0;
+    standsStillAbove = standsStillAbove || values[point] > 0.0;
+    if (!(rise >= -rounding) || !(std::abs(values[point]) > smallest) ||
+      (standsStillBelow && standsStillAbove))
     {
-      isBelow = isBelow || values[point] < -smallest;
-      isAbove = isAbove || values[point] > smallest;
-      if (!mayStandStill || !(rise >= -rounding) || !(std::abs(values[point]) > smallest) ||
-        (isBelow && isAbove))
-      {
-        return false;
-      }
+      return Monotony::None;
     }
   }
-  return hasSlope;
+  const bool isWeak = isSlow || standsStillBelow || standsStillAbove;
+  return !rises ? Monotony::None : isWeak ? Monotony::Weak : Monotony::Strict;
 }
 
 glm::dvec3 MonotoneTest::gradient(const std::vector<double>& values, std::size_t point) const

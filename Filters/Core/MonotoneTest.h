@@ -5,6 +5,16 @@
 namespace hop
 {
 
+/// How a polynomial changes along some direction.
+enum class Monotony
+{
+  None,
+  /// It never falls. Where it stands still it is not zero, and of one sign.
+  Weak,
+  /// It rises everywhere, nowhere less than a thousandth of what it does on average.
+  Strict
+};
+
 /// Decides whether a polynomial in Bernstein form rises along some direction all over its domain.
 /// Prepared once for a domain and degrees.
 ///
@@ -20,10 +30,14 @@ public:
   MonotoneTest(Domain domain, const Degrees& degrees);
 
   /// \param values one coefficient a lattice point
-  /// \param mayStandStill the derivative may be zero where the polynomial is not, as at walls where a
-  ///   velocity's square is least
-  /// \return true only if the derivative along the mean gradient is positive everywhere
-  bool rises(const std::vector<double>& values, bool mayStandStill = false) const;
+  /// \return what its derivative along its mean gradient tells for certain. Weak is the square of a velocity
+  ///   at walls, less a constant.
+  Monotony monotony(const std::vector<double>& values) const;
+
+  bool rises(const std::vector<double>& values) const
+  {
+    return this->monotony(values) != Monotony::None;
+  }
 
 private:
   struct Difference

@@ -27,7 +27,10 @@ struct Piece
   /// Which of the parts of its element it is, or lies in: a one, then a bit for each of the first
   /// PartBisections halvings.
   int part = 1;
-  bool certified = false;
+  /// How the field rises, if the surface in it is known to be one sheet.
+  Monotony sheet = Monotony::None;
+
+  bool certified() const { return this->sheet != Monotony::None; }
 };
 
 constexpr Degrees cornerDegrees{ 1, 1, 1 };
@@ -42,9 +45,6 @@ struct Direction
 
 /// Levels of so many pieces keep threads busy, whichever of them take long.
 constexpr std::size_t manyPieces = 256;
-/// After so many bisections a field may stand still where it is not zero, as the square of a velocity does at a
-/// wall: strictly it rises only in pieces that do not touch the wall.
-constexpr int smallPiece = 9;
 /// Fewer elements than this are split one after the other, each in threads.
 constexpr std::size_t fewElements = 16;
 /// Pieces are looked at every so many halvings, as soon as each axis had so many, for whether they touch the
@@ -124,8 +124,8 @@ double powerOfTwoNear(const std::array<double, MaximumCorners>& values)
 class ElementSplitter
 {
 public:
-  ElementSplitter(const ElementMesh& mesh, double isovalue,
-    const std::function<bool(const Location&, double)>& isSmall)
+  ElementSplitter(
+    const ElementMesh& mesh, double isovalue, const std::function<bool(const SurfaceBox&)>& isSmall)
     : Mesh(mesh)
     , Isovalue(isovalue)
     , IsSmall(isSmall)
@@ -198,7 +198,7 @@ private:
     int oneSided = 0;
     for (const Piece& piece : level)
     {
-      const bool isOneSided = !piece.certified && this->signAtCorners(piece) != 0.0;
+      const bool isOneSided = !piece.certified() && this->signAtCorners(piece) != 0.0;
       isCrossed = isCrossed || !isOneSided;
       oneSided += isOneSided && this->mayHoldSurface(piece);
     }
@@ -225,7 +225,7 @@ private:
       return this->isZero(piece);
     }
     const double sign = givenUp.touching ? this->signAtCorners(piece) : 0.0;
-    if (sign == 0.0 || this->Monotone.rises(valuesOf(piece), true))
+    if (sign == 0.0 || this->Monotone.rises(valuesOf(piece)))
     {
       return false;
     }
@@ -299,35 +299,32 @@ private:
     {
       return outcome;
     }
-    piece.certified = piece.certified || this->isOneSheet(piece);
-    if (piece.certified && toTheEnd)
+    piece.sheet = piece.certified() ? piece.sheet : this->sheetOf(piece);
+    if (piece.certified() && toTheEnd)
     {
       this->followToBoxes(element, piece, outcome.boxes);
       return outcome;
     }
-    const double size = this->worldSize(piece);
-    if (!piece.certified && this->isGivenUp(piece, givenUp))
+    if (!piece.certified() && this->isGivenUp(piece, givenUp))
     {
       outcome.isLeft = true;
-      outcome.boxes.push_back(this->boxOf(piece, element, size));
+      outcome.boxes.push_back(this->boxOf(piece, element));
       return outcome;
     }
     const bool last = piece.bisections == MaximumBisections;
-    const bool isDone = piece.certified ? last || this->IsSmall({ element, middle(piece) }, size)
-                                        : last || givenUp.all;
-    if (isDone)
+    if (last || givenUp.all || piece.certified())
     {
-      piece.certified =
-        piece.certified || this->Monotone.rises(valuesOf(piece), piece.bisections >= smallPiece);
-      const SurfaceBox box = this->boxOf(piece, element, size);
-      outcome.isLeft = !box.certified && !box.straddles && !last;
-      outcome.boxes.push_back(box);
+      SurfaceBox box = this->boxOf(piece, element);
+      if (last || !piece.certified() || this->IsSmall(box))
+      {
+        box.certified = box.certified || this->Monotone.rises(valuesOf(piece));
+        outcome.isLeft = !box.certified && !box.straddles && !last;
+        outcome.boxes.push_back(box);
+        return outcome;
+      }
     }
-    else
-    {
-      outcome.isHalved = true;
-      outcome.second = this->halve(piece);
-    }
+    outcome.isHalved = true;
+    outcome.second = this->halve(piece);
     return outcome;
   }
 
@@ -338,10 +335,10 @@ private:
     {
       return;
     }
-    const double size = this->worldSize(piece);
-    if (piece.bisections == MaximumBisections || this->IsSmall({ element, middle(piece) }, size))
+    const SurfaceBox box = this->boxOf(piece, element);
+    if (piece.bisections == MaximumBisections || this->IsSmall(box))
     {
-      boxes.push_back(this->boxOf(piece, element, size));
+      boxes.push_back(box);
       return;
     }
     Piece second = this->halve(piece);
@@ -404,7 +401,7 @@ private:
   static std::ptrdiff_t undecided(const std::vector<Piece>& pieces)
   {
     return std::count_if(
-      pieces.begin(), pieces.end(), [](const Piece& piece) { return !piece.certified; });
+      pieces.begin(), pieces.end(), [](const Piece& piece) { return !piece.certified(); });
   }
 
   BernsteinForm formOf(const Piece& piece) const
@@ -474,18 +471,19 @@ private:
         piece = std::move(second);
       }
     }
-    SurfaceBox box = this->boxOf(piece, element, this->worldSize(piece));
+    SurfaceBox box = this->boxOf(piece, element);
     box.straddles = false;
     box.values.fill(1.0f);
     return box;
   }
 
-  SurfaceBox boxOf(const Piece& piece, int element, double size) const
+  SurfaceBox boxOf(const Piece& piece, int element) const
   {
     SurfaceBox box;
     box.middle = { element, middle(piece) };
-    box.size = size;
-    box.certified = piece.certified;
+    box.size = this->worldSize(piece);
+    box.certified = piece.certified();
+    box.weakly = piece.sheet == Monotony::Weak;
     int lowest = 0;
     int highest = 0;
     const auto value = [&](int c) { return piece.coefficients[this->CornerPlaces[c]].w; };
@@ -537,9 +535,10 @@ private:
     return values;
   }
 
-  /// Corners of both signs, or at zero, and a direction along which the field rises everywhere. On the
-  /// rim of the element also one piece only: another one could be all there is of a component.
-  bool isOneSheet(const Piece& piece) const
+  /// How the field rises, if the surface is known to be one sheet: it has corners of both signs, or at zero,
+  /// and rises along some direction. On the rim of the element there must also be one piece only: another one
+  /// could be all there is of a component.
+  Monotony sheetOf(const Piece& piece) const
   {
     const std::vector<double> values = valuesOf(piece);
     double largest = std::abs(this->Isovalue);
@@ -553,11 +552,16 @@ private:
       return std::any_of(this->CornerPlaces.begin(), this->CornerPlaces.end(),
         [&](int corner) { return holds(values[corner]); });
     };
-    return atCorner([slack](double value) { return value >= -slack; }) &&
-      atCorner([slack](double value) { return value <= slack; }) &&
-      this->Monotone.rises(values, piece.bisections >= smallPiece) &&
-      (piece.bisections >= MaximumRimBisections || !this->onRim(piece) ||
-        this->Boundary.crossedOnce(values, slack));
+    if (!atCorner([slack](double value) { return value >= -slack; }) ||
+      !atCorner([slack](double value) { return value <= slack; }))
+    {
+      return Monotony::None;
+    }
+    const bool mayHoldMore = piece.bisections < MaximumRimBisections && this->onRim(piece);
+    const Monotony monotony = this->Monotone.monotony(values);
+    return monotony != Monotony::None && mayHoldMore && !this->Boundary.crossedOnce(values, slack)
+      ? Monotony::None
+      : monotony;
   }
 
   /// Whether the piece has a face on one of the element's.
@@ -611,7 +615,7 @@ private:
     direction.corners.bisect(piece.corners, second.corners);
     second.bisections = ++piece.bisections;
     second.part = piece.part;
-    second.certified = piece.certified;
+    second.sheet = piece.sheet;
     if (piece.bisections <= PartBisections)
     {
       piece.part = 2 * piece.part;
@@ -648,7 +652,7 @@ private:
 
   const ElementMesh& Mesh;
   double Isovalue;
-  const std::function<bool(const Location&, double)>& IsSmall;
+  const std::function<bool(const SurfaceBox&)>& IsSmall;
   BernsteinForm Form;
   /// What rounding errors of values may amount to.
   double ElementSlack = 0.0;
@@ -746,12 +750,12 @@ std::vector<SurfaceBox> findSurfaceBoxes(
   const ElementMesh& mesh, double isovalue, double wantedSize, const ParallelFor& parallelFor)
 {
   return findSurfaceBoxes(
-    mesh, isovalue, [wantedSize](const Location&, double size) { return size <= wantedSize; },
+    mesh, isovalue, [wantedSize](const SurfaceBox& box) { return box.size <= wantedSize; },
     parallelFor);
 }
 
 std::vector<SurfaceBox> findSurfaceBoxes(const ElementMesh& mesh, double isovalue,
-  const std::function<bool(const Location&, double)>& isSmall, const ParallelFor& parallelFor,
+  const std::function<bool(const SurfaceBox&)>& isSmall, const ParallelFor& parallelFor,
   const std::function<void(double)>& found)
 {
   std::vector<SurfaceBox> boxes;

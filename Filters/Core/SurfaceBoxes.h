@@ -17,6 +17,9 @@ struct SurfaceBox
   double referenceRadius = 0.0;
   /// The surface in it is one sheet, provably: along some direction the field only rises.
   bool certified = false;
+  /// Certified, but the field stands still somewhere in it, as at a wall or on the axis of a needle: the
+  /// surface may lie near that place, and bend much within the box.
+  bool weakly = false;
   /// Corners at which F - c has opposite signs, if there are such: a point of the surface lies on the
   /// straight line between them.
   bool straddles = false;
@@ -50,14 +53,13 @@ struct SurfaceBox
 /// are widened by the rounding errors of the splitting. Elements with a coefficient that is NaN or
 /// infinite give no boxes.
 /// \param wantedSize world units, > 0
-/// \param isSmall instead: whether a certified box of that middle and size is small enough; called from
-///   several threads
+/// \param isSmall instead: whether a certified box is small enough; called from several threads
 /// \param found is told what share of the work is done, 0 to 1; called from several threads
 /// \return boxes in the order of the elements, the same for any number of threads
 std::vector<SurfaceBox> findSurfaceBoxes(
   const ElementMesh& mesh, double isovalue, double wantedSize, const ParallelFor& parallelFor);
 std::vector<SurfaceBox> findSurfaceBoxes(const ElementMesh& mesh, double isovalue,
-  const std::function<bool(const Location&, double)>& isSmall, const ParallelFor& parallelFor,
+  const std::function<bool(const SurfaceBox&)>& isSmall, const ParallelFor& parallelFor,
   const std::function<void(double)>& found = {});
 
 /// Whether a place lies in the ball around a box: a seed that Newton's method took farther may be on

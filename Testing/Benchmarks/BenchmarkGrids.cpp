@@ -94,54 +94,6 @@ MeshRecipe bentCubes(Domain domain, int degree, int cells, const Field& field)
   return recipe;
 }
 
-/// Values of the three quadratic B-splines over one span, t in [0,1].
-glm::dvec3 quadraticSplines(double t)
-{
-  return { 0.5 * (1.0 - t) * (1.0 - t), 0.5 + t * (1.0 - t), 0.5 * t * t };
-}
-
-/// The map of a 4^3 net of control points over the two spans of [-1,1] a side; the net is the regular
-/// one, which gives the identity, with its points moved.
-glm::dvec3 splineMap(const glm::dvec3& x)
-{
-  const Map moved = wavyMap(0.25);
-  glm::ivec3 span;
-  glm::dmat3 weights;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    span[axis] = x[axis] < 0.0 ? 0 : 1;
-    weights[axis] = quadraticSplines(x[axis] + 1.0 - span[axis]);
-  }
-  glm::dvec3 sum(0.0);
-  for (int n = 0; n < 27; ++n)
-  {
-    const glm::ivec3 local(n % 3, n / 3 % 3, n / 9);
-    const glm::dvec3 control = glm::dvec3(span + local) - 1.5;
-    sum += weights[0][local.x] * weights[1][local.y] * weights[2][local.z] * moved(control);
-  }
-  return sum;
-}
-
-vtkSmartPointer<vtkUnstructuredGrid> teardrop()
-{
-  // The field is a polynomial of the straight cube, the map bends what it is drawn in.
-  MeshRecipe recipe;
-  recipe.degrees = { 5, 5, 5 };
-  recipe.field = [](const glm::dvec3& t)
-  {
-    const double x = 0.575 * t.x - 0.475, y = 0.5 * t.y, z = 0.5 * t.z;
-    return 0.5 * x * x * x * x * (x + 1.0) - y * y - z * z;
-  };
-  const ElementMesh straight = makeMesh(recipe);
-  recipe.map = splineMap;
-  ElementMesh bent = makeMesh(recipe);
-  for (std::size_t c = 0; c < bent.coefficients.size(); ++c)
-  {
-    bent.coefficients[c].w = straight.coefficients[c].w;
-  }
-  return gridOf(bent, CellKind::Bezier);
-}
-
 vtkSmartPointer<vtkUnstructuredGrid> readFile(const std::string& name)
 {
   if (!std::filesystem::is_regular_file(name))
@@ -174,7 +126,7 @@ vtkSmartPointer<vtkUnstructuredGrid> benchmarkGrid(const std::string& name)
   }
   if (name == "teardrop")
   {
-    return teardrop();
+    return gridOf(teardropMesh(), CellKind::Bezier);
   }
   if (name == "gyroid")
   {

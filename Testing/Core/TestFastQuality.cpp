@@ -89,16 +89,21 @@ ElementMesh bentMesh(const QualityCase& which, Domain domain)
   return makeMesh(recipe);
 }
 
-/// Points all over the surface, closer than particles.
-std::vector<glm::dvec3> probesOf(const ElementMesh& mesh, double spacing)
+/// Points on the surface in some boxes.
+std::vector<glm::dvec3> probesIn(const ElementMesh& mesh, const std::vector<SurfaceBox>& boxes)
 {
   std::vector<glm::dvec3> probes;
-  for (const Location& seed :
-    surfaceSeeds(mesh, 0.0, findSurfaceBoxes(mesh, 0.0, 0.5 * spacing, {})))
+  for (const Location& seed : surfaceSeeds(mesh, 0.0, boxes))
   {
     probes.push_back(positionAt(mesh, seed));
   }
   return probes;
+}
+
+/// Points all over the surface, closer than particles.
+std::vector<glm::dvec3> probesOf(const ElementMesh& mesh, double spacing)
+{
+  return probesIn(mesh, findSurfaceBoxes(mesh, 0.0, 0.5 * spacing, {}));
 }
 
 class FastQuality : public ::testing::TestWithParam<std::tuple<QualityCase, Domain>>
@@ -144,6 +149,33 @@ TEST_P(FastQuality, IsAsPromised)
   EXPECT_GE(evenness.worstMinAngle, 30.0);
   EXPECT_EQ(evenness.openStars, 0u);
   EXPECT_LE(coverageRadius(result.particles, probesOf(mesh, smallest)), 0.80);
+}
+
+class FastQualityOnNeedle : public ::testing::TestWithParam<double>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(FastDistribution, FastQualityOnNeedle, ::testing::Values(0.0, 7.0));
+
+TEST_P(FastQualityOnNeedle, IsCoveredAlthoughThinnerThanSpacings)
+{
+  const ElementMesh mesh = teardropMesh();
+  DistributionParameters parameters;
+  parameters.law = { 0.04, this->GetParam() };
+  const Distribution result = distributeFast({ &mesh, 0.0, tolerance }, parameters, {}, {});
+  // Where particles stand around the needle one by one, 0.80 and 0.035 cannot be had.
+  const Evenness evenness = measureEvenness(result.particles);
+  EXPECT_GE(evenness.minSpacing, 0.55);
+  EXPECT_LE(evenness.variation, 0.065);
+  const auto isCloserThanParticles = [&](const SurfaceBox& box)
+  {
+    constexpr double bodyEnd = 0.3;
+    const bool onNeedle = positionAt(mesh, box.middle).x > bodyEnd;
+    const double spacing = parameters.law.spacing / (onNeedle ? 1.0 + this->GetParam() : 1.0);
+    return box.size <= 0.5 * spacing;
+  };
+  const auto boxes = findSurfaceBoxes(mesh, 0.0, isCloserThanParticles, {});
+  EXPECT_LE(coverageRadius(result.particles, probesIn(mesh, boxes)), 1.0);
 }
 
 /// A surface that ends at the faces of the cube [-1,1]^3.

@@ -69,7 +69,8 @@ glm::dvec3 meanOf(const std::vector<glm::dvec3>& coefficients)
 
 bool rises(const ElementCase& which, const std::vector<Coefficient>& coefficients)
 {
-  return MonotoneTest(which.domain, which.degrees).rises(fieldOf(coefficients));
+  return MonotoneTest(which.domain, which.degrees).monotony(fieldOf(coefficients)) ==
+    Monotony::Strict;
 }
 
 TEST(MonotoneTest, WhatRisesHasAPositiveDerivativeEverywhere)
@@ -193,13 +194,12 @@ std::vector<double> squareOfSpeed(double constant)
 TEST(MonotoneTest, MayStandStillWhereItIsNotZero)
 {
   const MonotoneTest test(Domain::Hexahedron, { 2, 1, 1 });
-  EXPECT_TRUE(test.rises(squareOfSpeed(1e-4), true));
-  EXPECT_TRUE(test.rises(squareOfSpeed(-1e-4), true));
-  EXPECT_FALSE(test.rises(squareOfSpeed(0.0), true));
-  EXPECT_FALSE(test.rises(squareOfSpeed(1e-4)));
+  EXPECT_EQ(test.monotony(squareOfSpeed(1e-4)), Monotony::Weak);
+  EXPECT_EQ(test.monotony(squareOfSpeed(-1e-4)), Monotony::Weak);
+  EXPECT_EQ(test.monotony(squareOfSpeed(0.0)), Monotony::None);
   std::vector<double> falling = squareOfSpeed(1e-4);
   falling[coefficientIndex(Domain::Hexahedron, { 2, 1, 1 }, { 1, 0, 0 })] -= 1e-3;
-  EXPECT_FALSE(test.rises(falling, true));
+  EXPECT_EQ(test.monotony(falling), Monotony::None);
 }
 
 } // namespace

@@ -173,10 +173,10 @@ TEST(SurfaceBoxes, TellWhatShareOfTheWorkIsDone)
     std::vector<double> shares;
     std::vector<double> work;
     double looks = 0.0;
-    const auto isSmall = [&](const Location&, double size)
+    const auto isSmall = [&](const SurfaceBox& box)
     {
       ++looks;
-      return size < 0.05;
+      return box.size < 0.05;
     };
     findSurfaceBoxes(mesh, 0.0, isSmall, {},
       [&](double share)
@@ -203,7 +203,7 @@ TEST(SurfaceBoxes, WorkOnElementsWithoutSurfaceIsDoneAtOnce)
   recipe.field = [](const glm::dvec3& x) { return 3.0 + x.x; };
   std::vector<double> shares;
   findSurfaceBoxes(
-    makeMesh(recipe), 0.0, [](const Location&, double) { return true; }, {},
+    makeMesh(recipe), 0.0, [](const SurfaceBox&) { return true; }, {},
     [&](double share) { shares.push_back(share); });
   ASSERT_FALSE(shares.empty());
   EXPECT_EQ(shares.back(), 1.0);
@@ -266,7 +266,7 @@ TEST(SurfaceBoxes, FieldsThatOnlyTouchAreGivenUpEarlyInFewBoxes)
       SCOPED_TRACE(::testing::Message() << domain << ", " << name);
       const ElementMesh mesh = oneCell(domain, 4, field);
       std::size_t pieces = 0;
-      const auto isSmall = [](const Location&, double) { return true; };
+      const auto isSmall = [](const SurfaceBox&) { return true; };
       const std::vector<SurfaceBox> boxes =
         findSurfaceBoxes(mesh, 0.0, isSmall, {}, [&](double) { ++pieces; });
       EXPECT_GT(uncertifiedCount(boxes), 0);
@@ -322,6 +322,23 @@ TEST(SurfaceBoxes, TwoSheetsNearEachOtherAreToldFromOneThatTouches)
     EXPECT_EQ(uncertifiedCount(boxes), 0) << domain;
     EXPECT_TRUE(inSomeBox(mesh, boxes, { 0.3637, 0.1, 0.2 })) << domain;
     EXPECT_TRUE(inSomeBox(mesh, boxes, { 0.3037, 0.1, 0.2 })) << domain;
+  }
+}
+
+TEST(SurfaceBoxes, BesideAWallOneThatIsMuchLargerThanItsDistanceWillDo)
+{
+  // The square of a speed that grows from the wall at z = -1, and is nearly zero.
+  const auto field = [](const glm::dvec3& x)
+  { return (1.0 + x.z) * (1.0 + x.z) * (1.0 + 0.2 * x.x) - 1e-6; };
+  for (const Domain domain : allDomains)
+  {
+    const auto boxes = findSurfaceBoxes(oneCell(domain, 3, field), 0.0, 10.0, {});
+    EXPECT_GT(boxes.size(), 0u) << domain;
+    EXPECT_LT(boxes.size(), 30u) << domain;
+    EXPECT_EQ(uncertifiedCount(boxes), 0) << domain;
+    EXPECT_TRUE(
+      std::all_of(boxes.begin(), boxes.end(), [](const SurfaceBox& box) { return box.weakly; }))
+      << domain;
   }
 }
 

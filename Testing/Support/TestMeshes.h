@@ -40,6 +40,10 @@ void appendBox(
 /// one box, on the right as `right` says, in 2 x 2 boxes. Face neighbours are found.
 ElementMesh hangingMesh(const MeshRecipe& left, const MeshRecipe& right);
 
+/// The paper's teardrop, x^4 (x + 1) / 2 = y^2 + z^2, in a box of 2 x 2 x 2 elements that a quadratic B-spline
+/// map bends: it ends in a needle, which is nothing but a point where x = 0.
+ElementMesh teardropMesh();
+
 /// A smooth bend of the cube, invertible, that moves points by up to `amount`.
 Map wavyMap(double amount);
 
