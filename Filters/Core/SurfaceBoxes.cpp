@@ -35,13 +35,29 @@ struct Piece
 
 constexpr Degrees cornerDegrees{ 1, 1, 1 };
 
-/// A direction in which pieces can be halved: lattice lines, and the edges (pairs of corners) along it.
+/// A direction in which pieces can be halved: lattice lines, and the places of coefficients along its edges.
 struct Direction
 {
   LatticeLines coefficients;
   LatticeLines corners;
-  std::vector<std::pair<int, int>> edges;
+  std::vector<std::vector<int>> edges;
 };
+
+std::vector<std::vector<int>> edgeLines(
+  Domain domain, const Degrees& degrees, const LatticePoint& direction)
+{
+  std::vector<std::vector<int>> lines;
+  for (const auto& [first, last] : edgesAlong(domain, direction))
+  {
+    std::vector<int>& line = lines.emplace_back();
+    for (LatticePoint p = cornerLatticePoint(domain, degrees, first); inLattice(domain, degrees, p);
+         p = { p.i + direction.i, p.j + direction.j, p.k + direction.k })
+    {
+      line.push_back(coefficientIndex(domain, degrees, p));
+    }
+  }
+  return lines;
+}
 
 /// Levels of so many pieces keep threads busy, whichever of them take long.
 constexpr std::size_t manyPieces = 256;
@@ -360,15 +376,22 @@ private:
     this->Directions.clear();
     for (const LatticePoint& direction : facts(form.domain).edgeDirections)
     {
-      this->Directions.push_back({ { form.domain, form.degrees, direction },
-        { form.domain, cornerDegrees, direction }, edgesAlong(form.domain, direction) });
+      this->Directions.push_back(
+        { { form.domain, form.degrees, direction }, { form.domain, cornerDegrees, direction },
+          edgeLines(form.domain, form.degrees, direction) });
     }
     this->Boundary = BoundaryTest(form.domain, form.degrees);
     this->CornerPlaces.clear();
+    this->CornerOrder.clear();
+    const auto placeOf = [&form](int corner, const Degrees& degrees)
+    {
+      return coefficientIndex(
+        form.domain, degrees, cornerLatticePoint(form.domain, degrees, corner));
+    };
     for (int c = 0; c < static_cast<int>(facts(form.domain).corners.size()); ++c)
     {
-      this->CornerPlaces.push_back(coefficientIndex(
-        form.domain, form.degrees, cornerLatticePoint(form.domain, form.degrees, c)));
+      this->CornerPlaces.push_back(placeOf(c, form.degrees));
+      this->CornerOrder.push_back(placeOf(c, cornerDegrees));
     }
   }
 
@@ -519,9 +542,7 @@ private:
   /// A corner of the piece in the element's reference space.
   const glm::dvec3& corner(const Piece& piece, int c) const
   {
-    const Domain domain = this->Form.domain;
-    return piece.corners[coefficientIndex(
-      domain, cornerDegrees, cornerLatticePoint(domain, cornerDegrees, c))];
+    return piece.corners[this->CornerOrder[c]];
   }
 
   static std::vector<double> valuesOf(const Piece& piece)
@@ -624,26 +645,29 @@ private:
     return second;
   }
 
-  /// The direction whose edges are longest in world space.
+  /// The direction whose edges are longest in world space, along their control points: the ends of an edge that
+  /// closes on itself are in one place.
   std::size_t longestDirection(const Piece& piece) const
   {
     const BernsteinForm form = this->formOf(piece);
-    std::array<glm::dvec3, MaximumCorners> corners;
-    for (std::size_t c = 0; c < this->CornerPlaces.size(); ++c)
-    {
-      corners[c] = glm::dvec3(controlPoint(form, this->CornerPlaces[c]));
-    }
     std::size_t longest = 0;
-    double longestLength = -1.0;
+    double longestSquared = -1.0;
     for (std::size_t d = 0; d < this->Directions.size(); ++d)
     {
-      for (const auto& [a, b] : this->Directions[d].edges)
+      for (const std::vector<int>& edge : this->Directions[d].edges)
       {
-        const double edgeLength = glm::distance(corners[a], corners[b]);
-        if (edgeLength > longestLength)
+        double sum = 0.0;
+        for (std::size_t n = 1; n < edge.size(); ++n)
+        {
+          const glm::dvec3 step(controlPoint(form, edge[n]) - controlPoint(form, edge[n - 1]));
+          sum += glm::dot(step, step);
+        }
+        // As if all steps were of one length.
+        const double squared = sum * static_cast<double>(edge.size() - 1);
+        if (squared > longestSquared)
         {
           longest = d;
-          longestLength = edgeLength;
+          longestSquared = squared;
         }
       }
     }
@@ -658,7 +682,9 @@ private:
   double ElementSlack = 0.0;
   MonotoneTest Monotone{ Domain::Hexahedron, cornerDegrees };
   BoundaryTest Boundary{ Domain::Hexahedron, cornerDegrees };
+  /// For each corner its place among coefficients, and among corners of pieces.
   std::vector<int> CornerPlaces;
+  std::vector<int> CornerOrder;
   std::vector<Direction> Directions;
 };
 

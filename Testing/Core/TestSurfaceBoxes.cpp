@@ -2,6 +2,7 @@
 
 #include "AnalyticFields.h"
 #include "ElementCases.h"
+#include "Energy.h"
 #include "SurfaceSeeds.h"
 #include "SurfaceWalker.h"
 #include "ThreadedFor.h"
@@ -9,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace hop::testing
@@ -340,6 +342,24 @@ TEST(SurfaceBoxes, BesideAWallOneThatIsMuchLargerThanItsDistanceWillDo)
       std::all_of(boxes.begin(), boxes.end(), [](const SurfaceBox& box) { return box.weakly; }))
       << domain;
   }
+}
+
+TEST(SurfaceBoxes, AnElementMayCloseOnItself)
+{
+  MeshRecipe recipe;
+  recipe.degrees = { 8, 2, 2 };
+  recipe.cells = 1;
+  recipe.map = [](const glm::dvec3& x)
+  {
+    const double r = 2.0 + 0.5 * x.y;
+    return glm::dvec3(r * std::cos(Pi * x.x), r * std::sin(Pi * x.x), x.z);
+  };
+  recipe.field = [](const glm::dvec3& x) { return x.z + 0.05 * x.x; };
+  constexpr double wanted = 0.5;
+  const auto boxes = findSurfaceBoxes(makeMesh(recipe), 0.0, wanted, {});
+  // The ring's area over that of a box's face, and a few times as many.
+  EXPECT_GT(boxes.size(), 50u);
+  EXPECT_LT(boxes.size(), 1000u);
 }
 
 TEST(SurfaceBoxes, FieldsOfAnySizeGiveTheSameBoxes)
