@@ -1,8 +1,9 @@
 #include "BoundaryTest.h"
 
+#include "DisjointSets.h"
+
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace hop
 {
@@ -45,15 +46,6 @@ bool oneDirection(
     }
   }
   return true;
-}
-
-int root(std::vector<int>& parent, int n)
-{
-  while (parent[n] != n)
-  {
-    n = parent[n] = parent[parent[n]];
-  }
-  return n;
 }
 
 } // namespace
@@ -125,8 +117,7 @@ bool BoundaryTest::crossedOnce(const std::vector<double>& values, double slack) 
     }
   }
 
-  std::vector<int> curve(this->Edges.size());
-  std::iota(curve.begin(), curve.end(), 0);
+  DisjointSets curves(this->Edges.size());
   std::vector<double> onFace;
   for (const FaceLattice& face : this->Faces)
   {
@@ -146,16 +137,16 @@ bool BoundaryTest::crossedOnce(const std::vector<double>& values, double slack) 
     }
     if (!ends.empty())
     {
-      curve[root(curve, ends[0])] = root(curve, ends[1]);
+      curves.unite(ends[0], ends[1]);
     }
   }
 
-  int curves = 0;
-  for (int e = 0; e < static_cast<int>(curve.size()); ++e)
+  int count = 0;
+  for (int e = 0; e < static_cast<int>(this->Edges.size()); ++e)
   {
-    curves += crossed[e] && curve[e] == e;
+    count += crossed[e] && curves.root(e) == e;
   }
-  return curves <= 1;
+  return count <= 1;
 }
 
 } // namespace hop

@@ -1,6 +1,7 @@
 #include "PatchRelaxation.h"
 
 #include "Buffer.h"
+#include "DisjointSets.h"
 #include "Energy.h"
 #include "InstructionSet.h"
 #include "Phases.h"
@@ -30,6 +31,8 @@ constexpr std::size_t particlesPerTile = 2048;
 /// Blocks that a thread moves at a time, and those that are moved before others may interrupt.
 constexpr std::ptrdiff_t blocksPerPiece = 8;
 constexpr std::ptrdiff_t mostBlocksAtOnce = 200'000;
+/// Up to this extent, in units of the smallest spacing, single precision tells less than a hundredth of that.
+constexpr double farApart = 1e5;
 /// Over-relaxation of Newton's steps where the surface is flat, and where it bends.
 constexpr float flatRelaxation = 1.5f;
 constexpr float bentRelaxation = 0.7f;
@@ -104,27 +107,34 @@ std::vector<int> colorParticles(
 }
 
 /// Gives each tile of so many particles the lowest colour that no tile has of which it sees a particle.
-std::vector<int> colorTiles(std::size_t tileSize, const SeenLists& lists)
+std::vector<int> colorTiles(
+  std::size_t tileSize, const SeenLists& lists, const ParallelFor& parallelFor)
 {
   const std::size_t count = (lists.size() + tileSize - 1) / tileSize;
+  std::vector<std::vector<int>> seen(count);
+  forAll(parallelFor, count,
+    [&](std::size_t tile)
+    {
+      std::vector<int>& others = seen[tile];
+      const std::size_t end = std::min(lists.size(), (tile + 1) * tileSize);
+      for (std::size_t i = tile * tileSize; i < end; ++i)
+      {
+        for (const int* j = lists.begin(i); j != lists.end(i); ++j)
+        {
+          const int other = static_cast<int>(static_cast<std::size_t>(*j) / tileSize);
+          if (std::find(others.begin(), others.end(), other) == others.end())
+          {
+            others.push_back(other);
+          }
+        }
+      }
+    });
   std::vector<int> colors(count, -1);
   for (std::size_t tile = 0; tile < count; ++tile)
   {
-    const std::size_t end = std::min(lists.size(), (tile + 1) * tileSize);
-    std::vector<int> seen;
-    for (std::size_t i = tile * tileSize; i < end; ++i)
-    {
-      for (const int* j = lists.begin(i); j != lists.end(i); ++j)
-      {
-        const int other = static_cast<int>(static_cast<std::size_t>(*j) / tileSize);
-        if (seen.empty() || seen.back() != other)
-        {
-          seen.push_back(other);
-        }
-      }
-    }
-    colors[tile] =
-      lowestFreeColor(colors, seen.data(), seen.data() + seen.size(), 0, static_cast<int>(count));
+    const std::vector<int>& others = seen[tile];
+    colors[tile] = lowestFreeColor(
+      colors, others.data(), others.data() + others.size(), 0, static_cast<int>(count));
   }
   return colors;
 }
@@ -179,6 +189,7 @@ private:
   };
 
   void makeSeen();
+  std::vector<glm::dvec3> centersOfGroups(const Bounds& bounds) const;
   void sortByNeighbors(int* begin, int* end) const;
   void layOut();
   void fillBlocks();
@@ -191,7 +202,6 @@ private:
   const ParallelFor& Parallel;
   SpacedPoints Points;
   SeenLists Lists;
-  glm::dvec3 Center{ 0.0 };
   /// One a particle, and one beyond the sight of all that stands in for neighbours missing in a block.
   Buffer<Seen> SeenParticles;
   Buffer<SweepBlock> Blocks;
@@ -222,13 +232,13 @@ void SweepSystem::runStages(int first, int last)
 void SweepSystem::makeSeen()
 {
   const Bounds bounds = boundsOf(this->Points.positions, this->Parallel);
-  this->Center = 0.5 * (bounds.lower + bounds.upper);
+  const std::vector<glm::dvec3> centers = this->centersOfGroups(bounds);
   this->SeenParticles = Buffer<Seen>(this->Patches.size() + 1);
   forAll(this->Parallel, this->Patches.size(),
     [&](std::size_t i)
     {
       const Patch& patch = this->Patches[i];
-      const glm::vec3 x(this->Points.positions[i] - this->Center);
+      const glm::vec3 x(this->Points.positions[i] - centers[centers.size() > 1 ? i : 0]);
       this->SeenParticles[i] = { { x.x, x.y, x.z }, 1.0f / patch.spacing,
         { patch.normal.x, patch.normal.y, patch.normal.z }, 0.0f };
     });
@@ -236,6 +246,30 @@ void SweepSystem::makeSeen()
   beyond = this->SeenParticles[0];
   beyond.position[0] = static_cast<float>(4.0 * glm::distance(bounds.lower, bounds.upper)) +
     100.0f / beyond.inverseSpacing;
+}
+
+/// The place from which each particle's position is counted in single precision. One for all, unless they lie
+/// so far apart that it cannot tell neighbours any more: then each group that sees itself has its own.
+std::vector<glm::dvec3> SweepSystem::centersOfGroups(const Bounds& bounds) const
+{
+  const float smallest =
+    *std::min_element(this->Points.spacings.begin(), this->Points.spacings.end());
+  if (glm::distance(bounds.lower, bounds.upper) <= farApart * static_cast<double>(smallest))
+  {
+    return { 0.5 * (bounds.lower + bounds.upper) };
+  }
+  const int count = static_cast<int>(this->Patches.size());
+  DisjointSets groups(count);
+  for (int i = 0; i < count; ++i)
+  {
+    std::for_each(this->Lists.begin(i), this->Lists.end(i), [&](int j) { groups.unite(i, j); });
+  }
+  std::vector<glm::dvec3> centers(count);
+  for (int i = 0; i < count; ++i)
+  {
+    centers[i] = this->Points.positions[groups.root(i)];
+  }
+  return centers;
 }
 
 /// Sorts particles by the number of their neighbours, a few blocks at a time: lists of a block are filled up
@@ -325,7 +359,7 @@ void SweepSystem::makeStages(std::size_t tileSize, std::size_t groupsPerTile)
     }
     return;
   }
-  const std::vector<int> colors = colorTiles(tileSize, this->Lists);
+  const std::vector<int> colors = colorTiles(tileSize, this->Lists, this->Parallel);
   this->Stages.resize(*std::max_element(colors.begin(), colors.end()) + 1);
   for (std::size_t tile = 0; tile < colors.size(); ++tile)
   {

@@ -409,6 +409,10 @@ RimCurves RimSampler::run(const ParallelFor& parallelFor)
 {
   for (const std::vector<RimHint>& hintsOfBox : this->findHints(parallelFor))
   {
+    if (!hintsOfBox.empty())
+    {
+      askCaller(parallelFor);
+    }
     for (const RimHint& hint : hintsOfBox)
     {
       this->follow(hint);
