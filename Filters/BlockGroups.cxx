@@ -87,8 +87,7 @@ std::vector<PlacedCell> placeCells(const std::vector<InputBlock>& blocks)
     vtkUnsignedCharArray* ghosts = grid->GetCellGhostArray();
     for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
     {
-      const bool isOwned = !ghosts || ghosts->GetValue(cell) == 0;
-      if (isOwned && solid.contains(grid->GetCellType(cell)))
+      if (!isGhostCell(ghosts, cell) && solid.contains(grid->GetCellType(cell)))
       {
         const std::array<double, 3> place = placeOf(grid, cell, room);
         if (std::all_of(place.begin(), place.end(), [](double x) { return std::isfinite(x); }))

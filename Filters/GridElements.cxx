@@ -70,6 +70,27 @@ void addToRows(std::vector<double>& values, double factor, const std::vector<dou
   }
 }
 
+/// Coefficients that cannot be told from an isovalue take it: where the surface lies in a face of the element
+/// it would cross that to and fro by rounding errors.
+/// \param amplification of the nodal values' rounding errors
+void snapToIsovalues(std::vector<hop::Coefficient>& coefficients,
+  const std::vector<double>& isovalues, double amplification)
+{
+  const auto [lowest, highest] = std::minmax_element(coefficients.begin(), coefficients.end(),
+    [](const hop::Coefficient& a, const hop::Coefficient& b) { return a.w < b.w; });
+  constexpr double mostOfRange = 1e-8;
+  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * amplification *
+    std::max(std::abs(lowest->w), std::abs(highest->w));
+  const double slack = std::min(rounding, mostOfRange * (highest->w - lowest->w));
+  for (hop::Coefficient& c : coefficients)
+  {
+    for (const double isovalue : isovalues)
+    {
+      c.w = std::abs(c.w - isovalue) <= slack ? isovalue : c.w;
+    }
+  }
+}
+
 class Builder
 {
 public:
@@ -387,6 +408,10 @@ hop::JacobianSign Builder::convert(int element, CellValues& values)
   }
   else
   {
+    if (!e.rational)
+    {
+      snapToIsovalues(plain, this->Isovalues, cell.basis.conversionNorm());
+    }
     std::copy(plain.begin(), plain.end(), coefficients);
   }
   if (e.rational)
@@ -464,8 +489,7 @@ void Builder::dropCollapsed()
 bool Builder::isGhost(const hop::Element& element) const
 {
   const auto [block, cell] = this->Blocks.locate(element.cell);
-  vtkUnsignedCharArray* ghosts = this->Ghosts[block];
-  return ghosts && ghosts->GetValue(cell) != 0;
+  return isGhostCell(this->Ghosts[block], cell);
 }
 
 /// A ghost whose original, or another copy, is here too would claim the faces of its neighbours a

@@ -1,5 +1,7 @@
 #include "InputBlocks.h"
 
+#include "vtkDataSetAttributes.h"
+#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -28,4 +30,11 @@ std::string InputBlocks::describe(std::int64_t number) const
   const BlockCell where = this->locate(number);
   const std::string& name = this->Blocks[where.block].name;
   return "cell " + std::to_string(where.cell) + (name.empty() ? "" : " of " + name);
+}
+
+bool isGhostCell(vtkUnsignedCharArray* ghosts, vtkIdType cell)
+{
+  constexpr int notOwned = vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::REFINEDCELL |
+    vtkDataSetAttributes::HIDDENCELL;
+  return ghosts && (ghosts->GetValue(cell) & notOwned) != 0;
 }

@@ -8,6 +8,7 @@
 
 class vtkDataArray;
 class vtkPolyData;
+class vtkUnsignedCharArray;
 class vtkUnstructuredGrid;
 
 /// One grid of the input, and where its particles go.
@@ -70,3 +71,8 @@ private:
   int Component;
   std::vector<std::int64_t> FirstCells;
 };
+
+/// Whether a cell is another piece's, is hidden, or has others in its place: then it is a neighbour, no more.
+/// What else `vtkGhostType` may say about a cell does not matter.
+/// \param ghosts the grid's, or nullptr
+bool isGhostCell(vtkUnsignedCharArray* ghosts, vtkIdType cell);

@@ -363,8 +363,7 @@ void addRows(const InputBlocks& blocks, const hop::ElementMesh& mesh, const Isov
   for (std::size_t e = 0; e < mesh.elements.size(); ++e)
   {
     const auto [block, cell] = blocks.locate(mesh.elements[e].cell);
-    vtkUnsignedCharArray* ghosts = blocks[block].grid->GetCellGhostArray();
-    const bool isGhost = ghosts && ghosts->GetValue(cell) != 0;
+    const bool isGhost = isGhostCell(blocks[block].grid->GetCellGhostArray(), cell);
     for (int n = ofElements.start[e]; n < ofElements.start[e + 1] && !isGhost; ++n)
     {
       rowsOfBlocks[block].push_back({ &particles[ofElements.order[n]], some.isovalue });

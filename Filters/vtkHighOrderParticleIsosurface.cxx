@@ -41,6 +41,8 @@ namespace
 {
 
 constexpr double automaticSpacingPerSide = 0.01;
+/// Larger spacings say no more: a component has its least number of particles long before.
+constexpr double largestSpacingPerSide = 1e3;
 constexpr double warnUndersampledShare = 0.01;
 /// Where a run's progress stands when cells are converted, and when particles are done.
 constexpr double convertedShare = 0.1;
@@ -379,8 +381,9 @@ vtkHighOrderParticleIsosurface::Scale vtkHighOrderParticleIsosurface::FindScale(
   Scale scale;
   if (box.IsValid())
   {
-    scale.Spacing =
-      this->Spacing > 0.0 ? this->Spacing : automaticSpacingPerSide * box.GetMaxLength();
+    scale.Spacing = this->Spacing > 0.0
+      ? std::min(this->Spacing, largestSpacingPerSide * box.GetMaxLength())
+      : automaticSpacingPerSide * box.GetMaxLength();
     // No point can be nearer to a surface than coordinates can say.
     double lower[3], upper[3];
     box.GetMinPoint(lower);
@@ -406,6 +409,11 @@ bool vtkHighOrderParticleIsosurface::CheckParameters()
   if (!std::isfinite(this->Spacing))
   {
     vtkErrorMacro("Spacing is NaN or infinite; give a length, or 0 for the automatic one.");
+    return false;
+  }
+  if (std::isnan(this->AngularDensity) || std::isnan(this->Tolerance))
+  {
+    vtkErrorMacro("AngularDensity or Tolerance is NaN; give a number.");
     return false;
   }
   return true;

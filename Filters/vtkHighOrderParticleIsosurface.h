@@ -16,11 +16,12 @@
  * After M. Meyer, B. Nelson, R. M. Kirby, R. Whitaker, "Particle Systems for Efficient and Accurate
  * High-Order Finite Element Visualization", IEEE TVCG 13(5), 2007.
  *
- * Cells: every 3-D cell of VTK with a fixed shape: linear, quadratic and serendipity hexahedra,
- * tetrahedra, wedges and pyramids; Lagrange and Bezier hexahedra of degree 1 to 15, tetrahedra and
- * wedges of degree 1 to 10, with uniform or anisotropic degrees, rational Bezier cells included. Other
- * cells (polyhedra, 2-D cells), and cells with values that are not finite or without volume, are
- * skipped, counted, and named in one warning, as are partly inverted ones, which are kept. Ghost cells (vtkGhostType) carry particles over borders but own none.
+ * Cells: linear, quadratic and serendipity hexahedra, tetrahedra, wedges and pyramids; Lagrange and
+ * Bezier hexahedra of degree 1 to 15, tetrahedra and wedges of degree 1 to 10, with uniform or
+ * anisotropic degrees, rational Bezier cells included. Other cells (polyhedra, pentagonal and hexagonal
+ * prisms, 2-D cells), and cells with values that are not finite or without volume, are skipped, counted,
+ * and named in one warning, as are partly inverted ones, which are kept. Ghost cells (duplicate, refined or
+ * hidden ones by vtkGhostType) carry particles over borders but own none.
  *
  * Point data of the output: `Normals` (unit, towards lower values, as Contour orients them),
  * `Radius` (the particle's own spacing, world units), `Mean_Curvature` (with respect to Normals;

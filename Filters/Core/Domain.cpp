@@ -202,4 +202,15 @@ double insideMargin(Domain domain, const ReferencePoint& u)
   return margin;
 }
 
+ReferencePoint broughtInside(Domain domain, ReferencePoint u)
+{
+  for (const Face& face : facts(domain).faces)
+  {
+    const glm::dvec3& inward = face.inward.xyz;
+    const double margin = glm::dot(inward, u.xyz) + face.offset;
+    u.xyz -= std::min(0.0, margin) / glm::dot(inward, inward) * inward;
+  }
+  return u;
+}
+
 } // namespace hop

@@ -96,4 +96,7 @@ LatticePoint cornerLatticePoint(Domain domain, const Degrees& degrees, int corne
 /// How far inside the domain u lies: the smallest half-space value; negative outside.
 double insideMargin(Domain domain, const ReferencePoint& u);
 
+/// A point that is hardly outside, taken to the faces that it is beyond.
+ReferencePoint broughtInside(Domain domain, ReferencePoint u);
+
 } // namespace hop

@@ -17,6 +17,8 @@ namespace
 constexpr float largestOffset = 0.5f;
 constexpr float smallestTurn = 0.3f;
 constexpr int maximumHalvings = 3;
+/// Relative error of steps in reference space, as anchors keep their map in single precision.
+constexpr double pullRounding = 1e-6;
 /// Steps from farther off have to shorten the way by this factor.
 constexpr float smallestProgress = 0.7f;
 
@@ -175,10 +177,14 @@ void MovingParticles::keep(const std::vector<char>& kept)
 Location MovingParticles::target(std::size_t i, const glm::dvec3& step, std::int64_t& cost) const
 {
   const Anchor& anchor = this->Anchors[i];
-  const glm::dvec3 u = anchor.place.u.xyz + glm::dmat3(anchor.pull) * step;
-  if (insideMargin(this->Surface.mesh->elements[anchor.place.element].domain, { u }) >= 0.0)
+  const Domain domain = this->Surface.mesh->elements[anchor.place.element].domain;
+  const glm::dvec3 du = glm::dmat3(anchor.pull) * step;
+  ReferencePoint u{ anchor.place.u.xyz + du };
+  const double margin = insideMargin(domain, u);
+  if (margin >= -pullRounding * glm::length(du))
   {
-    return { anchor.place.element, { u } };
+    // Where the surface lies in a face of the element, rounding leads out of it.
+    return { anchor.place.element, margin >= 0.0 ? u : broughtInside(domain, u) };
   }
   SurfaceWalker walker(this->Surface);
   Evaluated start{ anchor.place, {} };
@@ -187,8 +193,7 @@ Location MovingParticles::target(std::size_t i, const glm::dvec3& step, std::int
     static_cast<double>(anchor.offset) * glm::dvec3(this->Patches[i].normal) };
   map.inverse = glm::dmat3(anchor.pull);
   map.jacobian = glm::inverse(map.inverse);
-  const Exit exit = findExit(this->Surface.mesh->elements[anchor.place.element].domain,
-    anchor.place.u, map.pull({ step }), {});
+  const Exit exit = findExit(domain, anchor.place.u, map.pull({ step }), {});
   if (exit.face >= 0 && !this->Surface.mayEnd(anchor.place.element, exit.face))
   {
     const int next = this->Surface.mesh->neighbor(anchor.place.element, exit.face).element;

@@ -19,6 +19,9 @@ constexpr double fadingChord = 1.0 / 4.0;
 constexpr int mostStuck = 8;
 /// A chord passes a point that is nearer to it than this, in units of its length.
 constexpr double nearness = 0.2;
+/// Surface and face turned less against each other than this have no rim: the surface lies in the face, and
+/// what crosses is rounding errors.
+constexpr double liesInFace = 1e-6;
 /// What rounding leaves between a face and places on it that were located.
 constexpr double locatedOnFace = 1e-6;
 
@@ -209,7 +212,8 @@ WorldVector RimTracer::tangent(const RimPoint& point) const
     faceOf(*this->Surface.mesh, point.at.location, point.face).inward.xyz;
   const glm::dvec3 along = glm::cross(-point.at.point.gradient.xyz, inward);
   const double size = glm::length(along);
-  return { size > 0.0 ? along / size : glm::dvec3(0.0) };
+  const double full = length(point.at.point.gradient) * glm::length(inward);
+  return { size > liesInFace * full ? along / size : glm::dvec3(0.0) };
 }
 
 ReferenceVector RimTracer::velocity(const RimPoint& point) const

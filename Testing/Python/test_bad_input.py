@@ -197,6 +197,13 @@ def test_a_spacing_that_is_no_number(good, spacing):
     assert_one_error(messages, "Spacing is NaN or infinite", "0 for the automatic")
 
 
+@pytest.mark.parametrize("property", ["AngularDensity", "Tolerance"])
+def test_a_property_that_is_no_number(good, property):
+    particles, messages = support.run(good, "F", 1.0, **{property: float("nan")})
+    assert_empty(particles)
+    assert_one_error(messages, property, "NaN")
+
+
 @pytest.mark.parametrize("spacing", [1e-6, 1e-300])
 def test_an_absurdly_small_spacing_is_refused_at_once(good, spacing):
     begin = time.monotonic()
@@ -206,7 +213,7 @@ def test_an_absurdly_small_spacing_is_refused_at_once(good, spacing):
     assert_one_error(messages, "particles", "limit", "larger Spacing")
 
 
-@pytest.mark.parametrize("spacing", [50.0, 1e30])
+@pytest.mark.parametrize("spacing", [50.0, 1e30, 1e300])
 def test_a_spacing_larger_than_the_surface_leaves_a_few_particles(good, spacing):
     particles, messages = support.run(good, "F", 1.0, Spacing=spacing)
     assert messages.errors == []

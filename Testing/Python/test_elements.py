@@ -465,3 +465,25 @@ def test_plates_far_from_the_origin_keep_their_thickness(axis):
         counts.append(support.run_quietly(grid, "f", 0.7, Spacing=0.001).GetNumberOfPoints())
     assert counts[0] > 200
     assert counts[1] == pytest.approx(counts[0], rel=0.02)
+
+
+# Surfaces in faces of elements
+
+
+@pytest.mark.parametrize("degree", [2, 3, 5, 6])
+def test_a_surface_in_the_faces_at_the_end_of_the_mesh_is_covered_up_to_its_edges(degree):
+    """Conversion to Bernstein coefficients leaves rounding errors there, which are no rims."""
+    nodes = support.points_of(cells.anisotropic_grid("LAGRANGE_HEXAHEDRON", (degree,) * 3))
+    corners = np.array(list(np.ndindex(3, 3, 3)), dtype=float)
+    points = (corners[:, None] + nodes[None]).reshape(-1, 3)
+    ids = np.arange(len(points)).reshape(len(corners), -1)
+    kind = cells.type_number("LAGRANGE_HEXAHEDRON")
+    grid = support.grid_of_cells(points, [(kind, row) for row in ids])
+    support.add_point_array(grid, "f", points[:, 0])
+    particles = support.run_quietly(grid, "f", 3.0, Spacing=0.05)
+    x = support.points_of(particles)
+    np.testing.assert_allclose(x[:, 0], 3.0, atol=1e-9)
+    assert len(x) == pytest.approx(support.hexagonal_count(9.0, 0.05, 12.0), rel=0.015)
+    assert np.quantile(support.nearest_neighbors(particles), 0.05) > 0.7
+    inside = np.minimum(x[:, 1:], 3.0 - x[:, 1:]).min(axis=1) > 0.1
+    assert not np.any(support.array_of(particles, "Clip_Angle")[inside] > 179.0)

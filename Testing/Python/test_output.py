@@ -402,6 +402,16 @@ def test_ghost_cells_own_no_particles(data):
     assert "vtkGhostType" not in support.array_names(half.GetPointData()) | support.array_names(half.GetCellData())
 
 
+@pytest.mark.parametrize("kind, owned", [(2, True), (4, True), (8, False), (16, True), (32, False)])
+def test_of_all_that_ghost_types_say_only_some_make_ghosts(data, kind, owned):
+    """High and low connectivity, refined, exterior and hidden cells."""
+    grid = support.output_of(support.read(data("mfem_amr_hanging_hex_p3.vtu")))
+    whole = support.run_quietly(grid, "u", 0.0, Spacing=0.06)
+    support.add_cell_array(grid, "vtkGhostType", np.full(grid.GetNumberOfCells(), kind, np.uint8))
+    particles = support.run_quietly(grid, "u", 0.0, Spacing=0.06)
+    assert particles.GetNumberOfPoints() == (whole.GetNumberOfPoints() if owned else 0)
+
+
 def with_nodes_of_its_own(grid):
     """The same cells, each with nodes of its own."""
     cells, order = [], []
