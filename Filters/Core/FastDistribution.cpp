@@ -166,8 +166,8 @@ bool FastSystem::isSmall(const SurfaceBox& box, const SpacingLaw& law)
     : domain == Domain::Wedge                            ? wedgePerSpacing
                                                          : tetrahedronPerSpacing;
   const double largest = perSpacing * law.spacing;
-  const double smallest = (box.weakly ? law.spacing : largest) / (1.0 + law.angularDensity);
-  if (box.size > largest || box.size <= smallest || (law.angularDensity == 0.0 && !box.weakly))
+  const double smallest = (box.mayBeThin ? law.spacing : largest) / (1.0 + law.angularDensity);
+  if (box.size > largest || box.size <= smallest || (law.angularDensity == 0.0 && !box.mayBeThin))
   {
     return box.size <= largest;
   }
@@ -181,9 +181,10 @@ bool FastSystem::isSmall(const SurfaceBox& box, const SpacingLaw& law)
     return true;
   }
   const double spacing = law.at(patch.curvatureMagnitude());
-  const bool isThin =
-    patch.curvatureMagnitude() * spacing > 1.0 || std::abs(anchor.offset) > seedOffset * spacing;
-  return box.size <= spacing * (!box.weakly ? perSpacing : isThin ? 1.0 : weaklyPerSpacing);
+  const bool isThin = patch.curvatureMagnitude() * spacing > 1.0 ||
+    (box.weakly && std::abs(anchor.offset) > seedOffset * spacing);
+  const double perOwnSpacing = isThin ? 1.0 : box.weakly ? weaklyPerSpacing : perSpacing;
+  return box.size <= perOwnSpacing * spacing;
 }
 
 /// \param spacing that boxes are to suit; the proxy's own is the law's

@@ -29,6 +29,8 @@ struct Piece
   int part = 1;
   /// How the field rises, if the surface in it is known to be one sheet.
   Monotony sheet = Monotony::None;
+  /// It was halved across other directions than its longest.
+  bool narrow = false;
 
   bool certified() const { return this->sheet != Monotony::None; }
 };
@@ -67,6 +69,9 @@ constexpr std::size_t fewElements = 16;
 /// isovalue only.
 constexpr int halvingsOfAllAxes = 3;
 constexpr int firstTouchBisections = 9;
+/// Pieces that are undecided after so many halvings are cut across the direction in which the field bends, but for
+/// tetrahedra, which would become slivers.
+constexpr int roundBisections = 9;
 /// As many pieces with one sign at their corners are normal in an element that the surface crosses, and
 /// where nothing tells that it does. None are after so many halvings.
 constexpr int fewOneSided = 1024;
@@ -236,9 +241,9 @@ private:
   /// Whether a piece that is not certified is not worth halving.
   bool isGivenUp(const Piece& piece, const GivenUp& givenUp) const
   {
-    if (piece.bisections == 0)
+    if (this->isZero(piece))
     {
-      return this->isZero(piece);
+      return true;
     }
     const double sign = givenUp.touching ? this->signAtCorners(piece) : 0.0;
     if (sign == 0.0 || this->Monotone.rises(valuesOf(piece)))
@@ -455,12 +460,11 @@ private:
     return range.lower <= slack && range.upper >= -slack;
   }
 
-  /// Whether the field is nothing but the isovalue.
+  /// Whether the field is nothing but the isovalue, to its rounding errors in the element.
   bool isZero(const Piece& piece) const
   {
     const Range range = rangeOf(piece);
-    const double slack = this->slackOf(range);
-    return range.lower >= -slack && range.upper <= slack;
+    return range.lower >= -this->ElementSlack && range.upper <= this->ElementSlack;
   }
 
   /// 1 or -1 if corners have that sign, or are at zero; 0 if they have both.
@@ -506,7 +510,10 @@ private:
     box.middle = { element, middle(piece) };
     box.size = this->worldSize(piece);
     box.certified = piece.certified();
-    box.weakly = piece.sheet == Monotony::Weak;
+    // Parts of a piece whose field rises weakly may be away from where it stands still.
+    box.weakly =
+      piece.sheet == Monotony::Weak && this->Monotone.monotony(valuesOf(piece)) != Monotony::Strict;
+    box.mayBeThin = piece.narrow || piece.sheet == Monotony::Weak;
     int lowest = 0;
     int highest = 0;
     const auto value = [&](int c) { return piece.coefficients[this->CornerPlaces[c]].w; };
@@ -623,10 +630,16 @@ private:
     return { sum / static_cast<double>(piece.corners.size()) };
   }
 
-  /// Halves the piece across its longest direction; it keeps the first half, the second is returned.
+  /// Halves the piece, across its longest direction once it is certified; it keeps the first half, the second is
+  /// returned.
   Piece halve(Piece& piece) const
   {
-    const Direction& direction = this->Directions[this->longestDirection(piece)];
+    const std::size_t longest = this->longestDirection(piece);
+    const bool bends = !piece.certified() && piece.bisections >= roundBisections &&
+      this->Form.domain != Domain::Tetrahedron;
+    const std::size_t across = bends ? this->bendingDirection(piece, longest) : longest;
+    piece.narrow = piece.narrow || across != longest;
+    const Direction& direction = this->Directions[across];
     Piece second;
     direction.coefficients.bisect(piece.coefficients, second.coefficients);
     if (!piece.weights.empty())
@@ -637,12 +650,34 @@ private:
     second.bisections = ++piece.bisections;
     second.part = piece.part;
     second.sheet = piece.sheet;
+    second.narrow = piece.narrow;
     if (piece.bisections <= PartBisections)
     {
       piece.part = 2 * piece.part;
       second.part = 2 * second.part + 1;
     }
     return second;
+  }
+
+  /// The direction along which the field bends most: two sheets close to each other are parted by halvings
+  /// across them, and only those. The longest where it hardly bends.
+  std::size_t bendingDirection(const Piece& piece, std::size_t longest) const
+  {
+    constexpr double straight = 1e-2;
+    const std::vector<double> values = valuesOf(piece);
+    const Range range = rangeOf(piece);
+    double largest = straight * (range.upper - range.lower);
+    std::size_t bending = longest;
+    for (std::size_t d = 0; d < this->Directions.size(); ++d)
+    {
+      const double bend = this->Directions[d].coefficients.bend(values);
+      if (bend > largest)
+      {
+        bending = d;
+        largest = bend;
+      }
+    }
+    return bending;
   }
 
   /// The direction whose edges are longest in world space, along their control points: the ends of an edge that

@@ -20,6 +20,9 @@ struct SurfaceBox
   /// Certified, but the field stands still somewhere in it, as at a wall or on the axis of a needle: the
   /// surface may lie near that place, and bend much within the box.
   bool weakly = false;
+  /// It was part of one where the field stands still, or that had to be cut more finely in the direction in which
+  /// the field bends: the surface may be thinner than the box.
+  bool mayBeThin = false;
   /// Corners at which F - c has opposite signs, if there are such: a point of the surface lies on the
   /// straight line between them.
   bool straddles = false;

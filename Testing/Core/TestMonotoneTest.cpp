@@ -69,8 +69,7 @@ glm::dvec3 meanOf(const std::vector<glm::dvec3>& coefficients)
 
 bool rises(const ElementCase& which, const std::vector<Coefficient>& coefficients)
 {
-  return MonotoneTest(which.domain, which.degrees).monotony(fieldOf(coefficients)) ==
-    Monotony::Strict;
+  return MonotoneTest(which.domain, which.degrees).rises(fieldOf(coefficients));
 }
 
 TEST(MonotoneTest, WhatRisesHasAPositiveDerivativeEverywhere)

@@ -327,6 +327,27 @@ TEST(SurfaceBoxes, TwoSheetsNearEachOtherAreToldFromOneThatTouches)
   }
 }
 
+TEST(SurfaceBoxes, TwoSheetsInAThousandthOfAnElementArePartedByCutsAcrossThem)
+{
+  constexpr double gap = 0.003;
+  for (const Domain domain : { Domain::Hexahedron, Domain::Wedge })
+  {
+    for (const double z : { -0.2, 0.137, 0.381 })
+    {
+      const auto field = [z](const glm::dvec3& x)
+      { return (x.z - z) * (x.z - z) - 0.25 * gap * gap; };
+      const ElementMesh mesh = oneCell(domain, 2, field);
+      const auto boxes = findSurfaceBoxes(mesh, 0.0, 10.0, {});
+      EXPECT_EQ(uncertifiedCount(boxes), 0) << domain << ", " << z;
+      EXPECT_LT(boxes.size(), 2000u) << domain << ", " << z;
+      for (const double side : { -0.5, 0.5 })
+      {
+        EXPECT_TRUE(inSomeBox(mesh, boxes, { 0.31, 0.17, z + side * gap })) << domain << ", " << z;
+      }
+    }
+  }
+}
+
 TEST(SurfaceBoxes, BesideAWallOneThatIsMuchLargerThanItsDistanceWillDo)
 {
   // The square of a speed that grows from the wall at z = -1, and is nearly zero.
