@@ -35,6 +35,11 @@ bool vtkSurfaceSplatDrawing::DrawsPoints() const
   return this->View->GetLargestPixels(radius) <= LargestPoint;
 }
 
+bool vtkSurfaceSplatDrawing::TellsSheetsApart() const
+{
+  return this->Sheet < 0 && this->Buffers->GetNumberOfSheets() > 1;
+}
+
 bool vtkSurfaceSplatDrawing::DrawsCurved() const
 {
   return this->Buffers->GetHasShape() && !this->FacesViewer && !this->DrawsPoints();

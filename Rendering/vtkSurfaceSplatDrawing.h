@@ -36,6 +36,12 @@ struct vtkSurfaceSplatDrawing
   /** Whether splats are so small in the picture that points do. */
   bool DrawsPoints() const;
 
+  /**
+   * Whether pixels show one sheet only, however near the others are. (Otherwise there is one, or they are drawn
+   * one after the other.)
+   */
+  bool TellsSheetsApart() const;
+
   /** Whether splats are bent. */
   bool DrawsCurved() const;
 };

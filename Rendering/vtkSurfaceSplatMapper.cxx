@@ -63,6 +63,9 @@ constexpr const char* ShapeOperatorName = "Shape_Operator";
 constexpr const char* ClipDistanceName = "Clip_Distance";
 constexpr const char* ClipAngleName = "Clip_Angle";
 constexpr const char* SheetName = "Isovalue";
+
+// More are too slow to be drawn one after the other.
+constexpr int MaximumNumberOfLayeredSheets = 8;
 }
 
 struct vtkSurfaceSplatMapper::Internals
@@ -471,7 +474,8 @@ bool vtkSurfaceSplatMapper::DrawSplats(vtkRenderer* renderer, vtkActor* actor)
   this->DescribeDrawing(renderer, actor, drawing);
   // Nested sheets shine through each other: each has layers of its own, one after the other in the same
   // textures.
-  const int sheets = translucent ? this->Internal->Buffers.GetNumberOfSheets() : 1;
+  const int allSheets = this->Internal->Buffers.GetNumberOfSheets();
+  const int sheets = translucent && allSheets <= MaximumNumberOfLayeredSheets ? allSheets : 1;
   for (int sheet = 0; sheet < sheets; ++sheet)
   {
     drawing.Sheet = sheets > 1 ? sheet : -1;

@@ -18,6 +18,8 @@
  * up per pixel, as long as the lookup table is not categorical; with a categorical one a pixel has
  * the colour of the particle that counts most there. Translucent splats have two layers, the nearest
  * and the farthest surface; where a point array `Isovalue` has up to eight values, those of each of them.
+ * Opaque splats of different isovalues (up to 128) are not averaged, however near their surfaces are:
+ * the nearest one is seen.
  *
  * Particles at the rim of a surface, or beside a kink of it, may carry up to two planes that cut
  * their disks off, so that rims end in a line and kinks stay sharp: point arrays `Clip_Normal` (3

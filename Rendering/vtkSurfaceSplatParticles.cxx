@@ -147,7 +147,9 @@ std::vector<double> FindSheets(vtkDataArray* values, const std::vector<vtkIdType
   for (std::size_t i = 0; values && i < ids.size(); ++i)
   {
     const double value = values->GetComponent(ids[i], 0);
-    if (std::find(found.begin(), found.end(), value) == found.end())
+    const bool isLast =
+      !found.empty() && found.back() == value; // as it mostly is: blocks have one each
+    if (!isLast && std::find(found.begin(), found.end(), value) == found.end())
     {
       if (!std::isfinite(value) || found.size() == vtkSurfaceSplatParticles::MaximumNumberOfSheets)
       {

@@ -69,8 +69,8 @@ struct vtkSurfaceSplatParticles
   int NumberOfSheets = 1;          ///< told apart by vtkSurfaceSplatArrays::Sheets
   vtkIdType Skipped = 0;           ///< particles that cannot be drawn
 
-  /** More values than these tell no sheets apart. */
-  static constexpr int MaximumNumberOfSheets = 8;
+  /** More values than these, of which pixels hold the number in 7 bits, tell no sheets apart. */
+  static constexpr int MaximumNumberOfSheets = 128;
 
   vtkIdType GetNumberOfParticles() const { return static_cast<vtkIdType>(this->PointIds.size()); }
 

@@ -46,14 +46,16 @@ std::string Define(const std::string& name, const std::string& value)
   return "#define " + name + " " + value + "\n";
 }
 
-std::string Definitions(const vtkSurfaceSplatDrawing& drawing, bool skipsHidden)
+std::string Definitions(
+  const vtkSurfaceSplatDrawing& drawing, const vtkSurfaceSplatPrimitives::Style& style)
 {
   return Define("SPLAT_POINTS", std::to_string(drawing.DrawsPoints())) +
     Define("SPLAT_LEAST_PIXELS", std::to_string(LeastPixels)) +
     Define("SPLAT_HAS_CLIP", std::to_string(drawing.Buffers->GetHasClip())) +
     Define("SPLAT_GAP_SHARE", std::to_string(vtkSurfaceSplatPrimitives::GapShare)) +
     Define("SPLAT_CURVED", std::to_string(drawing.DrawsCurved())) +
-    Define("SPLAT_SKIPS_HIDDEN", std::to_string(skipsHidden && drawing.DrawsPoints())) +
+    Define("SPLAT_SKIPS_HIDDEN", std::to_string(style.SkipsHidden && drawing.DrawsPoints())) +
+    Define("SPLAT_APART", std::to_string(drawing.TellsSheetsApart())) +
     Define("SPLAT_CLIPPING_PLANES", std::to_string(drawing.NumberOfClippingPlanes));
 }
 }
@@ -66,7 +68,7 @@ vtkSurfaceSplatPrimitives::~vtkSurfaceSplatPrimitives() = default;
 vtkShaderProgram* vtkSurfaceSplatPrimitives::Use(
   const vtkSurfaceSplatDrawing& drawing, const Style& style)
 {
-  const std::string definitions = Definitions(drawing, style.SkipsHidden);
+  const std::string definitions = Definitions(drawing, style);
   std::string vertex = vtkSurfaceSplatPassVS;
   std::string fragment = style.Fragment;
   vtkShaderProgram::Substitute(vertex, "//Splat::Disk::Dec", definitions + vtkSurfaceSplatDisk);

@@ -11,10 +11,47 @@
 #include "vtkSurfaceSplatVisibilityFS.h"
 #include "vtkTextureObject.h"
 
+#include <array>
+#include <optional>
+
 namespace
 {
 // Splats whose depths along the view ray differ by less than this many radii are of one surface.
 constexpr double Thickness = 1.;
+
+// While it lives, depths may be moved beyond the near and far planes; clip distances cut instead of them.
+// States that vtkOpenGLState does not know.
+class PlanesAsClipDistances
+{
+public:
+  PlanesAsClipDistances()
+  {
+    for (std::size_t i = 0; i < States.size(); ++i)
+    {
+      this->Before[i] = glIsEnabled(States[i]);
+      glEnable(States[i]);
+    }
+  }
+
+  ~PlanesAsClipDistances()
+  {
+    for (std::size_t i = 0; i < States.size(); ++i)
+    {
+      if (!this->Before[i])
+      {
+        glDisable(States[i]);
+      }
+    }
+  }
+
+private:
+  PlanesAsClipDistances(const PlanesAsClipDistances&) = delete;
+  void operator=(const PlanesAsClipDistances&) = delete;
+
+  static constexpr std::array<GLenum, 3> States = { GL_DEPTH_CLAMP, GL_CLIP_DISTANCE0,
+    GL_CLIP_DISTANCE1 };
+  std::array<GLboolean, 3> Before;
+};
 }
 
 vtkSurfaceSplatVisibilityPass::vtkSurfaceSplatVisibilityPass(vtkSurfaceSplatSide side)
@@ -38,6 +75,12 @@ bool vtkSurfaceSplatVisibilityPass::Prepare(const vtkSurfaceSplatDrawing& drawin
 }
 
 //------------------------------------------------------------------------------
+double vtkSurfaceSplatVisibilityPass::GetThickness() const
+{
+  return this->IsFront() ? Thickness : -Thickness;
+}
+
+//------------------------------------------------------------------------------
 void vtkSurfaceSplatVisibilityPass::Draw(
   const vtkSurfaceSplatDrawing& drawing, vtkSurfaceSplatPrimitives& primitives)
 {
@@ -52,7 +95,7 @@ void vtkSurfaceSplatVisibilityPass::Draw(
   glClearBufferfv(GL_COLOR, 0, nothing);
   vtkSurfaceSplatPrimitives::Style style;
   style.Fragment = vtkSurfaceSplatVisibilityFS;
-  style.Push = this->IsFront() ? Thickness : -Thickness;
+  style.Push = drawing.TellsSheetsApart() ? 0. : this->GetThickness();
   style.OnlyInside = true;
   if (primitives.Use(drawing, style))
   {
@@ -74,8 +117,14 @@ void vtkSurfaceSplatVisibilityPass::CopyDepth(const vtkSurfaceSplatDrawing& draw
 
 //------------------------------------------------------------------------------
 void vtkSurfaceSplatVisibilityPass::DrawBy(const vtkSurfaceSplatDrawing& drawing,
-  vtkSurfaceSplatPrimitives& primitives, const vtkSurfaceSplatPrimitives::Style& style)
+  vtkSurfaceSplatPrimitives& primitives, vtkSurfaceSplatPrimitives::Style style)
 {
+  std::optional<PlanesAsClipDistances> planes;
+  if (drawing.TellsSheetsApart())
+  {
+    style.Push = -this->GetThickness();
+    planes.emplace();
+  }
   this->Activate();
   if (vtkShaderProgram* program = primitives.Use(drawing, style))
   {

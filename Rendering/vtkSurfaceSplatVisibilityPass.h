@@ -21,12 +21,23 @@ public:
   /** Copies the depth of what is seen into the framebuffer that is bound for drawing. */
   void CopyDepth(const vtkSurfaceSplatDrawing& drawing) const;
 
-  /** Draws for another pass, by a style whose program can look up what is seen. */
+  /**
+   * Draws for another pass, by a style whose program can look up what is seen. Whatever passes the depth test
+   * is of the surface that is seen, as thick as splats are wide.
+   */
   void DrawBy(const vtkSurfaceSplatDrawing& drawing, vtkSurfaceSplatPrimitives& primitives,
-    const vtkSurfaceSplatPrimitives::Style& style);
+    vtkSurfaceSplatPrimitives::Style style);
 
 private:
-  vtkNew<vtkTextureObject> Seen; // r: 1 where there is surface; g: 1 where it is seen from outward
+  /**
+   * How thick a surface is, away from the eye, in radii. One sheet is pushed back by it in this pass. Of several
+   * the wider splats would fall behind the narrower ones of a sheet farther away, so that this pass leaves them
+   * where they are, and the others pull them.
+   */
+  double GetThickness() const;
+
+  // r: 1 where there is surface; g: number of its sheet, and 128 more where it is seen from outward, in 255ths
+  vtkNew<vtkTextureObject> Seen;
 };
 
 #endif

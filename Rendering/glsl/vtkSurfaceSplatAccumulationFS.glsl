@@ -12,8 +12,7 @@ uniform samplerBuffer splatColor; // RGBA, or lookup coordinates (position in th
 
 void main()
 {
-  float seenFrom = 2.0 * texelFetch(splatSeen, ivec2(gl_FragCoord.xy), 0).g - 1.0;
-  if (splatOutside() || seenFrom * splatSeenFromSide < 0.5)
+  if (splatOutside() || splatIsOfOther(splatSeen))
   {
     discard;
   }

@@ -27,6 +27,7 @@ struct SplatDisk
   vec3 tangentMC;   // as long as the radius, as is the next
   vec3 bitangentMC;
   float seenFrom;   // 1: from outward (the normal points at the eye), -1: from inward
+  int sheet;
 };
 
 vec3 splatTangent(vec3 normal)
@@ -47,7 +48,8 @@ SplatDisk splatDiskOf(int particle)
   // The eye lies on one side of the whole disk, so the centre decides for all its fragments.
   disk.seenFrom = dot(disk.normalMC, toEyeMC) < 0.0 ? -1.0 : 1.0;
   int tag = int(normal.w);
-  bool drawn = (splatKind == 2 || tag % 2 == splatKind) && (splatSheet < 0 || tag / 2 == splatSheet);
+  disk.sheet = tag / 2;
+  bool drawn = (splatKind == 2 || tag % 2 == splatKind) && (splatSheet < 0 || disk.sheet == splatSheet);
   float radius = drawn ? centreRadius.w * splatRadiusScale : 0.0;
   disk.tangentMC = radius * splatTangent(disk.normalMC);
   disk.bitangentMC = cross(disk.normalMC, disk.tangentMC);

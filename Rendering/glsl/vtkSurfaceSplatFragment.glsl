@@ -1,6 +1,6 @@
 // What the fragment stages of the splat passes share. Inserted at //Splat::Fragment::Dec, behind
 // definitions of SPLAT_POINTS (splats are points: 0 or 1), SPLAT_HAS_CLIP (particles have clip planes: 0 or
-// 1), SPLAT_GAP_SHARE and SPLAT_CLIPPING_PLANES (the number of the mapper's).
+// 1), SPLAT_GAP_SHARE, SPLAT_APART (sheets are told apart: 0 or 1) and SPLAT_CLIPPING_PLANES (the number of the mapper's).
 
 #if SPLAT_POINTS
 flat in vec4 splatPixelToDisk;
@@ -18,6 +18,7 @@ flat in vec3 splatBend;
 flat in vec3 splatTurn[2];
 flat in float splatCentreDepth;
 flat in vec2 splatClipDepths;
+flat in float splatRadiusVC;
 vec2 splatDiskCoord;
 float splatBelowDisk; // distance of the bent splat from its disk (MC)
 vec3 splatOffsetVC;
@@ -34,6 +35,7 @@ in vec3 splatPointMC; // of the disk
 vec3 splatPlaceMC;    // of the splat
 flat in vec3 splatNormalVC;
 flat in float splatSeenFromSide;
+flat in float splatMark;
 flat in int splatParticle;
 
 uniform vec3 splatFalloff; // sharpness; the Gaussian at the rim; where the weight is the least, squared
@@ -145,6 +147,33 @@ bool splatOutside()
   }
 #endif
   return outside;
+}
+
+#if SPLAT_APART && (SPLAT_POINTS || SPLAT_CURVED)
+#if SPLAT_CURVED
+uniform mat4 splatVCDC;
+#endif
+
+// Depth of the splat itself, for the depth buffer, where the rasterizer knows that of its middle or of its plane
+// only: near sheets would break through each other.
+float splatOwnDepth()
+{
+  float z = splatDepthVC;
+#if SPLAT_CURVED
+  // Later passes pull the plane by one radius, and it must come before this.
+  float plane = splatCentreDepth + splatPlaneOffset.z;
+  z = clamp(z, plane - 0.5 * splatRadiusVC, plane + 0.5 * splatRadiusVC);
+#endif
+  float depth = splatVCDC[2][2] * z + splatVCDC[3][2];
+  return 0.5 * depth / (splatVCDC[2][3] * z + splatVCDC[3][3]) + 0.5;
+}
+#endif
+
+// Whether another side, or another sheet, is what is seen at this pixel.
+bool splatIsOfOther(sampler2D seen)
+{
+  float difference = texelFetch(seen, ivec2(gl_FragCoord.xy), 0).g - splatMark;
+  return abs(difference) > 0.5 / 255.0;
 }
 
 // Whether the fragment belongs to the outermost rim, which counts too little to be seen alone.

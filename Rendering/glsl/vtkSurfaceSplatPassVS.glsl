@@ -1,7 +1,7 @@
 //VTK::System::Dec
 
 // Vertex stage of the splat passes (visibility, accumulation, strongest), behind definitions of
-// SPLAT_POINTS and SPLAT_LEAST_PIXELS. A splat is a triangle in the plane of its disk, so that depth
+// SPLAT_POINTS, SPLAT_LEAST_PIXELS and SPLAT_APART (sheets are told apart: 0 or 1). A splat is a triangle in the plane of its disk, so that depth
 // and disk coordinates are interpolated by the rasterizer, right for every projection, and the near
 // plane clips it. Where all splats cover a few pixels only (SPLAT_POINTS 1), each is a point instead,
 // of the depth of its middle: a third of the vertices.
@@ -31,6 +31,7 @@ flat out vec3 splatBend; // see splatMeetRay()
 flat out vec3 splatTurn[2]; // by how much the normal (VC) turns along the disk coordinates
 flat out float splatCentreDepth;
 flat out vec2 splatClipDepths; // by how much a place below the disk is before the clip planes
+flat out float splatRadiusVC;
 #else
 out vec2 splatDiskCoord; // inside the unit circle = inside the splat
 out vec3 splatOffsetVC;  // from the centre of the disk
@@ -41,6 +42,7 @@ flat out vec2 splatBeyondClip;   // how far beyond them the splat fills gaps (MC
 out vec3 splatPointMC;           // for clipping planes
 flat out vec3 splatNormalVC;     // outward, unit if flat
 flat out float splatSeenFromSide;
+flat out float splatMark; // tells splats of other sides and sheets apart: g of splatSeen
 flat out int splatParticle;
 
 #if SPLAT_CURVED
@@ -88,6 +90,7 @@ void main()
   splatParticle = gl_VertexID / (SPLAT_POINTS == 1 ? 1 : 3) * splatStride;
   SplatDisk disk = splatDiskOf(splatParticle);
   splatSeenFromSide = disk.seenFrom;
+  splatMark = (float(disk.sheet) + (disk.seenFrom > 0.0 ? 128.0 : 0.0)) / 255.0;
   splatNormalVC = normalize(splatNormalMatrix * disk.normalMC);
   splatClipLines[0] = splatClipLine(splatParticle, 0, disk);
   splatClipLines[1] = splatClipLine(splatParticle, 1, disk);
@@ -116,9 +119,6 @@ void main()
   mat2 toDisk = inverse(toPixels);
   splatPixelToDisk = vec4(toDisk[0], toDisk[1]);
   splatCentrePixel = (0.5 * centreClip.xy / centreClip.w + 0.5) * splatViewport.zw;
-#if SPLAT_SKIPS_HIDDEN
-  nothing = nothing || splatIsHidden(centreClip);
-#endif
   splatDepths = vec3(centreVC.z, tangentVC.z, bitangentVC.z);
   splatPointMC = disk.centreMC;
   gl_PointSize = max(2.0 * splatReach * radiusVC / pixel, 1.0);
@@ -148,12 +148,19 @@ void main()
   splatTurn[1] = splatNormalMatrix * biturn;
   splatNormalVC = splatNormalMatrix * disk.normalMC;
   splatCentreDepth = centreVC.z;
+  splatRadiusVC = radiusVC;
   splatClipDepths = vec2(splatClipDepth(splatParticle, 0, disk), splatClipDepth(splatParticle, 1, disk));
 #else
   splatDiskCoord = place;
   splatOffsetVC = offsetVC;
   splatDepthVC = vertexVC.z;
 #endif
+#endif
+#if SPLAT_APART
+  // Near and far plane, for passes in which they cut the disk where it is, not where it is moved to.
+  vec4 clip = splatVCDC * vec4(vertexVC, 1.0);
+  gl_ClipDistance[0] = clip.w + clip.z;
+  gl_ClipDistance[1] = clip.w - clip.z;
 #endif
   // Every point of the disk moves along its own view ray: the picture of the disk stays the same.
   if (splatParallel == 1)
@@ -164,5 +171,9 @@ void main()
   {
     vertexVC *= 1.0 + splatPush * radiusVC / max(length(centreVC), 2.0 * radiusVC);
   }
-  gl_Position = nothing ? vec4(2.0, 2.0, 2.0, 1.0) : splatVCDC * vec4(vertexVC, 1.0);
+  vec4 placeClip = splatVCDC * vec4(vertexVC, 1.0);
+#if SPLAT_SKIPS_HIDDEN
+  nothing = nothing || splatIsHidden(placeClip);
+#endif
+  gl_Position = nothing ? vec4(2.0, 2.0, 2.0, 1.0) : placeClip;
 }

@@ -7,7 +7,7 @@
 uniform sampler2D splatNormalWeight; // sums of weight * normal (VC, outward), weight
 uniform sampler2D splatOffsetDepth;  // sums of weight * offset from the particle (VC), weight * z
 uniform sampler2D splatColorSum;     // sums of weight * colour or lookup coordinates
-uniform sampler2D splatSeen;         // r: 1 where there is surface; g: 1 where it is seen from outward
+uniform sampler2D splatSeen;         // r: 1 where there is surface; g: above 0.5 where it is seen from outward
 uniform usampler2D splatStrongest; // number of the particle that counts most, from 1 on
 
 // Pixels with surface have at least twice this summed weight, others none (see the visibility pass).

@@ -13,10 +13,8 @@ out uint splatNumber; // of the particle, from 1 on; 0 where there is none
 
 void main()
 {
-  ivec2 texel = ivec2(gl_FragCoord.xy);
-  float seenFrom = 2.0 * texelFetch(splatSeen, texel, 0).g - 1.0;
-  float visible = texelFetch(splatVisibleDepth, texel, 0).r;
-  if (splatOutside() || seenFrom * splatSeenFromSide < 0.5 ||
+  float visible = texelFetch(splatVisibleDepth, ivec2(gl_FragCoord.xy), 0).r;
+  if (splatOutside() || splatIsOfOther(splatSeen) ||
     splatNearer * (gl_FragCoord.z - visible) > 0.0)
   {
     discard;

@@ -1,8 +1,7 @@
 //VTK::System::Dec
 
-// First pass: the depth of the nearest splats, which the vertex stage has moved away from the eye, that
-// there is one, and whether it is seen from outward. What lies in front of this depth belongs to the surface
-// that is seen. The outermost rim of a splat counts too little to be seen alone.
+// First pass: the depth of the nearest splats, that there is one, from which side it is seen and of which
+// sheet it is. The outermost rim of a splat counts too little to be seen alone.
 
 //VTK::Output::Dec
 
@@ -14,5 +13,8 @@ void main()
   {
     discard;
   }
-  gl_FragData[0] = vec4(1.0, 0.5 + 0.5 * splatSeenFromSide, 0.0, 0.0);
+#if SPLAT_APART && (SPLAT_POINTS || SPLAT_CURVED)
+  gl_FragDepth = splatOwnDepth();
+#endif
+  gl_FragData[0] = vec4(1.0, splatMark, 0.0, 0.0);
 }

@@ -74,6 +74,26 @@ void AddVertexCells(vtkPolyData* particles, const std::vector<vtkIdType>& order)
   particles->SetVerts(vertices);
 }
 
+void AddShapeOfSphere(vtkPolyData* particles, double radius)
+{
+  vtkNew<vtkDoubleArray> shape;
+  shape->SetName("Shape_Operator");
+  shape->SetNumberOfComponents(6);
+  for (vtkIdType i = 0; i < particles->GetNumberOfPoints(); ++i)
+  {
+    glm::dvec3 x;
+    particles->GetPoint(i, &x.x);
+    const glm::dvec3 n = glm::normalize(x);
+    const double turn[6] = { 1. - n.x * n.x, 1. - n.y * n.y, 1. - n.z * n.z, -n.x * n.y, -n.y * n.z,
+      -n.x * n.z };
+    for (int c = 0; c < 6; ++c)
+    {
+      shape->InsertNextValue(turn[c] / radius);
+    }
+  }
+  particles->GetPointData()->AddArray(shape);
+}
+
 //------------------------------------------------------------------------------
 SplatScene::SplatScene(vtkPolyData* particles, glm::dvec3 centre)
   : Window(vtkSmartPointer<vtkRenderWindow>::New())

@@ -31,6 +31,9 @@ vtkSmartPointer<vtkPolyData> Disks(
 // Adds one vertex cell a point: `order[cell]` is the point of the cell, or the cell's number.
 void AddVertexCells(vtkPolyData* particles, const std::vector<vtkIdType>& order = {});
 
+// Adds shape operators: how the normals of a sphere around the origin turn.
+void AddShapeOfSphere(vtkPolyData* particles, double radius);
+
 // Where a scene is looked at from.
 struct SplatView
 {

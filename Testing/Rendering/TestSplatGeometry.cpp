@@ -107,30 +107,6 @@ TEST_P(SplatsOnSphere, ClippingPlanesCutThroughSplats)
 
 INSTANTIATE_TEST_SUITE_P(Views, SplatsOnSphere, testing::ValuesIn(SphereViews));
 
-namespace
-{
-// How the normals of a sphere around the origin turn.
-void AddShapeOfSphere(vtkPolyData* particles, double radius)
-{
-  vtkNew<vtkDoubleArray> shape;
-  shape->SetName("Shape_Operator");
-  shape->SetNumberOfComponents(6);
-  for (vtkIdType i = 0; i < particles->GetNumberOfPoints(); ++i)
-  {
-    glm::dvec3 x;
-    particles->GetPoint(i, &x.x);
-    const glm::dvec3 n = glm::normalize(x);
-    const double turn[6] = { 1. - n.x * n.x, 1. - n.y * n.y, 1. - n.z * n.z, -n.x * n.y, -n.y * n.z,
-      -n.x * n.z };
-    for (int c = 0; c < 6; ++c)
-    {
-      shape->InsertNextValue(turn[c] / radius);
-    }
-  }
-  particles->GetPointData()->AddArray(shape);
-}
-}
-
 TEST(SplatGeometry, SplatsBendWithTheSurface)
 {
   // Two hundred particles make a sphere whose normals turn by 15 degrees from one to the next. The

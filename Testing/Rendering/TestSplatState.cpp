@@ -66,7 +66,8 @@ std::map<std::string, std::vector<GLint>> GraphicsState()
   add("vertex array", GL_VERTEX_ARRAY_BINDING, 1);
   add("array buffer", GL_ARRAY_BUFFER_BINDING, 1);
   for (GLenum what : { GL_BLEND, GL_DEPTH_TEST, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_CULL_FACE,
-         GL_MULTISAMPLE, GL_POLYGON_OFFSET_FILL, GL_PROGRAM_POINT_SIZE })
+         GL_MULTISAMPLE, GL_POLYGON_OFFSET_FILL, GL_PROGRAM_POINT_SIZE, GL_DEPTH_CLAMP,
+         GL_CLIP_DISTANCE0, GL_CLIP_DISTANCE1 })
   {
     state["enabled " + std::to_string(what)] = { glIsEnabled(what) };
   }
