@@ -703,11 +703,7 @@ void vtkSurfaceSplatMapper::ReplaceShaderPositionVC(
     const bool extra = this->LastBoundBO == &this->Primitives[Extra];
     const bool folds = this->LastBoundBO == &this->Primitives[Folds];
     Replace(fragment, "//VTK::PositionVC::Dec",
-      "#define SPLAT_LEAST_WEIGHT " +
-        std::to_string(
-          vtkSurfaceSplatPrimitives::GapShare * vtkSurfaceSplatPrimitives::LeastWeight) +
-        "\n#define SPLAT_OUTLINE " +
-        std::to_string(folds || (extra && !this->Internal->Translucent)) +
+      "#define SPLAT_OUTLINE " + std::to_string(folds || (extra && !this->Internal->Translucent)) +
         "\n#define SPLAT_FOLDS " + std::to_string(folds) + "\n#define SPLAT_BACK_LAYER " +
         std::to_string(extra && this->Internal->Translucent) + "\n" + vtkSurfaceSplatResolve);
     Replace(fragment, "//Splat::Ray::Dec", vtkSurfaceSplatRay);
@@ -821,6 +817,9 @@ void vtkSurfaceSplatMapper::SetMapperShaderParameters(
     const double diameter = 2. * this->GetDrawnRadiusScale() *
       this->Internal->Buffers.GetMeanRadius() * this->Internal->View.GetScale();
     layer->SetSamplers(program, this->Internal->FrontLayer);
+    // Pixels with surface have at least twice this summed weight, others none (see the visibility pass).
+    program->SetUniformf("splatLeastWeight",
+      static_cast<float>(0.5 * vtkSurfaceSplatPrimitives::GetLeastWeight(this->Sharpness)));
     program->SetUniformf("splatLayerDistance", static_cast<float>(diameter));
     program->SetUniformf("splatJump", static_cast<float>(5. * diameter));
     vtkSurfaceSplatTiles(this->Internal->View).SetUniforms(program, this->Internal->DrawnTiles);

@@ -89,7 +89,7 @@ public:
   /**
    * How steeply the weight of a splat falls from its middle to its rim: exp(-Sharpness (d / radius)^2)
    * at the distance d, lowered to be 0 at the rim. Small values smooth, large ones show the particles'
-   * own normals. In [0.1, 20]; default: 2.
+   * own normals. The surface ends at the same place with all of them. In [0.1, 20]; default: 2.
    */
   vtkSetClampMacro(Sharpness, double, 0.1, 20.0);
   vtkGetMacro(Sharpness, double);

@@ -33,12 +33,16 @@ bool IsDrawnInSoftware()
   return name && (std::strstr(name, "llvmpipe") || std::strstr(name, "softpipe"));
 }
 
-/** Where the weight of a splat has fallen to the least that makes a surface, in radii. */
-double Rim(double sharpness)
+/**
+ * Up to where a splat makes a surface, in radii, whatever the weights are: where those of sharpness 2 have fallen
+ * to 1/20. Sharper ones fall to that between the particles, and would leave holes.
+ */
+double Rim()
 {
-  const double atRim = std::exp(-sharpness);
-  const double least = vtkSurfaceSplatPrimitives::LeastWeight * (1. - atRim) + atRim;
-  return std::sqrt(-std::log(least) / sharpness);
+  constexpr double sharpness = 2.;
+  constexpr double weight = 0.05;
+  const double atEnd = std::exp(-sharpness);
+  return std::sqrt(-std::log(weight * (1. - atEnd) + atEnd) / sharpness);
 }
 
 std::string Define(const std::string& name, const std::string& value)
@@ -65,6 +69,14 @@ vtkSurfaceSplatPrimitives::vtkSurfaceSplatPrimitives() = default;
 vtkSurfaceSplatPrimitives::~vtkSurfaceSplatPrimitives() = default;
 
 //------------------------------------------------------------------------------
+double vtkSurfaceSplatPrimitives::GetLeastWeight(double sharpness)
+{
+  const double atEnd = std::exp(-sharpness);
+  const double atRim = std::exp(-sharpness * Rim() * Rim());
+  return GapShare * (atRim - atEnd) / (1. - atEnd);
+}
+
+//------------------------------------------------------------------------------
 vtkShaderProgram* vtkSurfaceSplatPrimitives::Use(
   const vtkSurfaceSplatDrawing& drawing, const Style& style)
 {
@@ -84,7 +96,7 @@ vtkShaderProgram* vtkSurfaceSplatPrimitives::Use(
   drawing.Buffers->SetSamplers(program);
   drawing.View->SetUniforms(program);
   program->SetUniformf("splatRadiusScale", static_cast<float>(drawing.RadiusScale));
-  const double rim = Rim(drawing.Sharpness);
+  const double rim = Rim();
   const float falloff[3] = { static_cast<float>(drawing.Sharpness),
     static_cast<float>(std::exp(-drawing.Sharpness)), static_cast<float>(rim * rim) };
   program->SetUniform3f("splatFalloff", falloff);

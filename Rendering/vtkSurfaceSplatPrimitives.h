@@ -21,9 +21,9 @@ public:
   ~vtkSurfaceSplatPrimitives();
 
   /** Of the weights that a splat has, 1 in its middle, the smallest that makes a surface. */
-  static constexpr double LeastWeight = 0.05;
+  static double GetLeastWeight(double sharpness);
 
-  /** Of these weights, what is left beyond clip planes where a splat fills gaps that others leave. */
+  /** Of the weights, what is left beyond clip planes where a splat fills gaps that others leave. */
   static constexpr double GapShare = 1e-3;
 
   /** What differs between the passes. */

@@ -1,6 +1,5 @@
-// The resolve pass, inserted into VTK's fragment shader behind definitions of SPLAT_LEAST_WEIGHT (the least
-// that a splat adds), SPLAT_OUTLINE, SPLAT_FOLDS (only with the former) and SPLAT_BACK_LAYER (0 or 1): what
-// the sums say of the surface at a pixel.
+// The resolve pass, inserted into VTK's fragment shader behind definitions of SPLAT_OUTLINE, SPLAT_FOLDS (only
+// with the former) and SPLAT_BACK_LAYER (0 or 1): what the sums say of the surface at a pixel.
 
 //Splat::Ray::Dec
 
@@ -9,9 +8,7 @@ uniform sampler2D splatOffsetDepth;  // sums of weight * offset from the particl
 uniform sampler2D splatColorSum;     // sums of weight * colour or lookup coordinates
 uniform sampler2D splatSeen;         // r: 1 where there is surface; g: above 0.5 where it is seen from outward
 uniform usampler2D splatStrongest; // number of the particle that counts most, from 1 on
-
-// Pixels with surface have at least twice this summed weight, others none (see the visibility pass).
-const float splatLeastWeight = 0.5 * SPLAT_LEAST_WEIGHT;
+uniform float splatLeastWeight; // pixels with surface have more than this summed weight, others none
 
 bool splatHasSurface(ivec2 texel)
 {

@@ -1,7 +1,7 @@
 //VTK::System::Dec
 
 // Third pass, where colours must not be mixed or particles are selected: the number of the particle
-// that counts most at a pixel. Its own depth buffer compares weights.
+// that counts most at a pixel. Its own depth buffer compares logarithms of weights.
 
 //Splat::Fragment::Dec
 
@@ -19,6 +19,8 @@ void main()
   {
     discard;
   }
-  gl_FragDepth = 1.0 - splatWeight();
+  // Where weights fall steeply, 1 minus a weight would be 1 although the splat is the only one.
+  const float least = 1e-26;
+  gl_FragDepth = 0.99 * log(max(splatWeight(), least)) / log(least);
   splatNumber = uint(splatParticle) + 1u;
 }

@@ -76,6 +76,25 @@ TEST_P(SplatsOnSphere, TheOutlineIsTheSpheres)
   EXPECT_LT(different, 0.005 * expected) << "of " << expected;
 }
 
+// Particles that stand far apart touch with their rims, where weights may be as small as 1e-8.
+TEST(SplatGeometry, TheSurfaceEndsWhereItDoesWhateverTheSharpness)
+{
+  SplatScene scene(FibonacciSphere(Count, 1., 0.75 * Spacing));
+  UseSplats(scene, SphereViews[0]);
+  scene.Render();
+  const int drawn = scene.CountDrawnPixels();
+  for (const double sharpness : { 0.1, 5., 10., 20. })
+  {
+    SCOPED_TRACE(sharpness);
+    scene.Mapper->SetSharpness(sharpness);
+    scene.Render();
+    EXPECT_NEAR(scene.CountDrawnPixels(), drawn, 0.002 * drawn);
+    ForEachPlaceOnSphere(scene,
+      [](glm::dvec3 seen, glm::dvec3 onSphere)
+      { ASSERT_LT(glm::distance(seen, onSphere), 0.05 * Spacing); });
+  }
+}
+
 TEST_P(SplatsOnSphere, NormalsAreTheSpheres)
 {
   SplatScene scene(FibonacciSphere(Count, 1., Spacing));
