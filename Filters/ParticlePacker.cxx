@@ -28,9 +28,51 @@
 namespace
 {
 
-const std::set<std::string> ownArrays{ "Normals", "Radius", "Mean_Curvature", "Gauss_Curvature",
-  "Shape_Operator", "Residual", "Clip_Normal", "Clip_Distance", "Clip_Angle", "Jump", "Isovalue",
-  "vtkOriginalCellIds", "ParametricCoordinates" };
+const std::set<std::string> ownPointArrays{ "Normals", "Radius", "Mean_Curvature",
+  "Gauss_Curvature", "Shape_Operator", "Residual", "Clip_Normal", "Clip_Distance", "Clip_Angle",
+  "Jump", "Isovalue", "vtkOriginalCellIds", "ParametricCoordinates" };
+const std::set<std::string> ownFieldArrays{ "Evaluations", "Iterations", "ElementsDropped",
+  "CellsSkipped", "BoxesUnresolved", "SingularPoints", "ParticlesRejected", "ParticlesUndersampled",
+  "UnresolvedCellIds" };
+
+/// Whether an array's values mean something between the nodes; ids, ghost marks and weights do not.
+bool isField(vtkPointData* data, vtkDataArray* array)
+{
+  const std::string name = array && array->GetName() ? array->GetName() : "";
+  const bool isLabel = array == data->GetGlobalIds() || array == data->GetPedigreeIds() ||
+    array == data->GetRationalWeights() || name == vtkDataSetAttributes::GhostArrayName() ||
+    name == "vtkOriginalPointIds" || name == "vtkOriginalCellIds";
+  return !name.empty() && !isLabel;
+}
+
+bool isReplaced(const InputBlock& block, vtkDataArray* array)
+{
+  const std::string name = array->GetName();
+  // The values of a contoured array are those of the output's array of that name.
+  const bool isKnown =
+    array == block.scalars && array->GetNumberOfComponents() == 1 && name == "Isovalue";
+  return ownPointArrays.count(name) > 0 && !isKnown;
+}
+
+void addReplaced(const InputBlock& block, std::set<std::string>& names)
+{
+  vtkPointData* points = block.grid->GetPointData();
+  for (int a = 0; a < points->GetNumberOfArrays(); ++a)
+  {
+    vtkDataArray* array = points->GetArray(a);
+    if (isField(points, array) && isReplaced(block, array))
+    {
+      names.insert(std::string("point array '") + array->GetName() + "'");
+    }
+  }
+  for (const std::string& name : ownFieldArrays)
+  {
+    if (block.grid->GetFieldData()->HasArray(name.c_str()))
+    {
+      names.insert("field array '" + name + "'");
+    }
+  }
+}
 
 class Packer
 {
@@ -253,14 +295,11 @@ void Packer::addPointArrays()
   for (int a = 0; a < source->GetNumberOfArrays(); ++a)
   {
     vtkDataArray* array = source->GetArray(a);
-    const std::string name = array && array->GetName() ? array->GetName() : "";
-    const bool isLabel = array == source->GetGlobalIds() || array == source->GetPedigreeIds() ||
-      array == source->GetRationalWeights() || name == vtkDataSetAttributes::GhostArrayName() ||
-      name == "vtkOriginalPointIds";
-    if (name.empty() || isLabel || ownArrays.count(name) > 0)
+    if (!isField(source, array) || ownPointArrays.count(array->GetName()) > 0)
     {
       continue;
     }
+    const std::string name = array->GetName();
     const int components = array->GetNumberOfComponents();
     vtkSmartPointer<vtkDoubleArray> values;
     if (array == this->Scalars && components == 1)
@@ -372,6 +411,16 @@ void addRows(const InputBlocks& blocks, const hop::ElementMesh& mesh, const Isov
 }
 
 } // namespace
+
+std::vector<std::string> replacedArrays(const std::vector<InputBlock>& blocks)
+{
+  std::set<std::string> names;
+  for (const InputBlock& block : blocks)
+  {
+    addReplaced(block, names);
+  }
+  return { names.begin(), names.end() };
+}
 
 void packParticles(const InputBlocks& blocks, const GridElements& elements,
   const std::vector<IsovalueParticles>& isovalues, hop::Interruptible& work)

@@ -4,6 +4,9 @@
 #include "Interruptible.h"
 #include "Particles.h"
 
+#include <string>
+#include <vector>
+
 /// Particles of one isovalue.
 struct IsovalueParticles
 {
@@ -18,3 +21,7 @@ struct IsovalueParticles
 /// \throw hop::Interrupted if work's monitor asks for an early end; the outputs are unfinished then
 void packParticles(const InputBlocks& blocks, const GridElements& elements,
   const std::vector<IsovalueParticles>& isovalues, hop::Interruptible& work);
+
+/// What packParticles() does not pass on, as the output has an array of its own of that name: "point array
+/// 'Radius'", each once. Arrays that mean nothing on the surface, as ids, do not count.
+std::vector<std::string> replacedArrays(const std::vector<InputBlock>& blocks);

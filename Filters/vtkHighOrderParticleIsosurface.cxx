@@ -336,6 +336,7 @@ int vtkHighOrderParticleIsosurface::RequestData(
   {
     return 1;
   }
+  this->ReviewArrays(blocks);
   const int components = blocks[0].scalars->GetNumberOfComponents();
   const int component = components == 1 ? 0
     : this->Component < components      ? this->Component
@@ -553,6 +554,19 @@ hop::Distribution vtkHighOrderParticleIsosurface::Distribute(const GridElements&
     this->Previous->remember(number, origin, elements.mesh, distribution, work.parallelFor);
   }
   return distribution;
+}
+
+/// Tells the user which arrays are not passed on.
+void vtkHighOrderParticleIsosurface::ReviewArrays(const std::vector<InputBlock>& blocks)
+{
+  const std::vector<std::string> names = replacedArrays(blocks);
+  if (!names.empty())
+  {
+    vtkWarningMacro("The output has arrays of its own with names of the input's; not passed on: "
+      << listOf(names)
+      << ". Where they are needed, copy them under other names before this filter, by Calculator "
+         "for instance.");
+  }
 }
 
 /// Tells the user which cells are not as they should be.

@@ -35,7 +35,8 @@
  * is below 10), `Jump` (on rims where the field jumps from element to element: F - c on the other side;
  * else 0), `Isovalue`, `vtkOriginalCellIds`, `ParametricCoordinates` (of VTK's cell), and every
  * numeric point array of the input evaluated by the element's own polynomials, in double precision
- * (the contoured one holds the isovalue); an input array of one of these names gives way. Cell arrays are copied to the vertex cells.
+ * (the contoured one holds the isovalue). An input array of one of these names, or of those of the field data
+ * below, is not passed on; a warning names it. Cell arrays are copied to the vertex cells.
  * Points are ordered by isovalue, then by cell.
  *
  * Field data of the output: `Evaluations` (of element polynomials), `Iterations` (relaxation
@@ -251,6 +252,7 @@ private:
   GridElements Convert(const InputBlocks& blocks, const Work& work);
   hop::Distribution Distribute(const GridElements& elements, const Scale& scale,
     const RunOrigin& origin, std::size_t number, const Work& work);
+  void ReviewArrays(const std::vector<InputBlock>& blocks);
   void Review(const InputBlocks& blocks, const GridElements& elements);
   void Review(const InputBlocks& blocks, const hop::Distribution& distribution, double isovalue);
 

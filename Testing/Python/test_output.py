@@ -138,12 +138,56 @@ def test_integer_and_unsigned_arrays_are_evaluated_too(channel):
     np.testing.assert_allclose(support.array_of(particles, "small"), 200, rtol=1e-13)
 
 
-def test_an_input_array_of_one_of_the_filters_names_gives_way(channel):
+def copy_with_arrays(channel, points=(), fields=()):
+    """The channel with arrays of these names, of 99 throughout."""
     grid = vtkUnstructuredGrid()
     grid.ShallowCopy(support.output_of(channel))
-    support.add_point_array(grid, "Radius", np.full(grid.GetNumberOfPoints(), 99.0))
-    particles = support.run_quietly(grid, "pressure", 0.6, Spacing=0.04, AngularDensity=0)
+    for name in points:
+        support.add_point_array(grid, name, np.full(grid.GetNumberOfPoints(), 99.0))
+    for name in fields:
+        array = vtkFloatArray()
+        array.SetName(name)
+        array.InsertNextValue(99.0)
+        grid.GetFieldData().AddArray(array)
+    return grid
+
+
+# A warning lists ten names at most.
+@pytest.mark.parametrize("points", [list(OWN_ARRAYS)[:6], list(OWN_ARRAYS)[6:]])
+def test_point_arrays_of_the_filters_names_give_way_and_are_named(channel, points):
+    grid = copy_with_arrays(channel, points=points)
+    particles, messages = support.run(grid, "pressure", 0.6, Spacing=0.04, AngularDensity=0)
     assert np.all(support.array_of(particles, "Radius") == 0.04)
+    assert not any(np.all(support.array_of(particles, name) == 99) for name in points)
+    assert len(messages.warnings) == 1 and messages.errors == []
+    # Ids are never passed on.
+    assert {name for name in OWN_ARRAYS if f"point array '{name}'" in messages.warnings[0]} == {
+        *points
+    } - {"vtkOriginalCellIds"}
+    assert "Calculator" in messages.warnings[0]
+
+
+def test_field_arrays_of_the_reports_names_give_way_and_are_named(channel):
+    names = {*REPORT, "SingularPoints", "UnresolvedCellIds"}
+    report = support.array_names(support.run_quietly(channel, "pressure", 0.6, Spacing=0.04).GetFieldData())
+    assert names <= report
+    particles, messages = support.run(copy_with_arrays(channel, fields=names), "pressure", 0.6, Spacing=0.04)
+    assert support.reported(particles, "Iterations") != 99
+    assert len(messages.warnings) == 1 and all(f"field array '{name}'" in messages.warnings[0] for name in names)
+
+
+def test_a_contoured_array_with_the_name_of_the_isovalues_is_what_it_was(channel):
+    grid = copy_with_arrays(channel)
+    support.add_point_array(grid, "Isovalue", support.array_of(grid, "pressure"))
+    particles = support.run_quietly(grid, "Isovalue", 0.6, Spacing=0.04)
+    assert np.all(support.array_of(particles, "Isovalue") == 0.6)
+
+
+def test_cell_arrays_of_the_filters_names_stay(channel):
+    grid = copy_with_arrays(channel)
+    support.add_cell_array(grid, "Radius", np.full(grid.GetNumberOfCells(), 99.0))
+    particles = support.run_quietly(grid, "pressure", 0.6, Spacing=0.04)
+    assert np.all(support.array_of(particles, "Radius", "cell") == 99)
 
 
 def test_single_precision_values_are_contoured_as_double(channel):
