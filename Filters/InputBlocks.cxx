@@ -25,6 +25,11 @@ BlockCell InputBlocks::locate(std::int64_t number) const
   return { block, number - this->FirstCells[block] };
 }
 
+bool InputBlocks::isGhost(const BlockCell& cell) const
+{
+  return isGhostCell(this->Blocks[cell.block].grid->GetCellGhostArray(), cell.cell);
+}
+
 std::string InputBlocks::describe(std::int64_t number) const
 {
   const BlockCell where = this->locate(number);

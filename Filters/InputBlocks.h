@@ -36,7 +36,7 @@ class InputBlocks
 public:
   static constexpr int Magnitude = -1;
 
-  /// \param blocks at least one, all with scalars of as many components
+  /// \param blocks all with scalars of as many components; none where only other ranks have some
   /// \param component of the scalars, or Magnitude
   InputBlocks(std::vector<InputBlock> blocks, int component);
 
@@ -48,6 +48,8 @@ public:
   std::int64_t firstCell(std::size_t block) const { return this->FirstCells[block]; }
   /// \pre 0 <= number < cellCount()
   BlockCell locate(std::int64_t number) const;
+  /// isGhostCell of a cell.
+  bool isGhost(const BlockCell& cell) const;
   /// "cell 7", or "cell 7 of block 'wing'".
   std::string describe(std::int64_t number) const;
 

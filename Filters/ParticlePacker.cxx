@@ -15,7 +15,6 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
-#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -401,11 +400,11 @@ void addRows(const InputBlocks& blocks, const hop::ElementMesh& mesh, const Isov
     [](const hop::Particle& particle) { return particle.location.element; }, std::ref(work));
   for (std::size_t e = 0; e < mesh.elements.size(); ++e)
   {
-    const auto [block, cell] = blocks.locate(mesh.elements[e].cell);
-    const bool isGhost = isGhostCell(blocks[block].grid->GetCellGhostArray(), cell);
+    const BlockCell where = blocks.locate(mesh.elements[e].cell);
+    const bool isGhost = blocks.isGhost(where);
     for (int n = ofElements.start[e]; n < ofElements.start[e + 1] && !isGhost; ++n)
     {
-      rowsOfBlocks[block].push_back({ &particles[ofElements.order[n]], some.isovalue });
+      rowsOfBlocks[where.block].push_back({ &particles[ofElements.order[n]], some.isovalue });
     }
   }
 }

@@ -8,19 +8,18 @@
 #include "Interruptible.h"
 #include "ParticlePacker.h"
 #include "PreviousRun.h"
+#include "Ranks.h"
 #include "Threads.h"
 #include "VtkCompatibility.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkCommunicator.h"
 #include "vtkContourValues.h"
 #include "vtkDataArray.h"
 #include "vtkDataObjectTree.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -36,6 +35,7 @@
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 namespace
 {
@@ -43,6 +43,8 @@ namespace
 constexpr double automaticSpacingPerSide = 0.01;
 /// Larger spacings say no more: a component has its least number of particles long before.
 constexpr double largestSpacingPerSide = 1e3;
+/// The first spacing that ranks try together where a number of particles is given.
+constexpr double firstSpacingPerDiagonal = 0.02;
 constexpr double warnUndersampledShare = 0.01;
 /// Where a run's progress stands when cells are converted, and when particles are done.
 constexpr double convertedShare = 0.1;
@@ -100,23 +102,6 @@ double resolvingSpacing(const hop::Buffer<hop::Particle>& particles)
   return 2.0 / bends[rank];
 }
 
-/// The box around all boxes of all ranks. Every rank has to call it.
-vtkBoundingBox overAllRanks(const vtkBoundingBox& local)
-{
-  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
-  if (!controller || controller->GetNumberOfProcesses() < 2)
-  {
-    return local;
-  }
-  double lower[3], upper[3], globalLower[3], globalUpper[3];
-  local.GetMinPoint(lower);
-  local.GetMaxPoint(upper);
-  controller->AllReduce(lower, globalLower, 3, vtkCommunicator::MIN_OP);
-  controller->AllReduce(upper, globalUpper, 3, vtkCommunicator::MAX_OP);
-  return vtkBoundingBox(
-    globalLower[0], globalUpper[0], globalLower[1], globalUpper[1], globalLower[2], globalUpper[2]);
-}
-
 std::string listOf(const std::vector<std::string>& names)
 {
   constexpr std::size_t most = 10;
@@ -146,6 +131,13 @@ std::vector<std::string> pointArraysOf(const std::vector<InputBlock>& blocks)
     }
   }
   return names;
+}
+
+/// Which component of the blocks' scalars to contour by; `asked` may be more than they have.
+int componentOf(const std::vector<InputBlock>& blocks, int asked)
+{
+  const int components = blocks.empty() ? 1 : blocks[0].scalars->GetNumberOfComponents();
+  return components == 1 ? 0 : asked < components ? asked : InputBlocks::Magnitude;
 }
 
 /// The time step that is asked for, 0 if none is.
@@ -332,35 +324,21 @@ int vtkHighOrderParticleIsosurface::RequestData(
   }
   const std::vector<InputBlock> blocks =
     this->CheckInput(gathered) ? this->FindScalars(gathered) : std::vector<InputBlock>{};
-  if (blocks.empty())
-  {
-    return 1;
-  }
   this->ReviewArrays(blocks);
-  const int components = blocks[0].scalars->GetNumberOfComponents();
-  const int component = components == 1 ? 0
-    : this->Component < components      ? this->Component
-                                        : InputBlocks::Magnitude;
   const auto groups = groupWithoutSharedCells(blocks);
-  for (std::size_t g = 0; g < groups.size() && !isAborted(this); ++g)
+  // A number of particles is shared out group by group, also by ranks that have fewer of them.
+  const std::size_t count =
+    this->NumberOfParticles > 0 ? largestOfRanks(groups.size()) : groups.size();
+  for (std::size_t g = 0; g < count; ++g)
   {
-    const InputBlocks group(groups[g], component);
-    try
-    {
-      const double share = 1.0 / static_cast<double>(groups.size());
-      const double begin = share * static_cast<double>(g);
-      withThreads(
-        [&](const hop::ParallelFor& parallelFor) {
-          this->Process(group, scale, g, { this->MonitorOf(begin, begin + share), parallelFor });
-        });
-    }
-    catch (const hop::Interrupted&)
-    {
-      for (const InputBlock& block : groups[g])
-      {
-        block.particles->Initialize();
-      }
-    }
+    const InputBlocks group(g < groups.size() ? groups[g] : std::vector<InputBlock>{},
+      componentOf(blocks, this->Component));
+    const double share = 1.0 / static_cast<double>(count);
+    const double begin = share * static_cast<double>(g);
+    withThreads(
+      [&](const hop::ParallelFor& parallelFor) {
+        this->Process(group, scale, g, { this->MonitorOf(begin, begin + share), parallelFor });
+      });
   }
   return 1;
 }
@@ -385,6 +363,7 @@ vtkHighOrderParticleIsosurface::Scale vtkHighOrderParticleIsosurface::FindScale(
     scale.Spacing = this->Spacing > 0.0
       ? std::min(this->Spacing, largestSpacingPerSide * box.GetMaxLength())
       : automaticSpacingPerSide * box.GetMaxLength();
+    scale.Diagonal = box.GetDiagonalLength();
     // No point can be nearer to a surface than coordinates can say.
     double lower[3], upper[3];
     box.GetMinPoint(lower);
@@ -392,8 +371,8 @@ vtkHighOrderParticleIsosurface::Scale vtkHighOrderParticleIsosurface::FindScale(
     const auto farther = [](double a, double b) { return std::max(a, std::abs(b)); };
     const double farthest =
       std::accumulate(upper, upper + 3, std::accumulate(lower, lower + 3, 0.0, farther), farther);
-    scale.Tolerance = std::max(this->Tolerance * box.GetDiagonalLength(),
-      4.0 * std::numeric_limits<double>::epsilon() * farthest);
+    scale.Tolerance = std::max(
+      this->Tolerance * scale.Diagonal, 4.0 * std::numeric_limits<double>::epsilon() * farthest);
   }
   return scale;
 }
@@ -492,15 +471,95 @@ hop::Monitor vtkHighOrderParticleIsosurface::MonitorOf(double begin, double end)
     } };
 }
 
-/// Particles of all isovalues in one group of blocks.
-/// \throw hop::Interrupted
+/// Particles of all isovalues in one group of blocks. A rank without a group of that number takes part in what
+/// ranks agree on, as does one that is to stop.
 void vtkHighOrderParticleIsosurface::Process(
   const InputBlocks& blocks, const Scale& scale, std::size_t group, const Work& work)
 {
+  std::optional<GridElements> elements;
+  this->UnlessAborted(
+    blocks, [&]() { elements = this->Convert(blocks, work.part(0.0, convertedShare)); });
+  const GridElements none;
+  const std::vector<RankShare> shares = this->ShareOut(
+    blocks, elements ? *elements : none, scale, work.part(convertedShare, convertedShare));
+  if (elements)
+  {
+    this->UnlessAborted(
+      blocks, [&]() { this->Fill(blocks, *elements, scale, group, shares, work); });
+  }
+}
+
+/// Does some work on blocks; where it is interrupted they stay without particles.
+template <class Use>
+void vtkHighOrderParticleIsosurface::UnlessAborted(const InputBlocks& blocks, const Use& use)
+{
+  if (blocks.size() == 0 || isAborted(this))
+  {
+    return;
+  }
+  try
+  {
+    use();
+  }
+  catch (const hop::Interrupted&)
+  {
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+    {
+      blocks[b].particles->Initialize();
+    }
+  }
+}
+
+/// How many particles of each isovalue this rank is to give, if their number is given.
+std::vector<RankShare> vtkHighOrderParticleIsosurface::ShareOut(
+  const InputBlocks& blocks, const GridElements& elements, const Scale& scale, const Work& work)
+{
   const auto isovalueCount = static_cast<std::size_t>(this->GetNumberOfContours());
+  std::vector<RankShare> shares(isovalueCount, { this->NumberOfParticles, 0.0 });
+  // More than all ranks hold is refused by each of them when it is asked for.
+  if (this->NumberOfParticles > 0 &&
+    static_cast<double>(this->NumberOfParticles) <=
+      sumOfRanks(static_cast<double>(particlesThatFit())))
+  {
+    shares = shareOutToRanks(this->NumberOfParticles, isovalueCount,
+      firstSpacingPerDiagonal * scale.Diagonal,
+      [&](std::size_t i, double spacing)
+      {
+        WantedParticles wanted;
+        this->UnlessAborted(
+          blocks, [&]() { wanted = this->CountWanted(blocks, elements, scale, i, spacing, work); });
+        return wanted;
+      });
+  }
+  return shares;
+}
+
+/// \throw hop::Interrupted
+WantedParticles vtkHighOrderParticleIsosurface::CountWanted(const InputBlocks& blocks,
+  const GridElements& elements, const Scale& scale, std::size_t isovalue, double spacing,
+  const Work& work)
+{
+  const double value = this->ContourValues->GetValue(static_cast<int>(isovalue));
+  const std::vector<double> ofElements =
+    hop::wantedParticles({ &elements.mesh, elements.fieldIsovalue(value), scale.Tolerance },
+      { spacing, this->AngularDensity }, work.monitor, work.parallelFor);
+  WantedParticles wanted;
+  for (std::size_t e = 0; e < ofElements.size(); ++e)
+  {
+    const bool isGhost = blocks.isGhost(blocks.locate(elements.mesh.elements[e].cell));
+    (isGhost ? wanted.ghosts : wanted.owned) += ofElements[e];
+  }
+  return wanted;
+}
+
+/// Distributes particles, and writes them.
+/// \throw hop::Interrupted
+void vtkHighOrderParticleIsosurface::Fill(const InputBlocks& blocks, const GridElements& elements,
+  const Scale& scale, std::size_t group, const std::vector<RankShare>& shares, const Work& work)
+{
+  const std::size_t isovalueCount = shares.size();
   const double shareOfIsovalue =
     (distributedShare - convertedShare) / static_cast<double>(isovalueCount);
-  const GridElements elements = this->Convert(blocks, work.part(0.0, convertedShare));
   RunOrigin origin = this->OriginOf(blocks, scale);
   std::vector<IsovalueParticles> particles;
   for (std::size_t i = 0; i < isovalueCount && !isAborted(this); ++i)
@@ -508,7 +567,7 @@ void vtkHighOrderParticleIsosurface::Process(
     origin.isovalue = this->ContourValues->GetValue(static_cast<int>(i));
     const double begin = convertedShare + static_cast<double>(i) * shareOfIsovalue;
     particles.push_back({ origin.isovalue,
-      this->Distribute(elements, scale, origin, group * isovalueCount + i,
+      this->Distribute(elements, scale, origin, group * isovalueCount + i, shares[i],
         work.part(begin, begin + shareOfIsovalue)) });
     this->Review(blocks, particles.back().distribution, origin.isovalue);
   }
@@ -537,10 +596,17 @@ GridElements vtkHighOrderParticleIsosurface::Convert(const InputBlocks& blocks, 
 
 /// \param number tells the isosurfaces of a run from one another
 hop::Distribution vtkHighOrderParticleIsosurface::Distribute(const GridElements& elements,
-  const Scale& scale, const RunOrigin& origin, std::size_t number, const Work& work)
+  const Scale& scale, const RunOrigin& origin, std::size_t number, const RankShare& share,
+  const Work& work)
 {
+  if (this->NumberOfParticles > 0 && share.count == 0)
+  {
+    return {};
+  }
   const bool continues = this->WarmStart && this->Method == FAST;
   hop::DistributionParameters parameters = origin.parameters;
+  parameters.particleCount = share.count;
+  parameters.firstSpacing = share.spacing;
   if (continues)
   {
     parameters.start = this->Previous->startOf(number, origin, elements.mesh);

@@ -72,7 +72,9 @@ class vtkContourValues;
 struct GatheredBlocks;
 struct GridElements;
 struct InputBlock;
+struct RankShare;
 struct RunOrigin;
+struct WantedParticles;
 
 namespace hop
 {
@@ -193,8 +195,9 @@ public:
 
   ///@{
   /**
-   * If positive, the number of particles for each isovalue, over all blocks; the spacing then follows.
-   * 0 lets Spacing decide. Default 0.
+   * If positive, the number of particles for each isovalue, over all blocks and ranks; the spacing then
+   * follows, the same on all ranks. Blocks that share cells are isosurfaces of their own. With ghost cells it
+   * is about that number. 0 lets Spacing decide. Default 0.
    */
   vtkSetClampMacro(NumberOfParticles, vtkIdType, 0, VTK_ID_MAX);
   vtkGetMacro(NumberOfParticles, vtkIdType);
@@ -239,6 +242,7 @@ private:
   {
     double Spacing = 0.0;
     double Tolerance = 0.0;
+    double Diagonal = 0.0;
   };
   bool IsAskedForMore(vtkInformationVector* outputs);
   Scale FindScale(const std::vector<InputBlock>& blocks);
@@ -249,9 +253,17 @@ private:
   struct Work;
   hop::Monitor MonitorOf(double begin, double end);
   void Process(const InputBlocks& blocks, const Scale& scale, std::size_t group, const Work& work);
+  template <class Use>
+  void UnlessAborted(const InputBlocks& blocks, const Use& use);
   GridElements Convert(const InputBlocks& blocks, const Work& work);
+  std::vector<RankShare> ShareOut(
+    const InputBlocks& blocks, const GridElements& elements, const Scale& scale, const Work& work);
+  WantedParticles CountWanted(const InputBlocks& blocks, const GridElements& elements,
+    const Scale& scale, std::size_t isovalue, double spacing, const Work& work);
+  void Fill(const InputBlocks& blocks, const GridElements& elements, const Scale& scale,
+    std::size_t group, const std::vector<RankShare>& shares, const Work& work);
   hop::Distribution Distribute(const GridElements& elements, const Scale& scale,
-    const RunOrigin& origin, std::size_t number, const Work& work);
+    const RunOrigin& origin, std::size_t number, const RankShare& share, const Work& work);
   void ReviewArrays(const std::vector<InputBlock>& blocks);
   void Review(const InputBlocks& blocks, const GridElements& elements);
   void Review(const InputBlocks& blocks, const hop::Distribution& distribution, double isovalue);

@@ -32,6 +32,9 @@ struct DistributionParameters
   std::uint64_t seed = 1;
   /// 0: as many particles as the spacing asks for. Otherwise this many, and the spacing follows.
   std::int64_t particleCount = 0;
+  /// Where a number of particles is given, the spacing to try first, and to keep if the number is right to a
+  /// hundredth; 0: 1/50 of the mesh's diagonal. Fast only.
+  double firstSpacing = 0.0;
   /// Places to start from, in the mesh at hand, where a run before left its particles on a surface nearby.
   /// What they miss is seeded as ever. Fast only.
   std::vector<Location> start;

@@ -34,6 +34,8 @@ constexpr double weaklyPerSpacing = 3.0;
 constexpr double coarseSpacingPerExtent = 0.001;
 /// The first spacing tried where a number of particles is given, in units of the mesh's diagonal.
 constexpr double firstSpacingPerExtent = 0.02;
+/// Particles on rims stand for half as much area as others, and count as so much of one.
+constexpr double onRim = 0.5;
 /// Seeds nearer to a rim's particle than this, in units of their spacing, are dropped: half the
 /// distance of two rows of hexagonal packing. Those that a round of relaxation squeezed against the rim
 /// are dropped after it, as is one of two that are that near in the end: where a strip between rims has no
@@ -107,6 +109,7 @@ public:
   }
 
   Distribution run();
+  std::vector<double> wantedInElements();
 
 private:
   void make();
@@ -240,10 +243,10 @@ void FastSystem::lookAtSurface()
   this->Evaluations += cost + this->Rims.evaluations;
 }
 
-/// How many particles the surface wants. Those on rims stand for half as much area as others.
+/// How many particles the surface wants.
 double FastSystem::wantedCount() const
 {
-  return this->Proxy->particleCount() + 0.5 * static_cast<double>(this->RimPatches.size());
+  return this->Proxy->particleCount() + onRim * static_cast<double>(this->RimPatches.size());
 }
 
 /// Finds the spacing that goes with a given number of particles.
@@ -251,7 +254,9 @@ void FastSystem::matchCount(std::int64_t count)
 {
   constexpr int tries = 8;
   constexpr double closeEnough = 0.01;
-  this->Law.spacing = meshExtent(this->Mesh) * firstSpacingPerExtent;
+  this->Law.spacing = this->Parameters.firstSpacing > 0.0
+    ? this->Parameters.firstSpacing
+    : meshExtent(this->Mesh) * firstSpacingPerExtent;
   this->lookAtSurface();
   for (int n = 1; n < tries; ++n)
   {
@@ -579,6 +584,25 @@ void FastSystem::make()
   }
 }
 
+std::vector<double> FastSystem::wantedInElements()
+{
+  std::vector<double> wanted(this->Mesh.elements.size(), 0.0);
+  if (wanted.empty())
+  {
+    return wanted;
+  }
+  this->lookAtSurface();
+  for (std::size_t e = 0; e < wanted.size(); ++e)
+  {
+    wanted[e] = this->Proxy->particleCount(static_cast<int>(e));
+  }
+  for (const RimParticle& rim : this->Rims.particles)
+  {
+    wanted[rim.particle.location.element] += onRim;
+  }
+  return wanted;
+}
+
 Distribution FastSystem::run()
 {
   if (this->Mesh.elements.empty())
@@ -605,6 +629,14 @@ Distribution distributeFast(const Isosurface& surface, const DistributionParamet
   const Monitor& monitor, const ParallelFor& parallelFor)
 {
   return FastSystem(surface, parameters, monitor, parallelFor).run();
+}
+
+std::vector<double> wantedParticles(const Isosurface& surface, const SpacingLaw& law,
+  const Monitor& monitor, const ParallelFor& parallelFor)
+{
+  DistributionParameters parameters;
+  parameters.law = law;
+  return FastSystem(surface, parameters, monitor, parallelFor).wantedInElements();
 }
 
 } // namespace hop

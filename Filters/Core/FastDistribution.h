@@ -21,4 +21,10 @@ namespace hop
 Distribution distributeFast(const Isosurface& surface, const DistributionParameters& parameters,
   const Monitor& monitor, const ParallelFor& parallelFor);
 
+/// How many particles each element of a mesh wants on the surface at that law, as Fast counts them; those on
+/// rims stand for half as much area as others and count half.
+/// \throw Interrupted if the monitor asks for an early end
+std::vector<double> wantedParticles(const Isosurface& surface, const SpacingLaw& law,
+  const Monitor& monitor, const ParallelFor& parallelFor);
+
 } // namespace hop

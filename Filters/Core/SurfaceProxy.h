@@ -49,6 +49,13 @@ public:
   /// Number of particles in hexagonal packing at the spacings wanted: the sum of 2 area/(sqrt(3) h^2).
   double particleCount() const { return this->Sums.empty() ? 0.0 : this->Sums.back(); }
 
+  /// Those of them in one element.
+  double particleCount(int element) const
+  {
+    const auto before = [this](std::size_t box) { return box > 0 ? this->Sums[box - 1] : 0.0; };
+    return before(this->FirstBox[element + 1]) - before(this->FirstBox[element]);
+  }
+
   struct Seed
   {
     Location place;

@@ -205,6 +205,48 @@ TEST(FastDistribution, GivesExactlyTheNumberOfParticlesAskedFor)
   }
 }
 
+/// What elements want adds up to what comes out, if rims count half.
+TEST(FastDistribution, SaysBeforehandHowManyParticlesElementsWant)
+{
+  constexpr double spacing = 0.05;
+  for (const OpenCase& open : { OpenCase{ "Plane", plane({ 0, 0, 1 }, 0.05), 4.0, 8.0 },
+         OpenCase{ "Sphere", sphere({ 0, 0, 0 }, 0.6), 4.0 * Pi * 0.36, 0.0 } })
+  {
+    SCOPED_TRACE(open.name);
+    const ElementMesh mesh = meshOf(Domain::Hexahedron, 2, open.surface.field);
+    const std::vector<double> wanted =
+      wantedParticles({ &mesh, 0.0, tolerance }, { spacing, 0.0 }, {}, {});
+    ASSERT_EQ(wanted.size(), mesh.elements.size());
+    const double sum = std::accumulate(wanted.begin(), wanted.end(), 0.0);
+    // Each particle on the rim counts half, and half of its own area lies outside.
+    const double expected = hexagonalCount(open.area, spacing) + 0.5 * open.rim / spacing;
+    EXPECT_NEAR(sum, expected, 0.03 * expected);
+    std::vector<double> found(wanted.size(), 0.0);
+    for (const Particle& p : distribute(mesh, withSpacing(spacing)).particles)
+    {
+      found[p.location.element] += 1.0;
+    }
+    for (std::size_t e = 0; e < wanted.size(); ++e)
+    {
+      EXPECT_NEAR(found[e], wanted[e], 0.1 * wanted[e] + 0.5 * open.rim / spacing);
+    }
+  }
+}
+
+TEST(FastDistribution, KeepsAFirstSpacingThatGivesTheNumber)
+{
+  const ElementMesh mesh = meshOf(Domain::Hexahedron, 2, sphere({ 0, 0, 0 }, 0.6).field);
+  constexpr double spacing = 0.0543;
+  const std::vector<double> wanted =
+    wantedParticles({ &mesh, 0.0, tolerance }, { spacing, 0.0 }, {}, {});
+  DistributionParameters parameters = withSpacing(1.0);
+  parameters.particleCount = std::llround(std::accumulate(wanted.begin(), wanted.end(), 0.0));
+  parameters.firstSpacing = spacing;
+  const Distribution result = distribute(mesh, parameters);
+  EXPECT_EQ(static_cast<std::int64_t>(result.particles.size()), parameters.particleCount);
+  EXPECT_EQ(static_cast<float>(result.particles[0].spacing), static_cast<float>(spacing));
+}
+
 void expectSame(const Distribution& a, const Distribution& b)
 {
   ASSERT_EQ(a.particles.size(), b.particles.size());

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+class vtkBoundingBox;
+
+// What ranks agree on. Every rank has to call each of these, as often and in the same order as all others: also
+// one without data, with an error, or that is to stop.
+
+/// The box around all boxes of all ranks.
+vtkBoundingBox overAllRanks(const vtkBoundingBox& local);
+
+std::size_t largestOfRanks(std::size_t local);
+
+double sumOfRanks(double local);
+
+/// How many particles a rank's part of an isosurface wants.
+struct WantedParticles
+{
+  double owned = 0.0;
+  /// In ghost cells: they belong to another rank.
+  double ghosts = 0.0;
+};
+
+/// What this rank's part of a surface wants at a spacing; does not throw.
+using WantedAt = std::function<WantedParticles(std::size_t surface, double spacing)>;
+
+/// What a rank is to give of an isosurface.
+struct RankShare
+{
+  /// With those in ghost cells.
+  std::int64_t count = 0;
+  /// The same on all ranks: at this spacing they want as many together as are asked for; 0 where there is but
+  /// one rank.
+  double spacing = 0.0;
+};
+
+/// Shares out a number of particles of each of some isosurfaces so that they stand as dense on all ranks:
+/// to each rank the part that it wants of what all want at the same spacing, rounded by largest remainders, so
+/// that the sum of those not in ghost cells is the number.
+/// \param number > 0
+/// \param firstSpacing to try, the same on all ranks
+/// \return one share a surface
+std::vector<RankShare> shareOutToRanks(
+  std::int64_t number, std::size_t surfaces, double firstSpacing, const WantedAt& wanted);
