@@ -93,7 +93,7 @@ Monotony MonotoneTest::monotony(const std::vector<double>& values) const
   // Differences of values carry the values' rounding errors, times the degree.
   const double rounding = 1e-13 * largest * MaximumDegree * length;
   const double smallest = 1e-6 * largest;
-  const double slow = 0.1 * length * length / static_cast<double>(values.size());
+  const double slow = 1e-3 * length * length / static_cast<double>(values.size());
   bool rises = false;
   bool isSlow = false;
   bool standsStillBelow = false;

@@ -11,7 +11,7 @@ enum class Monotony
   None,
   /// It never falls. Where it stands still it is not zero, and of one sign.
   Weak,
-  /// It rises everywhere, nowhere less than a tenth of what it does on average.
+  /// It rises everywhere, nowhere less than a thousandth of what it does on average.
   Strict
 };
 
