@@ -77,9 +77,10 @@ std::vector<SurfaceProxy::Sample> randomSamples(std::size_t count, double width)
 
 TEST(PatchDistances, ThoseChosenCoverTheOthers)
 {
-  const auto samples = randomSamples(1000, 20.0);
-  std::vector<char> marks(samples.size(), 1);
-  std::fill(marks.begin() + 100, marks.begin() + 200, 0);
+  constexpr std::size_t count = 1000;
+  const auto samples = randomSamples(count, 20.0);
+  std::vector<char> marks(count, 1);
+  std::fill_n(&marks[100], 100, 0);
   std::vector<int> expected;
   for (int b = 0; b < static_cast<int>(samples.size()); ++b)
   {
