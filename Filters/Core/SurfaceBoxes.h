@@ -37,11 +37,12 @@ struct SurfaceBox
 /// Splits every element into boxes by de Casteljau's algorithm. A box is
 ///  - dropped if its coefficients of F - c have one sign: the convex hull holds no zero;
 ///  - certified if F - c changes its sign between corners and its derivative along the mean gradient
-///    has coefficients of one sign: then the surface is a graph along that direction, one sheet, and
-///    has no component of its own inside the box. A box with a face on its element's must also hold
+///    has coefficients of one sign, or is zero only where F - c is not (MonotoneTest.h): then the surface is
+///    a graph along that direction, one sheet, and has no component of its own inside the box. A box with a face on its element's must also hold
 ///    one piece of the sheet only (BoundaryTest.h), as a corner that it cuts off there may be all that
 ///    the mesh has of a component;
-///  - split otherwise, until it was halved MaximumBisections times, or its element had to be split
+///  - split otherwise, across its longest direction or, after some halvings and but for tetrahedra, that in
+///    which the field bends most, which parts sheets close to each other; until it was halved MaximumBisections times, or its element had to be split
 ///    into more than MaximumPieces undecided pieces, or MaximumPieceBytes of them, or MaximumLongPieces
 ///    where they were halved LongBisections times: then the surface is singular along lines. What is left
 ///    then is certified if its field rises along some direction all the same: the surface touches such a
