@@ -41,21 +41,4 @@ double LatticeLines::variation(const std::vector<double>& coefficients) const
   return sum;
 }
 
-double LatticeLines::bend(const std::vector<double>& coefficients) const
-{
-  double largest = 0.0;
-  int degree = 0;
-  for (std::size_t l = 0; l + 1 < this->Begin.size(); ++l)
-  {
-    degree = std::max(degree, this->Begin[l + 1] - this->Begin[l] - 1);
-    for (int at = this->Begin[l] + 1; at + 1 < this->Begin[l + 1]; ++at)
-    {
-      largest = std::max(largest,
-        std::abs(coefficients[this->Index[at - 1]] - 2.0 * coefficients[this->Index[at]] +
-          coefficients[this->Index[at + 1]]));
-    }
-  }
-  return degree * (degree - 1) * largest;
-}
-
 } // namespace hop

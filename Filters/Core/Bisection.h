@@ -22,9 +22,6 @@ public:
   /// Sum of the differences of neighbouring coefficients along the direction, as absolute values.
   double variation(const std::vector<double>& coefficients) const;
 
-  /// Bound on the second derivative along the direction, whose edges are one long.
-  double bend(const std::vector<double>& coefficients) const;
-
 private:
   std::vector<int> Begin;
   std::vector<int> Index;

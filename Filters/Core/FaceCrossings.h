@@ -12,7 +12,7 @@ struct FaceCrossing
 {
   Location location;
   int face = -1;
-  /// The corners of a box between which it lies, and by how much F differs between them.
+  /// Places on an edge of a box between which it lies, as a rule corners, and by how much F differs between them.
   std::array<glm::dvec3, 2> ends{};
   double rise = 0.0;
 };
@@ -50,12 +50,19 @@ void visitFaceCrossings(
         const int b = side.corners[(c + 1) % side.cornerCount];
         if ((box.values[a] > 0.0f) != (box.values[b] > 0.0f))
         {
-          const double t = box.values[a] / (box.values[a] - box.values[b]);
-          const std::array<glm::dvec3, 2> ends{ box.corners[a], box.corners[b] };
-          glm::dvec3 u = glm::mix(ends[0], ends[1], t);
+          const glm::dvec3 from(box.corners[a]);
+          const glm::dvec3 to(box.corners[b]);
+          const double valueFrom = box.values[a];
+          const double valueTo = box.values[b];
+          const auto placeOf = [&](double value)
+          { return glm::mix(from, to, (valueFrom - value) / (valueFrom - valueTo)); };
+          const double own = box.ownValues;
+          const double first = std::clamp(valueFrom, -own, own);
+          const double last = std::clamp(valueTo, -own, own);
+          glm::dvec3 u = placeOf(0.0);
           u -= (margin(u) / glm::dot(inward, inward)) * inward;
-          use(FaceCrossing{ { element, { u } }, f, ends,
-            box.valueUnit * std::abs(static_cast<double>(box.values[a]) - box.values[b]) });
+          use(FaceCrossing{ { element, { u } }, f, { placeOf(first), placeOf(last) },
+            box.valueUnit * std::abs(first - last) });
         }
       }
     }

@@ -119,6 +119,17 @@ Monotony MonotoneTest::monotony(const std::vector<double>& values) const
   return !rises ? Monotony::None : isWeak ? Monotony::Weak : Monotony::Strict;
 }
 
+std::vector<double> MonotoneTest::derivative(
+  const std::vector<double>& values, const glm::dvec3& direction) const
+{
+  std::vector<double> result(values.size());
+  for (std::size_t point = 0; point < values.size(); ++point)
+  {
+    result[point] = glm::dot(this->gradient(values, point), direction);
+  }
+  return result;
+}
+
 glm::dvec3 MonotoneTest::gradient(const std::vector<double>& values, std::size_t point) const
 {
   glm::dvec3 result(0.0);

@@ -39,6 +39,10 @@ public:
     return this->monotony(values) != Monotony::None;
   }
 
+  /// The coefficients of the derivative along a direction, elevated to the polynomial's degrees.
+  std::vector<double> derivative(
+    const std::vector<double>& values, const glm::dvec3& direction) const;
+
 private:
   struct Difference
   {

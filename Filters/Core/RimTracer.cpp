@@ -85,8 +85,8 @@ void RimChords::add(const RimPoint& from, const RimPoint& to)
   // A chord that leaves its element is known by its first place there.
   const Location& end = last.element == first.element ? last : first;
   this->Chords[faceSlot(first.element, from.face)].push_back(
-    { { from.at.point.map.position.xyz, to.at.point.map.position.xyz },
-      { first.u.xyz, end.u.xyz } });
+    { { from.at.point.map.position.xyz, to.at.point.map.position.xyz }, { first.u.xyz, end.u.xyz },
+      from.at.point.gradient });
 }
 
 bool RimChords::pass(const RimPoint& point) const
@@ -95,10 +95,11 @@ bool RimChords::pass(const RimPoint& point) const
   const glm::dvec3& x = point.at.point.map.position.xyz;
   return found != this->Chords.end() &&
     std::any_of(found->second.begin(), found->second.end(),
-      [&x](const Chord& chord)
+      [&](const Chord& chord)
       {
         const auto& [a, b] = chord.positions;
-        return distanceToSegment(x, a, b) <= nearness * glm::distance(a, b);
+        return distanceToSegment(x, a, b) <= nearness * glm::distance(a, b) &&
+          dot(chord.gradient, point.at.point.gradient) > 0.0;
       });
 }
 

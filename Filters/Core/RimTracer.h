@@ -41,7 +41,7 @@ class RimChords
 public:
   void add(const RimPoint& from, const RimPoint& to);
 
-  /// Whether a chord on the same face passes a point, to a fifth of its length.
+  /// Whether a chord of the same sheet on the same face passes a point, to a fifth of its length.
   bool pass(const RimPoint& point) const;
 
   /// Whether a chord on a face crosses the line between two places on it.
@@ -53,6 +53,8 @@ private:
     /// In the world, and in the element's reference space.
     std::array<glm::dvec3, 2> positions;
     std::array<glm::dvec3, 2> places;
+    /// The field's: two sheets close to each other have opposite ones.
+    WorldVector gradient;
   };
 
   /// By the slots of the faces that they run on.

@@ -3,6 +3,8 @@
 #include "Bisection.h"
 #include "BoundaryTest.h"
 #include "MonotoneTest.h"
+#include "ProxyPolygons.h"
+#include "SheetPair.h"
 #include "TouchTest.h"
 
 #include <algorithm>
@@ -29,8 +31,6 @@ struct Piece
   int part = 1;
   /// How the field rises, if the surface in it is known to be one sheet.
   Monotony sheet = Monotony::None;
-  /// It was halved across other directions than its longest.
-  bool narrow = false;
 
   bool certified() const { return this->sheet != Monotony::None; }
 };
@@ -69,9 +69,8 @@ constexpr std::size_t fewElements = 16;
 /// isovalue only.
 constexpr int halvingsOfAllAxes = 3;
 constexpr int firstTouchBisections = 9;
-/// Pieces that are undecided after so many halvings are cut across the direction in which the field bends, but for
-/// tetrahedra, which would become slivers.
-constexpr int roundBisections = 9;
+/// Pieces that are undecided after so many halvings may hold two sheets close to each other.
+constexpr int pairBisections = 9;
 /// As many pieces with one sign at their corners are normal in an element that the surface crosses, and
 /// where nothing tells that it does. None are after so many halvings.
 constexpr int fewOneSided = 1024;
@@ -326,27 +325,53 @@ private:
       this->followToBoxes(element, piece, outcome.boxes);
       return outcome;
     }
-    if (!piece.certified() && this->isGivenUp(piece, givenUp))
+    if (!(piece.certified() ? this->finishCertified(piece, element, outcome.boxes)
+                            : this->finishUndecided(piece, element, givenUp, outcome)))
     {
-      outcome.isLeft = true;
-      outcome.boxes.push_back(this->boxOf(piece, element));
-      return outcome;
+      outcome.isHalved = true;
+      outcome.second = this->halve(piece);
     }
-    const bool last = piece.bisections == MaximumBisections;
-    if (last || givenUp.all || piece.certified())
-    {
-      SurfaceBox box = this->boxOf(piece, element);
-      if (last || !piece.certified() || this->IsSmall(box))
-      {
-        box.certified = box.certified || this->Monotone.rises(valuesOf(piece));
-        outcome.isLeft = !box.certified && !box.straddles && !last;
-        outcome.boxes.push_back(box);
-        return outcome;
-      }
-    }
-    outcome.isHalved = true;
-    outcome.second = this->halve(piece);
     return outcome;
+  }
+
+  /// \return whether there is nothing to halve
+  bool finishCertified(const Piece& piece, int element, std::vector<SurfaceBox>& boxes) const
+  {
+    const SurfaceBox box = this->boxOf(piece, element);
+    const bool isFinished = piece.bisections == MaximumBisections || this->IsSmall(box);
+    if (isFinished)
+    {
+      boxes.push_back(box);
+    }
+    return isFinished;
+  }
+
+  /// \return whether there is nothing to halve
+  bool finishUndecided(
+    const Piece& piece, int element, const GivenUp& givenUp, Outcome& outcome) const
+  {
+    const bool isDeep = piece.bisections == MaximumBisections;
+    const bool isLast = isDeep || givenUp.all;
+    const bool mayTouch = this->isGivenUp(piece, givenUp);
+    const auto pair = this->sheetPairIn(piece, element, isLast || mayTouch);
+    if (pair)
+    {
+      if (isLast || pair->isFlat())
+      {
+        this->addSheetPair(piece, element, *pair, outcome.boxes);
+        return true;
+      }
+      return false;
+    }
+    if (!isLast && !mayTouch)
+    {
+      return false;
+    }
+    SurfaceBox box = this->boxOf(piece, element);
+    box.certified = !mayTouch && this->Monotone.rises(valuesOf(piece));
+    outcome.isLeft = mayTouch || (!box.certified && !box.straddles && !isDeep);
+    outcome.boxes.push_back(box);
+    return true;
   }
 
   /// Splits a certified piece until its parts are small enough.
@@ -356,15 +381,12 @@ private:
     {
       return;
     }
-    const SurfaceBox box = this->boxOf(piece, element);
-    if (piece.bisections == MaximumBisections || this->IsSmall(box))
+    if (!this->finishCertified(piece, element, boxes))
     {
-      boxes.push_back(box);
-      return;
+      Piece second = this->halve(piece);
+      this->followToBoxes(element, second, boxes);
+      this->followToBoxes(element, piece, boxes);
     }
-    Piece second = this->halve(piece);
-    this->followToBoxes(element, second, boxes);
-    this->followToBoxes(element, piece, boxes);
   }
 
   void begin(int element)
@@ -506,18 +528,31 @@ private:
 
   SurfaceBox boxOf(const Piece& piece, int element) const
   {
-    SurfaceBox box;
-    box.middle = { element, middle(piece) };
-    box.size = this->worldSize(piece);
+    SurfaceBox box = this->boxAround(piece, element, this->cornerValues(piece));
     box.certified = piece.certified();
     // Parts of a piece whose field rises weakly may be away from where it stands still.
     box.weakly =
       piece.sheet == Monotony::Weak && this->Monotone.monotony(valuesOf(piece)) != Monotony::Strict;
-    box.mayBeThin = piece.narrow || piece.sheet == Monotony::Weak;
+    box.mayBeThin = piece.sheet == Monotony::Weak;
     int lowest = 0;
     int highest = 0;
     const auto value = [&](int c) { return piece.coefficients[this->CornerPlaces[c]].w; };
-    const std::array<double, MaximumCorners> values = this->cornerValues(piece);
+    for (int c = 1; c < static_cast<int>(this->CornerPlaces.size()); ++c)
+    {
+      lowest = value(c) < value(lowest) ? c : lowest;
+      highest = value(c) > value(highest) ? c : highest;
+    }
+    box.straddles = value(lowest) < 0.0 && value(highest) > 0.0;
+    box.ends = { { { this->corner(piece, lowest) }, { this->corner(piece, highest) } } };
+    return box;
+  }
+
+  SurfaceBox boxAround(
+    const Piece& piece, int element, const std::array<double, MaximumCorners>& values) const
+  {
+    SurfaceBox box;
+    box.middle = { element, middle(piece) };
+    box.size = this->worldSize(piece);
     box.valueUnit = powerOfTwoNear(values);
     for (int c = 0; c < static_cast<int>(this->CornerPlaces.size()); ++c)
     {
@@ -525,12 +560,42 @@ private:
         std::max(box.referenceRadius, glm::distance(this->corner(piece, c), box.middle.u.xyz));
       box.corners[c] = glm::vec3(this->corner(piece, c));
       box.values[c] = static_cast<float>(values[c] / box.valueUnit);
-      lowest = value(c) < value(lowest) ? c : lowest;
-      highest = value(c) > value(highest) ? c : highest;
     }
-    box.straddles = value(lowest) < 0.0 && value(highest) > 0.0;
-    box.ends = { { { this->corner(piece, lowest) }, { this->corner(piece, highest) } } };
     return box;
+  }
+
+  /// Two sheets close to each other in a piece that is small or will not be halved.
+  std::optional<SheetPair> sheetPairIn(const Piece& piece, int element, bool isLast) const
+  {
+    const bool isReady =
+      isLast || (piece.bisections >= pairBisections && this->IsSmall(this->boxOf(piece, element)));
+    return isReady ? findSheetPair(this->formOf(piece), this->Monotone, this->ElementSlack)
+                   : std::nullopt;
+  }
+
+  /// The box of a piece for each of two sheets that is in it, with its values.
+  void addSheetPair(
+    const Piece& piece, int element, const SheetPair& pair, std::vector<SurfaceBox>& boxes) const
+  {
+    for (const SheetPair::Sheet& sheet : pair.sheets)
+    {
+      const auto [least, most] =
+        std::minmax_element(sheet.values.begin(), sheet.values.begin() + this->CornerPlaces.size());
+      if (*least <= 0.0 && *most >= 0.0)
+      {
+        SurfaceBox& box = boxes.emplace_back(this->boxAround(piece, element, sheet.values));
+        box.certified = pair.isFlat();
+        box.straddles = true;
+        box.ends = { this->inElement(piece, pair.between),
+          this->inElement(piece, 2.0 * sheet.place - pair.between) };
+        if (pair.outside < 0.0)
+        {
+          std::swap(box.ends[0], box.ends[1]);
+        }
+        box.ownValues = static_cast<float>(sheet.reach / box.valueUnit);
+        box.middle.u = proxyMiddle(this->Form.domain, box);
+      }
+    }
   }
 
   /// F - c at the corners of a piece.
@@ -544,6 +609,16 @@ private:
         piece.coefficients[place].w / (piece.weights.empty() ? 1.0 : piece.weights[place]);
     }
     return values;
+  }
+
+  /// A place in a piece, of its own reference coordinates, in the element's.
+  ReferencePoint inElement(const Piece& piece, const glm::dvec3& u) const
+  {
+    const auto cornerAt = [&](const LatticePoint& point)
+    { return piece.corners[coefficientIndex(this->Form.domain, cornerDegrees, point)]; };
+    const glm::dvec3 origin = cornerAt({ 0, 0, 0 });
+    return { origin + u.x * (cornerAt({ 1, 0, 0 }) - origin) +
+      u.y * (cornerAt({ 0, 1, 0 }) - origin) + u.z * (cornerAt({ 0, 0, 1 }) - origin) };
   }
 
   /// A corner of the piece in the element's reference space.
@@ -630,16 +705,10 @@ private:
     return { sum / static_cast<double>(piece.corners.size()) };
   }
 
-  /// Halves the piece, across its longest direction once it is certified; it keeps the first half, the second is
-  /// returned.
+  /// Halves the piece across its longest direction; it keeps the first half, the second is returned.
   Piece halve(Piece& piece) const
   {
-    const std::size_t longest = this->longestDirection(piece);
-    const bool bends = !piece.certified() && piece.bisections >= roundBisections &&
-      this->Form.domain != Domain::Tetrahedron;
-    const std::size_t across = bends ? this->bendingDirection(piece, longest) : longest;
-    piece.narrow = piece.narrow || across != longest;
-    const Direction& direction = this->Directions[across];
+    const Direction& direction = this->Directions[this->longestDirection(piece)];
     Piece second;
     direction.coefficients.bisect(piece.coefficients, second.coefficients);
     if (!piece.weights.empty())
@@ -650,34 +719,12 @@ private:
     second.bisections = ++piece.bisections;
     second.part = piece.part;
     second.sheet = piece.sheet;
-    second.narrow = piece.narrow;
     if (piece.bisections <= PartBisections)
     {
       piece.part = 2 * piece.part;
       second.part = 2 * second.part + 1;
     }
     return second;
-  }
-
-  /// The direction along which the field bends most: two sheets close to each other are parted by halvings
-  /// across them, and only those. The longest where it hardly bends.
-  std::size_t bendingDirection(const Piece& piece, std::size_t longest) const
-  {
-    constexpr double straight = 1e-2;
-    const std::vector<double> values = valuesOf(piece);
-    const Range range = rangeOf(piece);
-    double largest = straight * (range.upper - range.lower);
-    std::size_t bending = longest;
-    for (std::size_t d = 0; d < this->Directions.size(); ++d)
-    {
-      const double bend = this->Directions[d].coefficients.bend(values);
-      if (bend > largest)
-      {
-        bending = d;
-        largest = bend;
-      }
-    }
-    return bending;
   }
 
   /// The direction whose edges are longest in world space, along their control points: the ends of an edge that

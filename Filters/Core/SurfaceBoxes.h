@@ -3,6 +3,8 @@
 #include "ElementMesh.h"
 #include "Monitor.h"
 
+#include <limits>
+
 namespace hop
 {
 
@@ -15,13 +17,13 @@ struct SurfaceBox
   double size = 0.0;
   /// Largest distance of its corners from its middle, reference space.
   double referenceRadius = 0.0;
-  /// The surface in it is one sheet, provably: along some direction the field only rises.
+  /// The surface in it is one sheet, provably: along some direction the field only rises. Or it is one of two close
+  /// to each other, each of which has a box of its own.
   bool certified = false;
   /// Certified, but the field stands still somewhere in it, as at a wall or on the axis of a needle: the
   /// surface may lie near that place, and bend much within the box.
   bool weakly = false;
-  /// It was part of one where the field stands still, or that had to be cut more finely in the direction in which
-  /// the field bends: the surface may be thinner than the box.
+  /// It was part of one where the field stands still: the surface may be thinner than the box.
   bool mayBeThin = false;
   /// Corners at which F - c has opposite signs, if there are such: a point of the surface lies on the
   /// straight line between them.
@@ -32,6 +34,9 @@ struct SurfaceBox
   std::array<glm::vec3, MaximumCorners> corners{};
   std::array<float, MaximumCorners> values{};
   double valueUnit = 1.0;
+  /// Larger values, in these units, belong to the other one of two sheets: values are then those of SheetPair.h, and
+  /// the middle is that of this one.
+  float ownValues = std::numeric_limits<float>::infinity();
 };
 
 /// Splits every element into boxes by de Casteljau's algorithm. A box is
@@ -41,11 +46,12 @@ struct SurfaceBox
 ///    a graph along that direction, one sheet, and has no component of its own inside the box. A box with a face on its element's must also hold
 ///    one piece of the sheet only (BoundaryTest.h), as a corner that it cuts off there may be all that
 ///    the mesh has of a component;
-///  - split otherwise, across its longest direction or, after some halvings and but for tetrahedra, that in
-///    which the field bends most, which parts sheets close to each other; until it was halved MaximumBisections times, or its element had to be split
-///    into more than MaximumPieces undecided pieces, or MaximumPieceBytes of them, or MaximumLongPieces
-///    where they were halved LongBisections times: then the surface is singular along lines. What is left
-///    then is certified if its field rises along some direction all the same: the surface touches such a
+///  - taken for two boxes if it holds two sheets close to each other (SheetPair.h), is small and was halved often
+///    enough for them to be as good as flat;
+///  - halved otherwise, across its longest direction; until it was halved MaximumBisections times, or its element had
+///    to be split into more than MaximumPieces undecided pieces, or MaximumPieceBytes of them, or
+///    MaximumLongPieces where they were halved LongBisections times: then the surface is singular along lines.
+///    What is left then is certified if its field rises along some direction all the same: the surface touches such a
 ///    box, or cuts off less of it than counts. Otherwise it is returned uncertified.
 /// Where the field only touches the isovalue (TouchTest.h) an element is given up much earlier. What has
 /// one sign at its corners and is left so is returned as a few large boxes, that do not straddle: of the

@@ -326,6 +326,40 @@ TEST(FastDistribution, TwoSheetsCloseToEachOtherDoNotMix)
   }
 }
 
+TEST(FastDistribution, TwoSheetsInAThousandthOfAnElementAreAsManyAsEachAlone)
+{
+  for (const Domain domain : allDomains)
+  {
+    for (const glm::dvec3& direction : { glm::dvec3(0, 0, 1), { 1, 0, 0 }, { 1, 2, 3 } })
+    {
+      const glm::dvec3 normal = glm::normalize(direction);
+      const auto distance = [&](const glm::dvec3& x) { return glm::dot(normal, x) - 0.137; };
+      const auto wanted = static_cast<double>(
+        distribute(meshOf(domain, 2, distance, 1), withSpacing(0.1)).particles.size());
+      for (const double gap : { 0.02, 0.001 })
+      {
+        const ElementMesh mesh = meshOf(
+          domain, 2,
+          [&](const glm::dvec3& x) { return distance(x) * distance(x) - 0.25 * gap * gap; }, 1);
+        const Distribution result = distribute(mesh, withSpacing(0.1));
+        expectHonestParticles(mesh, result);
+        EXPECT_EQ(result.report.boxesUnresolved, 0) << domain;
+        Buffer<Particle> sheets[2];
+        for (const Particle& p : result.particles)
+        {
+          sheets[distance(p.position.xyz) > 0.0].push_back(p);
+        }
+        for (const auto& sheet : sheets)
+        {
+          EXPECT_NEAR(static_cast<double>(sheet.size()), wanted, 0.03 * wanted)
+            << domain << ", gap " << gap;
+          EXPECT_GE(smallest(nearestSpacings(sheet)), 0.75) << domain << ", gap " << gap;
+        }
+      }
+    }
+  }
+}
+
 /// The unit cube's halves x < 0 and x > 0, in elements of their own whose corners coincide, with fields
 /// of their own.
 ElementMesh twoFields(const Field& left, const Field& right)

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace hop::testing
@@ -162,11 +163,6 @@ TEST_P(FastQualityOnNeedle, IsCoveredAlthoughThinnerThanSpacings)
   const ElementMesh mesh = teardropMesh();
   DistributionParameters parameters;
   parameters.law = { 0.04, this->GetParam() };
-  const Distribution result = distributeFast({ &mesh, 0.0, tolerance }, parameters, {}, {});
-  // Where particles stand around the needle one by one, 0.80 and 0.035 cannot be had.
-  const Evenness evenness = measureEvenness(result.particles);
-  EXPECT_GE(evenness.minSpacing, 0.55);
-  EXPECT_LE(evenness.variation, 0.065);
   const auto isCloserThanParticles = [&](const SurfaceBox& box)
   {
     constexpr double bodyEnd = 0.3;
@@ -174,8 +170,21 @@ TEST_P(FastQualityOnNeedle, IsCoveredAlthoughThinnerThanSpacings)
     const double spacing = parameters.law.spacing / (onNeedle ? 1.0 + this->GetParam() : 1.0);
     return box.size <= 0.5 * spacing;
   };
-  const auto boxes = findSurfaceBoxes(mesh, 0.0, isCloserThanParticles, {});
-  EXPECT_LE(coverageRadius(result.particles, probesIn(mesh, boxes)), 1.0);
+  const auto probes = probesIn(mesh, findSurfaceBoxes(mesh, 0.0, isCloserThanParticles, {}));
+  std::vector<double> coverages;
+  for (parameters.seed = 1; parameters.seed <= 5; ++parameters.seed)
+  {
+    const Distribution result = distributeFast({ &mesh, 0.0, tolerance }, parameters, {}, {});
+    // Where particles stand around the needle one by one, 0.80 and 0.035 cannot be had.
+    const Evenness evenness = measureEvenness(result.particles);
+    EXPECT_GE(evenness.minSpacing, 0.5);
+    EXPECT_LE(evenness.variation, 0.075);
+    coverages.push_back(coverageRadius(result.particles, probes));
+  }
+  // Nor is it covered as well with every seed.
+  std::sort(coverages.begin(), coverages.end());
+  EXPECT_LE(coverages[2], 1.0);
+  EXPECT_LE(coverages[4], 1.2);
 }
 
 /// A surface that ends at the faces of the cube [-1,1]^3.

@@ -131,6 +131,30 @@ TEST(MonotoneTest, DecidesByTheSignsOfTheDerivativesCoefficients)
   }
 }
 
+TEST(MonotoneTest, TellsDerivatives)
+{
+  Random random(4);
+  for (const ElementCase& which : allElementCases())
+  {
+    SCOPED_TRACE(which);
+    const auto coefficients = slopeWithNoise(which, 1.0, random);
+    const glm::dvec3 direction = randomVector(random);
+    const std::vector<double> derivative =
+      MonotoneTest(which.domain, which.degrees).derivative(fieldOf(coefficients), direction);
+    std::vector<Coefficient> asField;
+    for (const double value : derivative)
+    {
+      asField.emplace_back(0.0, 0.0, 0.0, value);
+    }
+    for (int n = 0; n < 10; ++n)
+    {
+      const ReferencePoint u = randomPoint(which.domain, random);
+      EXPECT_NEAR(evaluateGradient(formOf(which, asField), u).value.w,
+        glm::dot(gradientAt(formOf(which, coefficients), u), direction), 1e-10);
+    }
+  }
+}
+
 TEST(MonotoneTest, LinearFieldsRise)
 {
   Random random(3);
