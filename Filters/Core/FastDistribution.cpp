@@ -16,6 +16,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <numeric>
 #include <utility>
 
 namespace hop
@@ -59,6 +60,14 @@ constexpr float seedOffset = 0.5f;
 /// the surface than the second, in units of their spacing.
 constexpr float farthestStart = 2.0f;
 constexpr float arrivedOffset = 0.1f;
+/// They go on if they are no less than that share of those wanted, and seeds farther than that from all of them
+/// join them, in units of the spacing.
+constexpr double worthContinuing = 0.7;
+constexpr double uncovered = 0.75;
+/// So often at most particles are exchanged until a given number of them stands well; how far apart those are that
+/// are added or removed at once, in units of the spacing.
+constexpr int exchanges = 3;
+constexpr double exchangedApart = 2.0;
 
 /// Shares of the run that are over with seeding and relaxation.
 constexpr double seededFraction = 0.45;
@@ -82,6 +91,17 @@ std::vector<char> opposite(std::vector<char> marks)
 {
   std::transform(marks.begin(), marks.end(), marks.begin(), std::logical_not<>());
   return marks;
+}
+
+/// Indices of values, the first in that order first; of equal ones, the first.
+template <class Before>
+std::vector<int> indicesBy(const std::vector<double>& values, const Before& before)
+{
+  std::vector<int> order(values.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(
+    order.begin(), order.end(), [&](int a, int b) { return before(values[a], values[b]); });
+  return order;
 }
 
 /// A part of the run, as far as progress is concerned.
@@ -126,21 +146,26 @@ private:
   void lookAtSurface();
   double wantedCount() const;
   void matchCount(std::int64_t count);
-  void makeExactly(std::int64_t count);
   void makeRims();
   void dropNearRims(double nearest);
   void startMoving();
-  void addSeeds(std::int64_t count, double phase, const std::vector<char>& only = {});
+  std::unique_ptr<MovingParticles> drawSeeds(std::int64_t count) const;
+  void addSeeds(MovingParticles& seeds, const std::vector<char>& wanted);
   void addSamples(const std::vector<int>& boxes);
   void makeSeeds(std::int64_t count);
   void continueFrom(const std::vector<Location>& places);
   bool countIsGiven() const { return this->Parameters.particleCount > 0; }
   void coverBoxes();
+  Buffer<Patch> removeSqueezed();
+  Buffer<Patch> remove(const std::vector<int>& particles);
+  Buffer<Patch> addInGaps(std::int64_t count);
+  Buffer<Patch> matchNumber(std::int64_t count);
+  void settleNumber(std::int64_t count);
   void relax(MovingParticles& moving, int sweeps, const Balance& balance, const Section& section);
   void relaxAll(int sweeps, bool isLast, const Section& section);
   Buffer<Patch> findCrowded(const Buffer<Patch>& patches, std::size_t count) const;
   void repair();
-  Buffer<Patch> repairAround(const Buffer<Patch>& crowded);
+  Buffer<Patch> repairAround(const Buffer<Patch>& crowded, Balance::Extent extent);
   void finish();
 
   Isosurface Surface;
@@ -155,6 +180,8 @@ private:
   RimCurves Rims;
   Buffer<Patch> RimPatches;
   std::unique_ptr<MovingParticles> Moving;
+  /// Particles of the run before go on.
+  bool IsWarm = false;
   std::atomic<std::int64_t> Evaluations{ 0 };
   Distribution Result;
 };
@@ -280,10 +307,22 @@ void FastSystem::matchCount(std::int64_t count)
   keepMarked(this->RimPatches, kept);
 }
 
-void FastSystem::addSeeds(std::int64_t count, double phase, const std::vector<char>& only)
+/// Seeds as particles that are not on their way to the surface yet.
+std::unique_ptr<MovingParticles> FastSystem::drawSeeds(std::int64_t count) const
 {
-  this->Moving->add(this->Proxy->seeds(count, phase, this->Parallel, only));
-  this->Moving->approach(seedOffset);
+  const double phase = Random(this->Parameters.seed).uniform();
+  auto seeds =
+    std::make_unique<MovingParticles>(this->Surface, *this->Proxy, Buffer<Patch>{}, this->Parallel);
+  seeds->add(this->Proxy->seeds(count, phase, this->Parallel));
+  return seeds;
+}
+
+void FastSystem::addSeeds(MovingParticles& seeds, const std::vector<char>& wanted)
+{
+  seeds.keep(wanted);
+  seeds.approach(seedOffset);
+  this->Moving->add(seeds.anchors(), seeds.patches());
+  this->Evaluations += seeds.evaluations();
 }
 
 void FastSystem::addSamples(const std::vector<int>& boxes)
@@ -298,24 +337,30 @@ void FastSystem::addSamples(const std::vector<int>& boxes)
   this->Moving->add(anchors, patches);
 }
 
-/// Draws that many first places, or as many of them as lie in boxes that the places to start from leave
-/// alone.
+/// First places: those to start from, if they are near enough to as many as are wanted, and of that many seeds those
+/// that they leave alone.
 void FastSystem::makeSeeds(std::int64_t count)
 {
   this->startMoving();
-  const double phase = Random(this->Parameters.seed).uniform();
-  if (this->Parameters.start.empty())
+  if (!this->Parameters.start.empty())
   {
-    this->addSeeds(count, phase);
+    this->continueFrom(this->Parameters.start);
+    const std::vector<char> all(this->Moving->count(), 1);
+    this->Moving->keep(standApart(this->Moving->patches(), all, squeezed, this->Parallel));
+    this->IsWarm =
+      static_cast<double>(this->Moving->size()) >= worthContinuing * static_cast<double>(count);
+  }
+  const auto seeds = this->drawSeeds(count);
+  if (this->IsWarm)
+  {
+    this->addSeeds(*seeds,
+      keepDistance(
+        seeds->patches(), seeds->count(), this->Moving->patches(), uncovered, this->Parallel));
   }
   else
   {
-    this->continueFrom(this->Parameters.start);
-    const std::vector<char> lonely =
-      findLonely(this->Proxy->samples(), this->Moving->patches(), this->Parallel);
-    this->addSeeds(count, phase, lonely);
-    const std::vector<char> all(this->Moving->count(), 1);
-    this->Moving->keep(standApart(this->Moving->patches(), all, squeezed, this->Parallel));
+    this->startMoving();
+    this->addSeeds(*seeds, std::vector<char>(seeds->count(), 1));
   }
   this->dropNearRims(seedToRim);
   this->coverBoxes();
@@ -338,38 +383,6 @@ void FastSystem::continueFrom(const std::vector<Location>& places)
   keepThoseWithin(farthestStart);
   this->Moving->approach(arrivedOffset);
   keepThoseWithin(arrivedOffset);
-}
-
-/// The first places of a given number of particles: more are drawn until those that rims push aside are
-/// made up for, and those too many are taken away evenly.
-void FastSystem::makeExactly(std::int64_t count)
-{
-  constexpr int tries = 8;
-  const auto missing = [&]() { return count - static_cast<std::int64_t>(this->Moving->size()); };
-  this->makeSeeds(count);
-  std::int64_t drawn = count;
-  for (int n = 1; n < tries && missing() > 0; ++n)
-  {
-    drawn += missing();
-    if (this->Parameters.start.empty())
-    {
-      this->makeSeeds(drawn);
-    }
-    else
-    {
-      this->addSeeds(missing(), 0.5);
-      this->dropNearRims(seedToRim);
-    }
-  }
-  const auto moving = static_cast<std::int64_t>(this->Moving->count());
-  const auto surplus =
-    std::clamp<std::int64_t>(static_cast<std::int64_t>(this->Moving->size()) - count, 0, moving);
-  std::vector<char> kept(moving, 1);
-  for (std::int64_t n = 0; n < surplus; ++n)
-  {
-    kept[n * moving / surplus] = 0;
-  }
-  this->Moving->keep(kept);
 }
 
 /// No particles yet but those on rims.
@@ -422,25 +435,25 @@ void FastSystem::relax(
   this->Result.report.iterations += sweeps;
 }
 
-/// One round. Where a number is not given, so many are added or removed everywhere before the last round that
-/// their number is as wanted; the last one mends single defects.
+/// One round. Before the last one so many are added or removed everywhere that their number is as wanted; the last
+/// one mends single defects.
 void FastSystem::relaxAll(int sweeps, bool isLast, const Section& section)
 {
   Balance balance;
-  balance.extent = this->countIsGiven() ? Balance::None
-    : isLast                            ? Balance::Defects
-                                        : Balance::Everywhere;
+  balance.extent = isLast ? Balance::Defects : Balance::Everywhere;
+  const auto size = static_cast<double>(this->Moving->size());
   // Where spacings vary, energies know of narrow places that the proxy overlooks; but they would leave the
   // particles of a run before as many as they are.
-  if (this->Law.angularDensity == 0.0 || !this->Parameters.start.empty())
+  if (this->countIsGiven())
   {
-    balance.missing = this->wantedCount() - static_cast<double>(this->Moving->size());
+    balance.missing = static_cast<double>(this->Parameters.particleCount) - size;
+  }
+  else if (this->Law.angularDensity == 0.0 || this->IsWarm)
+  {
+    balance.missing = this->wantedCount() - size;
   }
   this->relax(*this->Moving, sweeps, balance, section);
-  if (!this->countIsGiven())
-  {
-    this->dropNearRims(squeezed);
-  }
+  this->dropNearRims(squeezed);
 }
 
 /// Those of the first `count` patches that stand too near to another one.
@@ -462,13 +475,13 @@ void FastSystem::repair()
     {
       break;
     }
-    crowded = this->repairAround(crowded);
+    crowded = this->repairAround(crowded, Balance::Crowded);
   }
 }
 
 /// Particles around some go on alone, those farther off stay.
 /// \return those that stand too near to each other now
-Buffer<Patch> FastSystem::repairAround(const Buffer<Patch>& crowded)
+Buffer<Patch> FastSystem::repairAround(const Buffer<Patch>& crowded, Balance::Extent extent)
 {
   const Buffer<Patch>& patches = this->Moving->patches();
   const std::size_t count = this->Moving->count();
@@ -491,7 +504,7 @@ Buffer<Patch> FastSystem::repairAround(const Buffer<Patch>& crowded)
   for (int n = 0; n < repairRounds; ++n)
   {
     Balance balance;
-    balance.extent = this->countIsGiven() ? Balance::None : Balance::Crowded;
+    balance.extent = extent;
     this->relax(part, repairSweeps, balance, { relaxedFraction, relaxedFraction });
   }
   this->Moving->keep(staying);
@@ -506,6 +519,85 @@ void FastSystem::coverBoxes()
   const auto& samples = this->Proxy->samples();
   const std::vector<char> lonely = findLonely(samples, this->Moving->patches(), this->Parallel);
   this->addSamples(chooseUncovered(samples, lonely, this->Parallel));
+}
+
+/// Removes particles that were squeezed against rims or each other.
+/// \return what stood there
+Buffer<Patch> FastSystem::removeSqueezed()
+{
+  const Buffer<Patch>& patches = this->Moving->patches();
+  const std::vector<char> kept =
+    keepDistance(patches, this->Moving->count(), this->RimPatches, squeezed, this->Parallel);
+  const std::vector<char> apart = standApart(patches, kept, squeezed, this->Parallel);
+  const Buffer<Patch> removed = marked(patches, opposite(apart));
+  this->Moving->keep(apart);
+  return removed;
+}
+
+/// \return what stood there
+Buffer<Patch> FastSystem::remove(const std::vector<int>& particles)
+{
+  std::vector<char> kept(this->Moving->count(), 1);
+  for (const int i : particles)
+  {
+    kept[i] = 0;
+  }
+  const Buffer<Patch> removed = marked(this->Moving->patches(), opposite(kept));
+  this->Moving->keep(kept);
+  return removed;
+}
+
+/// Adds particles where there is most room.
+/// \return where they are
+Buffer<Patch> FastSystem::addInGaps(std::int64_t count)
+{
+  constexpr std::int64_t seedsPerParticle = 2;
+  constexpr std::int64_t someSeeds = 64;
+  const auto seeds = this->drawSeeds(someSeeds + seedsPerParticle * this->Parameters.particleCount);
+  const std::vector<double> room = clearances(
+    seeds->patches(), seeds->count(), this->Moving->patches(), exchangedApart, this->Parallel);
+  const std::vector<int> order = indicesBy(room, std::greater<>());
+  std::vector<char> wanted(seeds->count(), 0);
+  for (const int s : chooseApart(seeds->patches(), order, count, exchangedApart, this->Parallel))
+  {
+    wanted[s] = 1;
+  }
+  this->addSeeds(*seeds, wanted);
+  return seeds->patches();
+}
+
+/// Adds or removes particles until there are as many as that, if possible.
+/// \return where that was
+Buffer<Patch> FastSystem::matchNumber(std::int64_t count)
+{
+  const std::int64_t missing = count - static_cast<std::int64_t>(this->Moving->size());
+  if (missing > 0)
+  {
+    return this->addInGaps(missing);
+  }
+  const Buffer<Patch>& patches = this->Moving->patches();
+  const std::vector<int> order =
+    indicesBy(clearances(patches, this->Moving->count(), patches, exchangedApart, this->Parallel),
+      std::less<>());
+  return this->remove(chooseApart(patches, order, -missing, exchangedApart, this->Parallel));
+}
+
+/// Makes particles a given number of them; those that stand badly are exchanged for others.
+void FastSystem::settleNumber(std::int64_t count)
+{
+  for (int n = 0;; ++n)
+  {
+    Buffer<Patch> changed = this->removeSqueezed();
+    for (const Patch& patch : this->matchNumber(count))
+    {
+      changed.push_back(patch);
+    }
+    if (changed.empty() || n == exchanges)
+    {
+      return;
+    }
+    this->repairAround(changed, Balance::None);
+  }
 }
 
 /// Takes all particles to the tolerance and says what there is to say about them.
@@ -555,16 +647,8 @@ void FastSystem::make()
   const double wanted = this->Proxy->particleCount();
   if (wanted > 0.0 && !this->tooMany(wanted))
   {
-    if (this->countIsGiven())
-    {
-      this->makeExactly(this->Parameters.particleCount);
-    }
-    else
-    {
-      this->makeSeeds(std::llround(wanted));
-    }
-    const std::vector<int> rounds =
-      sweepsOfRounds(this->Parameters.quality, !this->Parameters.start.empty());
+    this->makeSeeds(std::llround(wanted));
+    const std::vector<int> rounds = sweepsOfRounds(this->Parameters.quality, this->IsWarm);
     const Section all{ seededFraction, relaxedFraction };
     this->reach(all.begin);
     for (std::size_t n = 0; n < rounds.size(); ++n)
@@ -575,10 +659,11 @@ void FastSystem::make()
       this->reach(round.end);
     }
     this->repair();
-    if (!this->countIsGiven())
+    // Beside another sheet the last particle of a small component may have been taken for one too many.
+    this->coverBoxes();
+    if (this->countIsGiven())
     {
-      // Beside another sheet the last particle of a small component may have been taken for one too many.
-      this->coverBoxes();
+      this->settleNumber(this->Parameters.particleCount);
     }
     this->finish();
   }

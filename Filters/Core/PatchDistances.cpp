@@ -141,6 +141,54 @@ std::vector<char> standApart(const Buffer<Patch>& patches, const std::vector<cha
   return kept;
 }
 
+std::vector<double> clearances(const Buffer<Patch>& patches, std::size_t count,
+  const Buffer<Patch>& others, double most, const ParallelFor& parallelFor)
+{
+  const SpacedPoints points(others, parallelFor);
+  const SpacingGrid grid(points.positions, points.spacings, most, cellsPerReach, parallelFor);
+  const bool areTheSame = &patches == &others;
+  std::vector<double> result(count, most);
+  forAll(parallelFor, count,
+    [&](std::size_t i)
+    {
+      const Patch& patch = patches[i];
+      grid.visit(patch.position, patch.spacing,
+        [&](int j)
+        {
+          const bool isOther = !areTheSame || static_cast<std::size_t>(j) != i;
+          if (isOther && isNear(patch, others[j], result[i] * patch.spacing))
+          {
+            result[i] = glm::distance(patch.position, others[j].position) / patch.spacing;
+          }
+        });
+    });
+  return result;
+}
+
+std::vector<int> chooseApart(const Buffer<Patch>& patches, const std::vector<int>& order,
+  std::size_t count, double distance, const ParallelFor& parallelFor)
+{
+  Buffer<Patch> inOrder;
+  for (const int i : order)
+  {
+    inOrder.push_back(patches[i]);
+  }
+  const std::vector<char> apart =
+    standApart(inOrder, std::vector<char>(order.size(), 1), distance, parallelFor);
+  std::vector<int> chosen;
+  for (const char wanted : { 1, 0 })
+  {
+    for (std::size_t n = 0; n < order.size() && chosen.size() < count; ++n)
+    {
+      if (apart[n] == wanted)
+      {
+        chosen.push_back(order[n]);
+      }
+    }
+  }
+  return chosen;
+}
+
 std::vector<char> findLonely(const std::vector<SurfaceProxy::Sample>& samples,
   const Buffer<Patch>& patches, const ParallelFor& parallelFor)
 {

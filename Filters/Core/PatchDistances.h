@@ -23,6 +23,18 @@ std::vector<char> haveDistance(
 std::vector<char> standApart(const Buffer<Patch>& patches, const std::vector<char>& wanted,
   double distance, const ParallelFor& parallelFor);
 
+/// For each of the first `count` patches, how far the nearest of the others is that is not turned away, in units
+/// of its spacing, or `most` if that is less. A patch is not its own other.
+std::vector<double> clearances(const Buffer<Patch>& patches, std::size_t count,
+  const Buffer<Patch>& others, double most, const ParallelFor& parallelFor);
+
+/// The `count` first of some patches in a new order, but for those nearer than a distance (see standApart) to one
+/// before, as long as there are enough others.
+/// \param order indices, the one wanted most first
+/// \return indices of patches
+std::vector<int> chooseApart(const Buffer<Patch>& patches, const std::vector<int>& order,
+  std::size_t count, double distance, const ParallelFor& parallelFor);
+
 /// For each sample, whether no patch stands on the piece of surface around it.
 std::vector<char> findLonely(const std::vector<SurfaceProxy::Sample>& samples,
   const Buffer<Patch>& patches, const ParallelFor& parallelFor);

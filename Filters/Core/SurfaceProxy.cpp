@@ -445,8 +445,8 @@ void SurfaceProxy::seedBox(std::size_t box, std::int64_t first, std::int64_t las
   }
 }
 
-std::vector<SurfaceProxy::Seed> SurfaceProxy::seeds(std::int64_t count, double phase,
-  const ParallelFor& parallelFor, const std::vector<char>& only) const
+std::vector<SurfaceProxy::Seed> SurfaceProxy::seeds(
+  std::int64_t count, double phase, const ParallelFor& parallelFor) const
 {
   std::vector<Seed> seeds(count);
   const double stride = this->particleCount() / static_cast<double>(count);
@@ -461,8 +461,7 @@ std::vector<SurfaceProxy::Seed> SurfaceProxy::seeds(std::int64_t count, double p
         const std::int64_t first = b > 0 ? firstFrom(this->Sums[b - 1]) : 0;
         const bool isLast = this->Sums[b] == this->Sums.back();
         const std::int64_t last = isLast ? count : firstFrom(this->Sums[b]);
-        const bool wanted = only.empty() || only[b];
-        if (wanted && first < last && (b == 0 || this->Sums[b] > this->Sums[b - 1]))
+        if (first < last && (b == 0 || this->Sums[b] > this->Sums[b - 1]))
         {
           this->seedBox(b, first, last, phase, stride, seeds);
         }

@@ -66,9 +66,7 @@ public:
   /// stands where the sum of the weights reaches (k + phase) particleCount()/count. The only one in its box
   /// stands at the sample.
   /// \param phase in [0, 1)
-  /// \param only if not empty, a mark for each box: of all places those in boxes that have one
-  std::vector<Seed> seeds(std::int64_t count, double phase, const ParallelFor& parallelFor,
-    const std::vector<char>& only = {}) const;
+  std::vector<Seed> seeds(std::int64_t count, double phase, const ParallelFor& parallelFor) const;
 
   /// What the box's sample says about the surface at a seed.
   /// \return whether the seed is near enough to the sample for it to be believed

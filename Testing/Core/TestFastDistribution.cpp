@@ -198,7 +198,7 @@ TEST(FastDistribution, GivesExactlyTheNumberOfParticlesAskedFor)
         ASSERT_EQ(static_cast<std::int64_t>(result.particles.size()), count);
         if (count > 3)
         {
-          EXPECT_GE(smallest(nearestSpacings(result.particles)), open ? 0.4 : 0.69);
+          EXPECT_GE(smallest(nearestSpacings(result.particles)), 0.69);
         }
       }
     }

@@ -30,10 +30,11 @@ ElementMesh meshOf(Domain domain, const Field& field, double bend = 0.1)
 }
 
 Distribution distribute(const ElementMesh& mesh, double isovalue,
-  const std::vector<Location>& start = {}, const ParallelFor& parallelFor = {})
+  const std::vector<Location>& start = {}, const ParallelFor& parallelFor = {},
+  double wantedSpacing = spacing)
 {
   DistributionParameters parameters;
-  parameters.law.spacing = spacing;
+  parameters.law.spacing = wantedSpacing;
   parameters.start = start;
   return distributeFast({ &mesh, isovalue, tolerance }, parameters, {}, parallelFor);
 }
@@ -104,6 +105,31 @@ TEST_P(WarmStart, FindsWhatWasNotThereBefore)
   EXPECT_NEAR(
     small, std::count_if(scratch.particles.begin(), scratch.particles.end(), isSmall), 10);
   expectGood(after, scratch);
+}
+
+TEST_P(WarmStart, CoversWhatIsFarFromWhereItWas)
+{
+  // Much of such a surface lies within a spacing or two of the boundary.
+  constexpr double coarse = 0.125;
+  const ElementMesh mesh = meshOf(this->GetParam(), gyroid(1.3), 0.0);
+  std::vector<glm::dvec3> probes;
+  constexpr double last = 0.77;
+  for (const Particle& p : distribute(mesh, last, {}, {}, 0.25 * coarse).particles)
+  {
+    probes.push_back(p.position.xyz);
+  }
+  for (const double first : { 0.7, 0.4, 0.0, -0.25, -0.8 })
+  {
+    SCOPED_TRACE(::testing::Message() << "from " << first);
+    const Distribution before = distribute(mesh, first, {}, {}, coarse);
+    const Distribution scratch = distribute(mesh, last, {}, {}, coarse);
+    const Distribution run = distribute(mesh, last, placesOf(mesh, before), {}, coarse);
+    EXPECT_NEAR(
+      static_cast<double>(run.particles.size()) / static_cast<double>(scratch.particles.size()),
+      1.0, 0.03);
+    EXPECT_LE(coverageRadius(run.particles, probes), 0.95);
+    EXPECT_GE(measureEvenness(run.particles).minSpacing, 0.6);
+  }
 }
 
 TEST_P(WarmStart, DependsOnThePlacesAndNotOnThreads)
