@@ -49,8 +49,10 @@ constexpr double warnUndersampledShare = 0.01;
 /// Where a run's progress stands when cells are converted, and when particles are done.
 constexpr double convertedShare = 0.1;
 constexpr double distributedShare = 0.95;
-/// Peak of the whole filter, measured at 0.7 to 1.1 kB with one point array.
-constexpr std::int64_t bytesPerParticle = 1280;
+/// Peak of the whole filter, measured at 0.7 to 1.5 kB with one point array.
+constexpr std::int64_t bytesPerParticle = 1536;
+/// Particles are numbered by int.
+constexpr std::int64_t mostParticles = 2'000'000'000;
 
 /// How many particles this machine has memory for now.
 std::int64_t particlesThatFit()
@@ -60,7 +62,7 @@ std::int64_t particlesThatFit()
   system.RunMemoryCheck();
   const auto available = static_cast<std::int64_t>(system.GetAvailablePhysicalMemory());
   // 0: the system does not say.
-  return available > 0 ? available * megabyte / bytesPerParticle
+  return available > 0 ? std::min(mostParticles, available * megabyte / bytesPerParticle)
                        : hop::DistributionParameters().particleLimit;
 }
 
@@ -489,7 +491,7 @@ void vtkHighOrderParticleIsosurface::Process(
   }
 }
 
-/// Does some work on blocks; where it is interrupted they stay without particles.
+/// Does some work on blocks; where it is interrupted, or memory runs out, they stay without particles.
 template <class Use>
 void vtkHighOrderParticleIsosurface::UnlessAborted(const InputBlocks& blocks, const Use& use)
 {
@@ -497,16 +499,26 @@ void vtkHighOrderParticleIsosurface::UnlessAborted(const InputBlocks& blocks, co
   {
     return;
   }
+  const auto empty = [&]()
+  {
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+    {
+      blocks[b].particles->Initialize();
+    }
+  };
   try
   {
     use();
   }
   catch (const hop::Interrupted&)
   {
-    for (std::size_t b = 0; b < blocks.size(); ++b)
-    {
-      blocks[b].particles->Initialize();
-    }
+    empty();
+  }
+  catch (const std::exception& failure)
+  {
+    empty();
+    vtkErrorMacro("There are no particles, as the run failed ("
+      << failure.what() << "). If that is for want of memory, choose a larger Spacing.");
   }
 }
 

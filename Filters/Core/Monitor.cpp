@@ -1,20 +1,43 @@
 #include "Monitor.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <exception>
 
 namespace hop
 {
 
 void runInThreads(const ParallelFor& parallelFor, std::ptrdiff_t count, const LoopBody& body)
 {
-  if (parallelFor)
+  if (!parallelFor)
   {
-    parallelFor(count, body);
+    if (count > 0)
+    {
+      body(0, count);
+    }
+    return;
   }
-  else if (count > 0)
+  std::atomic<bool> failed{ false };
+  std::exception_ptr failure;
+  parallelFor(count,
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      try
+      {
+        body(begin, end);
+      }
+      catch (...)
+      {
+        if (!failed.exchange(true))
+        {
+          failure = std::current_exception();
+        }
+      }
+    });
+  if (failure)
   {
-    body(0, count);
+    std::rethrow_exception(failure);
   }
 }
 

@@ -23,7 +23,8 @@ using LoopBody = std::function<void(std::ptrdiff_t begin, std::ptrdiff_t end)>;
 /// and number. Results must not depend on either. Serial when empty.
 using ParallelFor = std::function<void(std::ptrdiff_t count, const LoopBody& body)>;
 
-/// Runs a loop in the caller's threads, or here if there are none.
+/// Runs a loop in the caller's threads, or here if there are none. What a piece of it throws is thrown here when all
+/// threads are done: none would outlive it.
 void runInThreads(const ParallelFor& parallelFor, std::ptrdiff_t count, const LoopBody& body);
 
 /// Runs a loop alone, in growing pieces, until all of it seems to take longer than threads do to start.

@@ -24,17 +24,30 @@ void runPhases(
   std::vector<std::atomic<std::ptrdiff_t>> taken(phases);
   std::vector<std::atomic<std::ptrdiff_t>> done(phases);
   std::atomic<int> current{ 0 };
+  std::atomic<bool> failed{ false };
+  const auto run = [&](int phase, std::ptrdiff_t piece)
+  {
+    try
+    {
+      body(phase, piece);
+    }
+    catch (...)
+    {
+      failed = true; // or others would wait for it
+      throw;
+    }
+  };
   const auto work = [&](std::ptrdiff_t, std::ptrdiff_t)
   {
     for (int phase = current; phase < phases; ++phase)
     {
       const std::ptrdiff_t count = pieceCount(phase);
-      for (std::ptrdiff_t piece = taken[phase]++; piece < count; piece = taken[phase]++)
+      for (std::ptrdiff_t piece = taken[phase]++; piece < count && !failed; piece = taken[phase]++)
       {
-        body(phase, piece);
+        run(phase, piece);
         ++done[phase];
       }
-      while (done[phase] < count)
+      while (done[phase] < count && !failed)
       {
         std::this_thread::yield();
       }

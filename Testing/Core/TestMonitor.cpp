@@ -1,12 +1,14 @@
 #include "Monitor.h"
 
 #include "Phases.h"
+#include "ThreadTeam.h"
 #include "ThreadedFor.h"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <chrono>
+#include <new>
 #include <thread>
 #include <vector>
 
@@ -104,6 +106,48 @@ TEST(RunPhases, FinishesOneBeforeTheNext)
       });
     EXPECT_EQ(done, phases * pieces);
     EXPECT_EQ(early, 0);
+  }
+}
+
+/// A loop with a piece that throws in a thread that is not the caller's.
+TEST(RunInThreads, HandsOnWhatAThreadThrows)
+{
+  ThreadTeam team(3);
+  const ParallelFor parallelFor = [&](std::ptrdiff_t count, const LoopBody& body)
+  { team.run(count, body); };
+  const auto own = std::this_thread::get_id();
+  std::atomic<bool> thrown{ false };
+  const auto body = [&](std::ptrdiff_t, std::ptrdiff_t)
+  {
+    if (std::this_thread::get_id() != own && !thrown.exchange(true))
+    {
+      throw std::bad_alloc();
+    }
+    while (!thrown)
+    {
+      std::this_thread::yield();
+    }
+  };
+  EXPECT_THROW(runInThreads(parallelFor, 1'000, body), std::bad_alloc);
+}
+
+TEST(RunPhases, EndsWhereAPieceThrows)
+{
+  for (const ParallelFor& parallelFor : { ParallelFor(), threadedFor(3) })
+  {
+    std::atomic<int> last{ 0 };
+    const auto body = [&](int phase, std::ptrdiff_t piece)
+    {
+      last = phase;
+      if (phase == 3 && piece == 2)
+      {
+        throw std::bad_alloc();
+      }
+    };
+    EXPECT_THROW(runPhases(
+                   parallelFor, 20, [](int) { return std::ptrdiff_t{ 5 }; }, body),
+      std::bad_alloc);
+    EXPECT_EQ(last, 3);
   }
 }
 
