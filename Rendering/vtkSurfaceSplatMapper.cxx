@@ -123,6 +123,7 @@ void vtkSurfaceSplatMapper::ReleaseGraphicsResources(vtkWindow* window)
   this->Internal->FrontLayer.ReleaseGraphicsResources(window);
   this->Internal->BackLayer.ReleaseGraphicsResources(window);
   this->Internal->Input = nullptr;
+  this->Internal->CannotSplat = false; // another window may have another driver
 }
 
 //------------------------------------------------------------------------------
@@ -440,6 +441,10 @@ void vtkSurfaceSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* act
   double bounds[6];
   this->GetDiskBounds(this->CurrentInput, bounds);
   internal.View.Update(renderer, actor, internal.Buffers.GetOrigin(), bounds);
+  if (internal.View.GetWidth() == 0 || internal.View.GetHeight() == 0)
+  {
+    return; // there are no framebuffers without pixels
+  }
   internal.DrawnKind = this->GetDrawnKind(renderer, actor);
   internal.Buffers.Activate();
   if (!this->DrawsSplats() || !this->DrawSplats(renderer, actor))

@@ -241,6 +241,48 @@ TEST(SplatState, WithoutFloatingPointTargetsThereAreDisksAndOneWarning)
   EXPECT_EQ(scene.CountDrawnPixels(), asDisks.CountDrawnPixels());
 }
 
+TEST(SplatState, ReleasedResourcesMayComeBackOnABetterDriver)
+{
+  vtkSmartPointer<vtkPolyData> sphere = FibonacciSphere(Count, 1., Spacing);
+  SplatScene fresh(sphere);
+  fresh.Mapper->SetModeToSplats();
+  fresh.Render();
+
+  SplatScene scene(sphere);
+  WarningCounter warnings(scene.Mapper);
+  scene.Render(); // the window loads OpenGL's functions
+  scene.Mapper->SetModeToSplats();
+  const auto check = glCheckFramebufferStatus;
+  glCheckFramebufferStatus = RefuseSeveralTargets;
+  scene.Render();
+  glCheckFramebufferStatus = check;
+  EXPECT_EQ(warnings.Count, 1) << warnings.Text;
+  scene.Mapper->ReleaseGraphicsResources(scene.Window);
+  scene.Render();
+  EXPECT_EQ(CountDifferent(scene, fresh), 0);
+}
+
+// As of a pane that is closed and opened again.
+TEST(SplatState, AViewWithoutPixelsShowsSplatsOnceItHasSome)
+{
+  vtkSmartPointer<vtkPolyData> sphere = FibonacciSphere(Count, 1., Spacing);
+  SplatScene fresh(sphere);
+  fresh.Mapper->SetModeToSplats();
+  fresh.Render();
+  for (const glm::dvec2& size : { glm::dvec2(0., 1.), glm::dvec2(1., 0.), glm::dvec2(0., 0.) })
+  {
+    SplatScene scene(sphere);
+    scene.Mapper->SetModeToSplats();
+    WarningCounter warnings(scene.Mapper);
+    scene.Renderer->SetViewport(0., 0., size.x, size.y);
+    scene.Render();
+    scene.Renderer->SetViewport(0., 0., 1., 1.);
+    scene.Render();
+    EXPECT_EQ(warnings.Count, 0) << warnings.Text;
+    EXPECT_EQ(CountDifferent(scene, fresh), 0) << size.x << " x " << size.y;
+  }
+}
+
 TEST(SplatState, SeveralRenderersShareAWindow)
 {
   SplatScene scene(FibonacciSphere(Count, 1., Spacing));
