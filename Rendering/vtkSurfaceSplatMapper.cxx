@@ -20,6 +20,7 @@
 #include "vtkScalarsToColors.h"
 #include "vtkShaderProgram.h"
 #include "vtkShaderProperty.h"
+#include "vtkStaticCellLinksTemplate.h"
 #include "vtkSurfaceSplatBuffers.h"
 #include "vtkSurfaceSplatColors.h"
 #include "vtkSurfaceSplatDisk.h"
@@ -225,13 +226,14 @@ void vtkSurfaceSplatMapper::BuildBufferObjects(vtkRenderer* renderer, vtkActor* 
   this->UploadParticles(renderer, input);
   this->UploadColors(renderer, actor);
 
-  // No index buffer is used, but the base class counts primitives by it, for selections.
+  // No index buffer is used, but the base class counts cells by it, for selections.
   for (auto& primitive : this->Primitives)
   {
     primitive.IBO->IndexCount = 0;
   }
-  this->Primitives[PrimitiveTris].IBO->IndexCount =
-    3 * static_cast<size_t>(this->Internal->Buffers.GetNumberOfParticles());
+  this->Primitives[PrimitiveTris].IBO->IndexCount = 3 *
+    static_cast<size_t>(
+      std::max(this->Internal->Buffers.GetNumberOfParticles(), input->GetNumberOfCells()));
   this->VBOBuildTime.Modified();
 }
 
@@ -763,7 +765,8 @@ void vtkSurfaceSplatMapper::ReplaceShaderPicking(
   ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor)
 {
   // The base class would take gl_VertexID and gl_PrimitiveID, which are not those of particles here.
-  // Its cell ids count through the vertex cells in order, as particles do.
+  // Its cell ids count through the vertex cells in order, as particles do; where there are none, see
+  // ProcessSelectorPixelBuffers().
   const char* code = nullptr;
   switch (this->LastSelectionState)
   {
@@ -794,6 +797,55 @@ void vtkSurfaceSplatMapper::ReplaceShaderPicking(
     Replace(shaders[vtkShader::Vertex], "//VTK::Picking::Impl", "");
   }
   this->Superclass::ReplaceShaderPicking(shaders, renderer, actor);
+}
+
+namespace
+{
+// Takes the points' numbers out of the pixels of a selection by cells and puts those of cells in.
+void SelectCellsAtPoints(
+  vtkPolyData* input, vtkHardwareSelector* selector, const std::vector<unsigned int>& pixels)
+{
+  const unsigned char* low = selector->GetRawPixelBuffer(vtkHardwareSelector::CELL_ID_LOW24);
+  const unsigned char* high = selector->GetRawPixelBuffer(vtkHardwareSelector::CELL_ID_HIGH24);
+  const int pass = selector->GetCurrentPass();
+  const int shift = pass == vtkHardwareSelector::CELL_ID_LOW24 ? 0 : 24;
+  const bool byCells = selector->GetFieldAssociation() == vtkDataObject::FIELD_ASSOCIATION_CELLS;
+  vtkStaticCellLinksTemplate<vtkIdType> links;
+  links.BuildLinks(input);
+  for (unsigned int pixel : pixels)
+  {
+    const vtkIdType point = low[pixel] | low[pixel + 1] << 8 | low[pixel + 2] << 16 |
+      static_cast<vtkIdType>(high ? high[pixel] : 0) << 24;
+    const bool used = point < input->GetNumberOfPoints() && links.GetNcells(point) > 0;
+    const vtkIdType cell = used ? links.GetCells(point)[0] : 0;
+    for (int byte = 0; byte < 3; ++byte)
+    {
+      selector->GetPixelBuffer(pass)[pixel + byte] =
+        static_cast<unsigned char>((cell >> (shift + 8 * byte)) & 0xff);
+    }
+    if (!used && byCells)
+    {
+      std::fill_n(selector->GetPixelBuffer(vtkHardwareSelector::ACTOR_PASS) + pixel, 3, 0);
+    }
+  }
+}
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatMapper::ProcessSelectorPixelBuffers(
+  vtkHardwareSelector* selector, std::vector<unsigned int>& pixels, vtkProp* prop)
+{
+  const int pass = selector->GetCurrentPass();
+  const bool cells =
+    pass == vtkHardwareSelector::CELL_ID_LOW24 || pass == vtkHardwareSelector::CELL_ID_HIGH24;
+  if (cells && this->Internal->CellIds.empty())
+  {
+    SelectCellsAtPoints(this->CurrentInput, selector, pixels);
+  }
+  else
+  {
+    this->Superclass::ProcessSelectorPixelBuffers(selector, pixels, prop);
+  }
 }
 
 //------------------------------------------------------------------------------

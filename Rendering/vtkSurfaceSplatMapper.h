@@ -174,6 +174,10 @@ public:
    */
   void GetDiskBounds(vtkPolyData* input, double bounds[6]);
 
+  /** Particles that are no vertex cells stand for a cell at their point, or for none. */
+  void ProcessSelectorPixelBuffers(
+    vtkHardwareSelector* selector, std::vector<unsigned int>& pixels, vtkProp* prop) override;
+
   void ReleaseGraphicsResources(vtkWindow* window) override;
   void ShallowCopy(vtkAbstractMapper* mapper) override;
 

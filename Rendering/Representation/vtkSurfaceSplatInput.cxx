@@ -16,6 +16,7 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
+#include "vtkStaticCellLinksTemplate.h"
 #include "vtkUnsignedIntArray.h"
 
 #include <algorithm>
@@ -34,7 +35,8 @@ vtkSmartPointer<vtkPolyData> PointSetAsParticles(vtkPointSet* input)
   particles->GetFieldData()->ShallowCopy(input->GetFieldData());
 
   vtkNew<vtkCellArray> vertices;
-  vtkNew<vtkIdList> vertexCells;
+  vtkNew<vtkIdTypeArray> vertexCells;
+  vertexCells->SetName(vtkSurfaceSplatInput::BlockCellIdName);
   vtkNew<vtkIdList> points;
   for (vtkIdType cell = 0; cell < input->GetNumberOfCells(); ++cell)
   {
@@ -43,15 +45,16 @@ vtkSmartPointer<vtkPolyData> PointSetAsParticles(vtkPointSet* input)
     {
       input->GetCellPoints(cell, points);
       vertices->InsertNextCell(points);
-      vertexCells->InsertNextId(cell);
+      vertexCells->InsertNextValue(cell);
     }
   }
   particles->SetVerts(vertices);
-  particles->GetCellData()->CopyAllocate(input->GetCellData(), vertexCells->GetNumberOfIds());
-  for (vtkIdType i = 0; i < vertexCells->GetNumberOfIds(); ++i)
+  particles->GetCellData()->CopyAllocate(input->GetCellData(), vertexCells->GetNumberOfTuples());
+  for (vtkIdType i = 0; i < vertexCells->GetNumberOfTuples(); ++i)
   {
-    particles->GetCellData()->CopyData(input->GetCellData(), vertexCells->GetId(i), i);
+    particles->GetCellData()->CopyData(input->GetCellData(), vertexCells->GetValue(i), i);
   }
+  particles->GetCellData()->AddArray(vertexCells);
   return particles;
 }
 
@@ -73,23 +76,32 @@ void RememberBlock(vtkPolyData* particles, unsigned int flatIndex)
   block->SetNumberOfTuples(cells);
   block->FillValue(flatIndex);
   particles->GetCellData()->AddArray(block);
-  particles->GetCellData()->AddArray(Numbers(BlockCellIdName, cells));
+  if (!particles->GetCellData()->HasArray(BlockCellIdName))
+  {
+    particles->GetCellData()->AddArray(Numbers(BlockCellIdName, cells));
+  }
   particles->GetPointData()->AddArray(Numbers(BlockPointIdName, particles->GetNumberOfPoints()));
 }
 
-// Selections find the block of a particle through its cell.
+// Selections find the block of a particle through its vertex cell, which stands for a cell at its point.
 void EnsureVertexCells(vtkPolyData* particles)
 {
   if (particles->GetNumberOfVerts() > 0)
   {
     return;
   }
+  vtkStaticCellLinksTemplate<vtkIdType> links;
+  links.BuildLinks(particles);
   vtkNew<vtkCellArray> vertices;
+  vtkNew<vtkIdTypeArray> cells;
+  cells->SetName(vtkSurfaceSplatInput::BlockCellIdName);
   for (vtkIdType point = 0; point < particles->GetNumberOfPoints(); ++point)
   {
     vertices->InsertNextCell(1, &point);
+    cells->InsertNextValue(links.GetNcells(point) > 0 ? links.GetCells(point)[0] : -1);
   }
   particles->GetCellData()->Initialize();
+  particles->GetCellData()->AddArray(cells);
   particles->SetVerts(vertices);
   particles->SetLines(nullptr);
   particles->SetPolys(nullptr);

@@ -20,8 +20,8 @@ class vtkPolyData;
 namespace vtkSurfaceSplatInput
 {
 /**
- * Arrays of a merged input that lead back to its blocks, for selections. Inputs that are not
- * composite do not have them.
+ * Arrays that lead back to the input, for selections: of a merged input to its blocks; of a grid to those of
+ * its cells that are vertices. -1 stands for no cell. Polydata does not have them.
  */
 constexpr const char* BlockPointIdName = "SurfaceSplatPointId";
 constexpr const char* BlockCellIdName = "SurfaceSplatCellId";

@@ -2,7 +2,6 @@
 
 #include "vtkActor.h"
 #include "vtkAlgorithm.h"
-#include "vtkCellData.h"
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -33,6 +32,11 @@ vtkSurfaceSplatRepresentation::vtkSurfaceSplatRepresentation()
   , ArraysToColorBy(Particles)
 {
   this->Actor->SetMapper(this->Mapper);
+  // Of those that an input has.
+  this->Mapper->SetPointIdArrayName(vtkSurfaceSplatInput::BlockPointIdName);
+  this->Mapper->SetCellIdArrayName(vtkSurfaceSplatInput::BlockCellIdName);
+  this->Mapper->SetCompositeIdArrayName(vtkSurfaceSplatInput::BlockIndexName);
+  this->Mapper->SetCellColorArrayName(vtkSurfaceSplatInput::BlockColorName);
   this->SetMapScalars(1);
 }
 
@@ -95,14 +99,6 @@ void vtkSurfaceSplatRepresentation::PrepareMapper(vtkInformation* inInfo)
   this->Mapper->SetStride(lod ? static_cast<int>(1 + count / InteractiveParticles) : 1);
   this->Mapper->SetInputDataObject(particles);
   this->UpdateColoring();
-
-  // Merged blocks say where their particles came from.
-  using namespace vtkSurfaceSplatInput;
-  const bool merged = particles && particles->GetCellData()->HasArray(BlockIndexName);
-  this->Mapper->SetPointIdArrayName(merged ? BlockPointIdName : nullptr);
-  this->Mapper->SetCellIdArrayName(merged ? BlockCellIdName : nullptr);
-  this->Mapper->SetCompositeIdArrayName(merged ? BlockIndexName : nullptr);
-  this->Mapper->SetCellColorArrayName(BlockColorName);
 }
 
 //------------------------------------------------------------------------------

@@ -268,9 +268,9 @@ def test_input_that_lacks_something_is_no_crash(view, picture, script):
     assert np.any(drawn(picture())) == (script == "")
 
 
-def select_point(source, view, x, y):
+def select(source, view, x, y, how=simple.SelectSurfacePoints):
     """What a click at a pixel selects of a source."""
-    simple.SelectSurfacePoints(Rectangle=[x, y, x, y], View=view)
+    how(Rectangle=[x, y, x, y], View=view)
     selected = simple.ExtractSelection(Input=source)
     selected.Selection = source.GetSelectionInput(source.Port)
     selected.UpdatePipeline()
@@ -281,7 +281,7 @@ def test_selection_finds_the_particle_under_the_cursor(view):
     source = particles()
     show(source, view)
     simple.Render(view)
-    found = select_point(source, view, SIZE // 2, SIZE // 2)
+    found = select(source, view, SIZE // 2, SIZE // 2)
     assert found.GetNumberOfPoints() == 1
     assert np.linalg.norm(np.array(found.GetPoint(0)) - [0, -0.5, 0]) < 0.04
 
@@ -290,10 +290,46 @@ def test_selection_finds_the_block_of_a_composite(view):
     group = simple.GroupDatasets(Input=[particles((-0.5, 0, 0)), particles((0.5, 0, 0))])
     show(group, view)
     simple.Render(view)
-    found = select_point(group, view, int(0.75 * SIZE), SIZE // 2)
+    found = select(group, view, int(0.75 * SIZE), SIZE // 2)
     points = [found.GetBlock(block).GetNumberOfPoints() for block in range(2) if found.GetBlock(block)]
     assert sum(points) == 1 and found.GetBlock(1).GetNumberOfPoints() == 1
     assert np.linalg.norm(np.array(found.GetBlock(1).GetPoint(0)) - [0.5, -0.5, 0]) < 0.04
+
+
+def triangles():
+    return particles()
+
+
+def a_block_of_triangles():
+    return simple.GroupDatasets(Input=[particles()])
+
+
+def vertices_after_other_cells():
+    """The particles as an unstructured grid whose first cells are something else, which is not drawn."""
+    grid = simple.ProgrammableFilter(Input=vertices(particles()), OutputDataSetType="vtkUnstructuredGrid")
+    grid.Script = """
+from vtkmodules.vtkCommonDataModel import VTK_TETRA, VTK_VERTEX
+particles = inputs[0].VTKObject
+output.ShallowCopy(inputs[0].VTKObject)
+output.Allocate()
+for _ in range(500):
+    output.InsertNextCell(VTK_TETRA, 4, [0, 1, 2, 3])
+for cell in range(particles.GetNumberOfCells()):
+    output.InsertNextCell(VTK_VERTEX, 1, [particles.GetCell(cell).GetPointId(0)])
+"""
+    return grid
+
+
+@pytest.mark.parametrize("make", [triangles, a_block_of_triangles, vertices_after_other_cells])
+def test_a_selected_cell_is_one_under_the_cursor(view, make):
+    source = make()
+    show(source, view)
+    simple.Render(view)
+    found = select(source, view, SIZE // 2, SIZE // 2, simple.SelectSurfaceCells)
+    found = found.GetBlock(0) if found.IsA("vtkMultiBlockDataSet") else found
+    assert found.GetNumberOfCells() == 1
+    distances = np.linalg.norm(vtk_to_numpy(found.GetPoints().GetData()) - [0, -0.5, 0], axis=1)
+    assert distances.max() < 0.08
 
 
 RANKS = """

@@ -9,6 +9,7 @@
 #include "vtkRenderer.h"
 #include "vtkSelection.h"
 #include "vtkSelectionNode.h"
+#include "vtkSphereSource.h"
 #include "vtkSurfaceSplatMapper.h"
 
 #include <gtest/gtest.h>
@@ -34,6 +35,8 @@ vtkIdType Select(SplatScene& scene, int association, int x, int y)
   return ids && ids->GetNumberOfTuples() == 1 ? ids->GetValue(0) : -1;
 }
 
+constexpr int Pixels[][2] = { { 128, 128 }, { 90, 150 }, { 160, 77 }, { 60, 128 } };
+
 void ExpectSelectionOfWhatIsSeen(const std::vector<vtkIdType>& pointOfCell)
 {
   vtkSmartPointer<vtkPolyData> sphere = FibonacciSphere(Count, 1., DiskRadius);
@@ -41,14 +44,12 @@ void ExpectSelectionOfWhatIsSeen(const std::vector<vtkIdType>& pointOfCell)
   SplatScene scene(sphere);
   scene.LookFrom({ 0.2, 0.1, 1. }, false);
   scene.Render();
-  for (const glm::ivec2& pixel :
-    { glm::ivec2(128, 128), glm::ivec2(90, 150), glm::ivec2(160, 77), glm::ivec2(60, 128) })
+  for (const auto& [x, y] : Pixels)
   {
-    const auto seen = scene.PositionAt(pixel.x, pixel.y);
+    const auto seen = scene.PositionAt(x, y);
     ASSERT_TRUE(seen);
-    const vtkIdType point =
-      Select(scene, vtkDataObject::FIELD_ASSOCIATION_POINTS, pixel.x, pixel.y);
-    const vtkIdType cell = Select(scene, vtkDataObject::FIELD_ASSOCIATION_CELLS, pixel.x, pixel.y);
+    const vtkIdType point = Select(scene, vtkDataObject::FIELD_ASSOCIATION_POINTS, x, y);
+    const vtkIdType cell = Select(scene, vtkDataObject::FIELD_ASSOCIATION_CELLS, x, y);
     ASSERT_GE(point, 0);
     ASSERT_GE(cell, 0);
     EXPECT_EQ(pointOfCell[cell], point);
@@ -79,4 +80,41 @@ TEST(DiskSelection, CellsInAnotherOrderThanPoints)
     pointOfCell.push_back((i * 7 + 13) % Count);
   }
   ExpectSelectionOfWhatIsSeen(pointOfCell);
+}
+
+TEST(DiskSelection, WithoutVertexCellsACellAtThePointIsSelected)
+{
+  vtkNew<vtkSphereSource> source;
+  source->SetRadius(1.);
+  source->SetThetaResolution(60);
+  source->SetPhiResolution(60);
+  source->Update();
+  vtkPolyData* sphere = source->GetOutput();
+  for (int mode : { vtkSurfaceSplatMapper::Disks, vtkSurfaceSplatMapper::Splats })
+  {
+    SplatScene scene(sphere);
+    scene.Mapper->SetMode(mode);
+    scene.LookFrom({ 0.2, 0.1, 1. }, false);
+    scene.Render();
+    for (const auto& [x, y] : Pixels)
+    {
+      const vtkIdType point = Select(scene, vtkDataObject::FIELD_ASSOCIATION_POINTS, x, y);
+      const vtkIdType cell = Select(scene, vtkDataObject::FIELD_ASSOCIATION_CELLS, x, y);
+      ASSERT_GE(point, 0);
+      ASSERT_GE(cell, 0);
+      ASSERT_LT(cell, sphere->GetNumberOfCells());
+      EXPECT_TRUE(sphere->IsPointUsedByCell(point, cell)) << "at pixel " << x << ", " << y;
+    }
+  }
+}
+
+TEST(DiskSelection, WithoutCellsOnlyPointsAreSelected)
+{
+  SplatScene scene(FibonacciSphere(Count, 1., DiskRadius));
+  scene.Render();
+  for (const auto& [x, y] : Pixels)
+  {
+    EXPECT_GE(Select(scene, vtkDataObject::FIELD_ASSOCIATION_POINTS, x, y), 0);
+    EXPECT_EQ(Select(scene, vtkDataObject::FIELD_ASSOCIATION_CELLS, x, y), -1);
+  }
 }
