@@ -40,6 +40,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
 
 namespace
 {
@@ -86,11 +87,9 @@ struct vtkSurfaceSplatMapper::Internals
   std::vector<vtkIdType> PointIds; // of the particles on the GPU, to colour them
   std::vector<vtkIdType> CellIds;
 
-  // What the particles on the GPU were made from.
-  vtkPolyData* Input = nullptr; // compared, never dereferenced
-  vtkMTimeType InputTime = 0;
-  std::string RadiusArrayName;
-  double FallbackRadius = 0.;
+  // What the particles on the GPU were made from: the input (compared, never dereferenced) and its time, the
+  // radius without an array, the names of the arrays of radii and of cells' colours.
+  std::tuple<vtkPolyData*, vtkMTimeType, double, std::string, std::string> Uploaded;
 
   bool SaidNoNormals = false;
   bool SaidNoRadius = false;
@@ -123,7 +122,7 @@ void vtkSurfaceSplatMapper::ReleaseGraphicsResources(vtkWindow* window)
   this->Internal->Buffers.ReleaseGraphicsResources(window);
   this->Internal->FrontLayer.ReleaseGraphicsResources(window);
   this->Internal->BackLayer.ReleaseGraphicsResources(window);
-  this->Internal->Input = nullptr;
+  this->Internal->Uploaded = {};
   this->Internal->CannotSplat = false; // another window may have another driver
 }
 
@@ -263,9 +262,10 @@ void vtkSurfaceSplatMapper::WarnOfMissingArrays(vtkPolyData* input)
 void vtkSurfaceSplatMapper::UploadParticles(vtkRenderer* renderer, vtkPolyData* input)
 {
   Internals& gpu = *this->Internal;
-  const std::string radiusName = this->RadiusArrayName ? this->RadiusArrayName : "";
-  if (gpu.Input == input && gpu.InputTime == input->GetMTime() &&
-    gpu.RadiusArrayName == radiusName && gpu.FallbackRadius == this->Radius)
+  const auto key = std::make_tuple(input, input->GetMTime(), this->Radius,
+    std::string(this->RadiusArrayName ? this->RadiusArrayName : ""),
+    std::string(this->CellColorArrayName ? this->CellColorArrayName : ""));
+  if (gpu.Uploaded == key)
   {
     return;
   }
@@ -291,10 +291,7 @@ void vtkSurfaceSplatMapper::UploadParticles(vtkRenderer* renderer, vtkPolyData* 
   vtkDebugMacro(<< particles.Skipped << " particles cannot be drawn");
   gpu.PointIds = std::move(particles.PointIds);
   gpu.CellIds = std::move(particles.CellIds);
-  gpu.Input = input;
-  gpu.InputTime = input->GetMTime();
-  gpu.RadiusArrayName = radiusName;
-  gpu.FallbackRadius = this->Radius;
+  gpu.Uploaded = key;
 }
 
 //------------------------------------------------------------------------------

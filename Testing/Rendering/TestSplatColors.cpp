@@ -381,3 +381,27 @@ TEST(SplatLayers, OpaqueParticlesAreSeenBehindTranslucentOnes)
     EXPECT_GT(checked, 5000);
   }
 }
+
+// The name tells particles opaque or translucent, too.
+TEST(SplatLayers, CellColorsMayBeNamedAfterAPicture)
+{
+  vtkSmartPointer<vtkPolyData> sphere = FibonacciSphere(Count, 1., Spacing);
+  AddCellColors(sphere, [](glm::dvec3 x) { return glm::dvec4(1., 0., 0., x.y > 0. ? 0.4 : Keep); });
+  const auto show = [](SplatScene& scene)
+  {
+    scene.Mapper->SetModeToSplats();
+    scene.ShowPlainColors();
+    scene.Mapper->SetCellColorArrayName("Own");
+    scene.Render();
+  };
+  SplatScene fresh(sphere);
+  show(fresh);
+  SplatScene scene(sphere);
+  scene.Mapper->SetModeToSplats();
+  scene.Render();
+  show(scene);
+  int different = 0;
+  scene.ForEachPixelOnSphere(1., Inside,
+    [&](int x, int y, glm::dvec3) { different += scene.ColorAt(x, y) != fresh.ColorAt(x, y); });
+  EXPECT_EQ(different, 0);
+}
