@@ -38,6 +38,7 @@ vtkSurfaceSplatRepresentation::vtkSurfaceSplatRepresentation()
   this->Mapper->SetCompositeIdArrayName(vtkSurfaceSplatInput::BlockIndexName);
   this->Mapper->SetCellColorArrayName(vtkSurfaceSplatInput::BlockColorName);
   this->SetMapScalars(1);
+  this->SetPointSize(2.); // as ParaView's other representations
 }
 
 vtkSurfaceSplatRepresentation::~vtkSurfaceSplatRepresentation() = default;
@@ -461,6 +462,7 @@ void vtkSurfaceSplatRepresentation::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Specular: " << property->GetSpecular() << "\n";
   print("SpecularColor", property->GetSpecularColor(), 3);
   os << indent << "SpecularPower: " << property->GetSpecularPower() << "\n";
+  os << indent << "PointSize: " << property->GetPointSize() << "\n";
   os << indent << "Opacity: " << property->GetOpacity() << "\n";
   os << indent << "Interpolation: " << property->GetInterpolationAsString() << "\n";
   os << indent << "Roughness: " << property->GetRoughness() << "\n";
@@ -469,5 +471,11 @@ void vtkSurfaceSplatRepresentation::PrintSelf(ostream& os, vtkIndent indent)
   print("Scale", this->Actor->GetScale(), 3);
   print("Orientation", this->Actor->GetOrientation(), 3);
   print("Origin", this->Actor->GetOrigin(), 3);
+  vtkNew<vtkMatrix4x4> userTransform; // the identity where there is none
+  if (vtkMatrix4x4* matrix = this->Actor->GetUserMatrix())
+  {
+    userTransform->DeepCopy(matrix);
+  }
+  print("UserTransform", userTransform->GetData(), 16);
   os << indent << "Pickable: " << this->Actor->GetPickable() << "\n";
 }

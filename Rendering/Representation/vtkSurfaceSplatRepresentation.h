@@ -77,7 +77,7 @@ public:
   void SetBackfaceRepresentation(int sides);
 
   ///@{
-  /** Forwarded to vtkProperty. */
+  /** Forwarded to vtkProperty. PointSize: 2 by default. */
   void SetAmbient(double value);
   void SetAmbientColor(double r, double g, double b);
   void SetDiffuse(double value);
