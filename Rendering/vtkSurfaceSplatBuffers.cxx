@@ -20,24 +20,25 @@ vtkSurfaceSplatTexels::~vtkSurfaceSplatTexels() = default;
 //------------------------------------------------------------------------------
 template <typename T>
 void vtkSurfaceSplatTexels::UploadTexels(
-  vtkOpenGLRenderWindow* window, const std::vector<T>& rgba, int vtkType)
+  vtkOpenGLRenderWindow* window, const T* rgba, vtkIdType texels, int vtkType)
 {
   this->Texture->SetContext(window);
   this->Texture->ResetFormatAndType(); // colours may be bytes now and floats then
-  this->Buffer->Upload(rgba, vtkOpenGLBufferObject::TextureBuffer);
-  this->Texture->CreateTextureBuffer(
-    static_cast<unsigned int>(rgba.size() / 4), 4, vtkType, this->Buffer);
-}
-
-void vtkSurfaceSplatTexels::Upload(vtkOpenGLRenderWindow* window, const std::vector<float>& rgba)
-{
-  this->UploadTexels(window, rgba, VTK_FLOAT);
+  this->Buffer->Upload(
+    rgba, static_cast<std::size_t>(4 * texels), vtkOpenGLBufferObject::TextureBuffer);
+  this->Texture->CreateTextureBuffer(static_cast<unsigned int>(texels), 4, vtkType, this->Buffer);
 }
 
 void vtkSurfaceSplatTexels::Upload(
-  vtkOpenGLRenderWindow* window, const std::vector<unsigned char>& rgba)
+  vtkOpenGLRenderWindow* window, const float* rgba, vtkIdType texels)
 {
-  this->UploadTexels(window, rgba, VTK_UNSIGNED_CHAR);
+  this->UploadTexels(window, rgba, texels, VTK_FLOAT);
+}
+
+void vtkSurfaceSplatTexels::Upload(
+  vtkOpenGLRenderWindow* window, const unsigned char* rgba, vtkIdType texels)
+{
+  this->UploadTexels(window, rgba, texels, VTK_UNSIGNED_CHAR);
 }
 
 //------------------------------------------------------------------------------
@@ -101,19 +102,17 @@ void vtkSurfaceSplatBuffers::Upload(
   {
     return;
   }
-  const auto first = [](const std::vector<float>& values, vtkIdType size)
-  { return std::vector<float>(values.begin(), values.begin() + size); };
-  this->CentreRadius.Upload(window, first(particles.CentreRadius, 4 * count));
-  this->Normal.Upload(window, first(particles.Normal, 4 * count));
+  this->CentreRadius.Upload(window, particles.CentreRadius.data(), count);
+  this->Normal.Upload(window, particles.Normal.data(), count);
   if (this->HasClip)
   {
-    this->Clip.Upload(window, first(particles.Clip, 12 * count));
+    this->Clip.Upload(window, particles.Clip.data(), 3 * count);
   }
   if (this->HasShape)
   {
-    this->Shape.Upload(window, first(particles.Shape, 8 * count));
+    this->Shape.Upload(window, particles.Shape.data(), 2 * count);
   }
-  this->PointIds.Upload(window, IdsAsBytes(particles.PointIds, count));
+  this->PointIds.Upload(window, IdsAsBytes(particles.PointIds, count).data(), count);
 }
 
 //------------------------------------------------------------------------------

@@ -28,8 +28,11 @@ public:
   vtkSurfaceSplatTexels();
   ~vtkSurfaceSplatTexels();
 
-  void Upload(vtkOpenGLRenderWindow* window, const std::vector<float>& rgba);
-  void Upload(vtkOpenGLRenderWindow* window, const std::vector<unsigned char>& rgba);
+  ///@{
+  /** Replaces the content; there are four numbers a texel. */
+  void Upload(vtkOpenGLRenderWindow* window, const float* rgba, vtkIdType texels);
+  void Upload(vtkOpenGLRenderWindow* window, const unsigned char* rgba, vtkIdType texels);
+  ///@}
   void Activate();
   void Deactivate();
   void SetSampler(vtkShaderProgram* program, const char* name);
@@ -37,7 +40,7 @@ public:
 
 private:
   template <typename T>
-  void UploadTexels(vtkOpenGLRenderWindow* window, const std::vector<T>& rgba, int vtkType);
+  void UploadTexels(vtkOpenGLRenderWindow* window, const T* rgba, vtkIdType texels, int vtkType);
 
   vtkNew<vtkOpenGLBufferObject> Buffer;
   vtkNew<vtkTextureObject> Texture;
@@ -58,7 +61,7 @@ public:
   template <typename T>
   void UploadColors(vtkOpenGLRenderWindow* window, const std::vector<T>& rgba)
   {
-    this->Color.Upload(window, rgba);
+    this->Color.Upload(window, rgba.data(), static_cast<vtkIdType>(rgba.size() / 4));
     this->HasColor = true;
   }
 
