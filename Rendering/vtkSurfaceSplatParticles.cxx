@@ -136,10 +136,7 @@ void ReadClipPlanes(const vtkSurfaceSplatArrays& arrays, vtkIdType id, float pla
     }
   }
 }
-}
 
-namespace
-{
 // The different values that particles have in an array, in order of appearance; none if they are too many.
 std::vector<double> FindSheets(vtkDataArray* values, const std::vector<vtkIdType>& ids)
 {
