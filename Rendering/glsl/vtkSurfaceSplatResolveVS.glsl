@@ -45,9 +45,9 @@ bool splatHasJump(vec2 low)
   ivec2 last = textureSize(splatVisibleDepth, 0) - 1;
   float nearest = -1e30;
   float farthest = 1e30;
-  for (int sample = 0; sample < 16; ++sample)
+  for (int i = 0; i < 16; ++i)
   {
-    ivec2 offset = ivec2(sample % 4, sample / 4) * (SPLAT_TILE_SIZE + 1) / 3 - 1;
+    ivec2 offset = ivec2(i % 4, i / 4) * (SPLAT_TILE_SIZE + 1) / 3 - 1;
     float depth = texelFetch(splatVisibleDepth, clamp(ivec2(low) + offset, ivec2(0), last), 0).r;
     float z = splatDepthOf(depth);
     nearest = depth < 1.0 ? max(nearest, z) : nearest;
