@@ -8,10 +8,14 @@
 #include "vtkCompositeDataSet.h"
 #include "vtkDataAssembly.h"
 #include "vtkDataAssemblyUtilities.h"
+#include "vtkDataObjectTree.h"
+#include "vtkDataObjectTreeIterator.h"
 #include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
 #include "vtkNew.h"
+#include "vtkPartitionedDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
@@ -67,15 +71,20 @@ vtkSmartPointer<vtkIdTypeArray> Numbers(const char* name, vtkIdType count)
   return numbers;
 }
 
+void GiveCells(vtkPolyData* particles, const char* name, unsigned int value)
+{
+  vtkNew<vtkUnsignedIntArray> array;
+  array->SetName(name);
+  array->SetNumberOfTuples(particles->GetNumberOfCells());
+  array->FillValue(value);
+  particles->GetCellData()->AddArray(array);
+}
+
 void RememberBlock(vtkPolyData* particles, unsigned int flatIndex)
 {
   using namespace vtkSurfaceSplatInput;
   const vtkIdType cells = particles->GetNumberOfCells();
-  vtkNew<vtkUnsignedIntArray> block;
-  block->SetName(BlockIndexName);
-  block->SetNumberOfTuples(cells);
-  block->FillValue(flatIndex);
-  particles->GetCellData()->AddArray(block);
+  GiveCells(particles, BlockIndexName, flatIndex);
   if (!particles->GetCellData()->HasArray(BlockCellIdName))
   {
     particles->GetCellData()->AddArray(Numbers(BlockCellIdName, cells));
@@ -134,6 +143,45 @@ std::set<unsigned int> SelectedBlocks(
   return blocks;
 }
 
+// By flat index, the numbers that ParaView's geometry gives to blocks. Empty ones count. The pieces of a data set
+// have one number, but in multiblocks the next one is farther away.
+std::map<unsigned int, unsigned int> BlockNumbers(vtkCompositeDataSet* input)
+{
+  std::map<unsigned int, unsigned int> numbers;
+  auto* tree = vtkDataObjectTree::SafeDownCast(input);
+  if (!tree)
+  {
+    return numbers;
+  }
+  vtkSmartPointer<vtkDataObjectTreeIterator> nodes;
+  nodes.TakeReference(tree->NewTreeIterator());
+  nodes->VisitOnlyLeavesOff();
+  nodes->SkipEmptyNodesOff();
+  unsigned int number = 0;
+  unsigned int next = 0;
+  unsigned int lastPiece = 0; // flat index
+  for (nodes->InitTraversal(); !nodes->IsDoneWithTraversal(); nodes->GoToNextItem())
+  {
+    const unsigned int index = nodes->GetCurrentFlatIndex();
+    vtkDataObject* node = nodes->GetCurrentDataObject();
+    if (index > lastPiece)
+    {
+      number = next;
+      if (auto* pieces = vtkPartitionedDataSet::SafeDownCast(node))
+      {
+        lastPiece = index + pieces->GetNumberOfPartitions();
+        next += tree->IsA("vtkMultiBlockDataSet") ? pieces->GetNumberOfPartitions() : 1;
+      }
+      else if (!vtkDataObjectTree::SafeDownCast(node))
+      {
+        ++next;
+      }
+    }
+    numbers[index] = number;
+  }
+  return numbers;
+}
+
 constexpr std::array<double, 4> Unchanged = { 2., 2., 2., 2. };
 
 // Colours and opacities by flat index; blocks without either have no entry.
@@ -178,6 +226,7 @@ vtkSmartPointer<vtkPolyData> CompositeAsParticles(
   const std::set<unsigned int> selected =
     all ? std::set<unsigned int>() : SelectedBlocks(input, drawing.Drawn);
   const auto colors = BlockColors(input, drawing);
+  auto numbers = BlockNumbers(input);
   vtkNew<vtkAppendPolyData> merge;
   vtkSmartPointer<vtkCompositeDataIterator> blocks;
   blocks.TakeReference(input->NewIterator());
@@ -190,6 +239,8 @@ vtkSmartPointer<vtkPolyData> CompositeAsParticles(
     {
       EnsureVertexCells(particles);
       RememberBlock(particles, blocks->GetCurrentFlatIndex());
+      GiveCells(particles, vtkSurfaceSplatInput::BlockNumberName,
+        numbers[blocks->GetCurrentFlatIndex()] % drawing.DistinctNumbers);
       if (!colors.empty())
       {
         const auto color = colors.find(blocks->GetCurrentFlatIndex());
@@ -235,5 +286,13 @@ vtkSmartPointer<vtkPolyData> vtkSurfaceSplatInput::WithoutBlockIds(vtkPolyData* 
   copy->GetCellData()->RemoveArray(BlockCellIdName);
   copy->GetCellData()->RemoveArray(BlockIndexName);
   copy->GetCellData()->RemoveArray(BlockColorName);
+  if (vtkDataArray* numbers = particles->GetCellData()->GetArray(BlockNumberName))
+  {
+    vtkNew<vtkFieldData> fields;
+    fields->ShallowCopy(particles->GetFieldData());
+    fields->AddArray(numbers);
+    copy->SetFieldData(fields);
+    copy->GetCellData()->RemoveArray(BlockNumberName);
+  }
   return copy;
 }

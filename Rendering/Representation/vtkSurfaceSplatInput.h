@@ -34,6 +34,12 @@ constexpr const char* BlockIndexName = "SurfaceSplatBlockIndex";
 constexpr const char* BlockColorName = "SurfaceSplatBlockColor";
 
 /**
+ * The number of its block, of each cell of a merged input: what ParaView's geometry keeps under this name in the
+ * field data of blocks.
+ */
+constexpr const char* BlockNumberName = "vtkBlockColors";
+
+/**
  * How the blocks of a composite are drawn. Selectors are in the language of vtkDataAssembly for its
  * hierarchy; "/" names all. Of colours and opacities the last one that names a block counts.
  */
@@ -42,6 +48,7 @@ struct Blocks
   std::set<std::string> Drawn = { "/" };
   std::vector<std::pair<std::string, std::array<double, 3>>> Colors; ///< RGB in [0, 1]
   std::vector<std::pair<std::string, double>> Opacities;             ///< in [0, 1]
+  unsigned int DistinctNumbers = 7; ///< after so many blocks their numbers begin again with 0
 };
 
 /**
@@ -52,7 +59,10 @@ struct Blocks
  */
 vtkSmartPointer<vtkPolyData> AsParticles(vtkDataObject* data, const Blocks& blocks = {});
 
-/** A shallow copy without the arrays named above: what is offered to users. */
+/**
+ * A shallow copy without the arrays named above, but for the blocks' numbers, which become field data: what is
+ * offered to users.
+ */
 vtkSmartPointer<vtkPolyData> WithoutBlockIds(vtkPolyData* particles);
 }
 

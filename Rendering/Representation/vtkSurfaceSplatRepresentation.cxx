@@ -153,7 +153,10 @@ void vtkSurfaceSplatRepresentation::UpdateColoring()
       this->Mapper->SetScalarMode(VTK_SCALAR_MODE_USE_CELL_FIELD_DATA);
       break;
     case vtkDataObject::FIELD_ASSOCIATION_NONE:
-      this->Mapper->SetScalarMode(VTK_SCALAR_MODE_USE_FIELD_DATA);
+      // Merged blocks have one number a cell.
+      this->Mapper->SetScalarMode(name == std::string(vtkSurfaceSplatInput::BlockNumberName)
+          ? VTK_SCALAR_MODE_USE_CELL_FIELD_DATA
+          : VTK_SCALAR_MODE_USE_FIELD_DATA);
       this->Mapper->SetFieldDataTupleId(0);
       break;
     default:
@@ -250,6 +253,16 @@ void vtkSurfaceSplatRepresentation::RemoveAllBlockOpacities()
   if (!this->Blocks.Opacities.empty())
   {
     this->Blocks.Opacities.clear();
+    this->MarkModified();
+  }
+}
+
+void vtkSurfaceSplatRepresentation::SetBlockColorsDistinctValues(int count)
+{
+  const unsigned int numbers = std::max(count, 1);
+  if (numbers != this->Blocks.DistinctNumbers)
+  {
+    this->Blocks.DistinctNumbers = numbers;
     this->MarkModified();
   }
 }
@@ -441,6 +454,7 @@ void vtkSurfaceSplatRepresentation::PrintSelf(ostream& os, vtkIndent indent)
   {
     os << indent << "BlockOpacity " << selector << ": " << opacity << "\n";
   }
+  os << indent << "BlockColorsDistinctValues: " << this->Blocks.DistinctNumbers << "\n";
   os << indent << "Mode: " << this->Mapper->GetMode() << "\n";
   os << indent << "Sharpness: " << this->Mapper->GetSharpness() << "\n";
   os << indent

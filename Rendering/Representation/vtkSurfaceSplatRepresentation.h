@@ -73,6 +73,12 @@ public:
   void RemoveAllBlockOpacities();
   ///@}
 
+  /**
+   * How many numbers blocks of a composite have in the field array vtkBlockColors, by which they may be coloured,
+   * until numbers begin again with 0. Default: 7.
+   */
+  void SetBlockColorsDistinctValues(int count);
+
   /** 400: both sides; 401: only the outward one; 402: only the inward one. */
   void SetBackfaceRepresentation(int sides);
 

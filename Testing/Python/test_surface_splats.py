@@ -211,6 +211,47 @@ def test_blocks_have_opacities_of_their_own(view, picture):
     assert np.all(picture()[disk_of_sphere(0.5, 0.4)] == (255, 0, 0))
 
 
+# Four spheres as three blocks and an empty one: two of them are pieces of one data set.
+TREES = {
+    "vtkMultiblockDataSet": """
+from vtkmodules.vtkCommonDataModel import vtkMultiPieceDataSet
+a, b, c, d = [sphere.VTKObject for sphere in inputs]
+pieces = vtkMultiPieceDataSet()
+pieces.SetPiece(0, b)
+pieces.SetPiece(1, c)
+for i, block in enumerate([None, a, pieces, d]):
+    output.SetBlock(i, block)
+""",
+    "vtkPartitionedDataSetCollection": """
+a, b, c, d = [sphere.VTKObject for sphere in inputs]
+for i, pieces in enumerate([[], [a], [b, c], [d]]):
+    for j, piece in enumerate(pieces):
+        output.SetPartition(i, j, piece)
+""",
+}
+
+
+@pytest.mark.parametrize("distinct", [2, 7])
+@pytest.mark.parametrize("tree", TREES)
+def test_blocks_have_the_colours_of_their_numbers(view, picture, tree, distinct):
+    """As their triangles have where they are coloured by vtkBlockColors."""
+    places = [(x, 0, z) for z in (-0.5, 0.5) for x in (-0.5, 0.5)]
+    blocks = simple.ProgrammableFilter(Input=[particles(place) for place in places], OutputDataSetType=tree)
+    blocks.Script = TREES[tree]
+    view.Background = [0.5, 0.5, 0.5]  # no block has that colour
+    display = simple.Show(blocks, view)
+    display.Ambient, display.Diffuse = 1.0, 0.0
+    display.BlockColorsDistinctValues = distinct
+    simple.ColorBy(display, ("FIELD", "vtkBlockColors"))
+    colors = {}
+    for representation in "Surface", "Surface Splats":
+        display.SetRepresentationType(representation)
+        pixels = picture()
+        colors[representation] = [tuple(pixels[int((1 + z) * SIZE / 2), int((1 + x) * SIZE / 2)]) for x, _, z in places]
+    assert colors["Surface Splats"] == colors["Surface"]
+    assert len(set(colors["Surface"])) == min(distinct, 3)
+
+
 @pytest.mark.parametrize("mode, share", [("Splats", 1.0), ("Disks", 1.0), ("Points", 0.5)])
 def test_modes(view, picture, mode, share):
     display = show(particles(), view)
