@@ -123,11 +123,14 @@ std::set<unsigned int> SelectedBlocks(
 {
   vtkNew<vtkDataAssembly> hierarchy;
   vtkDataAssemblyUtilities::GenerateHierarchy(input, hierarchy);
-  const std::vector<unsigned int> named = vtkDataAssemblyUtilities::GetSelectedCompositeIds(
-    { selectors.begin(), selectors.end() }, hierarchy, nullptr, true);
+  const std::vector<std::string> names(selectors.begin(), selectors.end());
+  auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(input);
+  const std::vector<unsigned int> named = collection
+    ? hierarchy->GetDataSetIndices(hierarchy->SelectNodes(names))
+    : vtkDataAssemblyUtilities::GetSelectedCompositeIds(names, hierarchy, nullptr, true);
   std::set<unsigned int> blocks(named.begin(), named.end());
-  // The leaves of these hierarchies are partitioned data sets, those of the data their partitions.
-  if (auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(input))
+  // The leaves of collections' hierarchies are partitioned data sets, those of the data their partitions.
+  if (collection)
   {
     for (unsigned int i = 0; i < collection->GetNumberOfPartitionedDataSets(); ++i)
     {

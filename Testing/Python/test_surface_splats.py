@@ -153,8 +153,11 @@ def test_one_side_can_be_culled(view, picture):
     assert np.all(np.argmax(pixels, axis=1) == 0), "the far side from within, red"
 
 
-def two_blocks():
+@pytest.fixture(params=["vtkMultiBlockDataSet", "vtkPartitionedDataSetCollection"])
+def two_blocks(request):
+    """Two spheres side by side, and the selectors of the left and the right one."""
     group = simple.GroupDatasets(Input=[particles((-0.5, 0, 0)), particles((0.5, 0, 0))])
+    group.OutputType = request.param
     group.UpdatePipeline()
     hierarchy = group.GetDataInformation().GetHierarchy()
     return group, [f"/Root/{hierarchy.GetNodeName(i)}" for i in (1, 2)]
@@ -171,8 +174,8 @@ def test_blocks_of_a_composite_are_drawn(view, picture):
     assert not np.any(covered[~(disk_of_sphere(-0.5, 0.52) | disk_of_sphere(0.5, 0.52))])
 
 
-def test_blocks_can_be_hidden(view, picture):
-    group, (_, right) = two_blocks()
+def test_blocks_can_be_hidden(view, picture, two_blocks):
+    group, (_, right) = two_blocks
     display = show(group, view)
     display.BlockSelectors = [right]
     covered = drawn(picture())
@@ -182,8 +185,8 @@ def test_blocks_can_be_hidden(view, picture):
     assert np.all(drawn(picture())[disk_of_sphere(-0.5, 0.49) | disk_of_sphere(0.5, 0.49)])
 
 
-def test_blocks_have_colours_of_their_own(view, picture):
-    group, (left, right) = two_blocks()
+def test_blocks_have_colours_of_their_own(view, picture, two_blocks):
+    group, (left, right) = two_blocks
     display = show(group, view)
     display.Ambient, display.Diffuse = 1.0, 0.0
     display.DiffuseColor = display.AmbientColor = [1, 1, 1]
@@ -195,10 +198,12 @@ def test_blocks_have_colours_of_their_own(view, picture):
     assert np.all(picture()[disk_of_sphere(0.5, 0.4)] == (0, 0, 255))
     display.BlockColors = []
     assert np.all(picture()[disk_of_sphere(-0.5, 0.4)] == (255, 255, 255))
+    display.BlockColors = ["/Root", "0", "0", "1"]
+    assert np.all(picture()[disk_of_sphere(-0.5, 0.4) | disk_of_sphere(0.5, 0.4)] == (0, 0, 255))
 
 
-def test_blocks_have_opacities_of_their_own(view, picture):
-    group, (left, right) = two_blocks()
+def test_blocks_have_opacities_of_their_own(view, picture, two_blocks):
+    group, (left, right) = two_blocks
     display = show(group, view)
     display.Ambient, display.Diffuse = 1.0, 0.0
     display.DiffuseColor = display.AmbientColor = [1, 0, 0]
