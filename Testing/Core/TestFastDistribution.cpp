@@ -612,8 +612,10 @@ TEST(FastDistribution, DoesNotDependOnTheUnitOfLength)
       .particles.size();
   };
   const auto one = static_cast<double>(at(1.0));
-  EXPECT_NEAR(static_cast<double>(at(1e-6)), one, 0.01 * one);
-  EXPECT_NEAR(static_cast<double>(at(1e6)), one, 0.01 * one);
+  for (const double scale : { 1e-15, 1e-6, 1e6, 1e15 })
+  {
+    EXPECT_NEAR(static_cast<double>(at(scale)), one, 0.01 * one) << scale;
+  }
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "Kernels.h"
 
 #include <cstring>
+#include <limits>
 
 // Local to the file that includes it, like Lanes.h.
 namespace hop::kernel
@@ -267,7 +268,8 @@ void sweepBlocks(
     moved.x -= relaxation * step.x;
     moved.y -= relaxation * step.y;
     const Floats farthest = load(block->farthest);
-    const Floats length2 = moved.x * moved.x + moved.y * moved.y + 1e-30f;
+    const Floats length2 =
+      moved.x * moved.x + moved.y * moved.y + std::numeric_limits<float>::min();
     const Floats shrink = least(farthest * inverseSquareRoot(length2), all(1.0f));
     moved.x *= shrink;
     moved.y *= shrink;
