@@ -58,7 +58,11 @@ struct GridElements
   /// One a block.
   std::vector<CellCensus> census;
 
+  /// Whether the chosen scalar can have a value at all: a magnitude is never negative.
+  bool canBe(double isovalue) const { return !this->squared || isovalue >= 0.0; }
+
   /// The value of the mesh's field on the isosurface of the chosen scalar.
+  /// \pre canBe(isovalue)
   double fieldIsovalue(double isovalue) const
   {
     return this->squared ? isovalue * isovalue : isovalue;

@@ -552,6 +552,10 @@ WantedParticles vtkHighOrderParticleIsosurface::CountWanted(const InputBlocks& b
   const Work& work)
 {
   const double value = this->ContourValues->GetValue(static_cast<int>(isovalue));
+  if (!elements.canBe(value))
+  {
+    return {};
+  }
   const std::vector<double> ofElements =
     hop::wantedParticles({ &elements.mesh, elements.fieldIsovalue(value), scale.Tolerance },
       { spacing, this->AngularDensity }, work.monitor, work.parallelFor);
@@ -611,7 +615,7 @@ hop::Distribution vtkHighOrderParticleIsosurface::Distribute(const GridElements&
   const Scale& scale, const RunOrigin& origin, std::size_t number, const RankShare& share,
   const Work& work)
 {
-  if (this->NumberOfParticles > 0 && share.count == 0)
+  if ((this->NumberOfParticles > 0 && share.count == 0) || !elements.canBe(origin.isovalue))
   {
     return {};
   }

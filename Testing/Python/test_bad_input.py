@@ -168,6 +168,19 @@ def test_an_isovalue_at_the_end_of_the_range(good):
     assert_clean(particles)
 
 
+@pytest.mark.parametrize("properties", [{"Spacing": 0.1}, {"NumberOfParticles": 200}])
+def test_a_magnitude_is_never_negative(good, properties):
+    """Its square is contoured, which is the same for both signs."""
+    support.add_point_array(good, "V", support.points_of(good) - CELLS / 2)
+    alone = support.run_quietly(good, "V", [0.5], Component=3, **properties)
+    assert alone.GetNumberOfPoints() > 100
+    for isovalues in ([-0.5, 0.5], [0.5, -0.5]):
+        both = support.run_quietly(good, "V", isovalues, Component=3, **properties)
+        assert np.array_equal(support.points_of(both), support.points_of(alone))
+        assert np.all(support.array_of(both, "Isovalue") == 0.5)
+    assert_empty(support.run_quietly(good, "V", -0.5, Component=3, **properties))
+
+
 @pytest.mark.parametrize("isovalue", [np.nan, np.inf, -np.inf])
 def test_an_isovalue_that_is_no_number(good, isovalue):
     proxy, messages = support.make_filter(good, "F", 1.0, Spacing=0.15)
