@@ -295,7 +295,7 @@ bool Builder::straddles(double lower, double upper) const
 
 /// Nodal values on both sides of an isovalue decide at once; else the convex hull of the Bernstein
 /// coefficients does, widened by the rounding errors of the conversion. A magnitude is no larger
-/// than the longest control vector. Positive weights change no hull.
+/// than the longest control vector, and no smaller either where the vector is constant. Positive weights change no hull.
 bool Builder::canHoldSurface(const CellBasis& cell, const CellValues& values) const
 {
   const auto [lowest, highest] = std::minmax_element(values.field.begin(), values.field.end());
@@ -320,7 +320,9 @@ bool Builder::canHoldSurface(const CellBasis& cell, const CellValues& values) co
     longest2 = std::max(
       longest2, std::inner_product(&control[i], &control[i] + this->Components, &control[i], 0.0));
   }
-  return this->straddles(0.0, std::sqrt(longest2) + this->Components * slack);
+  const double longest = std::sqrt(longest2);
+  const double margin = this->Components * slack;
+  return this->straddles(this->isConstant(values) ? longest - margin : 0.0, longest + margin);
 }
 
 void Builder::count(const std::vector<Verdict>& verdicts)

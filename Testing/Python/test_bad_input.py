@@ -317,6 +317,19 @@ def test_a_constant_field_equal_to_the_isovalue():
     assert_empty(particles)
 
 
+def test_a_constant_vector_is_no_reason_to_complain(good):
+    """A free stream: below its length there is no surface, at it there is nothing else."""
+    support.add_point_array(good, "V", np.tile([3.0, 0.0, 4.0], (good.GetNumberOfPoints(), 1)))
+    for isovalue in (0.0, 0.5, 4.9, 5.1):
+        particles = support.run_quietly(good, "V", isovalue, Component=3)
+        assert_empty(particles)
+        assert support.reported(particles, "CellsSkipped") == 0
+        assert support.reported(particles, "ElementsDropped") == CELLS**3
+    particles, messages = support.run(good, "V", 5.0, Component=3)
+    assert_one_warning(messages, f"{CELLS**3} cells skipped: the field is the isovalue throughout")
+    assert_empty(particles)
+
+
 def test_a_field_that_is_the_isovalue_on_one_side():
     """max(x - 1.5, 0), node by node: flat and equal to the isovalue over half of the block."""
     grid = block(field=lambda x: np.maximum(x[:, 0] - 1.5, 0.0))
