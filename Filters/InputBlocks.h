@@ -1,5 +1,6 @@
 #pragma once
 
+#include "vtkSmartPointer.h"
 #include "vtkType.h"
 
 #include <cstdint>
@@ -14,7 +15,7 @@ class vtkUnstructuredGrid;
 /// One grid of the input, and where its particles go.
 struct InputBlock
 {
-  vtkUnstructuredGrid* grid = nullptr;
+  vtkSmartPointer<vtkUnstructuredGrid> grid;
   /// The grid's point array to contour by.
   vtkDataArray* scalars = nullptr;
   vtkPolyData* particles = nullptr;

@@ -1,5 +1,6 @@
 #include "vtkHighOrderParticleIsosurface.h"
 
+#include "ArrayLengths.h"
 #include "BlockGroups.h"
 #include "ClassicDistribution.h"
 #include "FastDistribution.h"
@@ -324,8 +325,9 @@ int vtkHighOrderParticleIsosurface::RequestData(
   {
     return 1;
   }
-  const std::vector<InputBlock> blocks =
-    this->CheckInput(gathered) ? this->FindScalars(gathered) : std::vector<InputBlock>{};
+  const std::vector<InputBlock> blocks = this->CheckInput(gathered)
+    ? this->CheckLengths(this->FindScalars(gathered))
+    : std::vector<InputBlock>{};
   this->ReviewArrays(blocks);
   const auto groups = groupWithoutSharedCells(blocks);
   // A number of particles is shared out group by group, also by ranks that have fewer of them.
@@ -447,6 +449,38 @@ std::vector<InputBlock> vtkHighOrderParticleIsosurface::FindScalars(const Gather
                                              << found[0].name << ".");
   }
   return found;
+}
+
+/// The blocks whose scalars reach their last point, without arrays that do not; an error and a warning name
+/// what is too short.
+std::vector<InputBlock> vtkHighOrderParticleIsosurface::CheckLengths(
+  const std::vector<InputBlock>& blocks)
+{
+  std::vector<InputBlock> sound;
+  std::vector<std::string> unusable;
+  std::vector<std::string> dropped;
+  for (InputBlock block : blocks)
+  {
+    const std::string shortScalars = describeShortScalars(block);
+    if (!shortScalars.empty())
+    {
+      unusable.push_back(shortScalars);
+      continue;
+    }
+    const std::vector<std::string> some = dropShortArrays(block);
+    dropped.insert(dropped.end(), some.begin(), some.end());
+    sound.push_back(block);
+  }
+  if (!unusable.empty())
+  {
+    vtkErrorMacro("Too short to contour by: " << listOf(unusable) << ".");
+  }
+  if (!dropped.empty())
+  {
+    vtkWarningMacro(
+      "Arrays that are too short are taken as if they were not there: " << listOf(dropped) << ".");
+  }
+  return sound;
 }
 
 /// What a run is made of, but for its isovalue.

@@ -11,7 +11,8 @@
  * The blocks of a composite are one mesh: particles of neighbouring blocks see each other, and go to
  * the block of the cell in which they end. Blocks that have a cell in common, as several results on one
  * grid do, are kept apart. Blocks that lack F, and data sets that are no unstructured grids, take no
- * part and are named in one warning.
+ * part and are named in one warning. Where F has fewer tuples than there are points, an error says so and the
+ * block takes no part; other arrays that are too short are ignored and named in one warning.
  *
  * After M. Meyer, B. Nelson, R. M. Kirby, R. Whitaker, "Particle Systems for Efficient and Accurate
  * High-Order Finite Element Visualization", IEEE TVCG 13(5), 2007.
@@ -249,6 +250,7 @@ private:
   bool CheckParameters();
   bool CheckInput(const GatheredBlocks& gathered);
   std::vector<InputBlock> FindScalars(const GatheredBlocks& gathered);
+  std::vector<InputBlock> CheckLengths(const std::vector<InputBlock>& blocks);
   RunOrigin OriginOf(const InputBlocks& blocks, const Scale& scale) const;
   struct Work;
   hop::Monitor MonitorOf(double begin, double end);

@@ -6,7 +6,9 @@ import time
 import numpy as np
 import pytest
 import support
+from paraview.vtk.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import (
+    VTK_BEZIER_HEXAHEDRON,
     VTK_LAGRANGE_HEXAHEDRON,
     VTK_LAGRANGE_PYRAMID,
     VTK_LAGRANGE_QUADRILATERAL,
@@ -143,6 +145,74 @@ def test_a_block_without_the_array_leaves_the_others_right(good):
     assert_one_warning(messages, "block 1", "point array 'F'")
     assert output.GetBlock(0).GetNumberOfPoints() == 0
     assert output.GetBlock(1).GetNumberOfPoints() > 400
+
+
+SHORT = 100  # of 729 points; cell arrays have one tuple of 27
+
+
+def test_an_array_to_contour_by_that_is_too_short(good):
+    support.add_point_array(good, "F", support.array_of(good, "F")[:SHORT])
+    particles, messages = support.run(good, **SPHERE)
+    assert_empty(particles)
+    assert_one_error(messages, f"point array 'F' ({SHORT} tuples for {good.GetNumberOfPoints()} points)")
+
+
+def test_a_block_whose_array_is_too_short_leaves_the_others_right(good):
+    bad = block()
+    support.add_point_array(bad, "F", support.array_of(bad, "F")[:SHORT])
+    composite = vtkMultiBlockDataSet()
+    composite.SetBlock(0, bad)
+    composite.SetBlock(1, good)
+    output, messages = support.run(composite, **SPHERE)
+    assert_one_error(messages, f"point array 'F' of block 1 ({SHORT} tuples")
+    assert_empty(output.GetBlock(0))
+    assert np.array_equal(support.points_of(output.GetBlock(1)), support.points_of(support.run_quietly(good, **SPHERE)))
+
+
+def expect_ignored(grid, array, points=True):
+    """An array that is too short changes nothing but for one warning."""
+    bare = vtkUnstructuredGrid()
+    bare.DeepCopy(grid)
+    for attributes in (bare.GetPointData(), bare.GetCellData()):
+        attributes.RemoveArray(array.GetName())
+    (grid.GetPointData() if points else grid.GetCellData()).AddArray(array)
+    particles, messages = support.run(grid, **SPHERE)
+    wanted = f"{grid.GetNumberOfPoints()} points" if points else f"{grid.GetNumberOfCells()} cells"
+    assert_one_warning(messages, f"'{array.GetName()}' ({array.GetNumberOfTuples()} tuple", f"for {wanted})")
+    assert support.contents(particles) == support.contents(support.run_quietly(bare, **SPHERE))
+    assert not particles.GetCellData().HasArray(array.GetName())
+
+
+def short_array(name, tuples, components=1, kind=float):
+    array = numpy_to_vtk(np.ones((tuples, components), dtype=kind), deep=True)
+    array.SetName(name)
+    return array
+
+
+@pytest.mark.parametrize("tuples", [0, 1, SHORT])
+def test_another_point_array_that_is_too_short_is_ignored(good, tuples):
+    expect_ignored(good, short_array("other", tuples))
+
+
+def test_a_cell_array_that_is_too_short_is_ignored(good):
+    expect_ignored(good, short_array("other", 26, 3), points=False)
+
+
+def test_ghost_marks_that_are_too_few_are_ignored(good):
+    expect_ignored(good, short_array("vtkGhostType", 1, kind=np.uint8), points=False)
+
+
+def test_degrees_that_are_too_few_are_ignored(good):
+    degrees = short_array("HigherOrderDegrees", 1, 3)
+    good.GetCellData().SetHigherOrderDegrees(degrees)
+    expect_ignored(good, degrees, points=False)
+
+
+def test_weights_that_are_too_few_are_ignored(good):
+    good.GetCellTypesArray().Fill(VTK_BEZIER_HEXAHEDRON)
+    weights = short_array("RationalWeights", SHORT)
+    good.GetPointData().SetRationalWeights(weights)
+    expect_ignored(good, weights)
 
 
 # Isovalues and settings
