@@ -116,6 +116,7 @@ std::optional<hop::Degrees> fittingDegrees(
 }
 
 /// Number of points of a cell type that has but one.
+/// \pre VTK has a class for it, as for all types that have a domain
 vtkIdType usualPointCount(int cellType)
 {
   return vtk::TakeSmartPointer(vtkGenericCell::InstantiateCell(cellType))->GetNumberOfPoints();
@@ -248,16 +249,21 @@ std::shared_ptr<const CellBasis> CellBases::makeBasis(const Key& key) const
 {
   const auto& [type, points, given] = key;
   const std::optional<hop::Domain> domain = domainOf(type);
+  // There are types of which VTK can make no cell.
+  if (!domain)
+  {
+    return nullptr;
+  }
   const bool onLattice = (isLagrange(type) || isBezier(type)) && !isEnriched(type, points);
   std::optional<hop::Degrees> degrees;
-  if (domain && onLattice)
+  if (onLattice)
   {
     degrees = fittingDegrees(*domain, given, points);
   }
   // VTK's cells do not survive a wrong number of points.
   const bool fits =
     onLattice ? degrees.has_value() : isEnriched(type, points) || points == usualPointCount(type);
-  if (!domain || !fits)
+  if (!fits)
   {
     return nullptr;
   }

@@ -466,6 +466,15 @@ def test_other_cells_beside_good_ones(good, cell_type, points, name):
     assert np.array_equal(support.points_of(particles), support.points_of(whole))
 
 
+@pytest.mark.parametrize("cell_type", [51, *range(60, 68), 74, 200, 255])
+def test_types_of_which_vtk_can_make_no_cell(good, cell_type):
+    whole = support.run_quietly(good, **SPHERE)
+    good.InsertNextCell(cell_type, 4, range(4))
+    particles, messages = support.run(good, **SPHERE)
+    assert_one_warning(messages, "1 cell of type ", "not a supported 3-D cell", "first: cell 27")
+    assert np.array_equal(support.points_of(particles), support.points_of(whole))
+
+
 def test_point_counts_that_fit_no_degree(good):
     whole = support.run_quietly(good, **SPHERE)
     good.InsertNextCell(VTK_LAGRANGE_HEXAHEDRON, 26, list(range(26)))
