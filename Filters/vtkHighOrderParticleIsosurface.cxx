@@ -19,6 +19,7 @@
 #include "vtkContourValues.h"
 #include "vtkDataArray.h"
 #include "vtkDataObjectTree.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
@@ -152,18 +153,44 @@ double timeOf(vtkInformationVector* outputs)
     : 0.0;
 }
 
-/// Name of the array that was asked for, empty for the active scalars.
-std::string chosenArray(vtkInformation* choice)
+/// The array that was asked for.
+struct ArrayChoice
 {
-  const char* name = choice->Get(vtkDataObject::FIELD_NAME());
-  return name ? name : "";
+  /// Empty for the active one of a kind.
+  std::string name;
+  int kind = vtkDataSetAttributes::SCALARS;
+
+  vtkDataArray* of(vtkDataSetAttributes* data) const
+  {
+    return this->name.empty() ? data->GetAttribute(this->kind) : data->GetArray(this->name.c_str());
+  }
+
+  /// \param association "point" or "cell"
+  std::string describe(const std::string& association) const
+  {
+    const char* nameOfKind = vtkDataSetAttributes::GetAttributeTypeAsString(this->kind);
+    return this->name.empty()
+      ? "active " + association + " array (" + (nameOfKind ? nameOfKind : "of no kind") + ")"
+      : association + " array '" + this->name + "'";
+  }
+};
+
+ArrayChoice choiceOf(vtkInformation* asked)
+{
+  ArrayChoice choice;
+  const char* name = asked->Get(vtkDataObject::FIELD_NAME());
+  choice.name = name ? name : "";
+  if (asked->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
+  {
+    choice.kind = asked->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE());
+  }
+  return choice;
 }
 
-/// The blocks with cells that have point scalars of that name and of as many components as the first
-/// of them; names of the rest are added to `others`.
-/// \param name empty for the active scalars, which have to be the same in all
+/// The blocks with cells that have the chosen array of points, of as many components as in the first of
+/// them; names of the rest are added to `others`. An active array has to have the same name in all.
 std::vector<InputBlock> blocksWithScalars(
-  const std::vector<InputBlock>& blocks, std::string name, std::vector<std::string>& others)
+  const std::vector<InputBlock>& blocks, ArrayChoice choice, std::vector<std::string>& others)
 {
   std::vector<InputBlock> found;
   for (InputBlock block : blocks)
@@ -172,8 +199,7 @@ std::vector<InputBlock> blocksWithScalars(
     {
       continue;
     }
-    vtkPointData* data = block.grid->GetPointData();
-    block.scalars = name.empty() ? data->GetScalars() : data->GetArray(name.c_str());
+    block.scalars = choice.of(block.grid->GetPointData());
     if (!block.scalars ||
       (!found.empty() &&
         block.scalars->GetNumberOfComponents() != found[0].scalars->GetNumberOfComponents()))
@@ -182,7 +208,7 @@ std::vector<InputBlock> blocksWithScalars(
       continue;
     }
     found.push_back(block);
-    name = block.scalars->GetName() ? block.scalars->GetName() : "";
+    choice.name = block.scalars->GetName() ? block.scalars->GetName() : "";
   }
   return found;
 }
@@ -411,13 +437,13 @@ bool vtkHighOrderParticleIsosurface::CheckInput(const GatheredBlocks& gathered)
     vtkErrorMacro("The input holds no unstructured grid, only " << listOf(gathered.others) << ".");
     return false;
   }
-  vtkInformation* choice = this->GetInputArrayInformation(0);
-  if (choice->Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_CELLS)
+  vtkInformation* asked = this->GetInputArrayInformation(0);
+  if (asked->Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_CELLS)
   {
-    vtkErrorMacro("'" << chosenArray(choice)
-                      << "' is asked for as a cell array; an isosurface needs a point array. The "
-                         "grid's point arrays: "
-                      << listOf(pointArraysOf(gathered.blocks)) << ".");
+    vtkErrorMacro(
+      "The " << choiceOf(asked).describe("cell")
+             << " is asked for; an isosurface needs a point array. The grid's point arrays: "
+             << listOf(pointArraysOf(gathered.blocks)) << ".");
     return false;
   }
   return true;
@@ -427,18 +453,17 @@ bool vtkHighOrderParticleIsosurface::CheckInput(const GatheredBlocks& gathered)
 /// none, a warning where some take no part.
 std::vector<InputBlock> vtkHighOrderParticleIsosurface::FindScalars(const GatheredBlocks& gathered)
 {
-  const std::string name = chosenArray(this->GetInputArrayInformation(0));
+  const ArrayChoice choice = choiceOf(this->GetInputArrayInformation(0));
   std::vector<std::string> others = gathered.others;
-  const std::vector<InputBlock> found = blocksWithScalars(gathered.blocks, name, others);
-  const std::string wanted = name.empty() ? "active point scalar" : "point array '" + name + "'";
+  const std::vector<InputBlock> found = blocksWithScalars(gathered.blocks, choice, others);
+  const std::string wanted = choice.describe("point");
   if (found.empty() && !others.empty())
   {
     const auto hasCellArray = [&](const InputBlock& block)
-    { return block.grid->GetCellData()->HasArray(name.c_str()) != 0; };
+    { return choice.of(block.grid->GetCellData()) != nullptr; };
     const bool isCellArray =
       std::any_of(gathered.blocks.begin(), gathered.blocks.end(), hasCellArray);
-    vtkErrorMacro("There is no " << wanted
-                                 << (isCellArray ? ", only a cell array of that name" : "")
+    vtkErrorMacro("There is no " << wanted << (isCellArray ? ", only one of cells" : "")
                                  << "; choose one with ContourBy. The grid's point arrays: "
                                  << listOf(pointArraysOf(gathered.blocks)) << ".");
   }

@@ -118,14 +118,14 @@ def test_no_array_at_all():
     grid.GetPointData().RemoveArray("F")
     particles, messages = support.run(grid, "", 1.0)
     assert_empty(particles)
-    assert_one_error(messages, "no active point scalar", "ContourBy")
+    assert_one_error(messages, "no active point array (Scalars)", "ContourBy")
 
 
 def test_a_cell_array_instead_of_a_point_array(good):
     support.add_cell_array(good, "attribute", np.arange(float(good.GetNumberOfCells())))
     particles, messages = support.run(good, ["CELLS", "attribute"], 1.5)
     assert_empty(particles)
-    assert_one_error(messages, "'attribute'", "cell array", "point array", "F")
+    assert_one_error(messages, "cell array 'attribute'", "point array", "F")
 
 
 def test_a_cell_array_asked_for_as_a_point_array(good):
