@@ -35,6 +35,10 @@ struct PlacedCell
   {
     return std::tie(this->place, this->block) < std::tie(other.place, other.block);
   }
+  bool operator==(const PlacedCell& other) const
+  {
+    return std::tie(this->place, this->block) == std::tie(other.place, other.block);
+  }
 };
 
 /// Whether cells of a type have a volume.
@@ -75,7 +79,8 @@ std::array<double, 3> placeOf(vtkUnstructuredGrid* grid, vtkIdType cell, vtkIdLi
   return place;
 }
 
-/// All cells with a volume that their block owns, in ascending order of their places.
+/// All cells with a volume that their block owns, in ascending order of their places; of cells of a block in
+/// one place only one, as all may be in one where coordinates were never written.
 std::vector<PlacedCell> placeCells(const std::vector<InputBlock>& blocks)
 {
   std::vector<PlacedCell> cells;
@@ -98,6 +103,7 @@ std::vector<PlacedCell> placeCells(const std::vector<InputBlock>& blocks)
     }
   }
   std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   return cells;
 }
 
@@ -111,10 +117,7 @@ std::set<std::pair<std::size_t, std::size_t>> blocksThatShareCells(
   {
     for (auto other = first + 1; other != cells.end() && other->place == first->place; ++other)
     {
-      if (other->block != first->block)
-      {
-        pairs.insert({ first->block, other->block });
-      }
+      pairs.insert({ first->block, other->block });
     }
   }
   return pairs;

@@ -1,5 +1,7 @@
 """Composite inputs: their blocks are one mesh, and every particle goes to the block of its cell."""
 
+import time
+
 import numpy as np
 import pytest
 from paraview.vtk.util.numpy_support import numpy_to_vtk
@@ -113,6 +115,17 @@ def test_several_results_on_one_grid_have_surfaces_of_their_own(whole):
         assert contents(output.GetBlock(i)) == contents(run_quietly(grid, **SURFACE))
     halves = output.GetBlock(2).GetNumberOfPoints() + output.GetBlock(3).GetNumberOfPoints()
     assert halves == pytest.approx(output.GetBlock(0).GetNumberOfPoints(), rel=0.01)
+
+
+def test_many_cells_in_one_place_are_sorted_quickly(whole):
+    """As in a block whose coordinates were never written."""
+    heap = grid_of_cells(np.zeros((8, 3)), [(VTK_HEXAHEDRON, range(8))] * 100_000)
+    add_point_array(heap, "u", np.zeros(8))
+    begin = time.monotonic()
+    output = run_quietly(multiblock(whole, heap), **SURFACE)
+    assert time.monotonic() - begin < 2
+    alone = run_quietly(whole, **SURFACE)
+    assert output.GetBlock(0).GetNumberOfPoints() == pytest.approx(alone.GetNumberOfPoints(), rel=0.01)
 
 
 def test_nested_and_empty_blocks_keep_their_places_and_names(whole):
