@@ -81,8 +81,9 @@ bool isEnriched(int cellType, vtkIdType points)
 hop::Degrees explicitDegrees(vtkUnstructuredGrid* grid, vtkIdType cell)
 {
   const int type = grid->GetCellType(cell);
-  vtkDataArray* given = grid->GetCellData()->GetHigherOrderDegrees();
-  if (!given || given->GetNumberOfComponents() != 3 || !(isLagrange(type) || isBezier(type)))
+  vtkDataArray* given =
+    isLagrange(type) || isBezier(type) ? grid->GetCellData()->GetHigherOrderDegrees() : nullptr;
+  if (!given || given->GetNumberOfComponents() != 3)
   {
     return degreesFromCount;
   }
@@ -195,7 +196,7 @@ bool reproduces(vtkCell* cell, const hop::NodalBasis& basis)
 }
 
 /// VTK's own shape functions in the Bernstein basis of the lowest degree that holds them.
-std::shared_ptr<const CellBasis> sampleBasis(vtkCell* cell, hop::Domain domain)
+std::unique_ptr<const CellBasis> sampleBasis(vtkCell* cell, hop::Domain domain)
 {
   constexpr hop::Degrees candidates[] = { { 1, 1, 1 }, { 2, 2, 1 }, { 2, 2, 2 }, { 3, 3, 3 },
     { 4, 4, 4 } };
@@ -214,7 +215,7 @@ std::shared_ptr<const CellBasis> sampleBasis(vtkCell* cell, hop::Domain domain)
     const hop::NodalBasis basis = hop::NodalBasis::sampled(domain, degrees, samples);
     if (reproduces(cell, basis))
     {
-      return std::make_shared<const CellBasis>(CellBasis(basis, false));
+      return std::make_unique<const CellBasis>(CellBasis(basis, false));
     }
   }
   return nullptr;
@@ -224,30 +225,23 @@ std::shared_ptr<const CellBasis> sampleBasis(vtkCell* cell, hop::Domain domain)
 
 CellBases::CellBases(hop::NodeSpacing spacing)
   : Spacing(spacing)
-  , Latest(Known.end())
 {
 }
 
-std::shared_ptr<const CellBasis> CellBases::basisOf(vtkUnstructuredGrid* grid, vtkIdType cell)
+const CellBasis* CellBases::basisOf(const CellKind& kind)
 {
-  const Key key{ grid->GetCellType(cell), grid->GetCells()->GetCellSize(cell),
-    explicitDegrees(grid, cell) };
-  // Cells of a kind mostly follow one another.
-  if (this->Latest == this->Known.end() || this->Latest->first != key)
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  const auto [known, isNew] = this->Known.try_emplace(kind);
+  if (isNew)
   {
-    bool isNew = false;
-    std::tie(this->Latest, isNew) = this->Known.try_emplace(key);
-    if (isNew)
-    {
-      this->Latest->second = this->makeBasis(key);
-    }
+    known->second = this->makeBasis(kind);
   }
-  return this->Latest->second;
+  return known->second.get();
 }
 
-std::shared_ptr<const CellBasis> CellBases::makeBasis(const Key& key) const
+std::unique_ptr<const CellBasis> CellBases::makeBasis(const CellKind& kind) const
 {
-  const auto& [type, points, given] = key;
+  const auto& [type, points, given] = kind;
   const std::optional<hop::Domain> domain = domainOf(type);
   // There are types of which VTK can make no cell.
   if (!domain)
@@ -279,7 +273,7 @@ std::shared_ptr<const CellBasis> CellBases::makeBasis(const Key& key) const
   }
 }
 
-std::shared_ptr<const CellBasis> CellBases::makeLatticeBasis(
+std::unique_ptr<const CellBasis> CellBases::makeLatticeBasis(
   vtkCell* vtk, hop::Domain domain, const hop::Degrees& degrees) const
 {
   const double* parametric = vtk->GetParametricCoords();
@@ -290,9 +284,32 @@ std::shared_ptr<const CellBasis> CellBases::makeLatticeBasis(
     { return static_cast<int>(std::lround(parametric[3 * node + axis] * degrees[axis])); };
     order.push_back({ onLattice(0), onLattice(1), onLattice(2) });
   }
-  return std::make_shared<const CellBasis>(isBezier(vtk->GetCellType())
+  return std::make_unique<const CellBasis>(isBezier(vtk->GetCellType())
       ? CellBasis(hop::NodalBasis::bezier(domain, degrees, order), true)
       : CellBasis(hop::NodalBasis::lagrange(domain, degrees, order, this->Spacing), false));
+}
+
+BasisLookup::BasisLookup(CellBases& bases)
+  : Bases(bases)
+  , Latest(Known.end())
+{
+}
+
+const CellBasis* BasisLookup::basisOf(vtkUnstructuredGrid* grid, vtkIdType cell)
+{
+  const CellKind kind{ grid->GetCellType(cell), grid->GetCells()->GetCellSize(cell),
+    explicitDegrees(grid, cell) };
+  // Cells of a kind mostly follow one another.
+  if (this->Latest == this->Known.end() || this->Latest->first != kind)
+  {
+    bool isNew = false;
+    std::tie(this->Latest, isNew) = this->Known.try_emplace(kind);
+    if (isNew)
+    {
+      this->Latest->second = this->Bases.basisOf(kind);
+    }
+  }
+  return this->Latest->second;
 }
 
 hop::ReferencePoint parametricCoordinates(int cellType, const hop::ReferencePoint& u)

@@ -8,6 +8,7 @@
 
 #include <map>
 #include <memory>
+#include <mutex>
 #include <tuple>
 #include <utility>
 
@@ -30,10 +31,13 @@ struct CellBasis
   bool bezier = false;
 };
 
-/// The bases of grids' cells: one a combination of cell type, number of points and degrees, shared
-/// by all cells of that kind. VTK stays the one authority on its cells: the order of the nodes of
-/// Lagrange and Bezier cells comes from their parametric coordinates, and the shape functions of all
-/// other cells are sampled from VTK's own InterpolateFunctions.
+/// What tells the kinds of cells apart: cell type, number of points, and degrees, zeros if those follow from
+/// the number of points.
+using CellKind = std::tuple<int, vtkIdType, hop::Degrees>;
+
+/// The bases of grids' cells: one a kind, shared by all cells of it. VTK stays the one authority on its
+/// cells: the order of the nodes of Lagrange and Bezier cells comes from their parametric coordinates, and
+/// the shape functions of all other cells are sampled from VTK's own InterpolateFunctions.
 ///
 /// Pyramids live on the hexahedron's domain, as in VTK's parametric coordinates, where their shape
 /// functions are polynomial: its upper face collapses to the apex.
@@ -41,23 +45,36 @@ class CellBases
 {
 public:
   explicit CellBases(hop::NodeSpacing spacing);
-  CellBases(const CellBases&) = delete;
-  CellBases& operator=(const CellBases&) = delete;
 
-  /// The basis of a cell, or nullptr: its type is not supported, or its number of points does not
-  /// fit its degrees. Not for several threads at once.
-  std::shared_ptr<const CellBasis> basisOf(vtkUnstructuredGrid* grid, vtkIdType cell);
+  /// The basis of cells of a kind, or nullptr: the type is not supported, or the number of points does not
+  /// fit the degrees. For several threads.
+  const CellBasis* basisOf(const CellKind& kind);
 
 private:
-  using Key = std::tuple<int, vtkIdType, hop::Degrees>;
-
-  std::shared_ptr<const CellBasis> makeBasis(const Key& key) const;
-  std::shared_ptr<const CellBasis> makeLatticeBasis(
+  std::unique_ptr<const CellBasis> makeBasis(const CellKind& kind) const;
+  std::unique_ptr<const CellBasis> makeLatticeBasis(
     vtkCell* vtk, hop::Domain domain, const hop::Degrees& degrees) const;
 
   hop::NodeSpacing Spacing;
-  std::map<Key, std::shared_ptr<const CellBasis>> Known;
-  std::map<Key, std::shared_ptr<const CellBasis>>::iterator Latest;
+  std::mutex Mutex;
+  std::map<CellKind, std::unique_ptr<const CellBasis>> Known;
+};
+
+/// Looks up the bases of one cell after the other. One a thread.
+class BasisLookup
+{
+public:
+  explicit BasisLookup(CellBases& bases);
+  BasisLookup(const BasisLookup&) = delete;
+  BasisLookup& operator=(const BasisLookup&) = delete;
+
+  /// The basis of a cell, or nullptr.
+  const CellBasis* basisOf(vtkUnstructuredGrid* grid, vtkIdType cell);
+
+private:
+  CellBases& Bases;
+  std::map<CellKind, const CellBasis*> Known;
+  std::map<CellKind, const CellBasis*>::iterator Latest;
 };
 
 /// VTK's parametric coordinates of a cell of that type at a reference point. They are the reference

@@ -53,6 +53,29 @@ struct CellValues
   std::vector<double> weights;
 };
 
+/// A cell that can hold surface.
+struct KeptCell
+{
+  vtkIdType cell = 0;
+  const CellBasis* basis = nullptr;
+};
+
+/// Cells of one block that are looked at by one thread, and what it found.
+struct CellRange
+{
+  std::size_t block = 0;
+  vtkIdType begin = 0;
+  vtkIdType end = 0;
+  CellCensus census;
+  std::vector<KeptCell> kept;
+  bool anyRational = false;
+  /// How many coefficients the elements of the cells kept have.
+  std::size_t coefficients = 0;
+  /// Where these elements stand in the mesh, and their coefficients.
+  std::size_t firstElement = 0;
+  std::size_t firstCoefficient = 0;
+};
+
 bool isFinite(double value)
 {
   return std::isfinite(value);
@@ -91,18 +114,46 @@ void snapToIsovalues(std::vector<hop::Coefficient>& coefficients,
   }
 }
 
+/// Counts a cell that is left out.
+void count(Verdict verdict, vtkIdType cell, int cellType, CellCensus& census)
+{
+  switch (verdict)
+  {
+    case Verdict::Drop:
+      ++census.dropped;
+      break;
+    case Verdict::Unsupported:
+      census.unsupported[cellType].add(cell);
+      break;
+    case Verdict::BrokenConnectivity:
+      census.brokenConnectivity.add(cell);
+      break;
+    case Verdict::NotFinite:
+      census.notFinite.add(cell);
+      break;
+    case Verdict::BadWeights:
+      census.badWeights.add(cell);
+      break;
+    case Verdict::Level:
+      census.level.add(cell);
+      break;
+    default:
+      break;
+  }
+}
+
 class Builder
 {
 public:
   Builder(const InputBlocks& blocks, hop::NodeSpacing spacing, const std::vector<double>& isovalues,
     const hop::ParallelFor& parallelFor, const std::function<void(double)>& reached)
     : Blocks(blocks)
-    , Spacing(spacing)
     , Isovalues(isovalues)
     , Parallel(parallelFor)
     , Reached(reached)
   {
     this->Result.squared = blocks.component() == InputBlocks::Magnitude;
+    this->Result.kinds = std::make_unique<CellBases>(spacing);
     this->Components = this->Result.squared ? blocks[0].scalars->GetNumberOfComponents() : 1;
     this->Result.census.resize(blocks.size());
     for (std::size_t b = 0; b < blocks.size(); ++b)
@@ -115,11 +166,12 @@ public:
 
 private:
   void judgeCells();
-  void makeElements(const std::vector<Verdict>& verdicts,
-    const std::vector<std::shared_ptr<const CellBasis>>& bases);
+  std::vector<CellRange> rangesOfCells() const;
+  void judge(CellRange& range, BasisLookup& bases, CellValues& values) const;
+  void makeElements(std::vector<CellRange>& ranges);
+  void makeElements(const CellRange& range);
   Verdict judge(const BlockCell& where, const CellBasis* basis, CellValues& values) const;
   Verdict read(const BlockCell& where, const CellBasis& basis, CellValues& values) const;
-  void count(const std::vector<Verdict>& verdicts);
   void convertElements();
   hop::JacobianSign convert(int element, CellValues& values);
   std::vector<double> controlValues(
@@ -130,12 +182,12 @@ private:
   bool isConstant(const CellValues& values) const;
   bool straddles(double lower, double upper) const;
   bool isGhost(const hop::Element& element) const;
+  bool isRational(std::size_t block, const CellBasis& cell) const;
   hop::Degrees elementDegrees(const hop::NodalBasis& basis) const;
 
   const InputBlocks& Blocks;
   /// One a block, or nullptr; grids look theirs up when first asked, which is nothing for threads.
   std::vector<vtkUnsignedCharArray*> Ghosts;
-  hop::NodeSpacing Spacing;
   const std::vector<double>& Isovalues;
   const hop::ParallelFor& Parallel;
   const std::function<void(double)>& Reached;
@@ -173,23 +225,59 @@ hop::Degrees Builder::elementDegrees(const hop::NodalBasis& basis) const
 /// Sorts out which cells become elements. Only values are read here, not coordinates.
 void Builder::judgeCells()
 {
-  const std::int64_t cells = this->Blocks.cellCount();
-  CellBases known(this->Spacing);
-  std::vector<std::shared_ptr<const CellBasis>> bases(cells);
-  this->Blocks.visit(0, cells,
-    [&](std::int64_t number, const BlockCell& where)
-    { bases[number] = known.basisOf(this->Blocks[where.block].grid, where.cell); });
-  std::vector<Verdict> verdicts(cells, Verdict::Unsupported);
-  hop::runParallel(this->Parallel, cells,
+  std::vector<CellRange> ranges = this->rangesOfCells();
+  hop::runParallel(this->Parallel, static_cast<std::ptrdiff_t>(ranges.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       CellValues values;
-      this->Blocks.visit(begin, end,
-        [&](std::int64_t number, const BlockCell& where)
-        { verdicts[number] = this->judge(where, bases[number].get(), values); });
+      BasisLookup bases(*this->Result.kinds);
+      for (std::ptrdiff_t r = begin; r < end; ++r)
+      {
+        this->judge(ranges[r], bases, values);
+      }
     });
-  this->count(verdicts);
-  this->makeElements(verdicts, bases);
+  this->makeElements(ranges);
+}
+
+/// All cells, in order.
+std::vector<CellRange> Builder::rangesOfCells() const
+{
+  constexpr vtkIdType wantedRanges = 1024;
+  constexpr vtkIdType mostCells = 4096;
+  const vtkIdType cellsAtOnce =
+    std::clamp<vtkIdType>(this->Blocks.cellCount() / wantedRanges, 1, mostCells);
+  std::vector<CellRange> ranges;
+  for (std::size_t b = 0; b < this->Blocks.size(); ++b)
+  {
+    const vtkIdType count = this->Blocks[b].grid->GetNumberOfCells();
+    for (vtkIdType begin = 0; begin < count; begin += cellsAtOnce)
+    {
+      ranges.emplace_back();
+      ranges.back().block = b;
+      ranges.back().begin = begin;
+      ranges.back().end = std::min(count, begin + cellsAtOnce);
+    }
+  }
+  return ranges;
+}
+
+void Builder::judge(CellRange& range, BasisLookup& bases, CellValues& values) const
+{
+  vtkUnstructuredGrid* grid = this->Blocks[range.block].grid;
+  for (vtkIdType cell = range.begin; cell < range.end; ++cell)
+  {
+    const CellBasis* basis = bases.basisOf(grid, cell);
+    const Verdict verdict = this->judge({ range.block, cell }, basis, values);
+    if (verdict != Verdict::Keep)
+    {
+      count(verdict, cell, grid->GetCellType(cell), range.census);
+      continue;
+    }
+    range.kept.push_back({ cell, basis });
+    range.anyRational = range.anyRational || this->isRational(range.block, *basis);
+    range.coefficients +=
+      hop::coefficientCount(basis->basis.domain(), this->elementDegrees(basis->basis));
+  }
 }
 
 /// \param basis of the cell, or nullptr
@@ -224,34 +312,48 @@ bool Builder::isConstant(const CellValues& values) const
 }
 
 /// Elements of the cells to keep, with room for their coefficients.
-void Builder::makeElements(
-  const std::vector<Verdict>& verdicts, const std::vector<std::shared_ptr<const CellBasis>>& bases)
+void Builder::makeElements(std::vector<CellRange>& ranges)
 {
   hop::ElementMesh& mesh = this->Result.mesh;
+  std::size_t elements = 0;
   std::size_t coefficients = 0;
   bool anyRational = false;
-  this->Blocks.visit(0, this->Blocks.cellCount(),
-    [&](std::int64_t number, const BlockCell& where)
-    {
-      if (verdicts[number] != Verdict::Keep)
-      {
-        return;
-      }
-      const CellBasis& basis = *bases[number];
-      hop::Element element;
-      element.domain = basis.basis.domain();
-      element.degrees = this->elementDegrees(basis.basis);
-      element.firstCoefficient = coefficients;
-      element.rational =
-        basis.bezier && this->Blocks[where.block].grid->GetPointData()->GetRationalWeights();
-      element.cell = number;
-      anyRational = anyRational || element.rational;
-      coefficients += hop::coefficientCount(element.domain, element.degrees);
-      mesh.elements.push_back(element);
-      this->Result.bases.push_back(bases[number]);
-    });
+  for (CellRange& range : ranges)
+  {
+    range.firstElement = elements;
+    range.firstCoefficient = coefficients;
+    elements += range.kept.size();
+    coefficients += range.coefficients;
+    anyRational = anyRational || range.anyRational;
+    this->Result.census[range.block].add(range.census);
+  }
+  mesh.elements.resize(elements);
+  this->Result.bases.resize(elements);
   mesh.coefficients.resize(coefficients);
   mesh.weights.resize(anyRational ? coefficients : 0);
+  hop::forAll(this->Parallel, ranges.size(), [&](std::size_t r) { this->makeElements(ranges[r]); });
+}
+
+void Builder::makeElements(const CellRange& range)
+{
+  std::size_t coefficient = range.firstCoefficient;
+  for (std::size_t i = 0; i < range.kept.size(); ++i)
+  {
+    const auto& [cell, basis] = range.kept[i];
+    hop::Element& element = this->Result.mesh.elements[range.firstElement + i];
+    element.domain = basis->basis.domain();
+    element.degrees = this->elementDegrees(basis->basis);
+    element.firstCoefficient = coefficient;
+    element.rational = this->isRational(range.block, *basis);
+    element.cell = this->Blocks.firstCell(range.block) + cell;
+    this->Result.bases[range.firstElement + i] = basis;
+    coefficient += hop::coefficientCount(element.domain, element.degrees);
+  }
+}
+
+bool Builder::isRational(std::size_t block, const CellBasis& cell) const
+{
+  return cell.bezier && this->Blocks[block].grid->GetPointData()->GetRationalWeights();
 }
 
 Verdict Builder::read(const BlockCell& where, const CellBasis& basis, CellValues& values) const
@@ -323,39 +425,6 @@ bool Builder::canHoldSurface(const CellBasis& cell, const CellValues& values) co
   const double longest = std::sqrt(longest2);
   const double margin = this->Components * slack;
   return this->straddles(this->isConstant(values) ? longest - margin : 0.0, longest + margin);
-}
-
-void Builder::count(const std::vector<Verdict>& verdicts)
-{
-  this->Blocks.visit(0, this->Blocks.cellCount(),
-    [&](std::int64_t number, const BlockCell& where)
-    {
-      CellCensus& census = this->Result.census[where.block];
-      switch (verdicts[number])
-      {
-        case Verdict::Drop:
-          ++census.dropped;
-          break;
-        case Verdict::Unsupported:
-          census.unsupported[this->Blocks[where.block].grid->GetCellType(where.cell)].add(
-            where.cell);
-          break;
-        case Verdict::BrokenConnectivity:
-          census.brokenConnectivity.add(where.cell);
-          break;
-        case Verdict::NotFinite:
-          census.notFinite.add(where.cell);
-          break;
-        case Verdict::BadWeights:
-          census.badWeights.add(where.cell);
-          break;
-        case Verdict::Level:
-          census.level.add(where.cell);
-          break;
-        default:
-          break;
-      }
-    });
 }
 
 void Builder::convertElements()
@@ -555,6 +624,21 @@ void describeCells(std::ostream& text, const SkippedCells& cells, const std::str
 }
 
 } // namespace
+
+void CellCensus::add(const CellCensus& others)
+{
+  this->dropped += others.dropped;
+  for (const auto& [type, cells] : others.unsupported)
+  {
+    this->unsupported[type].add(cells);
+  }
+  this->brokenConnectivity.add(others.brokenConnectivity);
+  this->notFinite.add(others.notFinite);
+  this->badWeights.add(others.badWeights);
+  this->level.add(others.level);
+  this->collapsed.add(others.collapsed);
+  this->folded.add(others.folded);
+}
 
 vtkIdType CellCensus::skipped() const
 {

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,13 @@ struct SkippedCells
   vtkIdType count = 0;
   vtkIdType first = -1;
 
-  void add(vtkIdType cell) { this->first = this->count++ == 0 ? cell : this->first; }
+  void add(vtkIdType cell) { this->add({ 1, cell }); }
+  /// \pre those cells follow on these
+  void add(const SkippedCells& others)
+  {
+    this->first = this->count == 0 ? others.first : this->first;
+    this->count += others.count;
+  }
 };
 
 /// What became of a block's cells; they are named by their numbers in the block.
@@ -39,6 +46,8 @@ struct CellCensus
   /// Kept, but the Jacobian determinant changes its sign: partly inverted.
   SkippedCells folded;
 
+  /// Adds those of cells that follow on these.
+  void add(const CellCensus& others);
   vtkIdType skipped() const;
   /// One text that names all that was skipped or is doubtful, empty if nothing.
   std::string describe() const;
@@ -50,8 +59,10 @@ struct GridElements
 {
   /// Its elements name their cells by the number that InputBlocks gives them.
   hop::ElementMesh mesh;
-  /// One an element.
-  std::vector<std::shared_ptr<const CellBasis>> bases;
+  /// Of all kinds of cells.
+  std::unique_ptr<CellBases> kinds;
+  /// One an element, of those.
+  std::vector<const CellBasis*> bases;
   /// Whether the mesh's field is the square of the chosen scalar: the magnitude of a vector is no
   /// polynomial, its square is, and |v| = c where |v|^2 = c^2.
   bool squared = false;

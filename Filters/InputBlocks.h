@@ -54,21 +54,6 @@ public:
   /// "cell 7", or "cell 7 of block 'wing'".
   std::string describe(std::int64_t number) const;
 
-  /// Calls visit(number, BlockCell) for the cells with numbers from begin to end.
-  template <class Visit>
-  void visit(std::int64_t begin, std::int64_t end, const Visit& visitCell) const
-  {
-    BlockCell where = begin < end ? this->locate(begin) : BlockCell{};
-    for (std::int64_t number = begin; number < end; ++number, ++where.cell)
-    {
-      while (number == this->FirstCells[where.block + 1])
-      {
-        where = { where.block + 1, 0 };
-      }
-      visitCell(number, where);
-    }
-  }
-
 private:
   std::vector<InputBlock> Blocks;
   int Component;
