@@ -68,6 +68,29 @@ std::int64_t particlesThatFit()
                        : hop::DistributionParameters().particleLimit;
 }
 
+/// The bounds of a grid, without points whose coordinates are not finite.
+vtkBoundingBox boundsOf(vtkUnstructuredGrid* grid)
+{
+  const auto isFinite = [](double x) { return std::isfinite(x); };
+  double bounds[6];
+  grid->GetBounds(bounds);
+  if (std::all_of(bounds, bounds + 6, isFinite))
+  {
+    return vtkBoundingBox(bounds);
+  }
+  vtkBoundingBox box;
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+  {
+    double x[3];
+    grid->GetPoint(i, x);
+    if (std::all_of(x, x + 3, isFinite))
+    {
+      box.AddPoint(x);
+    }
+  }
+  return box;
+}
+
 /// What the data say about a run; the properties say the rest.
 RunOrigin originOf(const InputBlocks& blocks)
 {
@@ -379,11 +402,9 @@ vtkHighOrderParticleIsosurface::Scale vtkHighOrderParticleIsosurface::FindScale(
   vtkBoundingBox box;
   for (const InputBlock& block : blocks)
   {
-    double bounds[6];
-    block.grid->GetBounds(bounds);
     if (block.grid->GetNumberOfPoints() > 0)
     {
-      box.AddBounds(bounds);
+      box.AddBox(boundsOf(block.grid));
     }
   }
   box = overAllRanks(box);

@@ -5,6 +5,9 @@
 #include "vtkPVDataInformation.h"
 #include "vtkSMPropertyHelper.h"
 
+#include <algorithm>
+#include <cmath>
+
 vtkStandardNewMacro(vtkSMSpacingDomain);
 
 vtkSMSpacingDomain::vtkSMSpacingDomain() = default;
@@ -13,7 +16,9 @@ vtkSMSpacingDomain::~vtkSMSpacingDomain() = default;
 void vtkSMSpacingDomain::Update(vtkSMProperty* property)
 {
   vtkPVDataInformation* input = this->GetInputInformation();
-  if (input && vtkMath::AreBoundsInitialized(input->GetBounds()))
+  const double* bounds = input ? input->GetBounds() : nullptr;
+  if (bounds && vtkMath::AreBoundsInitialized(bounds) &&
+    std::all_of(bounds, bounds + 6, [](double x) { return std::isfinite(x); }))
   {
     this->Superclass::Update(property);
   }

@@ -1,6 +1,6 @@
 /**
  * @class vtkSMSpacingDomain
- * @brief a range of spacings, from bounds; nothing for an input which was not read yet
+ * @brief a range of spacings, from bounds; nothing for an input which was not read yet or has no end
  *
  * The range, which is that of the slider, is 0 to a share of the longest side of the bounds, in XML
  * `mode="scaled_extent"` and `scale_factor`; the default is a tenth of that share.
@@ -22,7 +22,7 @@ public:
   vtkTypeMacro(vtkSMSpacingDomain, vtkSMBoundsDomain);
 
   /**
-   * No range where the bounds of the input are not known.
+   * No range where the bounds of the input are not known, or not finite.
    */
   void Update(vtkSMProperty* property) override;
 

@@ -65,6 +65,7 @@ def move_points(grid, cell, points):
     size = (DEGREE + 1) ** 3
     for n, point in enumerate(points):
         grid.GetPoints().SetPoint(cell * size + n, point)
+    grid.GetPoints().Modified()
 
 
 def cell_points(grid, cell):
@@ -344,7 +345,7 @@ def test_elements_with_coordinates_that_are_not_finite_are_left_out(good, bad):
     assert_rest_is_right(particles, whole, {4})
 
 
-@pytest.mark.parametrize("bad", [np.nan, np.inf])
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
 def test_automatic_spacing_in_spite_of_coordinates_that_are_not_finite(bad):
     grid = block()
     longest = support.longest_side(grid)

@@ -122,6 +122,19 @@ def test_the_slider_of_the_spacing_reaches_beyond_its_default():
     assert (bounds.GetMinimum(0), bounds.GetMaximum(0)) == pytest.approx((0, 0.1))
 
 
+@pytest.mark.parametrize("bad", [np.inf, -np.inf])
+def test_no_spacing_comes_from_bounds_that_are_not_finite(bad):
+    """One cell of two is wrong; the other has its particles at once."""
+    corners = np.array([[i, j, k] for k in (0, 1) for i, j in ((0, 0), (1, 0), (1, 1), (0, 1))], dtype=float)
+    points = np.concatenate([corners, corners])
+    points[8:10, 0] = bad, -bad
+    grid = grid_of_cells(points, [(VTK_HEXAHEDRON, range(8)), (VTK_HEXAHEDRON, range(8, 16))])
+    add_point_array(grid, "z", points[:, 2])
+    proxy = simple.HighOrderParticleIsosurface(Input=source_of(grid))
+    assert proxy.Spacing == 0
+    assert output_of(proxy).GetNumberOfPoints() > 0
+
+
 @pytest.mark.parametrize("source, fits", [
     (simple.UnstructuredCellTypes, True),  # an unstructured grid
     (simple.Sphere, False),  # polygons
