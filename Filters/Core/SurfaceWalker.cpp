@@ -269,14 +269,4 @@ bool SurfaceWalker::project(
   return false;
 }
 
-int boundaryFaceCount(const ElementMesh& mesh, const Location& location)
-{
-  int count = 0;
-  for (int f = 0; f < faceCountOf(mesh, location); ++f)
-  {
-    count += mesh.neighbor(location.element, f).element < 0 && isOnFace(mesh, location, f);
-  }
-  return count;
-}
-
 } // namespace hop

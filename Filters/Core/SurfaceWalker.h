@@ -138,7 +138,4 @@ private:
   std::int64_t Evaluations = 0;
 };
 
-/// On how many faces without neighbour of its element a place lies.
-int boundaryFaceCount(const ElementMesh& mesh, const Location& location);
-
 } // namespace hop

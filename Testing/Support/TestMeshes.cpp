@@ -1,5 +1,6 @@
 #include "TestMeshes.h"
 
+#include "ActiveFaces.h"
 #include "NodalBasis.h"
 
 #include <algorithm>
@@ -185,6 +186,18 @@ Map wavyMap(double amount)
       glm::dvec3(std::sin(1.7 * x.y + 0.4 * x.z), std::sin(1.3 * x.z - 0.6 * x.x),
         std::cos(1.5 * x.x + 0.5 * x.y));
   };
+}
+
+int boundaryFaceCount(const ElementMesh& mesh, const Location& location)
+{
+  const std::vector<Face>& faces = facts(mesh.elements[location.element].domain).faces;
+  int count = 0;
+  for (int f = 0; f < static_cast<int>(faces.size()); ++f)
+  {
+    count +=
+      mesh.neighbor(location.element, f).element < 0 && faceMargin(faces[f], location.u) < OnFace;
+  }
+  return count;
 }
 
 ReferencePoint insidePoint(Domain domain, glm::dvec3 t)

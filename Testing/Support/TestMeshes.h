@@ -51,6 +51,9 @@ Map wavyMap(double amount);
 inline const std::array<Domain, 3> allDomains{ Domain::Hexahedron, Domain::Tetrahedron,
   Domain::Wedge };
 
+/// On how many faces without neighbour of its element a place lies.
+int boundaryFaceCount(const ElementMesh& mesh, const Location& location);
+
 /// A point inside the domain from three numbers in [0,1).
 ReferencePoint insidePoint(Domain domain, glm::dvec3 t);
 
