@@ -45,6 +45,8 @@ namespace
 constexpr double automaticSpacingPerSide = 0.01;
 /// Larger spacings say no more: a component has its least number of particles long before.
 constexpr double largestSpacingPerSide = 1e3;
+/// Diagonals of grids; volumes of larger ones do not fit into doubles.
+constexpr double largestDiagonal = 1e90;
 /// The first spacing that ranks try together where a number of particles is given.
 constexpr double firstSpacingPerDiagonal = 0.02;
 constexpr double warnUndersampledShare = 0.01;
@@ -370,7 +372,7 @@ int vtkHighOrderParticleIsosurface::RequestData(
   {
     this->Previous->forget();
   }
-  if (!this->CheckParameters() || this->GetNumberOfContours() == 0)
+  if (!this->CheckParameters() || !this->CheckScale(scale) || this->GetNumberOfContours() == 0)
   {
     return 1;
   }
@@ -448,6 +450,19 @@ bool vtkHighOrderParticleIsosurface::CheckParameters()
     return false;
   }
   return true;
+}
+
+bool vtkHighOrderParticleIsosurface::CheckScale(const Scale& scale)
+{
+  const bool isFit = scale.Diagonal < largestDiagonal;
+  if (!isFit)
+  {
+    vtkErrorMacro("The bounding diagonal of the grid, " << scale.Diagonal
+                                                        << ", is too long to compute with. Correct "
+                                                           "points that are far off, or scale the "
+                                                           "grid by Transform.");
+  }
+  return isFit;
 }
 
 /// Whether the input and the choice of an array make sense, whatever arrays there are.

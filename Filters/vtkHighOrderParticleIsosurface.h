@@ -248,6 +248,7 @@ private:
   bool IsAskedForMore(vtkInformationVector* outputs);
   Scale FindScale(const std::vector<InputBlock>& blocks);
   bool CheckParameters();
+  bool CheckScale(const Scale& scale);
   bool CheckInput(const GatheredBlocks& gathered);
   std::vector<InputBlock> FindScalars(const GatheredBlocks& gathered);
   std::vector<InputBlock> CheckLengths(const std::vector<InputBlock>& blocks);

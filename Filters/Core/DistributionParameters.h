@@ -36,7 +36,7 @@ struct DistributionParameters
   /// hundredth; 0: 1/50 of the mesh's diagonal. Fast only.
   double firstSpacing = 0.0;
   /// Places to start from, in the mesh at hand, where a run before left its particles on a surface nearby.
-  /// What they miss is seeded as ever. Fast only.
+  /// What they miss is seeded; all is where few of them are near. Fast only.
   std::vector<Location> start;
   /// A request that would need more particles than this is refused before it is begun.
   std::int64_t particleLimit = 100'000'000;

@@ -359,6 +359,17 @@ def test_automatic_spacing_in_spite_of_coordinates_that_are_not_finite(bad):
     assert support.array_of(particles, "Residual").max() <= 1.1e-8 * support.diagonal(block())
 
 
+@pytest.mark.parametrize("far", [1e100, 1e160, 1e308])
+def test_grids_too_large_to_compute_with_are_refused(far):
+    grid = block()
+    points = cell_points(grid, 4)
+    points[7, 1] = far
+    move_points(grid, 4, points)
+    particles, messages = support.run(grid, "F", 0.3)
+    assert particles.GetNumberOfPoints() == 0
+    assert_one_error(messages, "too long to compute with", "Transform")
+
+
 def assert_rest_is_right(particles, whole, left_out):
     """All of the surface but that in the cells left out."""
     assert_clean(particles)
