@@ -33,7 +33,7 @@
  * between elements; normal zero: none; and the largest angle seen there between the normals of both sides, in
  * degrees: 180 at rims, else 1.5 at least, where a step of the surface counts as an angle of step / spacing,
  * below 10; splats are to be cut at rims and kinks, and to give way to those of the other side where the angle
- * is below 10), `Jump` (on rims where the field jumps from element to element: F - c on the other side;
+ * is below 10; where kinks meet, a plane is moved outwards if nothing else would cover what it cuts off), `Jump` (on rims where the field jumps from element to element: F - c on the other side;
  * else 0), `Isovalue`, `vtkOriginalCellIds`, `ParametricCoordinates` (of VTK's cell), and every
  * numeric point array of the input evaluated by the element's own polynomials, in double precision
  * (the contoured one holds the isovalue). An input array of one of these names, or of those of the field data

@@ -2,6 +2,7 @@
 
 #include "ActiveFaces.h"
 #include "Energy.h"
+#include "KinkCorners.h"
 #include "SpacingGrid.h"
 
 #include <algorithm>
@@ -279,6 +280,7 @@ void markClipPlanes(const Isosurface& surface, const FaceJumps& jumps, Buffer<Ri
       offerRims(grid, rims, rims[i].particle);
       faces.offerTo(rims[i].particle, rims[i].pull);
     });
+  closeKinkCorners(particles, rims, parallelFor);
 }
 
 } // namespace hop

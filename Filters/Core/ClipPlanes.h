@@ -10,7 +10,8 @@ namespace hop
 /// particle of the rim, normal to the surface's way out of the domain; near a face at which the normal
 /// turns, that face; where it turns by more than KinkAngle only if there are particles behind it to cover
 /// what is cut off. A splat that reaches beyond a plane is to be cut off there, or, where the surface is almost
-/// smooth, to count only where no other does. In corners two planes meet.
+/// smooth, to count only where no other does. In corners two planes meet; where kinks do, some planes are moved
+/// outwards, see KinkCorners.h.
 /// \param particles those that are not on rims; particles on rims are marked with them
 /// \param anchors where these particles lie, one for each
 void markClipPlanes(const Isosurface& surface, const FaceJumps& jumps, Buffer<RimParticle>& rims,

@@ -15,7 +15,7 @@ struct ClipPlane
 {
   /// Unit normal, pointing to the far side; zero if there is no plane.
   WorldVector normal;
-  /// World units, >= 0.
+  /// World units, >= 0; more than that of the edge where others leave a corner between kinks open.
   double distance = 0.0;
   /// By which the surface turns there, radians, see FaceJumps::turns; pi where it ends.
   double turn = 0.0;

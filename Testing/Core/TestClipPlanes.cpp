@@ -191,5 +191,86 @@ TEST(ClipPlanes, AreNotWhereTheSurfaceGoesOnBehindAnEdge)
   EXPECT_GT(rims, 10); // as one element says
 }
 
+/// A pyramid, z = height - slope r in the middles of its sides: as many wedges around an axis.
+Distribution distributeOnPyramid(int sides, double slope)
+{
+  ElementMesh mesh;
+  const auto angleAt = [=](int side) { return (side % sides) * 2.0 * Pi / sides; };
+  const auto onCircle = [&](int side, double z)
+  { return glm::dvec3(std::cos(angleAt(side)), std::sin(angleAt(side)), z); };
+  for (int s = 0; s < sides; ++s)
+  {
+    const glm::dvec3 middle = glm::normalize(onCircle(s, 0.0) + onCircle(s + 1, 0.0));
+    MeshRecipe recipe;
+    recipe.domain = Domain::Wedge;
+    recipe.field = [=](const glm::dvec3& x) { return x.z - 0.1 + slope * glm::dot(x, middle); };
+    const std::int64_t first = s + 1;
+    const std::int64_t second = (s + 1) % sides + 1;
+    const std::int64_t top = sides + 1;
+    appendElement(mesh, recipe,
+      { { 0, 0, -1 }, onCircle(s, -1.0), onCircle(s + 1, -1.0), { 0, 0, 1 }, onCircle(s, 1.0),
+        onCircle(s + 1, 1.0) },
+      { 0, first, second, top, top + first, top + second });
+  }
+  findFaceNeighbors(mesh, 1e-9);
+  DistributionParameters parameters;
+  parameters.law = { spacing, 0.0 };
+  return distributeFast({ &mesh, 0.0, 1e-9 }, parameters, {}, {});
+}
+
+/// Whether a particle's splat covers a place, cut off as it is; splats reach a little beyond kinks.
+bool covers(const Particle& particle, const glm::dvec3& place)
+{
+  constexpr double visible = 0.93;
+  constexpr double beyondKinks = 0.1;
+  const glm::dvec3 offset = place - particle.position.xyz;
+  return glm::length(offset) < visible * spacing &&
+    std::none_of(particle.clips.begin(), particle.clips.end(),
+      [&](const ClipPlane& plane)
+      {
+        return plane.turn > KinkAngle &&
+          glm::dot(offset, plane.normal.xyz) > plane.distance + beyondKinks * spacing;
+      });
+}
+
+/// Sectors between two kinks are too narrow for particles of their own where they begin.
+TEST(ClipPlanes, LeaveNoHolesWhereKinksMeet)
+{
+  for (const int sides : { 5, 6, 7, 8, 9, 10, 12 })
+  {
+    constexpr double slope = 1.2;
+    const Distribution result = distributeOnPyramid(sides, slope);
+    int open = 0;
+    int places = 0;
+    const double sector = 2.0 * Pi / sides;
+    for (double r = 0.02 * spacing; r < 2.0 * spacing; r += 0.06 * spacing)
+    {
+      for (double angle = 0.0; angle < 2.0 * Pi; angle += 0.06 * spacing / r)
+      {
+        const double toMiddle = std::remainder(angle - 0.5 * sector, sector);
+        const glm::dvec3 place(
+          r * std::cos(angle), r * std::sin(angle), 0.1 - slope * r * std::cos(toMiddle));
+        ++places;
+        open += std::none_of(result.particles.begin(), result.particles.end(),
+          [&](const Particle& particle) { return covers(particle, place); });
+      }
+    }
+    EXPECT_GT(places, 3000);
+    EXPECT_EQ(open, 0) << sides << " sides";
+  }
+}
+
+/// Planes stay where they are at kinks of two sides only.
+TEST(ClipPlanes, StayAtStraightKinks)
+{
+  for (const Particle& p : besideRidge(distributeOnRoof(0.5), 1.5 * spacing))
+  {
+    for (const ClipPlane& plane : p.clips)
+    {
+      EXPECT_TRUE(!plane.exists() || std::abs(plane.distance - std::abs(p.position.xyz.x)) < 1e-9);
+    }
+  }
+}
+
 } // namespace
 } // namespace hop::testing

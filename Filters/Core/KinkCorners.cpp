@@ -1,0 +1,277 @@
+#include "KinkCorners.h"
+
+#include "FaceJumps.h"
+#include "SpacingGrid.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace hop
+{
+namespace
+{
+
+/// Splats end so far from their particles, in units of their spacing: a little farther off they count too little
+/// to be seen alone, and they may be bent.
+constexpr double splatReach = 0.91;
+/// A little behind a kink's plane a splat still fills gaps; also that is in units of the spacing.
+constexpr double filledBehind = 0.05;
+/// Distance of the places looked at, along the kink and away from it, in units of the spacing.
+constexpr double placeStep = 0.1;
+/// 80 degrees.
+constexpr double steepestKink = 1.4;
+/// A splat stands off that far at most from what it covers behind a kink, in units of its spacing.
+constexpr double farthestOff = 0.25;
+
+bool isKink(const ClipPlane& plane)
+{
+  return plane.exists() && plane.turn > KinkAngle && plane.turn < steepestKink;
+}
+
+bool cuts(const ClipPlane& plane)
+{
+  return plane.exists() && plane.turn > KinkAngle;
+}
+
+/// Whether a splat, were it whole, would reach a place on the surface nearby.
+bool reaches(const Particle& particle, const glm::dvec3& place)
+{
+  constexpr double highest = 0.4;
+  const glm::dvec3 offset = place - particle.position.xyz;
+  const double height = glm::dot(offset, particle.normal.xyz);
+  const double h = particle.spacing;
+  return std::abs(height) < highest * h &&
+    glm::dot(offset, offset) - height * height < splatReach * splatReach * h * h;
+}
+
+/// How far a place lies behind a particle's planes; infinitely where no kink may give way.
+double behindKinks(const Particle& particle, const glm::dvec3& place)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double farthest = -infinity;
+  for (const ClipPlane& plane : particle.clips)
+  {
+    if (cuts(plane))
+    {
+      const double behind =
+        glm::dot(place - particle.position.xyz, plane.normal.xyz) - plane.distance;
+      farthest = std::max(farthest, behind > 0.0 && !isKink(plane) ? infinity : behind);
+    }
+  }
+  return farthest;
+}
+
+/// Whether a place lies behind a rim, clearly.
+bool isBehindRim(const Particle& particle, const glm::dvec3& place)
+{
+  return std::any_of(particle.clips.begin(), particle.clips.end(),
+    [&](const ClipPlane& plane)
+    {
+      return plane.exists() && plane.turn == Pi &&
+        glm::dot(place - particle.position.xyz, plane.normal.xyz) >
+        plane.distance + filledBehind * particle.spacing;
+    });
+}
+
+class KinkCorners
+{
+public:
+  KinkCorners(
+    Buffer<Particle>& particles, Buffer<RimParticle>& rims, const ParallelFor& parallelFor)
+    : Particles(particles)
+    , Rims(rims)
+    , Parallel(parallelFor)
+  {
+  }
+
+  void close();
+
+private:
+  /// A plane's way along the disk of its particle.
+  struct Cut
+  {
+    /// The place on the plane that is nearest to the particle, from there.
+    glm::dvec3 foot{ 0.0 };
+    /// Unit vectors.
+    glm::dvec3 away{ 0.0 };
+    glm::dvec3 along{ 0.0 };
+    /// Of `away` to the plane's normal.
+    double cosine = 0.0;
+  };
+
+  Particle& at(std::size_t i) const
+  {
+    const std::size_t free = this->Particles.size();
+    return i < free ? this->Particles[i] : this->Rims[i - free].particle;
+  }
+  static Cut cutOf(const Particle& particle, const ClipPlane& plane);
+  bool isCornerOf(int i, int plane, const std::vector<int>& around) const;
+  std::vector<int> findAround(const SpacingGrid& grid, int i) const;
+  bool isOpen(int i, const glm::dvec3& place, const std::vector<int>& around) const;
+  double openBehind(int i, int plane, const std::vector<int>& around) const;
+  double openFrom(int i, int plane, const glm::dvec3& start, const glm::dvec3& away,
+    const std::vector<int>& around) const;
+
+  Buffer<Particle>& Particles;
+  Buffer<RimParticle>& Rims;
+  const ParallelFor& Parallel;
+};
+
+KinkCorners::Cut KinkCorners::cutOf(const Particle& particle, const ClipPlane& plane)
+{
+  const glm::dvec3& normal = particle.normal.xyz;
+  const glm::dvec3 aslant = plane.normal.xyz - glm::dot(plane.normal.xyz, normal) * normal;
+  const double cosine = glm::length(aslant);
+  const glm::dvec3 away = aslant / cosine;
+  return { plane.distance / cosine * away, away, glm::cross(normal, away), cosine };
+}
+
+/// Particles whose splats may overlap that of particle i.
+std::vector<int> KinkCorners::findAround(const SpacingGrid& grid, int i) const
+{
+  const Particle& particle = this->at(i);
+  std::vector<int> found;
+  grid.visit(particle.position.xyz, particle.spacing,
+    [&](int j)
+    {
+      const Particle& other = this->at(j);
+      if (j != i && dot(other.normal, particle.normal) > 0.0 &&
+        length(other.position - particle.position) <
+          splatReach * (particle.spacing + other.spacing))
+      {
+        found.push_back(j);
+      }
+    });
+  return found;
+}
+
+/// Whether a kink meets another one, or a rim, near its particle.
+bool KinkCorners::isCornerOf(int i, int plane, const std::vector<int>& around) const
+{
+  constexpr double sameKink = 0.9;
+  const WorldVector& normal = this->at(i).clips[plane].normal;
+  const auto looksElsewhere = [&](const ClipPlane& other)
+  { return cuts(other) && std::abs(dot(other.normal, normal)) < sameKink; };
+  const auto hasAnother = [&](int j)
+  {
+    const auto& clips = this->at(j).clips;
+    return looksElsewhere(clips[0]) || looksElsewhere(clips[1]);
+  };
+  return hasAnother(i) || std::any_of(around.begin(), around.end(), hasAnother);
+}
+
+/// Whether it is on particle i to cover a place behind its plane: none covers it, nor lies it nearer behind the
+/// plane of another, nor beyond a rim.
+bool KinkCorners::isOpen(int i, const glm::dvec3& place, const std::vector<int>& around) const
+{
+  const double own = behindKinks(this->at(i), place);
+  return std::none_of(around.begin(), around.end(),
+    [&](int j)
+    {
+      const Particle& other = this->at(j);
+      if (!reaches(other, place))
+      {
+        return false;
+      }
+      const double behind = behindKinks(other, place);
+      return behind < filledBehind * other.spacing || behind < own || (behind == own && j < i) ||
+        isBehindRim(other, place);
+    });
+}
+
+/// How far it is open, away from a place on a plane.
+double KinkCorners::openFrom(int i, int plane, const glm::dvec3& start, const glm::dvec3& away,
+  const std::vector<int>& around) const
+{
+  const Particle& particle = this->at(i);
+  const ClipPlane& other = particle.clips[1 - plane];
+  const double step = placeStep * particle.spacing;
+  const double farthest = farthestOff / std::sin(particle.clips[plane].turn);
+  int count = 0;
+  for (;; ++count)
+  {
+    const glm::dvec3 offset = start + (count + 1) * step * away;
+    const glm::dvec3 place = particle.position.xyz + offset;
+    if (!(glm::length(offset) <= splatReach * particle.spacing) ||
+      (count + 1) * placeStep > farthest ||
+      (cuts(other) && glm::dot(offset, other.normal.xyz) > other.distance) ||
+      !this->isOpen(i, place, around))
+    {
+      return count == 0 ? 0.0 : (count + 0.5) * step;
+    }
+  }
+}
+
+/// How far one of its planes is to be moved.
+double KinkCorners::openBehind(int i, int plane, const std::vector<int>& around) const
+{
+  if (!this->isCornerOf(i, plane, around))
+  {
+    return 0.0;
+  }
+  const Particle& particle = this->at(i);
+  const Cut cut = cutOf(particle, particle.clips[plane]);
+  const double reach = splatReach * particle.spacing;
+  const double half = std::sqrt(std::max(0.0, reach * reach - glm::dot(cut.foot, cut.foot)));
+  const double step = placeStep * particle.spacing;
+  const auto most = static_cast<int>(half / step);
+  double farthest = 0.0;
+  for (int n = -most; n <= most; ++n)
+  {
+    farthest = std::max(
+      farthest, this->openFrom(i, plane, cut.foot + n * step * cut.along, cut.away, around));
+  }
+  return farthest * cut.cosine;
+}
+
+void KinkCorners::close()
+{
+  const std::size_t count = this->Particles.size() + this->Rims.size();
+  Buffer<glm::dvec3> positions(count);
+  Buffer<float> spacings(count);
+  forAll(this->Parallel, count,
+    [&](std::size_t i)
+    {
+      positions[i] = this->at(i).position.xyz;
+      spacings[i] = static_cast<float>(this->at(i).spacing);
+    });
+  const SpacingGrid grid(positions, spacings, 2.0 * splatReach, 0.5, this->Parallel);
+  std::vector<std::array<double, 2>> moves(count);
+  forAll(this->Parallel, count,
+    [&](std::size_t n)
+    {
+      const auto i = static_cast<int>(n);
+      const auto isCut = [&](const ClipPlane& plane)
+      { return isKink(plane) && plane.distance < splatReach * this->at(i).spacing; };
+      const auto& clips = this->at(i).clips;
+      const std::array<bool, 2> wanted{ isCut(clips[0]), isCut(clips[1]) };
+      if (wanted[0] || wanted[1])
+      {
+        const std::vector<int> around = this->findAround(grid, i);
+        moves[n] = { wanted[0] ? this->openBehind(i, 0, around) : 0.0,
+          wanted[1] ? this->openBehind(i, 1, around) : 0.0 };
+      }
+    });
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    this->at(i).clips[0].distance += moves[i][0];
+    this->at(i).clips[1].distance += moves[i][1];
+  }
+}
+
+} // namespace
+
+void closeKinkCorners(
+  Buffer<Particle>& particles, Buffer<RimParticle>& rims, const ParallelFor& parallelFor)
+{
+  const auto hasKink = [](const Particle& particle)
+  { return isKink(particle.clips[0]) || isKink(particle.clips[1]); };
+  if (std::any_of(particles.begin(), particles.end(), hasKink))
+  {
+    KinkCorners(particles, rims, parallelFor).close();
+  }
+}
+
+} // namespace hop
