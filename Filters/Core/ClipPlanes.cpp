@@ -278,6 +278,10 @@ void markClipPlanes(const Isosurface& surface, const FaceJumps& jumps, Buffer<Ri
     [&](std::size_t i)
     {
       offerRims(grid, rims, rims[i].particle);
+      if (length(rims[i].outward) > 0.0 && length(rims[i].otherOutward) > 0.0)
+      {
+        offer(rims[i].particle, { rims[i].otherOutward, 0.0, Pi });
+      }
       faces.offerTo(rims[i].particle, rims[i].pull);
     });
   closeKinkCorners(particles, rims, parallelFor);

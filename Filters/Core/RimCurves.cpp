@@ -59,6 +59,16 @@ struct RimPlace
   double spacing = 0.0;
 };
 
+/// Out of the surface along it, at a face of the element; zero where it is parallel to that.
+WorldVector outwardAt(const ElementMesh& mesh, const Evaluated& at, int face)
+{
+  const auto& faces = facts(mesh.elements[at.location.element].domain).faces;
+  const glm::dvec3 normal = surfaceNormal(at.point.gradient).xyz;
+  const glm::dvec3 inward = glm::transpose(at.point.map.inverse) * faces[face].inward.xyz;
+  const glm::dvec3 along = inward - glm::dot(inward, normal) * normal;
+  return { glm::length(along) > 0.0 ? -glm::normalize(along) : glm::dvec3(0.0) };
+}
+
 /// Makes particles of such places; one a thread.
 class RimFinisher
 {
@@ -81,7 +91,7 @@ public:
   }
 
 private:
-  bool lookBehind(const RimPoint& point, double& jump);
+  bool lookBehind(const RimPoint& point, double& jump, int& otherWall);
 
   const Isosurface& Surface;
   const SurfaceProxy& Proxy;
@@ -267,7 +277,8 @@ bool RimFinisher::finish(const RimPlace& place, RimParticle& rim)
 {
   const auto point = this->Exact.project(place.location, place.face, place.spacing);
   Anchor anchor;
-  if (!point || !this->lookBehind(*point, rim.particle.jump) ||
+  int otherWall = -1;
+  if (!point || !this->lookBehind(*point, rim.particle.jump, otherWall) ||
     !anchorPatch(point->at, anchor, rim.patch))
   {
     return false;
@@ -281,21 +292,23 @@ bool RimFinisher::finish(const RimPlace& place, RimParticle& rim)
     curvature(field.gradient, point->at.hessian), std::abs(field.value) / length(field.gradient),
     this->Law.angularDensity == 0.0 ? this->Law.spacing : rim.patch.spacing, {},
     rim.particle.jump };
-  const auto& faces = facts(this->Surface.mesh->elements[point->at.location.element].domain).faces;
-  const glm::dvec3 inward = glm::transpose(field.map.inverse) * faces[point->face].inward.xyz;
-  const glm::dvec3 along = inward - glm::dot(inward, normal.xyz) * normal.xyz;
-  rim.outward = { glm::length(along) > 0.0 ? -glm::normalize(along) : glm::dvec3(0.0) };
+  const auto outward = [&](int face)
+  { return face < 0 ? WorldVector{} : outwardAt(*this->Surface.mesh, point->at, face); };
+  rim.outward = outward(point->face);
+  rim.otherOutward = outward(otherWall);
   return true;
 }
 
 /// F - c on the other side of the faces on which a point lies; zero where there is no other side.
+/// \param otherWall another face with nothing behind it, in corners; else -1
 /// \return whether the surface ends there
-bool RimFinisher::lookBehind(const RimPoint& point, double& jump)
+bool RimFinisher::lookBehind(const RimPoint& point, double& jump, int& otherWall)
 {
   const Location& location = point.at.location;
   const ElementMesh& mesh = *this->Surface.mesh;
   const auto& faces = facts(mesh.elements[location.element].domain).faces;
   jump = 0.0;
+  otherWall = -1;
   for (int f = 0; f < static_cast<int>(faces.size()); ++f)
   {
     if (faceMargin(faces[f], location.u) >= OnFace || !this->Surface.mayEnd(location.element, f))
@@ -304,6 +317,7 @@ bool RimFinisher::lookBehind(const RimPoint& point, double& jump)
     }
     const auto behind = this->Passer.behind(point.at, f);
     jump = behind ? behind->at.point.value : jump;
+    otherWall = behind || f == point.face ? otherWall : f;
     if (!behind || f != point.face)
     {
       continue;

@@ -17,6 +17,8 @@ struct RimParticle
   /// Unit vector along the surface, out of where it ends; zero where it goes on all the same, less than
   /// particles' distance away.
   WorldVector outward;
+  /// In corners of its element, the same at the other wall; zero elsewhere.
+  WorldVector otherOutward;
 };
 
 /// The rims {F = c} on faces at which the surface ends: they pass from face to face around the edges of

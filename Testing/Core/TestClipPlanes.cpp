@@ -272,5 +272,41 @@ TEST(ClipPlanes, StayAtStraightKinks)
   }
 }
 
+/// Where a plane cuts off a triangle, hardly larger than a splat, from a corner of a cube.
+TEST(ClipPlanes, OfBothWallsCutParticlesInCorners)
+{
+  for (const double sides : { 0.8, 1.0, 1.3 })
+  {
+    MeshRecipe recipe;
+    recipe.cells = 1;
+    const double sum = sides * spacing / std::sqrt(2.0) - 3.0;
+    recipe.field = [=](const glm::dvec3& x) { return x.x + x.y + x.z - sum; };
+    const ElementMesh mesh = makeMesh(recipe);
+    DistributionParameters parameters;
+    parameters.law = { spacing, 0.0 };
+    const Distribution result = distributeFast({ &mesh, 0.0, 1e-9 }, parameters, {}, {});
+    ASSERT_GE(result.particles.size(), 3u) << sides;
+    int atCorners = 0;
+    for (const Particle& particle : result.particles)
+    {
+      const glm::dvec3 fromCorner = particle.position.xyz + 1.0;
+      const auto isAtSide = [&](int axis) { return fromCorner[axis] < 1e-6; };
+      if (isAtSide(0) + isAtSide(1) + isAtSide(2) < 2)
+      {
+        continue;
+      }
+      ++atCorners;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const bool isCut = std::any_of(particle.clips.begin(), particle.clips.end(),
+          [&](const ClipPlane& plane)
+          { return plane.normal.xyz[axis] < -0.8 && plane.distance < 1e-6; });
+        EXPECT_EQ(isCut, isAtSide(axis)) << sides << " " << axis;
+      }
+    }
+    EXPECT_EQ(atCorners, 3) << sides;
+  }
+}
+
 } // namespace
 } // namespace hop::testing
