@@ -25,7 +25,8 @@
  * hidden ones by vtkGhostType) carry particles over borders but own none.
  *
  * Point data of the output: `Normals` (unit, towards lower values, as Contour orients them),
- * `Radius` (the particle's own spacing, world units), `Mean_Curvature` (with respect to Normals;
+ * `Radius` (the particle's own spacing, world units; less where it stands alone on a smaller piece of the
+ * surface), `Mean_Curvature` (with respect to Normals;
  * 1/r on a sphere with high values inside), `Gauss_Curvature`, `Shape_Operator` (the derivative of Normals
  * along the surface, a symmetric tensor: xx, yy, zz, xy, yz, xz; 1 / world units), `Residual` (|F - c|/|grad F|,
  * world units), `Clip_Normal`, `Clip_Distance` and `Clip_Angle` (from method FAST: unit normals and distances,

@@ -9,6 +9,7 @@
 #include "PatchDistances.h"
 #include "Random.h"
 #include "RimCurves.h"
+#include "SmallPieces.h"
 #include "SurfaceProxy.h"
 #include "UnresolvedBoxes.h"
 
@@ -625,6 +626,7 @@ void FastSystem::finish()
   }
   report.particlesUndersampled = std::count_if(particles.begin(), particles.end(),
     [](const Particle& p) { return p.curvature.magnitude * p.spacing > 2.0; });
+  fitSmallPieces(*this->Proxy, particles, this->Parallel);
 }
 
 /// The road of the data, as long as nobody interrupts.

@@ -33,7 +33,8 @@ struct Particle
   Curvature curvature;
   /// |F - c|/|grad F|, world units.
   double residual = 0.0;
-  /// h, the distance to neighbours that this particle wants, world units.
+  /// h, the distance to neighbours that this particle wants, world units; less where it stands alone on a
+  /// piece of the surface smaller than that.
   double spacing = 0.0;
   /// In corners there are two. Rims and kinks first, then the nearer.
   std::array<ClipPlane, 2> clips;

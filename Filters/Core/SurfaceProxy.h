@@ -49,6 +49,11 @@ public:
   /// Number of particles in hexagonal packing at the spacings wanted: the sum of 2 area/(sqrt(3) h^2).
   double particleCount() const { return this->Sums.empty() ? 0.0 : this->Sums.back(); }
 
+  double particleCountOfBox(std::size_t box) const
+  {
+    return this->Sums[box] - (box > 0 ? this->Sums[box - 1] : 0.0);
+  }
+
   /// Those of them in one element.
   double particleCount(int element) const
   {
