@@ -38,6 +38,8 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <sstream>
+#include <string>
 
 namespace
 {
@@ -613,7 +615,8 @@ void vtkHighOrderParticleIsosurface::UnlessAborted(const InputBlocks& blocks, co
   {
     empty();
     vtkErrorMacro("There are no particles, as the run failed ("
-      << failure.what() << "). If that is for want of memory, choose a larger Spacing.");
+      << failure.what() << "). If that is for want of memory, choose " << this->FewerParticles()
+      << ".");
   }
 }
 
@@ -733,6 +736,26 @@ hop::Distribution vtkHighOrderParticleIsosurface::Distribute(const GridElements&
   return distribution;
 }
 
+/// What a user has to change for fewer particles.
+const char* vtkHighOrderParticleIsosurface::FewerParticles() const
+{
+  return this->NumberOfParticles > 0 ? "a smaller NumberOfParticles" : "a larger Spacing";
+}
+
+/// What a user has to change for particles that follow the surface's bends.
+std::string vtkHighOrderParticleIsosurface::MoreParticles(
+  const hop::Distribution& distribution) const
+{
+  if (this->NumberOfParticles > 0)
+  {
+    return "a larger NumberOfParticles"; // Spacing is ignored
+  }
+  std::ostringstream text;
+  text << "a Spacing of " << resolvingSpacing(distribution.particles)
+       << ", which follows all but 1%,";
+  return text.str();
+}
+
 /// Tells the user which arrays are not passed on.
 void vtkHighOrderParticleIsosurface::ReviewArrays(const std::vector<InputBlock>& blocks)
 {
@@ -771,7 +794,8 @@ void vtkHighOrderParticleIsosurface::Review(
   if (!report.error.empty())
   {
     vtkErrorMacro("Isovalue " << isovalue << ": " << report.error
-                              << ", which is what memory holds. Choose a larger Spacing.");
+                              << ", which is what memory holds. Choose " << this->FewerParticles()
+                              << ".");
   }
   else if (!report.converged)
   {
@@ -795,10 +819,8 @@ void vtkHighOrderParticleIsosurface::Review(
       "Isovalue " << isovalue << ": at " << report.particlesUndersampled << " of "
                   << distribution.particles.size() << " particles ("
                   << std::lround(100.0 * report.particlesUndersampled / count)
-                  << "%) the surface bends faster than their spacing can follow. Choose a "
-                     "Spacing of "
-                  << resolvingSpacing(distribution.particles)
-                  << ", which follows all but 1%, or a larger AngularDensity.");
+                  << "%) the surface bends faster than their spacing can follow. Choose "
+                  << this->MoreParticles(distribution) << " or a larger AngularDensity.");
   }
 }
 

@@ -66,6 +66,7 @@
 #include "vtkTimeStamp.h" // for the last abort
 
 #include <memory> // for the run before
+#include <string> // for advice
 #include <vector> // for the blocks of the input
 
 class InputBlocks;
@@ -268,6 +269,8 @@ private:
     std::size_t group, const std::vector<RankShare>& shares, const Work& work);
   hop::Distribution Distribute(const GridElements& elements, const Scale& scale,
     const RunOrigin& origin, std::size_t number, const RankShare& share, const Work& work);
+  const char* FewerParticles() const;
+  std::string MoreParticles(const hop::Distribution& distribution) const;
   void ReviewArrays(const std::vector<InputBlock>& blocks);
   void Review(const InputBlocks& blocks, const GridElements& elements);
   void Review(const InputBlocks& blocks, const hop::Distribution& distribution, double isovalue);

@@ -308,7 +308,7 @@ def test_a_spacing_larger_than_the_surface_leaves_a_few_particles(good, spacing)
 def test_too_many_particles_are_refused(good):
     particles, messages = support.run(good, "F", 1.0, Spacing=0.3, NumberOfParticles=10**12)
     assert_empty(particles)
-    assert_one_error(messages, "1000000000000", "limit")
+    assert_one_error(messages, "1000000000000", "limit", "smaller NumberOfParticles")
 
 
 @pytest.mark.parametrize("number", [1, 2, 3])
@@ -317,6 +317,16 @@ def test_very_few_particles(good, number):
     assert messages.errors == []
     assert particles.GetNumberOfPoints() == number
     assert_clean(particles)
+
+
+@pytest.mark.parametrize("given, advice", [
+    ({"Spacing": 0.5}, "Choose a Spacing of "),
+    ({"NumberOfParticles": 4}, "Choose a larger NumberOfParticles or"),
+])
+def test_too_few_particles_are_told_what_there_is_to_change(good, given, advice):
+    particles, messages = support.run(good, "F", 0.2, AngularDensity=0, **given)
+    assert particles.GetNumberOfPoints() > 0
+    assert_one_warning(messages, "bends faster than their spacing", advice)
 
 
 # Numbers that are none
