@@ -50,7 +50,7 @@ bool isReplaced(const InputBlock& block, vtkDataArray* array)
   // The values of a contoured array are those of the output's array of that name.
   const bool isKnown =
     array == block.scalars && array->GetNumberOfComponents() == 1 && name == "Isovalue";
-  return ownPointArrays.count(name) > 0 && !isKnown;
+  return isOwnPointArray(name) && !isKnown;
 }
 
 void addReplaced(const InputBlock& block, std::set<std::string>& names)
@@ -410,6 +410,11 @@ void addRows(const InputBlocks& blocks, const hop::ElementMesh& mesh, const Isov
 }
 
 } // namespace
+
+bool isOwnPointArray(const std::string& name)
+{
+  return ownPointArrays.count(name) > 0;
+}
 
 std::vector<std::string> replacedArrays(const std::vector<InputBlock>& blocks)
 {

@@ -22,6 +22,9 @@ struct IsovalueParticles
 void packParticles(const InputBlocks& blocks, const GridElements& elements,
   const std::vector<IsovalueParticles>& isovalues, hop::Interruptible& work);
 
+/// Whether packParticles() makes a point array of that name itself.
+bool isOwnPointArray(const std::string& name);
+
 /// What packParticles() does not pass on, as the output has an array of its own of that name: "point array
 /// 'Radius'", each once. Arrays that mean nothing on the surface, as ids, do not count.
 std::vector<std::string> replacedArrays(const std::vector<InputBlock>& blocks);

@@ -285,6 +285,11 @@ vtkIdType vtkHighOrderParticleIsosurface::GetNumberOfContours()
   return this->ContourValues->GetNumberOfContours();
 }
 
+bool vtkHighOrderParticleIsosurface::IsOwnPointArray(const char* name)
+{
+  return name && isOwnPointArray(name);
+}
+
 vtkMTimeType vtkHighOrderParticleIsosurface::GetMTime()
 {
   return std::max(this->Superclass::GetMTime(), this->ContourValues->GetMTime());

@@ -219,6 +219,11 @@ public:
   ///@}
 
   /**
+   * Whether the output has a point array of that name of its own, whatever the input has.
+   */
+  static bool IsOwnPointArray(const char* name);
+
+  /**
    * Also counts changes of the isovalues.
    */
   vtkMTimeType GetMTime() override;

@@ -1,6 +1,7 @@
 #include "vtkSMFieldListDomain.h"
 
 #include "vtkDataObject.h"
+#include "vtkHighOrderParticleIsosurface.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
@@ -30,7 +31,8 @@ bool isConstant(vtkPVArrayInformation* array)
 bool isField(vtkPVDataInformation* input, const std::string& name)
 {
   vtkPVArrayInformation* array = input->GetArrayInformation(name.c_str(), vtkDataObject::POINT);
-  if (!array || name == "RationalWeights" || name == "subdomain")
+  if (!array || name == "RationalWeights" || name == "subdomain" ||
+    vtkHighOrderParticleIsosurface::IsOwnPointArray(name.c_str()))
   {
     return false;
   }
@@ -47,14 +49,17 @@ vtkSMFieldListDomain::~vtkSMFieldListDomain() = default;
 
 int vtkSMFieldListDomain::SetDefaultValues(vtkSMProperty* property, bool useUnchecked)
 {
-  const int isSet = this->Superclass::SetDefaultValues(property, useUnchecked);
+  // Scripts set the active source as input before the one they name, be it particles that were made before. Left
+  // without a choice they get the default of their own input.
   vtkPVDataInformation* input = this->GetInputInformation();
+  if (!input || !input->HasDataSetType(VTK_UNSTRUCTURED_GRID))
+  {
+    return 0;
+  }
+  const int isSet = this->Superclass::SetDefaultValues(property, useUnchecked);
   vtkSMPropertyHelper choice(property);
   choice.SetUseUnchecked(useUnchecked);
-  // Scripts set the active source as input before the one they name. On particles that were made before the
-  // active scalars are those that their isosurface was made of, constant there.
-  if (!isSet || !input || input->DataSetTypeIsA("vtkPolyData") ||
-    isField(input, choice.GetInputArrayNameToProcess()))
+  if (!isSet || isField(input, choice.GetInputArrayNameToProcess()))
   {
     return isSet;
   }

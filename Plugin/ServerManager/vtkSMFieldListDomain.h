@@ -4,8 +4,9 @@
  *
  * vtkSMArrayListDomain chooses the active scalars or the first array by name, which may be one that has
  * no isosurface worth a look. This one passes over arrays that are constant, hold integers (ids, ranks,
- * ghost levels), are the weights of rational cells, or are deal.II's `subdomain`, as long as there is
- * another point array. All arrays stay in the list.
+ * ghost levels), are the weights of rational cells, deal.II's `subdomain`, or have the name of one that the
+ * filter itself makes, as long as there is another point array. All arrays stay in the list. There is no
+ * default for an input without an unstructured grid.
  */
 #ifndef vtkSMFieldListDomain_h
 #define vtkSMFieldListDomain_h

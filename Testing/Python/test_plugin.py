@@ -108,6 +108,26 @@ def test_another_filter_on_a_reader_has_the_same_defaults():
         assert list(proxy.Isosurfaces) == list(first.Isosurfaces)
 
 
+@pytest.mark.parametrize("next_filter", [None, "Threshold", "GroupDatasets"])
+def test_another_filter_does_not_contour_what_the_first_one_made(next_filter):
+    """Particles of a vector have no active scalars, and Clip_Angle is the first of their arrays."""
+    ramp = np.linspace(0.0, 7.0, 8)
+    reader = filter_on(velocity=np.stack([ramp, 0 * ramp, ramp**2], axis=1)).Input
+    first = simple.HighOrderParticleIsosurface(Input=reader, ContourBy=["POINTS", "velocity"], Isosurfaces=[3.0])
+    active = getattr(simple, next_filter)(Input=first) if next_filter else first
+    assert output_of(first).GetNumberOfPoints() > 0
+    simple.UpdatePipeline(proxy=active)
+    simple.SetActiveSource(active)
+    second = simple.HighOrderParticleIsosurface(Input=reader)
+    assert list(second.ContourBy) == ["POINTS", "velocity"]
+    assert len(second.Isosurfaces) == 1
+
+
+def test_contour_by_starts_with_no_array_that_the_filter_makes():
+    ramp = np.linspace(0.0, 1.0, 8)
+    assert filter_on(Jump=ramp, Normals=ramp, temperature=ramp).ContourBy == ["POINTS", "temperature"]
+
+
 def test_default_isovalue_of_a_magnitude():
     corners = filter_on(v=np.tile([3.0, 4.0, 0.0], (8, 1)) * np.linspace(0, 2, 8)[:, None])
     corners.Component = 3
