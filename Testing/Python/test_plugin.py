@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 from paraview import servermanager, simple
-from support import add_point_array, grid_of_cells, output_of, points_of, source_of
+from support import add_point_array, contents, grid_of_cells, output_of, points_of, source_of
 from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON
 
 NAME = "HighOrderParticleIsosurface"
@@ -126,6 +126,51 @@ def test_another_filter_does_not_contour_what_the_first_one_made(next_filter):
 def test_contour_by_starts_with_no_array_that_the_filter_makes():
     ramp = np.linspace(0.0, 1.0, 8)
     assert filter_on(Jump=ramp, Normals=ramp, temperature=ramp).ContourBy == ["POINTS", "temperature"]
+
+
+def unread(source):
+    """A source with the same data that nobody has updated."""
+    return simple.AppendDatasets(Input=source)
+
+
+@pytest.mark.parametrize("components", [2, 3, 6, 9])
+def test_components_have_names_before_their_array_is_known(components):
+    """As Python state files give them: that of a scalar has none."""
+    vectors = np.linspace(0.0, 1.0, 8)[:, None] * np.arange(1.0, components + 1)
+    known = filter_on(v=vectors)
+    known.Component = "Magnitude"
+    proxy = simple.HighOrderParticleIsosurface(Input=unread(known.Input))
+    names = proxy.GetProperty("Component").Available
+    assert names == ["X", "Y", "Z", "Magnitude", ""]
+    proxy.ContourBy = ["POINTS", "v"]
+    for name, value in [("X", 0), ("Y", 1), ("Z", 2), ("", 0)]:
+        proxy.Component = name
+        assert proxy.SMProxy.GetProperty("Component").GetElement(0) == value
+    proxy.Component = "Magnitude"
+    known.Isosurfaces = proxy.Isosurfaces = [0.5 * np.linalg.norm(vectors[-1])]
+    assert contents(output_of(proxy)) == contents(output_of(known))
+    assert proxy.Component == "Magnitude"
+    assert proxy.GetProperty("Component").Available == known.GetProperty("Component").Available
+    proxy.Component = 0
+    proxy.Component = "Magnitude"
+    assert contents(output_of(proxy)) == contents(output_of(known))
+
+
+def test_the_magnitude_stays_chosen_when_the_array_has_fewer_components():
+    ramp = np.linspace(0.0, 1.0, 8)[:, None]
+    proxy = filter_on(tensor=ramp * np.ones(6), vector=ramp * np.ones(3))
+    proxy.ContourBy = ["POINTS", "tensor"]
+    proxy.Component = "Magnitude"
+    proxy.ContourBy = ["POINTS", "vector"]
+    assert proxy.Component == "Magnitude"
+    assert proxy.GetProperty("Component").Available == ["X", "Y", "Z", "Magnitude"]
+
+
+def test_an_array_that_is_not_there_has_no_components_of_another():
+    proxy = filter_on(s=np.arange(8.0))
+    assert proxy.GetProperty("Component").Available == [""]
+    proxy.ContourBy = ["POINTS", "none"]
+    assert "Magnitude" in proxy.GetProperty("Component").Available
 
 
 def test_default_isovalue_of_a_magnitude():

@@ -68,6 +68,14 @@ def make_session(data):
     return surface, view
 
 
+def run_elsewhere(plugin, path, script):
+    """In a ParaView of its own, which knows nothing but the script; path: where to write it."""
+    load = f"from paraview.simple import LoadPlugin\nLoadPlugin({str(plugin)!r}, remote=False, ns=globals())\n"
+    path.write_text(load + script)
+    result = subprocess.run([os.environ["HOP_PVPYTHON"], str(path)], capture_output=True, text=True, timeout=120)
+    assert result.returncode == 0, result.stdout + result.stderr + script
+
+
 class Expected:
     """Particles and picture of the session, and of the script that should repeat it."""
 
@@ -79,13 +87,8 @@ class Expected:
         simple.SaveScreenshot(str(self.folder / "before.png"), view, ImageResolution=[300, 300])
 
     def run(self, plugin, script):
-        """In a ParaView of its own, which knows nothing but the script."""
-        path = self.folder / "again.py"
         names = {"data": str(self.folder / "again.vtp"), "picture": str(self.folder / "again.png")}
-        load = f"from paraview.simple import LoadPlugin\nLoadPlugin({str(plugin)!r}, remote=False, ns=globals())\n"
-        path.write_text(load + script + EPILOGUE.format(**names))
-        result = subprocess.run([os.environ["HOP_PVPYTHON"], str(path)], capture_output=True, text=True, timeout=120)
-        assert result.returncode == 0, result.stdout + result.stderr + script
+        run_elsewhere(plugin, self.folder / "again.py", script + EPILOGUE.format(**names))
 
     def compare(self):
         again = simple.XMLPolyDataReader(FileName=[str(self.folder / "again.vtp")])
@@ -122,3 +125,54 @@ def test_state_files_bring_the_session_back(plugin, data, expected, kind):
     load = f"from paraview import simple\nsimple.LoadState({str(state)!r})\n"
     expected.run(plugin, smstate.get_state() if kind == "py" else load)
     expected.compare()
+
+
+# The component is to keep its name when its array is known.
+VECTOR_EPILOGUE = """
+from paraview import simple
+surface = simple.FindSource("surface")
+surface.UpdatePipeline()
+assert surface.Component == {component!r}, surface.Component
+simple.SaveData({data!r}, surface, DataMode="Binary")
+"""
+
+
+def make_vector_session(data, component, isovalue):
+    reader = simple.XMLUnstructuredGridReader(
+        registrationName="file", FileName=[data("vtkdata_notch_quadratic_hex20_wedge15.vtu")])
+    reader.UpdatePipeline()
+    surface = simple.HighOrderParticleIsosurface(registrationName="surface", Input=reader)
+    with apply_button(surface):
+        surface.ContourBy = ["POINTS", "Nodal Displacement"]
+        surface.Component = component
+        surface.Isosurfaces = [isovalue]
+    simple.GetActiveViewOrCreate("RenderView")
+    return surface
+
+
+def script_of(kind, make_session, folder):
+    """Calls make_session(); its result, and a script that brings the session back."""
+    if kind == "trace":
+        smtrace.start_trace()
+        try:
+            return make_session(), smtrace.get_current_trace_output()
+        finally:
+            smtrace.stop_trace()
+    made = make_session()
+    if kind == "py":
+        return made, smstate.get_state()
+    state = folder / "session.pvsm"
+    simple.SaveState(str(state))
+    return made, f"from paraview import simple\nsimple.LoadState({str(state)!r})\n"
+
+
+@pytest.mark.parametrize("kind", ["py", "pvsm", "trace"])
+@pytest.mark.parametrize("component, isovalue", [("Y", 5e-8), ("Magnitude", 1e-6)])
+def test_components_come_back_by_name(plugin, data, tmp_path, component, isovalue, kind):
+    """Files are not read yet when a script names the component."""
+    surface, script = script_of(kind, lambda: make_vector_session(data, component, isovalue), tmp_path)
+    particles = str(tmp_path / "again.vtp")
+    run_elsewhere(plugin, tmp_path / "again.py", script + VECTOR_EPILOGUE.format(data=particles, component=component))
+    again = output_of(simple.XMLPolyDataReader(FileName=[particles]))
+    assert again.GetNumberOfPoints() > 0
+    assert contents(again) == contents(output_of(surface))
