@@ -261,6 +261,8 @@ vtkStandardNewMacro(vtkHighOrderParticleIsosurface);
 vtkHighOrderParticleIsosurface::vtkHighOrderParticleIsosurface()
   : Previous(std::make_unique<PreviousRun>())
 {
+  // VTK's list begins with one value, 0: filters whose properties were never set would draw it.
+  this->ContourValues->SetNumberOfContours(0);
 }
 
 vtkHighOrderParticleIsosurface::~vtkHighOrderParticleIsosurface() = default;
@@ -379,7 +381,7 @@ int vtkHighOrderParticleIsosurface::RequestData(
   {
     this->Previous->forget();
   }
-  if (!this->CheckParameters() || !this->CheckScale(scale) || this->GetNumberOfContours() == 0)
+  if (!this->CheckParameters() || !this->CheckScale(scale))
   {
     return 1;
   }
@@ -441,6 +443,13 @@ bool vtkHighOrderParticleIsosurface::CheckParameters()
 {
   const double* values = this->ContourValues->GetValues();
   const vtkIdType count = this->GetNumberOfContours();
+  if (count == 0)
+  {
+    vtkWarningMacro(
+      "There are no particles, as no isovalue is given; set ContourBy and Isosurfaces. ParaView "
+      "chooses them where the input was updated before this filter was made.");
+    return false;
+  }
   if (!std::all_of(values, values + count, [](double value) { return std::isfinite(value); }))
   {
     vtkErrorMacro("An isovalue is NaN or infinite; give finite ones.");

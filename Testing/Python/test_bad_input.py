@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import support
 from paraview.vtk.util.numpy_support import numpy_to_vtk
+from paraview import simple
 from vtkmodules.vtkCommonDataModel import (
     VTK_BEZIER_HEXAHEDRON,
     VTK_LAGRANGE_HEXAHEDRON,
@@ -264,7 +265,17 @@ def test_no_isovalue(good):
     proxy, messages = support.make_filter(good, "F", 1.0)
     proxy.Isosurfaces = []
     assert_empty(support.output_of(proxy))
-    assert messages.errors == []
+    assert_one_warning(messages, "no isovalue", "Isosurfaces")
+
+
+@pytest.mark.parametrize("name", ["vtkdata_notch_quadratic_hex20_wedge15.vtu", "vtkdata_pyramid_quadratic.vtu"])
+def test_an_input_that_was_not_read_yet_gives_no_defaults(data, name):
+    """The first file has active scalars, in which VTK's own list of isovalues would find its 0."""
+    reader = simple.XMLUnstructuredGridReader(FileName=[data(name)])
+    proxy = simple.HighOrderParticleIsosurface(Input=reader)
+    messages = support.Messages(proxy.GetClientSideObject())
+    assert_empty(support.output_of(proxy))
+    assert_one_warning(messages, "no isovalue", "ContourBy", "updated before")
 
 
 @pytest.mark.parametrize("spacing", [0.0, -1.0])
