@@ -6,8 +6,8 @@ import time
 import numpy as np
 import pytest
 import support
-from paraview.vtk.util.numpy_support import numpy_to_vtk
 from paraview import simple
+from paraview.vtk.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import (
     VTK_BEZIER_HEXAHEDRON,
     VTK_LAGRANGE_HEXAHEDRON,
