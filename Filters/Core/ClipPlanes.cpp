@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <memory>
 
 namespace hop
 {
@@ -166,31 +165,14 @@ class FacePlanes
 {
 public:
   FacePlanes(const Isosurface& surface, const std::vector<float>& turns,
-    const Buffer<Particle>& particles, const Buffer<RimParticle>& rims,
-    const ParallelFor& parallelFor)
+    const Buffer<Particle>& particles, const Buffer<RimParticle>& rims, const ParticleGrid& grid)
     : Mesh(*surface.mesh)
     , Locator(surface.locator)
     , Turns(turns)
+    , Particles(particles)
+    , Rims(rims)
+    , Grid(grid)
   {
-    if (std::none_of(turns.begin(), turns.end(), [](float turn) { return turn > 0.0f; }))
-    {
-      return;
-    }
-    const std::size_t count = particles.size() + rims.size();
-    this->Positions = Buffer<glm::dvec3>(count);
-    this->Spacings = Buffer<float>(count);
-    this->Elements = Buffer<int>(count);
-    forAll(parallelFor, count,
-      [&](std::size_t i)
-      {
-        const Particle& particle =
-          i < particles.size() ? particles[i] : rims[i - particles.size()].particle;
-        this->Positions[i] = particle.position.xyz;
-        this->Spacings[i] = static_cast<float>(particle.spacing);
-        this->Elements[i] = particle.location.element;
-      });
-    this->Grid =
-      std::make_unique<SpacingGrid>(this->Positions, this->Spacings, ClipReach, 0.5, parallelFor);
   }
 
   /// \param pull the inverse Jacobian of the particle's element there
@@ -198,7 +180,7 @@ public:
   {
     const Location& location = particle.location;
     const auto& faces = facts(this->Mesh.elements[location.element].domain).faces;
-    for (int f = 0; this->Grid && f < static_cast<int>(faces.size()); ++f)
+    for (int f = 0; f < static_cast<int>(faces.size()); ++f)
     {
       const double turn = this->Turns[faceSlot(location.element, f)];
       if (turn == 0.0)
@@ -232,30 +214,36 @@ private:
                          : this->Locator && this->Locator->mayGoOnIn(element, face, other);
     };
     bool found = false;
-    this->Grid->visit(foot.xyz, particle.spacing,
+    this->Grid.visit(foot.xyz, particle.spacing,
       [&](int j)
       {
         found = found ||
-          (glm::distance(this->Positions[j], foot.xyz) <=
-              nearEnough * std::max<double>(particle.spacing, this->Spacings[j]) &&
-            isBehind(this->Elements[j]));
+          (glm::distance(this->Grid.position(j), foot.xyz) <=
+              nearEnough * std::max<double>(particle.spacing, this->Grid.spacing(j)) &&
+            isBehind(this->elementOf(j)));
       });
     return found;
+  }
+
+  int elementOf(std::size_t i) const
+  {
+    const std::size_t free = this->Particles.size();
+    return (i < free ? this->Particles[i] : this->Rims[i - free].particle).location.element;
   }
 
   const ElementMesh& Mesh;
   const FaceLocator* Locator;
   const std::vector<float>& Turns;
-  Buffer<glm::dvec3> Positions;
-  Buffer<float> Spacings;
-  Buffer<int> Elements;
-  std::unique_ptr<SpacingGrid> Grid;
+  const Buffer<Particle>& Particles;
+  const Buffer<RimParticle>& Rims;
+  const ParticleGrid& Grid;
 };
 
 } // namespace
 
-void markClipPlanes(const Isosurface& surface, const FaceJumps& jumps, Buffer<RimParticle>& rims,
-  Buffer<Particle>& particles, const Buffer<Anchor>& anchors, const ParallelFor& parallelFor)
+void markClipPlanes(const Isosurface& surface, const FaceJumps& jumps, const ParticleGrid& all,
+  Buffer<RimParticle>& rims, Buffer<Particle>& particles, const Buffer<Anchor>& anchors,
+  const ParallelFor& parallelFor)
 {
   Buffer<glm::dvec3> positions(rims.size());
   Buffer<float> spacings(rims.size());
@@ -267,7 +255,7 @@ void markClipPlanes(const Isosurface& surface, const FaceJumps& jumps, Buffer<Ri
     });
   const SpacingGrid grid(positions, spacings, ClipReach, 0.5, parallelFor);
   openRimsThatGoOn(grid, particles, rims, parallelFor);
-  const FacePlanes faces(surface, jumps.turns, particles, rims, parallelFor);
+  const FacePlanes faces(surface, jumps.turns, particles, rims, all);
   forAll(parallelFor, particles.size(),
     [&](std::size_t i)
     {
@@ -284,7 +272,7 @@ void markClipPlanes(const Isosurface& surface, const FaceJumps& jumps, Buffer<Ri
       }
       faces.offerTo(rims[i].particle, rims[i].pull);
     });
-  closeKinkCorners(particles, rims, parallelFor);
+  closeKinkCorners(all, particles, rims, parallelFor);
 }
 
 } // namespace hop

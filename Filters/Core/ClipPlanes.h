@@ -1,7 +1,7 @@
 #pragma once
 
 #include "FaceJumps.h"
-#include "RimCurves.h"
+#include "ParticleGrid.h"
 
 namespace hop
 {
@@ -12,10 +12,12 @@ namespace hop
 /// what is cut off. A splat that reaches beyond a plane is to be cut off there, or, where the surface is almost
 /// smooth, to count only where no other does. In corners two planes meet; where kinks do, some planes are moved
 /// outwards, see KinkCorners.h.
+/// \param all of these particles
 /// \param particles those that are not on rims; particles on rims are marked with them
 /// \param anchors where these particles lie, one for each
-void markClipPlanes(const Isosurface& surface, const FaceJumps& jumps, Buffer<RimParticle>& rims,
-  Buffer<Particle>& particles, const Buffer<Anchor>& anchors, const ParallelFor& parallelFor);
+void markClipPlanes(const Isosurface& surface, const FaceJumps& jumps, const ParticleGrid& all,
+  Buffer<RimParticle>& rims, Buffer<Particle>& particles, const Buffer<Anchor>& anchors,
+  const ParallelFor& parallelFor);
 
 /// How far from a particle, in units of its spacing, an edge is of interest: splats overlap that far.
 constexpr double ClipReach = 1.5;

@@ -618,15 +618,16 @@ void FastSystem::finish()
   particles.resize(closeGaps(particles, particles.size(), kept));
   Buffer<Anchor> anchors = this->Moving->takeAnchors();
   anchors.resize(closeGaps(anchors, anchors.size(), kept));
+  const ParticleGrid all(particles, this->Rims.particles, this->Parallel);
   markClipPlanes(
-    this->Surface, this->Jumps, this->Rims.particles, particles, anchors, this->Parallel);
+    this->Surface, this->Jumps, all, this->Rims.particles, particles, anchors, this->Parallel);
   for (const RimParticle& rim : this->Rims.particles)
   {
     particles.push_back(rim.particle);
   }
   report.particlesUndersampled = std::count_if(particles.begin(), particles.end(),
     [](const Particle& p) { return p.curvature.magnitude * p.spacing > 2.0; });
-  fitSmallPieces(*this->Proxy, particles, this->Parallel);
+  fitSmallPieces(*this->Proxy, all, particles, this->Parallel);
 }
 
 /// The road of the data, as long as nobody interrupts.

@@ -1,7 +1,6 @@
 #include "KinkCorners.h"
 
 #include "FaceJumps.h"
-#include "SpacingGrid.h"
 
 #include <algorithm>
 #include <array>
@@ -16,6 +15,7 @@ namespace
 /// Splats end so far from their particles, in units of their spacing: a little farther off they count too little
 /// to be seen alone, and they may be bent.
 constexpr double splatReach = 0.91;
+static_assert(2.0 * splatReach <= ParticleGrid::Reach);
 /// A little behind a kink's plane a splat still fills gaps; also that is in units of the spacing.
 constexpr double filledBehind = 0.05;
 /// Distance of the places looked at, along the kink and away from it, in units of the spacing.
@@ -78,9 +78,10 @@ bool isBehindRim(const Particle& particle, const glm::dvec3& place)
 class KinkCorners
 {
 public:
-  KinkCorners(
-    Buffer<Particle>& particles, Buffer<RimParticle>& rims, const ParallelFor& parallelFor)
-    : Particles(particles)
+  KinkCorners(const ParticleGrid& grid, Buffer<Particle>& particles, Buffer<RimParticle>& rims,
+    const ParallelFor& parallelFor)
+    : Grid(grid)
+    , Particles(particles)
     , Rims(rims)
     , Parallel(parallelFor)
   {
@@ -108,12 +109,13 @@ private:
   }
   static Cut cutOf(const Particle& particle, const ClipPlane& plane);
   bool isCornerOf(int i, int plane, const std::vector<int>& around) const;
-  std::vector<int> findAround(const SpacingGrid& grid, int i) const;
+  std::vector<int> findAround(int i) const;
   bool isOpen(int i, const glm::dvec3& place, const std::vector<int>& around) const;
   double openBehind(int i, int plane, const std::vector<int>& around) const;
   double openFrom(int i, int plane, const glm::dvec3& start, const glm::dvec3& away,
     const std::vector<int>& around) const;
 
+  const ParticleGrid& Grid;
   Buffer<Particle>& Particles;
   Buffer<RimParticle>& Rims;
   const ParallelFor& Parallel;
@@ -129,11 +131,11 @@ KinkCorners::Cut KinkCorners::cutOf(const Particle& particle, const ClipPlane& p
 }
 
 /// Particles whose splats may overlap that of particle i.
-std::vector<int> KinkCorners::findAround(const SpacingGrid& grid, int i) const
+std::vector<int> KinkCorners::findAround(int i) const
 {
   const Particle& particle = this->at(i);
   std::vector<int> found;
-  grid.visit(particle.position.xyz, particle.spacing,
+  this->Grid.visit(particle.position.xyz, particle.spacing,
     [&](int j)
     {
       const Particle& other = this->at(j);
@@ -229,15 +231,6 @@ double KinkCorners::openBehind(int i, int plane, const std::vector<int>& around)
 void KinkCorners::close()
 {
   const std::size_t count = this->Particles.size() + this->Rims.size();
-  Buffer<glm::dvec3> positions(count);
-  Buffer<float> spacings(count);
-  forAll(this->Parallel, count,
-    [&](std::size_t i)
-    {
-      positions[i] = this->at(i).position.xyz;
-      spacings[i] = static_cast<float>(this->at(i).spacing);
-    });
-  const SpacingGrid grid(positions, spacings, 2.0 * splatReach, 0.5, this->Parallel);
   std::vector<std::array<double, 2>> moves(count);
   forAll(this->Parallel, count,
     [&](std::size_t n)
@@ -249,7 +242,7 @@ void KinkCorners::close()
       const std::array<bool, 2> wanted{ isCut(clips[0]), isCut(clips[1]) };
       if (wanted[0] || wanted[1])
       {
-        const std::vector<int> around = this->findAround(grid, i);
+        const std::vector<int> around = this->findAround(i);
         moves[n] = { wanted[0] ? this->openBehind(i, 0, around) : 0.0,
           wanted[1] ? this->openBehind(i, 1, around) : 0.0 };
       }
@@ -263,14 +256,14 @@ void KinkCorners::close()
 
 } // namespace
 
-void closeKinkCorners(
-  Buffer<Particle>& particles, Buffer<RimParticle>& rims, const ParallelFor& parallelFor)
+void closeKinkCorners(const ParticleGrid& all, Buffer<Particle>& particles,
+  Buffer<RimParticle>& rims, const ParallelFor& parallelFor)
 {
   const auto hasKink = [](const Particle& particle)
   { return isKink(particle.clips[0]) || isKink(particle.clips[1]); };
   if (std::any_of(particles.begin(), particles.end(), hasKink))
   {
-    KinkCorners(particles, rims, parallelFor).close();
+    KinkCorners(all, particles, rims, parallelFor).close();
   }
 }
 

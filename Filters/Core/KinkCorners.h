@@ -1,6 +1,6 @@
 #pragma once
 
-#include "RimCurves.h"
+#include "ParticleGrid.h"
 
 namespace hop
 {
@@ -11,7 +11,8 @@ namespace hop
 ///
 /// Planes of kinks of more than 80 degrees stay: splats would stand off from what they are to cover.
 /// \pre planes are marked
-void closeKinkCorners(
-  Buffer<Particle>& particles, Buffer<RimParticle>& rims, const ParallelFor& parallelFor);
+/// \param all of these particles
+void closeKinkCorners(const ParticleGrid& all, Buffer<Particle>& particles,
+  Buffer<RimParticle>& rims, const ParallelFor& parallelFor);
 
 } // namespace hop

@@ -1,12 +1,10 @@
 #include "SmallPieces.h"
 
-#include "SpacingGrid.h"
+#include "KeepMarked.h"
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <tuple>
-#include <utility>
+#include <optional>
 
 namespace hop
 {
@@ -15,6 +13,7 @@ namespace
 
 /// So far off, in units of its spacing, the next particle on a surface that goes on is never.
 constexpr double alone = 1.8;
+static_assert(alone <= ParticleGrid::Reach);
 /// Splats do not vanish, though a piece may be a point.
 constexpr double leastRadius = 0.02;
 
@@ -41,126 +40,95 @@ double radiusOfPiece(double particleCount, double part)
   return std::sqrt(0.5 * std::sqrt(3.0) * particleCount / (part * Pi)) / visible;
 }
 
-/// Those that stand near in space mostly come one after the other: few are left to be looked up.
-std::vector<int> mayBeAlone(const Buffer<Particle>& particles)
+/// Whether no other particle is near. Those that stand near in space mostly come one after the other: few are
+/// left to be looked up.
+bool isAlone(const ParticleGrid& all, const Buffer<Particle>& particles, int i)
 {
   constexpr int nextOnes = 3;
-  const auto count = static_cast<int>(particles.size());
-  std::vector<int> found;
-  for (int i = 0; i < count; ++i)
+  const Particle& particle = particles[i];
+  const auto isNear = [&](int j)
   {
-    bool isNear = false;
-    for (int j = std::max(0, i - nextOnes); j < std::min(count, i + nextOnes + 1) && !isNear; ++j)
+    return j != i &&
+      glm::distance(all.position(j), particle.position.xyz) < alone * particle.spacing;
+  };
+  const int last = std::min(static_cast<int>(particles.size()) - 1, i + nextOnes);
+  for (int j = std::max(0, i - nextOnes); j <= last; ++j)
+  {
+    if (isNear(j))
     {
-      isNear = j != i &&
-        length(particles[j].position - particles[i].position) < alone * particles[i].spacing;
-    }
-    if (!isNear)
-    {
-      found.push_back(i);
+      return false;
     }
   }
-  return found;
+  bool found = false;
+  all.visit(particle.position.xyz, particle.spacing, [&](int j) { found = found || isNear(j); });
+  return !found;
 }
 
-/// Points with spacings, to be found by place.
-class Places
+/// Fits those particles that stand alone to the boxes around.
+class PieceFitter
 {
 public:
-  template <class Place>
-  Places(std::size_t count, const ParallelFor& parallelFor, const Place& place)
-    : Positions(count)
-    , Spacings(count)
+  PieceFitter(const SurfaceProxy& proxy, const ParallelFor& parallelFor)
+    : Proxy(proxy)
+    , Positions(proxy.samples().size())
+    , Spacings(proxy.samples().size())
   {
-    forAll(parallelFor, count,
-      [&](std::size_t i) { std::tie(this->Positions[i], this->Spacings[i]) = place(i); });
-    this->Grid =
-      std::make_unique<SpacingGrid>(this->Positions, this->Spacings, alone, 0.5, parallelFor);
+    forAll(parallelFor, this->Positions.size(),
+      [&](std::size_t b)
+      {
+        const SurfaceProxy::Sample& sample = proxy.samples()[b];
+        this->Positions[b] = sample.found ? sample.patch.position : glm::dvec3(0.0);
+        this->Spacings[b] =
+          sample.found ? sample.patch.spacing : static_cast<float>(proxy.law().spacing);
+      });
+    this->Grid.emplace(this->Positions, this->Spacings, alone, 0.5, parallelFor);
   }
 
-  /// Calls use(j) for all that are as near to a particle as others are to it unless it stands alone.
-  template <class Use>
-  void visit(const Particle& particle, const Use& use) const
+  void fit(Particle& particle) const
   {
+    const auto& samples = this->Proxy.samples();
+    // Boxes without a sample tell no area.
+    const auto [first, last] = this->Proxy.boxesOf(particle.location.element);
+    const bool isKnown = std::all_of(samples.begin() + first, samples.begin() + last,
+      [](const SurfaceProxy::Sample& sample) { return sample.found; });
+    bool hasBox = false;
+    double count = 0.0;
     this->Grid->visit(particle.position.xyz, particle.spacing,
-      [&](int j)
+      [&](int b)
       {
-        if (glm::distance(this->Positions[j], particle.position.xyz) < alone * particle.spacing)
+        if (glm::distance(this->Positions[b], particle.position.xyz) < alone * particle.spacing)
         {
-          use(j);
+          hasBox = hasBox || samples[b].found;
+          count += this->Proxy.particleCountOfBox(b);
         }
       });
+    if (isKnown && hasBox)
+    {
+      particle.spacing *= std::clamp(radiusOfPiece(count, drawnPart(particle)), leastRadius, 1.0);
+    }
   }
 
 private:
+  const SurfaceProxy& Proxy;
   Buffer<glm::dvec3> Positions;
   Buffer<float> Spacings;
-  std::unique_ptr<SpacingGrid> Grid;
+  std::optional<SpacingGrid> Grid;
 };
-
-std::vector<int> findAlone(const Buffer<Particle>& particles, const ParallelFor& parallelFor)
-{
-  std::vector<int> found = mayBeAlone(particles);
-  if (found.empty())
-  {
-    return found;
-  }
-  const Places places(particles.size(), parallelFor,
-    [&](std::size_t i)
-    { return std::pair(particles[i].position.xyz, static_cast<float>(particles[i].spacing)); });
-  std::vector<char> hasNeighbor(found.size(), 0);
-  forAll(parallelFor, found.size(),
-    [&](std::size_t n)
-    { places.visit(particles[found[n]], [&](int j) { hasNeighbor[n] |= j != found[n]; }); });
-  std::size_t kept = 0;
-  for (std::size_t n = 0; n < found.size(); ++n)
-  {
-    found[kept] = found[n];
-    kept += !hasNeighbor[n];
-  }
-  found.resize(kept);
-  return found;
-}
 
 } // namespace
 
-void fitSmallPieces(
-  const SurfaceProxy& proxy, Buffer<Particle>& particles, const ParallelFor& parallelFor)
+void fitSmallPieces(const SurfaceProxy& proxy, const ParticleGrid& all, Buffer<Particle>& particles,
+  const ParallelFor& parallelFor)
 {
-  const std::vector<int> lonely = findAlone(particles, parallelFor);
-  if (lonely.empty())
+  std::vector<char> marks(particles.size());
+  forAll(parallelFor, particles.size(),
+    [&](std::size_t i) { marks[i] = isAlone(all, particles, static_cast<int>(i)); });
+  const std::vector<int> lonely = markedIndices(marks, particles.size());
+  if (!lonely.empty())
   {
-    return;
+    const PieceFitter fitter(proxy, parallelFor);
+    forAll(parallelFor, lonely.size(), [&](std::size_t n) { fitter.fit(particles[lonely[n]]); });
   }
-  const auto& samples = proxy.samples();
-  const Places places(samples.size(), parallelFor,
-    [&](std::size_t b)
-    {
-      const Patch& patch = samples[b].patch;
-      return samples[b].found ? std::pair(glm::dvec3(patch.position), patch.spacing)
-                              : std::pair(glm::dvec3(0.0), static_cast<float>(proxy.law().spacing));
-    });
-  forAll(parallelFor, lonely.size(),
-    [&](std::size_t n)
-    {
-      Particle& particle = particles[lonely[n]];
-      // Boxes without a sample tell no area.
-      const auto [first, last] = proxy.boxesOf(particle.location.element);
-      const bool isKnown = std::all_of(samples.begin() + first, samples.begin() + last,
-        [](const SurfaceProxy::Sample& sample) { return sample.found; });
-      bool hasBox = false;
-      double count = 0.0;
-      places.visit(particle,
-        [&](int b)
-        {
-          hasBox = hasBox || samples[b].found;
-          count += proxy.particleCountOfBox(b);
-        });
-      if (isKnown && hasBox)
-      {
-        particle.spacing *= std::clamp(radiusOfPiece(count, drawnPart(particle)), leastRadius, 1.0);
-      }
-    });
 }
 
 } // namespace hop
