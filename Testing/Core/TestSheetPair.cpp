@@ -12,28 +12,9 @@ namespace hop::testing
 namespace
 {
 
-/// The field over the reference domain, on a straight element.
-ElementMesh elementWith(Domain domain, int degree, const Field& field)
-{
-  MeshRecipe recipe;
-  recipe.domain = domain;
-  recipe.degrees = { degree, degree, degree };
-  recipe.field = field;
-  ElementMesh mesh;
-  std::vector<glm::dvec3> corners;
-  std::vector<std::int64_t> numbers;
-  for (const ReferencePoint& corner : facts(domain).corners)
-  {
-    numbers.push_back(static_cast<std::int64_t>(corners.size()));
-    corners.push_back(corner.xyz);
-  }
-  appendElement(mesh, recipe, corners, numbers);
-  return mesh;
-}
-
 std::optional<SheetPair> pairIn(Domain domain, int degree, const Field& field, double slack = 1e-14)
 {
-  const ElementMesh mesh = elementWith(domain, degree, field);
+  const ElementMesh mesh = referenceMesh(domain, degree, field);
   const BernsteinForm form = mesh.form(0);
   return findSheetPair(form, MonotoneTest(domain, form.degrees), slack);
 }
@@ -116,7 +97,7 @@ TEST_P(PairIn, ItsSheetsMayBend)
   const auto height = [](const glm::dvec3& x)
   { return x.z - 0.3 - 0.02 * x.x * x.x + 0.03 * x.x * x.y; };
   const Field film = [&](const glm::dvec3& x) { return height(x) * height(x) - 1e-4; };
-  const ElementMesh mesh = elementWith(this->GetParam(), 4, film);
+  const ElementMesh mesh = referenceMesh(this->GetParam(), 4, film);
   const BernsteinForm form = mesh.form(0);
   const auto pair = findSheetPair(form, MonotoneTest(form.domain, form.degrees), 1e-14);
   ASSERT_TRUE(pair);

@@ -10,22 +10,10 @@ namespace hop::testing
 namespace
 {
 
-/// A field over the reference domain, on straight elements of degree 4.
+/// Of a field over the reference domain, on an element of degree 4.
 Approach approachOf(Domain domain, const Field& field, double sign = 1.0)
 {
-  MeshRecipe recipe;
-  recipe.domain = domain;
-  recipe.degrees = { 4, 4, 4 };
-  recipe.field = field;
-  ElementMesh mesh;
-  std::vector<glm::dvec3> corners;
-  std::vector<std::int64_t> numbers;
-  for (const ReferencePoint& corner : facts(domain).corners)
-  {
-    numbers.push_back(static_cast<std::int64_t>(corners.size()));
-    corners.push_back(corner.xyz);
-  }
-  appendElement(mesh, recipe, corners, numbers);
+  const ElementMesh mesh = referenceMesh(domain, 4, field);
   return approachToZero(mesh.form(0), sign);
 }
 

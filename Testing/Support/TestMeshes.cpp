@@ -157,6 +157,24 @@ ElementMesh hangingMesh(const MeshRecipe& left, const MeshRecipe& right)
   return mesh;
 }
 
+ElementMesh referenceMesh(Domain domain, int degree, const Field& field)
+{
+  MeshRecipe recipe;
+  recipe.domain = domain;
+  recipe.degrees = { degree, degree, degree };
+  recipe.field = field;
+  ElementMesh mesh;
+  std::vector<glm::dvec3> corners;
+  std::vector<std::int64_t> numbers;
+  for (const ReferencePoint& corner : facts(domain).corners)
+  {
+    numbers.push_back(static_cast<std::int64_t>(corners.size()));
+    corners.push_back(corner.xyz);
+  }
+  appendElement(mesh, recipe, corners, numbers);
+  return mesh;
+}
+
 ElementMesh teardropMesh()
 {
   // The field is a polynomial of the straight cube, the map bends what it is drawn in.

@@ -31,6 +31,9 @@ ElementMesh makeMesh(const MeshRecipe& recipe);
 void appendElement(ElementMesh& mesh, const MeshRecipe& recipe,
   const std::vector<glm::dvec3>& corners, const std::vector<std::int64_t>& numbers);
 
+/// The reference domain as one straight element of a degree, with a field over it.
+ElementMesh referenceMesh(Domain domain, int degree, const Field& field);
+
 /// The box between two corners, straight-sided before `map` bends it, as one hexahedron, two wedges or
 /// six tetrahedra. Corners in one place have one number, whichever box they belong to.
 void appendBox(
