@@ -29,7 +29,7 @@ namespace
 
 const std::set<std::string> ownPointArrays{ "Normals", "Radius", "Mean_Curvature",
   "Gauss_Curvature", "Shape_Operator", "Residual", "Clip_Normal", "Clip_Distance", "Clip_Angle",
-  "Jump", "Isovalue", "vtkOriginalCellIds", "ParametricCoordinates" };
+  "Clip_Curvature", "Jump", "Isovalue", "vtkOriginalCellIds", "ParametricCoordinates" };
 const std::set<std::string> ownFieldArrays{ "Evaluations", "Iterations", "ElementsDropped",
   "CellsSkipped", "BoxesUnresolved", "SingularPoints", "ParticlesRejected", "ParticlesUndersampled",
   "UnresolvedCellIds" };
@@ -231,8 +231,9 @@ void Packer::addOwnArrays()
   const auto normals = this->addArray("Normals", 3,
     [=](const ParticleRow& row, double* out) { writeVector(row.particle->normal.xyz, out); });
   this->Output->GetPointData()->SetNormals(normals);
-  this->addArray(
-    "Radius", 1, [](const ParticleRow& row, double* out) { *out = row.particle->spacing; });
+  this->addArray("Radius", 1,
+    [](const ParticleRow& row, double* out)
+    { *out = row.particle->shrink * row.particle->spacing; });
   this->addArray("Mean_Curvature", 1,
     [](const ParticleRow& row, double* out) { *out = row.particle->curvature.mean; });
   this->addArray("Gauss_Curvature", 1,
@@ -264,6 +265,12 @@ void Packer::addOwnArrays()
     {
       out[0] = glm::degrees(row.particle->clips[0].turn);
       out[1] = glm::degrees(row.particle->clips[1].turn);
+    });
+  this->addArray("Clip_Curvature", 2,
+    [](const ParticleRow& row, double* out)
+    {
+      out[0] = row.particle->clips[0].bend;
+      out[1] = row.particle->clips[1].bend;
     });
   this->addArray("Jump", 1, [](const ParticleRow& row, double* out) { *out = row.particle->jump; });
   this->addArray("Isovalue", 1, [](const ParticleRow& row, double* out) { *out = row.isovalue; });

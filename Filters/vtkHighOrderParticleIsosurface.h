@@ -29,13 +29,15 @@
  * surface), `Mean_Curvature` (with respect to Normals;
  * 1/r on a sphere with high values inside), `Gauss_Curvature`, `Shape_Operator` (the derivative of Normals
  * along the surface, a symmetric tensor: xx, yy, zz, xy, yz, xz; 1 / world units), `Residual` (|F - c|/|grad F|,
- * world units), `Clip_Normal`, `Clip_Distance` and `Clip_Angle` (from method FAST: unit normals and distances,
- * in world units, of up to two planes near the particle at which the surface ends or turns: rims, or faces
- * between elements; normal zero: none; and the largest angle seen there between the normals of both sides, in
- * degrees: 180 at rims, else 1.5 at least, where a step of the surface counts as an angle of step / spacing,
- * below 10; splats are to be cut at rims and kinks, and to give way to those of the other side where the angle
- * is below 10; where kinks meet, a plane is moved outwards if nothing else would cover what it cuts off), `Jump` (on rims where the field jumps from element to element: F - c on the other side;
- * else 0), `Isovalue`, `vtkOriginalCellIds`, `ParametricCoordinates` (of VTK's cell), and every
+ * world units), `Clip_Normal`, `Clip_Distance`, `Clip_Angle` and `Clip_Curvature` (from method FAST: unit
+ * normals and distances, in world units, of up to two planes near the particle at which the surface ends or
+ * turns: rims, or faces between elements; normal zero: none; the largest angle seen there between the
+ * normals of both sides, in degrees: 180 at rims, else 1.5 at least, where a step of the surface counts as an
+ * angle of step / spacing, below 10; and, of rims, the curvature along the surface, 1 / world units, positive
+ * where the rim bends towards the normal, of which the plane is the tangent where the rim is nearest; splats
+ * are to be cut at rims and kinks, and to give way to those of the other side where the angle is below 10;
+ * where kinks meet, a plane is moved outwards if nothing else would cover what it cuts off), `Jump` (on rims
+ * where the field jumps from element to element: F - c on the other side; else 0), `Isovalue`, `vtkOriginalCellIds`, `ParametricCoordinates` (of VTK's cell), and every
  * numeric point array of the input evaluated by the element's own polynomials, in double precision
  * (the contoured one holds the isovalue). An input array of one of these names, or of those of the field data
  * below, is not passed on; a warning names it. Cell arrays are copied to the vertex cells.

@@ -25,6 +25,7 @@
 #include "vtkSurfaceSplatColors.h"
 #include "vtkSurfaceSplatDisk.h"
 #include "vtkSurfaceSplatDrawing.h"
+#include "vtkSurfaceSplatEdge.h"
 #include "vtkSurfaceSplatLayer.h"
 #include "vtkSurfaceSplatOutline.h"
 #include "vtkSurfaceSplatParticles.h"
@@ -64,6 +65,7 @@ constexpr const char* ClipNormalName = "Clip_Normal";
 constexpr const char* ShapeOperatorName = "Shape_Operator";
 constexpr const char* ClipDistanceName = "Clip_Distance";
 constexpr const char* ClipAngleName = "Clip_Angle";
+constexpr const char* ClipCurvatureName = "Clip_Curvature";
 constexpr const char* SheetName = "Isovalue";
 
 // More are too slow to be drawn one after the other.
@@ -277,6 +279,7 @@ void vtkSurfaceSplatMapper::UploadParticles(vtkRenderer* renderer, vtkPolyData* 
   arrays.ClipNormals = data->GetArray(ClipNormalName);
   arrays.ClipDistances = data->GetArray(ClipDistanceName);
   arrays.ClipAngles = data->GetArray(ClipAngleName);
+  arrays.ClipCurvatures = data->GetArray(ClipCurvatureName);
   arrays.ShapeOperators = data->GetArray(ShapeOperatorName);
   arrays.Sheets = data->GetArray(SheetName);
   arrays.CellColors = this->GetCellColors(input);
@@ -746,13 +749,14 @@ void vtkSurfaceSplatMapper::ReplaceShaderClip(
   {
     InsertBefore(fragment, "//VTK::Clip::Dec",
       "in vec2 splatDiskCoord;\n"
-      "flat in vec3 splatClipLines[2];\n"
+      "flat in vec4 splatClipLines[2];\n"
       "flat in int splatParticle;\n"
-      "flat in float splatSeenFromSide;");
+      "flat in float splatSeenFromSide;\n" +
+        std::string(vtkSurfaceSplatEdge));
     InsertBefore(fragment, "//VTK::Clip::Impl",
       "if (dot(splatDiskCoord, splatDiskCoord) > 1.0 ||\n"
-      "    dot(splatClipLines[0].xy, splatDiskCoord) > splatClipLines[0].z ||\n"
-      "    dot(splatClipLines[1].xy, splatDiskCoord) > splatClipLines[1].z) discard;");
+      "    splatBehindLine(splatClipLines[0], splatDiskCoord) > 0.0 ||\n"
+      "    splatBehindLine(splatClipLines[1], splatDiskCoord) > 0.0) discard;");
   }
   this->Superclass::ReplaceShaderClip(shaders, renderer, actor);
 }

@@ -117,7 +117,11 @@ void ReadClipPlanes(const vtkSurfaceSplatArrays& arrays, vtkIdType id, float pla
 {
   const int count = std::min(
     arrays.ClipNormals->GetNumberOfComponents() / 3, arrays.ClipDistances->GetNumberOfComponents());
-  const int angles = arrays.ClipAngles ? arrays.ClipAngles->GetNumberOfComponents() : 0;
+  const auto valueOf = [&](vtkDataArray* array, int plane, double without)
+  {
+    return array && plane < array->GetNumberOfComponents() ? array->GetComponent(id, plane)
+                                                           : without;
+  };
   for (int plane = 0; plane < std::min(count, 2); ++plane)
   {
     double normal[3];
@@ -130,9 +134,10 @@ void ReadClipPlanes(const vtkSurfaceSplatArrays& arrays, vtkIdType id, float pla
     {
       std::copy_n(normal, 3, planes + 4 * plane);
       planes[4 * plane + 3] = static_cast<float>(distance);
-      planes[8 + plane] = plane < angles
-        ? vtkSurfaceSplatParticles::OverlapAt(arrays.ClipAngles->GetComponent(id, plane))
-        : 0.f;
+      planes[8 + plane] =
+        vtkSurfaceSplatParticles::OverlapAt(valueOf(arrays.ClipAngles, plane, 180.));
+      const double curvature = valueOf(arrays.ClipCurvatures, plane, 0.);
+      planes[10 + plane] = std::isfinite(curvature) ? static_cast<float>(curvature) : 0.f;
     }
   }
 }

@@ -40,6 +40,11 @@ struct vtkSurfaceSplatArrays
    * end at all planes.
    */
   vtkDataArray* ClipAngles = nullptr;
+  /**
+   * 1 or 2 curvatures (1 / world units) of the edges that touch these planes where they are nearest, along the
+   * surface, towards the plane's vector. Without, edges are straight.
+   */
+  vtkDataArray* ClipCurvatures = nullptr;
   vtkDataArray* ShapeOperators = nullptr; ///< dn/dx, 6 components: xx, yy, zz, xy, yz, xz
   vtkDataArray* Sheets = nullptr;         ///< one value a point that tells nested surfaces apart
   vtkDataArray* CellColors = nullptr;     ///< see vtkSurfaceSplatMapper::SetCellColorArrayName()
@@ -55,7 +60,7 @@ struct vtkSurfaceSplatParticles
   std::vector<float> Normal;
   /**
    * 12 a particle: normal and distance of two planes; how far beyond either the splat fills gaps, in radii;
-   * 0, 0. Empty without planes.
+   * by how much both edges are curved. Empty without planes.
    */
   std::vector<float> Clip;
   /**

@@ -9,6 +9,7 @@
 #include "vtkSurfaceSplatBuffers.h"
 #include "vtkSurfaceSplatDisk.h"
 #include "vtkSurfaceSplatDrawing.h"
+#include "vtkSurfaceSplatEdge.h"
 #include "vtkSurfaceSplatFragment.h"
 #include "vtkSurfaceSplatPassVS.h"
 #include "vtkSurfaceSplatRay.h"
@@ -87,6 +88,7 @@ vtkShaderProgram* vtkSurfaceSplatPrimitives::Use(
   vtkShaderProgram::Substitute(
     fragment, "//Splat::Fragment::Dec", definitions + vtkSurfaceSplatFragment);
   vtkShaderProgram::Substitute(fragment, "//Splat::Ray::Dec", vtkSurfaceSplatRay);
+  vtkShaderProgram::Substitute(fragment, "//Splat::Edge::Dec", vtkSurfaceSplatEdge);
   vtkShaderProgram* program =
     drawing.Window->GetShaderCache()->ReadyShaderProgram(vertex.c_str(), fragment.c_str(), "");
   if (!program)

@@ -88,7 +88,7 @@ vtkVector3d Times(const float shape[8], const vtkVector3d& v)
 }
 
 // Whether the surface ends or has a kink before the place that is so far off. Particles of a rim lie on each
-// other's planes, more or less: `margin` is what does not count.
+// other's edges, more or less: `margin` is what does not count.
 bool IsBehindClip(
   const std::vector<float>& clip, vtkIdType particle, const vtkVector3d& offset, double margin)
 {
@@ -96,7 +96,10 @@ bool IsBehindClip(
   {
     const vtkIdType first = 12 * particle + 4 * plane;
     const bool isSmooth = clip[12 * particle + 8 + plane] >= 1.f;
-    return !isSmooth && VectorAt(clip, first).Dot(offset) > clip[first + 3] + margin;
+    const double across = VectorAt(clip, first).Dot(offset);
+    const double bend = 0.5 * clip[12 * particle + 10 + plane];
+    const double edge = clip[first + 3] + bend * (offset.SquaredNorm() - across * across);
+    return !isSmooth && across > edge + margin;
   };
   return !clip.empty() && (isBehind(0) || isBehind(1));
 }

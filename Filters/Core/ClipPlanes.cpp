@@ -16,11 +16,14 @@ namespace
 /// Two planes whose normals are nearer than that are the same edge.
 constexpr double sameEdge = 0.8;
 
-/// Rims and kinks come before faces at which the surface is almost smooth, near ones before others.
-bool comesBefore(const ClipPlane& a, const ClipPlane& b)
+/// Rims that cut the splat come before kinks, these before faces at which the surface is almost smooth, near ones
+/// before others.
+bool comesBefore(const ClipPlane& a, const ClipPlane& b, double spacing)
 {
-  const bool isSharp = a.turn > KinkAngle;
-  return isSharp != (b.turn > KinkAngle) ? isSharp : a.distance < b.distance;
+  const auto rank = [spacing](const ClipPlane& plane) {
+    return plane.turn == Pi && plane.distance < spacing ? 0 : plane.turn > KinkAngle ? 1 : 2;
+  };
+  return rank(a) != rank(b) ? rank(a) < rank(b) : a.distance < b.distance;
 }
 
 /// Keeps the first plane, and the first that belongs to another edge.
@@ -32,7 +35,7 @@ void offer(Particle& particle, const ClipPlane& plane)
   }
   auto& [first, second] = particle.clips;
   const auto isBefore = [&](const ClipPlane& other)
-  { return !other.exists() || comesBefore(plane, other); };
+  { return !other.exists() || comesBefore(plane, other, particle.spacing); };
   const bool isFirstEdge = first.exists() && dot(first.normal, plane.normal) > sameEdge;
   if (isBefore(first))
   {
@@ -49,13 +52,22 @@ void offer(Particle& particle, const ClipPlane& plane)
 /// are those of the other side of a jump. Bent rims leave their planes by less.
 constexpr double sameSide = 0.2;
 
-/// How far a particle lies before the plane through a particle on a rim.
-double distanceTo(const RimParticle& rim, const Particle& particle)
+/// The rim, known at one of its particles, as another particle sees it: the plane touches it where it is nearest.
+/// \pre the rim is one
+ClipPlane rimSeenFrom(const RimParticle& rim, const Particle& particle)
 {
-  return dot(rim.particle.position - particle.position, rim.outward);
+  const glm::dvec3& outward = rim.side.outward.xyz;
+  const glm::dvec3 along = glm::cross(rim.particle.normal.xyz, outward);
+  const glm::dvec3 step = particle.position.xyz - rim.particle.position.xyz;
+  const double largest = 1.0 / particle.spacing; // more than that a parabola does not follow
+  const double bend = std::clamp(rim.side.bend, -largest, largest);
+  const double s = glm::dot(step, along);
+  const glm::dvec3 normal = glm::normalize(outward - bend * s * along);
+  const glm::dvec3 nearest = s * along + 0.5 * bend * s * s * outward;
+  return { { normal }, glm::dot(nearest - step, normal), Pi, bend };
 }
 
-/// Planes through particles on rims around, each through the nearest that looks its way.
+/// Planes of the rims around, each by the nearest particle on it.
 void offerRims(const SpacingGrid& grid, const Buffer<RimParticle>& rims, Particle& particle)
 {
   struct Edge
@@ -65,14 +77,14 @@ void offerRims(const SpacingGrid& grid, const Buffer<RimParticle>& rims, Particl
   };
   std::array<Edge, 2> edges;
   const auto looksLike = [&](const Edge& edge, int j)
-  { return edge.rim >= 0 && dot(rims[edge.rim].outward, rims[j].outward) > sameEdge; };
+  { return edge.rim >= 0 && dot(rims[edge.rim].side.outward, rims[j].side.outward) > sameEdge; };
   grid.visit(particle.position.xyz, particle.spacing,
     [&](int j)
     {
       const Edge edge{ j, length(rims[j].particle.position - particle.position) };
-      if (edge.distance > ClipReach * particle.spacing || length(rims[j].outward) == 0.0 ||
+      if (edge.distance > ClipReach * particle.spacing || !rims[j].side.exists() ||
         dot(rims[j].particle.normal, particle.normal) <= 0.0 ||
-        distanceTo(rims[j], particle) < -sameSide * particle.spacing)
+        rimSeenFrom(rims[j], particle).distance < -sameSide * particle.spacing)
       {
         return;
       }
@@ -91,8 +103,9 @@ void offerRims(const SpacingGrid& grid, const Buffer<RimParticle>& rims, Particl
   {
     if (edge.rim >= 0)
     {
-      const double distance = std::max(0.0, distanceTo(rims[edge.rim], particle));
-      offer(particle, { rims[edge.rim].outward, distance, Pi });
+      ClipPlane plane = rimSeenFrom(rims[edge.rim], particle);
+      plane.distance = std::max(0.0, plane.distance);
+      offer(particle, plane);
     }
   }
 }
@@ -106,8 +119,8 @@ bool goesOnAt(const RimParticle& rim, const Particle& particle)
   const glm::dvec3 step = particle.position.xyz - rim.particle.position.xyz;
   const glm::dvec3 normal = glm::normalize(particle.normal.xyz + rim.particle.normal.xyz);
   const double height = glm::dot(step, normal);
-  const double beyond = glm::dot(step, rim.outward.xyz);
-  const glm::dvec3 rest = step - height * normal - beyond * rim.outward.xyz;
+  const double beyond = glm::dot(step, rim.side.outward.xyz);
+  const glm::dvec3 rest = step - height * normal - beyond * rim.side.outward.xyz;
   const double h = particle.spacing;
   return beyond > sameSide * h && beyond < farthest * h && glm::length(rest) < aside * h &&
     std::abs(height) < above * h && dot(rim.particle.normal, particle.normal) > 0.5;
@@ -116,7 +129,8 @@ bool goesOnAt(const RimParticle& rim, const Particle& particle)
 /// Whether two rims look at each other, across a slit.
 bool areFacing(const RimParticle& a, const RimParticle& b)
 {
-  return dot(a.outward, b.outward) < -0.5 && dot(a.particle.normal, b.particle.normal) > 0.0 &&
+  return dot(a.side.outward, b.side.outward) < -0.5 &&
+    dot(a.particle.normal, b.particle.normal) > 0.0 &&
     length(a.particle.position - b.particle.position) < ClipReach * a.particle.spacing;
 }
 
@@ -155,9 +169,64 @@ void openRimsThatGoOn(const SpacingGrid& grid, const Buffer<Particle>& particles
   {
     if (goesOn[i])
     {
-      rims[i].outward = {};
+      rims[i].side = {};
     }
   }
+}
+
+/// A function of world space near a place, to second order.
+struct Quadratic
+{
+  double value = 0.0;
+  LevelSet slope;
+
+  double valueAt(const glm::dvec3& x) const
+  {
+    return this->value + glm::dot(this->slope.gradient.xyz + 0.5 * this->slope.hessian * x, x);
+  }
+  LevelSet slopeAt(const glm::dvec3& x) const
+  {
+    return { this->slope.gradient + WorldVector{ this->slope.hessian * x }, this->slope.hessian };
+  }
+};
+
+/// The place on the curve {a = b = 0} that is nearest to the origin; not finite where there is none.
+glm::dvec3 nearestOnCrossing(const Quadratic& a, const Quadratic& b)
+{
+  constexpr int steps = 4;
+  glm::dvec3 x(0.0);
+  for (int step = 0; step < steps; ++step)
+  {
+    // Of the places on both planes that touch the functions here, the nearest.
+    const glm::dvec3 p = a.slopeAt(x).gradient.xyz;
+    const glm::dvec3 q = b.slopeAt(x).gradient.xyz;
+    const glm::dvec2 wanted(glm::dot(p, x) - a.valueAt(x), glm::dot(q, x) - b.valueAt(x));
+    const glm::dmat2 products(glm::dot(p, p), glm::dot(p, q), glm::dot(p, q), glm::dot(q, q));
+    const glm::dvec2 shares = glm::inverse(products) * wanted;
+    x = shares.x * p + shares.y * q;
+  }
+  return x;
+}
+
+/// The face by which the surface leaves an element, touched where the surface is nearest to leaving, as a particle
+/// in the element sees that to second order. (Planes across the surface would not be the same from both sides.)
+/// \param at the particle's place, with its second derivatives
+/// \return the plane exists only if that place is within reach
+ClipPlane edgeSeenFrom(const Particle& particle, const Evaluated& at, const Face& face)
+{
+  const WorldVector inward{ glm::transpose(at.point.map.inverse) * face.inward.xyz };
+  const Quadratic field{ at.point.value, { at.point.gradient, at.hessian } };
+  const Quadratic wall{ faceMargin(face, at.location.u),
+    { inward, worldHessianOfLinear(at.second, at.point.map, inward) } };
+  const glm::dvec3 nearest = nearestOnCrossing(field, wall);
+  if (!(glm::length(nearest) <= ClipReach * particle.spacing))
+  {
+    return {};
+  }
+  const LevelSet wallThere = wall.slopeAt(nearest);
+  const WorldVector outward{ -glm::normalize(wallThere.gradient.xyz) };
+  const WorldVector bend = bendOfCrossing(field.slopeAt(nearest), wallThere);
+  return { outward, std::max(0.0, glm::dot(nearest, outward.xyz)), 0.0, dot(bend, outward) };
 }
 
 /// Planes of faces at which the normal turns.
@@ -166,8 +235,8 @@ class FacePlanes
 public:
   FacePlanes(const Isosurface& surface, const std::vector<float>& turns,
     const Buffer<Particle>& particles, const Buffer<RimParticle>& rims, const ParticleGrid& grid)
-    : Mesh(*surface.mesh)
-    , Locator(surface.locator)
+    : Surface(surface)
+    , Mesh(*surface.mesh)
     , Turns(turns)
     , Particles(particles)
     , Rims(rims)
@@ -176,10 +245,12 @@ public:
   }
 
   /// \param pull the inverse Jacobian of the particle's element there
-  void offerTo(Particle& particle, const glm::mat3& pull) const
+  /// \param walker to evaluate by
+  void offerTo(Particle& particle, const glm::mat3& pull, SurfaceWalker& walker) const
   {
     const Location& location = particle.location;
     const auto& faces = facts(this->Mesh.elements[location.element].domain).faces;
+    std::optional<Evaluated> at;
     for (int f = 0; f < static_cast<int>(faces.size()); ++f)
     {
       const double turn = this->Turns[faceSlot(location.element, f)];
@@ -187,20 +258,37 @@ public:
       {
         continue;
       }
-      const glm::dvec3 inward = glm::transpose(glm::dmat3(pull)) * faces[f].inward.xyz;
-      const double slope = glm::length(inward);
-      const double distance = std::max(0.0, faceMargin(faces[f], location.u) / slope);
-      const WorldVector outward{ inward / -slope };
-      if (slope > 0.0 && distance <= ClipReach * particle.spacing &&
-        (turn <= KinkAngle ||
-          this->goesOnBehind(particle, f, particle.position + distance * outward)))
+      ClipPlane plane = planeOf(faces[f], particle, pull);
+      if (plane.distance > ClipReach * particle.spacing)
       {
-        offer(particle, { outward, distance, turn });
+        continue;
+      }
+      if (turn > KinkAngle)
+      {
+        at = at ? at : walker.evaluateCurved(location);
+        plane = edgeSeenFrom(particle, *at, faces[f]);
+      }
+      plane.turn = turn;
+      if (plane.exists() &&
+        (turn <= KinkAngle ||
+          this->goesOnBehind(particle, f, particle.position + plane.distance * plane.normal)))
+      {
+        offer(particle, plane);
       }
     }
   }
 
 private:
+  /// The face itself, to first order.
+  static ClipPlane planeOf(const Face& face, const Particle& particle, const glm::mat3& pull)
+  {
+    const glm::dvec3 inward = glm::transpose(glm::dmat3(pull)) * face.inward.xyz;
+    const double slope = glm::length(inward);
+    return slope > 0.0 ? ClipPlane{ { inward / -slope },
+      std::max(0.0, faceMargin(face, particle.location.u) / slope) }
+                       : ClipPlane{ {}, std::numeric_limits<double>::infinity() };
+  }
+
   /// Whether a particle behind the face is near enough to cover what is cut off, but for the little that splats
   /// reach beyond their planes: slivers of elements hold none.
   bool goesOnBehind(const Particle& particle, int face, const WorldPoint& foot) const
@@ -210,8 +298,9 @@ private:
     constexpr double nearEnough = 1.1;
     const auto isBehind = [&](int other)
     {
-      return joined >= 0 ? other == joined
-                         : this->Locator && this->Locator->mayGoOnIn(element, face, other);
+      return joined >= 0
+        ? other == joined
+        : this->Surface.locator && this->Surface.locator->mayGoOnIn(element, face, other);
     };
     bool found = false;
     this->Grid.visit(foot.xyz, particle.spacing,
@@ -231,8 +320,8 @@ private:
     return (i < free ? this->Particles[i] : this->Rims[i - free].particle).location.element;
   }
 
+  const Isosurface& Surface;
   const ElementMesh& Mesh;
-  const FaceLocator* Locator;
   const std::vector<float>& Turns;
   const Buffer<Particle>& Particles;
   const Buffer<RimParticle>& Rims;
@@ -241,9 +330,9 @@ private:
 
 } // namespace
 
-void markClipPlanes(const Isosurface& surface, const FaceJumps& jumps, const ParticleGrid& all,
-  Buffer<RimParticle>& rims, Buffer<Particle>& particles, const Buffer<Anchor>& anchors,
-  const ParallelFor& parallelFor)
+std::int64_t markClipPlanes(const Isosurface& surface, const FaceJumps& jumps,
+  const ParticleGrid& all, Buffer<RimParticle>& rims, Buffer<Particle>& particles,
+  const Buffer<Anchor>& anchors, const ParallelFor& parallelFor)
 {
   Buffer<glm::dvec3> positions(rims.size());
   Buffer<float> spacings(rims.size());
@@ -256,23 +345,39 @@ void markClipPlanes(const Isosurface& surface, const FaceJumps& jumps, const Par
   const SpacingGrid grid(positions, spacings, ClipReach, 0.5, parallelFor);
   openRimsThatGoOn(grid, particles, rims, parallelFor);
   const FacePlanes faces(surface, jumps.turns, particles, rims, all);
-  forAll(parallelFor, particles.size(),
-    [&](std::size_t i)
+  std::atomic<std::int64_t> evaluations{ 0 };
+  const auto forAllWithWalker = [&](std::size_t count, const auto& use)
+  {
+    runParallel(parallelFor, static_cast<std::ptrdiff_t>(count),
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+      {
+        SurfaceWalker walker(surface);
+        for (std::ptrdiff_t i = begin; i < end; ++i)
+        {
+          use(i, walker);
+        }
+        evaluations += walker.evaluations();
+      });
+  };
+  forAllWithWalker(particles.size(),
+    [&](std::ptrdiff_t i, SurfaceWalker& walker)
     {
       offerRims(grid, rims, particles[i]);
-      faces.offerTo(particles[i], anchors[i].pull);
+      faces.offerTo(particles[i], anchors[i].pull, walker);
     });
-  forAll(parallelFor, rims.size(),
-    [&](std::size_t i)
+  forAllWithWalker(rims.size(),
+    [&](std::ptrdiff_t i, SurfaceWalker& walker)
     {
-      offerRims(grid, rims, rims[i].particle);
-      if (length(rims[i].outward) > 0.0 && length(rims[i].otherOutward) > 0.0)
+      auto& [particle, patch, pull, side, other] = rims[i];
+      offerRims(grid, rims, particle);
+      if (side.exists() && other.exists())
       {
-        offer(rims[i].particle, { rims[i].otherOutward, 0.0, Pi });
+        offer(particle, { other.outward, 0.0, Pi, other.bend });
       }
-      faces.offerTo(rims[i].particle, rims[i].pull);
+      faces.offerTo(particle, pull, walker);
     });
   closeKinkCorners(all, particles, rims, parallelFor);
+  return evaluations;
 }
 
 } // namespace hop

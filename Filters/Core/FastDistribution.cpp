@@ -619,7 +619,7 @@ void FastSystem::finish()
   Buffer<Anchor> anchors = this->Moving->takeAnchors();
   anchors.resize(closeGaps(anchors, anchors.size(), kept));
   const ParticleGrid all(particles, this->Rims.particles, this->Parallel);
-  markClipPlanes(
+  this->Evaluations += markClipPlanes(
     this->Surface, this->Jumps, all, this->Rims.particles, particles, anchors, this->Parallel);
   for (const RimParticle& rim : this->Rims.particles)
   {

@@ -35,6 +35,12 @@ bool cuts(const ClipPlane& plane)
   return plane.exists() && plane.turn > KinkAngle;
 }
 
+/// Unit vector along the edge that a plane touches, either way: the same from both sides of it.
+glm::dvec3 alongEdge(const Particle& particle, const ClipPlane& plane)
+{
+  return glm::normalize(glm::cross(particle.normal.xyz, plane.normal.xyz));
+}
+
 /// Whether a splat, were it whole, would reach a place on the surface nearby.
 bool reaches(const Particle& particle, const glm::dvec3& place)
 {
@@ -153,13 +159,13 @@ std::vector<int> KinkCorners::findAround(int i) const
 bool KinkCorners::isCornerOf(int i, int plane, const std::vector<int>& around) const
 {
   constexpr double sameKink = 0.9;
-  const WorldVector& normal = this->at(i).clips[plane].normal;
-  const auto looksElsewhere = [&](const ClipPlane& other)
-  { return cuts(other) && std::abs(dot(other.normal, normal)) < sameKink; };
+  const glm::dvec3 along = alongEdge(this->at(i), this->at(i).clips[plane]);
   const auto hasAnother = [&](int j)
   {
-    const auto& clips = this->at(j).clips;
-    return looksElsewhere(clips[0]) || looksElsewhere(clips[1]);
+    const Particle& other = this->at(j);
+    return std::any_of(other.clips.begin(), other.clips.end(),
+      [&](const ClipPlane& clip)
+      { return cuts(clip) && std::abs(glm::dot(alongEdge(other, clip), along)) < sameKink; });
   };
   return hasAnother(i) || std::any_of(around.begin(), around.end(), hasAnother);
 }

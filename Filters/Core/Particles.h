@@ -10,7 +10,7 @@
 namespace hop
 {
 
-/// A plane near a particle at which the surface ends or turns.
+/// A plane near a particle at which the surface ends or turns, touching that edge where it is nearest.
 struct ClipPlane
 {
   /// Unit normal, pointing to the far side; zero if there is no plane.
@@ -19,6 +19,8 @@ struct ClipPlane
   double distance = 0.0;
   /// By which the surface turns there, radians, see FaceJumps::turns; pi where it ends.
   double turn = 0.0;
+  /// By which the edge bends along the surface, towards the plane's normal, 1/radius; 0 where it is almost smooth.
+  double bend = 0.0;
 
   bool exists() const { return dot(this->normal, this->normal) > 0.0; }
 };
@@ -33,13 +35,15 @@ struct Particle
   Curvature curvature;
   /// |F - c|/|grad F|, world units.
   double residual = 0.0;
-  /// h, the distance to neighbours that this particle wants, world units; less where it stands alone on a
-  /// piece of the surface smaller than that.
+  /// h, the distance to neighbours that this particle wants, world units.
   double spacing = 0.0;
   /// In corners there are two. Rims and kinks first, then the nearer.
   std::array<ClipPlane, 2> clips;
   /// On a rim where the field jumps between elements: F - c on the other side. Zero elsewhere.
   double jump = 0.0;
+  /// Of the splat's radius to the spacing: less than 1 where it stands alone on a piece of the surface smaller
+  /// than that.
+  double shrink = 1.0;
 };
 
 /// What a distribution cost and what it found.

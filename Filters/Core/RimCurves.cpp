@@ -59,14 +59,23 @@ struct RimPlace
   double spacing = 0.0;
 };
 
-/// Out of the surface along it, at a face of the element; zero where it is parallel to that.
-WorldVector outwardAt(const ElementMesh& mesh, const Evaluated& at, int face)
+/// How the surface ends at a face of the element; not at all where it is parallel to that.
+/// \param at with its second derivatives
+RimSide rimSideAt(const ElementMesh& mesh, const Evaluated& at, int face)
 {
   const auto& faces = facts(mesh.elements[at.location.element].domain).faces;
-  const glm::dvec3 normal = surfaceNormal(at.point.gradient).xyz;
-  const glm::dvec3 inward = glm::transpose(at.point.map.inverse) * faces[face].inward.xyz;
-  const glm::dvec3 along = inward - glm::dot(inward, normal) * normal;
-  return { glm::length(along) > 0.0 ? -glm::normalize(along) : glm::dvec3(0.0) };
+  const FieldPoint& point = at.point;
+  const glm::dvec3 normal = surfaceNormal(point.gradient).xyz;
+  const WorldVector inward{ glm::transpose(point.map.inverse) * faces[face].inward.xyz };
+  const glm::dvec3 along = inward.xyz - glm::dot(inward.xyz, normal) * normal;
+  if (!(glm::length(along) > 0.0))
+  {
+    return {};
+  }
+  const WorldVector outward{ -glm::normalize(along) };
+  const WorldVector bend = bendOfCrossing(
+    { point.gradient, at.hessian }, { inward, worldHessianOfLinear(at.second, point.map, inward) });
+  return { outward, dot(bend, outward) };
 }
 
 /// Makes particles of such places; one a thread.
@@ -292,10 +301,10 @@ bool RimFinisher::finish(const RimPlace& place, RimParticle& rim)
     curvature(field.gradient, point->at.hessian), std::abs(field.value) / length(field.gradient),
     this->Law.angularDensity == 0.0 ? this->Law.spacing : rim.patch.spacing, {},
     rim.particle.jump };
-  const auto outward = [&](int face)
-  { return face < 0 ? WorldVector{} : outwardAt(*this->Surface.mesh, point->at, face); };
-  rim.outward = outward(point->face);
-  rim.otherOutward = outward(otherWall);
+  const auto side = [&](int face)
+  { return face < 0 ? RimSide{} : rimSideAt(*this->Surface.mesh, point->at, face); };
+  rim.side = side(point->face);
+  rim.otherSide = side(otherWall);
   return true;
 }
 
@@ -405,7 +414,7 @@ void RimSampler::thinOut(const ParallelFor& parallelFor)
         [&](int j)
         {
           kept[i] = kept[i] && !kept[j];
-          seam[j] = seam[j] || (kept[j] && dot(rims[i].outward, rims[j].outward) < -0.5);
+          seam[j] = seam[j] || (kept[j] && dot(rims[i].side.outward, rims[j].side.outward) < -0.5);
         });
     }
   }
@@ -413,7 +422,7 @@ void RimSampler::thinOut(const ParallelFor& parallelFor)
   {
     if (seam[i])
     {
-      rims[i].outward = {};
+      rims[i].side = {};
     }
   }
   keepMarked(rims, kept);

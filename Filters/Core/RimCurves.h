@@ -6,6 +6,18 @@
 namespace hop
 {
 
+/// Where the surface ends at a wall.
+struct RimSide
+{
+  /// Unit vector along the surface, out of where it ends; zero where it goes on all the same, less than
+  /// particles' distance away.
+  WorldVector outward;
+  /// By which the rim bends outwards, 1/radius; negative around islands.
+  double bend = 0.0;
+
+  bool exists() const { return dot(this->outward, this->outward) > 0.0; }
+};
+
 /// A particle on the rim of the surface.
 struct RimParticle
 {
@@ -14,11 +26,9 @@ struct RimParticle
   Patch patch;
   /// K = J^-1 there.
   glm::mat3 pull{ 0.0f };
-  /// Unit vector along the surface, out of where it ends; zero where it goes on all the same, less than
-  /// particles' distance away.
-  WorldVector outward;
-  /// In corners of its element, the same at the other wall; zero elsewhere.
-  WorldVector otherOutward;
+  RimSide side;
+  /// In corners of its element, at the other wall.
+  RimSide otherSide;
 };
 
 /// The rims {F = c} on faces at which the surface ends: they pass from face to face around the edges of

@@ -104,7 +104,7 @@ public:
       });
     if (isKnown && hasBox)
     {
-      particle.spacing *= std::clamp(radiusOfPiece(count, drawnPart(particle)), leastRadius, 1.0);
+      particle.shrink = std::clamp(radiusOfPiece(count, drawnPart(particle)), leastRadius, 1.0);
     }
   }
 

@@ -6,9 +6,9 @@
 namespace hop
 {
 
-/// Gives particles that stand alone on a piece of the surface much smaller than their splat a smaller spacing,
-/// so that what is drawn has about the area that the proxy knows. A particle stands alone if no other is nearer
-/// than 1.8 of its spacing; all others keep theirs.
+/// Shrinks the splats of particles that stand alone on a piece of the surface much smaller than them, so that
+/// what is drawn has about the area that the proxy knows. A particle stands alone if no other is nearer than 1.8
+/// of its spacing.
 /// \param all of these particles, those on rims last
 void fitSmallPieces(const SurfaceProxy& proxy, const ParticleGrid& all, Buffer<Particle>& particles,
   const ParallelFor& parallelFor);

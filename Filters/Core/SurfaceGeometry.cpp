@@ -36,6 +36,17 @@ glm::dmat3 symmetric(const std::array<Coefficient, 6>& second, int component)
     entry(5) };
 }
 
+/// To world space, of a function with that Hessian in reference space.
+glm::dmat3 pulled(glm::dmat3 hessian, const std::array<Coefficient, 6>& second, const LocalMap& map,
+  const WorldVector& gradient)
+{
+  for (int i = 0; i < 3; ++i)
+  {
+    hessian -= gradient.xyz[i] * symmetric(second, i);
+  }
+  return glm::transpose(map.inverse) * hessian * map.inverse;
+}
+
 } // namespace
 
 FieldPoint fieldPoint(const Jet& jet, double isovalue)
@@ -57,12 +68,35 @@ bool isNearInReference(const FieldPoint& point)
 
 glm::dmat3 worldHessian(const Jet& jet, const FieldPoint& point)
 {
-  glm::dmat3 inner = symmetric(jet.second, 3);
-  for (int i = 0; i < 3; ++i)
+  return pulled(symmetric(jet.second, 3), jet.second, point.map, point.gradient);
+}
+
+glm::dmat3 worldHessianOfLinear(
+  const std::array<Coefficient, 6>& second, const LocalMap& map, const WorldVector& gradient)
+{
+  return pulled(glm::dmat3(0.0), second, map, gradient);
+}
+
+WorldVector bendOfCrossing(const LevelSet& a, const LevelSet& b)
+{
+  constexpr double parallel = 1e-6;
+  const double lengthA = length(a.gradient);
+  const double lengthB = length(b.gradient);
+  const glm::dvec3 normalA = a.gradient.xyz / lengthA;
+  const glm::dvec3 normalB = b.gradient.xyz / lengthB;
+  const glm::dvec3 along = glm::cross(normalA, normalB);
+  const double sine = glm::length(along);
+  if (!(sine > parallel))
   {
-    inner -= point.gradient.xyz[i] * symmetric(jet.second, i);
+    return {};
   }
-  return glm::transpose(point.map.inverse) * inner * point.map.inverse;
+  // Along the curve both functions stay what they are, to second order.
+  const glm::dvec3 tangent = along / sine;
+  const double bendA = -glm::dot(tangent, a.hessian * tangent) / lengthA;
+  const double bendB = -glm::dot(tangent, b.hessian * tangent) / lengthB;
+  const double cosine = glm::dot(normalA, normalB);
+  return { ((bendA - cosine * bendB) * normalA + (bendB - cosine * bendA) * normalB) /
+    (sine * sine) };
 }
 
 Curvature curvature(const WorldVector& gradient, const glm::dmat3& hessian)

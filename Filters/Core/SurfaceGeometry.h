@@ -53,6 +53,23 @@ bool isNearInReference(const FieldPoint& point);
 /// form follows from differentiating F*(u) = F(x(u)) twice.
 glm::dmat3 worldHessian(const Jet& jet, const FieldPoint& point);
 
+/// The same of a function that is linear in reference space, as a face's distance is.
+/// \param second Jet::second; that of the field does not matter
+/// \param gradient of the function in world space
+glm::dmat3 worldHessianOfLinear(
+  const std::array<Coefficient, 6>& second, const LocalMap& map, const WorldVector& gradient);
+
+/// A function of world space near a place.
+struct LevelSet
+{
+  WorldVector gradient;
+  glm::dmat3 hessian{ 0.0 };
+};
+
+/// How the curve in which two level sets cross bends: its second derivative by arc length, 1/r on a circle of
+/// radius r, towards the middle. Zero where they touch.
+WorldVector bendOfCrossing(const LevelSet& a, const LevelSet& b);
+
 /// G = P F_xx P / |F_x| with P = I - n n^T (Kindlmann et al. 2003): trace, Frobenius norm and the
 /// principal curvatures without an eigenvalue problem.
 Curvature curvature(const WorldVector& gradient, const glm::dmat3& hessian);

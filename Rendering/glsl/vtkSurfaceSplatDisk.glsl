@@ -10,7 +10,7 @@ uniform samplerBuffer splatCentreRadius; // xyz: centre (MC), w: radius, 0 = dra
 // xyz: outward unit normal (MC), w: 1 if translucent, else 0, and twice the number of the sheet more
 uniform samplerBuffer splatNormal;
 // 3 texels a particle: xyz: unit normal of a plane (MC), w: distance; the same of another; xy: overlaps, see
-// splatOverlaps()
+// splatOverlaps(); zw: curvatures (1 / MC) of the edges, along the surface, towards the planes' normals
 uniform samplerBuffer splatClip;
 uniform int splatHasClip;        // 0: there are no such planes
 uniform float splatRadiusScale;
@@ -56,16 +56,20 @@ SplatDisk splatDiskOf(int particle)
   return disk;
 }
 
-// Where a particle's clip plane crosses its disk: of the disk coordinates (u, v), those with
-// x u + y v > z are cut off.
-vec3 splatClipLine(int particle, int plane, SplatDisk disk)
+// Where the edge that touches a particle's clip plane crosses its disk: of the disk coordinates (u, v), those
+// with x u + y v > z + w (x v - y u)^2 are cut off.
+vec4 splatClipLine(int particle, int plane, SplatDisk disk)
 {
   if (splatHasClip == 0)
   {
-    return vec3(0.0);
+    return vec4(0.0);
   }
   vec4 clip = texelFetch(splatClip, 3 * particle + plane);
-  return vec3(dot(clip.xyz, disk.tangentMC), dot(clip.xyz, disk.bitangentMC), clip.w);
+  vec4 both = texelFetch(splatClip, 3 * particle + 2);
+  vec2 direction = vec2(dot(clip.xyz, disk.tangentMC), dot(clip.xyz, disk.bitangentMC));
+  float square = max(dot(direction, direction), 1e-30);
+  float bend = 0.5 * both[2 + plane] * dot(disk.tangentMC, disk.tangentMC) / square;
+  return vec4(direction, clip.w, bend);
 }
 
 // How many radii beyond its clip planes a particle fills gaps that others leave.

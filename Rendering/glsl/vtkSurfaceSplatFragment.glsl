@@ -28,7 +28,7 @@ in vec2 splatDiskCoord;
 in vec3 splatOffsetVC;
 in float splatDepthVC;
 #endif
-flat in vec3 splatClipLines[2];
+flat in vec4 splatClipLines[2];
 flat in vec2 splatBeyondClip;
 float splatShare = 1.0; // of the splat's weight that counts
 in vec3 splatPointMC; // of the disk
@@ -119,10 +119,12 @@ bool splatMeetRay()
 #endif
 
 #if SPLAT_HAS_CLIP
+//Splat::Edge::Dec
+
 // How far a place lies behind one of the particle's clip planes.
 float splatBehindClip(int plane)
 {
-  float behind = dot(splatClipLines[plane].xy, splatDiskCoord) - splatClipLines[plane].z;
+  float behind = splatBehindLine(splatClipLines[plane], splatDiskCoord);
 #if SPLAT_CURVED
   behind -= splatBelowDisk * splatClipDepths[plane];
 #endif

@@ -37,7 +37,7 @@ out vec2 splatDiskCoord; // inside the unit circle = inside the splat
 out vec3 splatOffsetVC;  // from the centre of the disk
 out float splatDepthVC;  // z
 #endif
-flat out vec3 splatClipLines[2]; // see splatClipLine()
+flat out vec4 splatClipLines[2]; // see splatClipLine()
 flat out vec2 splatBeyondClip;   // how far beyond them the splat fills gaps (MC)
 out vec3 splatPointMC;           // for clipping planes
 flat out vec3 splatNormalVC;     // outward, unit if flat

@@ -9,7 +9,7 @@
 uniform mat3 normalMatrix;
 
 out vec2 splatDiskCoord;          // inside the unit circle = inside the disk
-flat out vec3 splatClipLines[2];  // see splatClipLine()
+flat out vec4 splatClipLines[2];  // see splatClipLine()
 flat out vec3 splatNormalVC;      // normal of the side that is seen
 flat out int splatParticle;
 flat out float splatSeenFromSide; // 1: from outward (the normal points at the eye), -1: from inward
@@ -45,8 +45,8 @@ void main()
       splatDiskCoord.y * disk.bitangentMC, 1.0);
   // Disks are not mixed: they go on over planes where the surface is almost smooth, and end at others.
   vec2 overlaps = splatOverlaps(splatParticle);
-  splatClipLines[0] = overlaps.x > 1.0 ? vec3(0.0) : splatClipLine(splatParticle, 0, disk);
-  splatClipLines[1] = overlaps.y > 1.0 ? vec3(0.0) : splatClipLine(splatParticle, 1, disk);
+  splatClipLines[0] = overlaps.x > 1.0 ? vec4(0.0) : splatClipLine(splatParticle, 0, disk);
+  splatClipLines[1] = overlaps.y > 1.0 ? vec4(0.0) : splatClipLine(splatParticle, 1, disk);
   splatSeenFromSide = disk.seenFrom;
   splatNormalVC = disk.seenFrom * (normalMatrix * disk.normalMC);
 

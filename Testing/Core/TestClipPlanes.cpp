@@ -63,6 +63,7 @@ TEST(ClipPlanes, AreAtKinksWhereAParticleBehindCoversWhatIsCutOff)
       ++atRidge;
       EXPECT_NEAR(std::abs(p.clips[0].normal.xyz.x), 1.0, 1e-9);
       EXPECT_NEAR(p.clips[0].distance, std::abs(p.position.xyz.x), 1e-9);
+      EXPECT_NEAR(p.clips[0].bend, 0.0, 1e-9);
       EXPECT_NEAR(p.clips[0].turn, 2.0 * std::atan(0.5), 1e-6);
       EXPECT_EQ(p.jump, 0.0);
     }
@@ -189,6 +190,112 @@ TEST(ClipPlanes, AreNotWhereTheSurfaceGoesOnBehindAnEdge)
   }
   EXPECT_GT(near, 30);
   EXPECT_GT(rims, 10); // as one element says
+}
+
+/// Elements between two cylinders of radius r and r + 1.
+void appendRing(ElementMesh& mesh, double r, const Field& field)
+{
+  constexpr int sectors = 8;
+  for (int s = 0; s < sectors; ++s)
+  {
+    MeshRecipe recipe;
+    recipe.degrees = { 6, 6, 1 };
+    recipe.map = [=](const glm::dvec3& x)
+    {
+      const double angle = (s + x.y) * 2.0 * Pi / sectors;
+      return glm::dvec3(x.x * std::cos(angle), x.x * std::sin(angle), x.z);
+    };
+    recipe.field = field;
+    appendBox(mesh, recipe, { r, 0, -3 }, { r + 1, 1, 3 });
+  }
+}
+
+/// A ring cut by a plane: the rims are circles, or, where the plane is inclined, ellipses.
+Distribution distributeInRing(double slope)
+{
+  ElementMesh mesh;
+  appendRing(mesh, 1.0, [=](const glm::dvec3& x) { return x.z - slope * x.x; });
+  findFaceNeighbors(mesh, 1e-9);
+  DistributionParameters parameters;
+  parameters.law = { spacing, 0.0 };
+  return distributeFast({ &mesh, 0.0, 1e-9 }, parameters, {}, {});
+}
+
+TEST(ClipPlanes, OfBentRimsTouchThemWhereTheyAreNearest)
+{
+  int inner = 0;
+  int outer = 0;
+  for (const Particle& p : distributeInRing(0.0).particles)
+  {
+    const double r = glm::length(glm::dvec2(p.position.xyz));
+    const glm::dvec3 outward = (r < 1.5 ? -1.0 : 1.0) / r * p.position.xyz;
+    const double toRim = std::min(r - 1.0, 2.0 - r);
+    if (toRim < spacing)
+    {
+      inner += r < 1.5;
+      outer += r > 1.5;
+      const ClipPlane& plane = p.clips[0];
+      ASSERT_EQ(plane.turn, Pi);
+      EXPECT_NEAR(plane.bend, r < 1.5 ? 1.0 : -0.5, 1e-3);
+      EXPECT_LT(glm::distance(plane.normal.xyz, outward), 0.03 * spacing);
+      EXPECT_NEAR(plane.distance, toRim, 0.002 * spacing);
+    }
+  }
+  EXPECT_GT(inner, 200);
+  EXPECT_GT(outer, 400);
+}
+
+/// Between two particles on a rim it is where both say.
+TEST(ClipPlanes, OfBentRimsFollowThemOnInclinedSurfaces)
+{
+  constexpr double slope = 1.0;
+  int onRim = 0;
+  for (const Particle& p : distributeInRing(slope).particles)
+  {
+    const double r = glm::length(glm::dvec2(p.position.xyz));
+    if (std::abs(r - 1.0) < 1e-3 * spacing)
+    {
+      ++onRim;
+      const ClipPlane& plane = p.clips[0];
+      const glm::dvec3 along = glm::cross(p.normal.xyz, plane.normal.xyz);
+      for (const double s : { -0.5 * spacing, 0.5 * spacing })
+      {
+        const glm::dvec3 x =
+          p.position.xyz + s * along + 0.5 * plane.bend * s * s * plane.normal.xyz;
+        EXPECT_NEAR(glm::length(glm::dvec2(x)), 1.0, 0.005 * spacing);
+        EXPECT_NEAR(x.z, slope * x.x, 1e-6);
+      }
+    }
+  }
+  EXPECT_GT(onRim, 130);
+}
+
+/// Two rings with a plane in the inner one, a bowl around it in the outer one: the kink is a circle.
+TEST(ClipPlanes, OfBentKinksTouchThemWhereTheyAreNearest)
+{
+  ElementMesh mesh;
+  appendRing(mesh, 1.0, [](const glm::dvec3& x) { return x.z; });
+  appendRing(
+    mesh, 2.0, [](const glm::dvec3& x) { return x.z - 0.3 * (x.x * x.x + x.y * x.y - 4.0); });
+  findFaceNeighbors(mesh, 1e-9);
+  DistributionParameters parameters;
+  parameters.law = { spacing, 0.0 };
+  int beside = 0;
+  for (const Particle& p : distributeFast({ &mesh, 0.0, 1e-9 }, parameters, {}, {}).particles)
+  {
+    const double r = glm::length(glm::dvec2(p.position.xyz));
+    const ClipPlane& plane = p.clips[0];
+    const glm::dvec3 outward(p.position.xyz.x / r, p.position.xyz.y / r, 0.0);
+    const double radial = glm::dot(plane.normal.xyz, outward);
+    if (std::abs(r - 2.0) < 0.5 * spacing && std::abs(radial) > 0.5)
+    {
+      ++beside;
+      EXPECT_NEAR(radial, r < 2.0 ? 1.0 : -1.0, 1e-6);
+      EXPECT_NEAR(plane.distance, std::abs(r - 2.0), 1e-4 * spacing);
+      EXPECT_NEAR(plane.bend, r < 2.0 ? -0.5 : 0.5, 0.01);
+    }
+  }
+  EXPECT_GT(beside, 200);
 }
 
 /// A pyramid, z = height - slope r in the middles of its sides: as many wedges around an axis.

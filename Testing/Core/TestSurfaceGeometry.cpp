@@ -117,6 +117,47 @@ TEST_P(UnderABend, GradientAndHessianOfAQuadraticAreExact)
   }
 }
 
+/// Against differences of the gradient over a small step either way.
+TEST_P(UnderABend, TheHessianOfAFaceIsTheDerivativeOfItsGradient)
+{
+  constexpr double step = 1e-4;
+  const ElementMesh mesh = bentElement(
+    this->domain(), 4, [](const glm::dvec3& x) { return x.x; }, this->leftHanded());
+  Random random(2);
+  for (const Face& face : facts(this->domain()).faces)
+  {
+    const auto gradientAt = [&](const ReferencePoint& u)
+    { return glm::transpose(evaluateAt(mesh, u).point.map.inverse) * face.inward.xyz; };
+    const ReferencePoint u = randomPoint(this->domain(), random);
+    const Jet jet = evaluateHessian(mesh.form(0), u);
+    const LocalMap map = fieldPoint(jet, 0.0).map;
+    const glm::dmat3 hessian = worldHessianOfLinear(jet.second, map, { gradientAt(u) });
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const ReferenceVector du = step * ReferenceVector{ map.inverse[axis] };
+      const glm::dvec3 difference = gradientAt(u + du) - gradientAt(u + (-1.0) * du);
+      EXPECT_LE(glm::distance(hessian[axis], difference / (2.0 * step)), 1e-6);
+    }
+  }
+}
+
+TEST(SurfaceGeometry, CrossingsOfSpheresAndPlanesBendAsCirclesDo)
+{
+  // Of radius 2 around the origin, cut by planes through (1, 0.5, z) whatever their slopes and lengths.
+  const glm::dvec3 x(1.0, 0.5, std::sqrt(4.0 - 1.25));
+  const LevelSet sphere{ { 2.0 * x }, glm::dmat3(2.0) };
+  for (const glm::dvec3& normal :
+    { glm::dvec3(0, 0, 1), glm::dvec3(0, 0, -3), glm::dvec3(1, 2, 0.5) })
+  {
+    const glm::dvec3 middle = glm::dot(x, normal) / glm::dot(normal, normal) * normal;
+    const glm::dvec3 inward = middle - x;
+    const glm::dvec3 expected = inward / glm::dot(inward, inward);
+    const WorldVector bend = bendOfCrossing(sphere, { { normal }, glm::dmat3(0.0) });
+    EXPECT_LE(glm::distance(bend.xyz, expected), 1e-12);
+  }
+  EXPECT_EQ(length(bendOfCrossing(sphere, sphere)), 0.0);
+}
+
 TEST_P(UnderABend, SpheresHaveTheirCurvature)
 {
   const glm::dvec3 center(0.2, -0.1, 0.3);

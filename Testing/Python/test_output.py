@@ -24,6 +24,7 @@ OWN_ARRAYS = {
     "Clip_Normal": ("vtkDoubleArray", 6),
     "Clip_Distance": ("vtkDoubleArray", 2),
     "Clip_Angle": ("vtkDoubleArray", 2),
+    "Clip_Curvature": ("vtkDoubleArray", 2),
     "Jump": ("vtkDoubleArray", 1),
     "Isovalue": ("vtkDoubleArray", 1),
     "vtkOriginalCellIds": ("vtkIdTypeArray", 1),

@@ -37,7 +37,7 @@ glm::dvec3 PlaceOf(int x, int y)
 
 // Of the pixels that a whole splat would draw, those are left for which `isKept` holds.
 void ExpectCut(const std::vector<double>& normals, const std::vector<double>& distances,
-  const std::function<bool(glm::dvec3)>& isKept)
+  const std::function<bool(glm::dvec3)>& isKept, const std::vector<double>& curvatures = {})
 {
   for (int mode : { vtkSurfaceSplatMapper::Splats, vtkSurfaceSplatMapper::Disks })
   {
@@ -51,6 +51,10 @@ void ExpectCut(const std::vector<double>& normals, const std::vector<double>& di
     ASSERT_GT(whole.size(), 10000u);
     AddArray(particle, "Clip_Normal", static_cast<int>(normals.size()), normals);
     AddArray(particle, "Clip_Distance", static_cast<int>(distances.size()), distances);
+    if (!curvatures.empty())
+    {
+      AddArray(particle, "Clip_Curvature", static_cast<int>(curvatures.size()), curvatures);
+    }
     scene.Render();
     for (const glm::ivec2& pixel : whole)
     {
@@ -72,6 +76,26 @@ TEST(SplatClip, ASplatCanBeCutByTwoPlanes)
 {
   ExpectCut({ 1., 0., 0., 0., -1., 0. }, { 0.2, 0.1 },
     [](glm::dvec3 p) { return p.x < 0.2 && p.y > -0.1; });
+}
+
+TEST(SplatClip, EdgesMayBeCurved)
+{
+  ExpectCut({ 0.6, 0.8, 0. }, { 0.1 },
+    [](glm::dvec3 p)
+    {
+      const double along = 0.8 * p.x - 0.6 * p.y;
+      return 0.6 * p.x + 0.8 * p.y < 0.1 + 0.5 * 1.2 * along * along;
+    },
+    { 1.2 });
+  ExpectCut({ 1., 0., 0., 0., -1., 0. }, { 0.2, 0.1 },
+    [](glm::dvec3 p) { return p.x < 0.2 + 0.3 * p.y * p.y && -p.y < 0.1 - 0.45 * p.x * p.x; },
+    { 0.6, -0.9 });
+}
+
+TEST(SplatClip, CurvaturesThatAreNoNumbersAreThoseOfLines)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  ExpectCut({ 1., 0., 0. }, { 0.2 }, [](glm::dvec3 p) { return p.x < 0.2; }, { nan });
 }
 
 TEST(SplatClip, PlanesWithoutDirectionOrNumberCutNothing)
