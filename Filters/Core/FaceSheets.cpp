@@ -1,5 +1,6 @@
 #include "FaceSheets.h"
 
+#include "Bisection.h"
 #include "FaceLocator.h"
 #include "KeepMarked.h"
 

@@ -2,6 +2,7 @@
 
 #include "AnalyticFields.h"
 #include "ClassicDistribution.h"
+#include "CriticalPoint.h"
 #include "ElementCases.h"
 #include "NodalBasis.h"
 #include "SurfaceSeeds.h"
