@@ -21,12 +21,6 @@ struct ActiveFaces
   void add(int f) { this->face[this->count++] = f; }
 };
 
-/// Half-space value of a face at u: how far inside of it.
-inline double faceMargin(const Face& face, const ReferencePoint& u)
-{
-  return glm::dot(face.inward.xyz, u.xyz) + face.offset;
-}
-
 /// The reference vector along the active faces whose world image is nearest to v.
 ReferenceVector pullAlong(
   Domain domain, const ActiveFaces& active, const LocalMap& map, const WorldVector& v);

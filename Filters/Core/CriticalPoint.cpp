@@ -4,16 +4,6 @@
 
 namespace hop
 {
-namespace
-{
-
-glm::dmat3 symmetric(const std::array<Coefficient, 6>& second)
-{
-  return { second[0].w, second[1].w, second[2].w, second[1].w, second[3].w, second[4].w,
-    second[2].w, second[4].w, second[5].w };
-}
-
-} // namespace
 
 bool findCriticalPoint(
   const ElementMesh& mesh, double isovalue, const SurfaceBox& box, CriticalPoint& result)
@@ -27,13 +17,12 @@ bool findCriticalPoint(
   for (int step = 0; step < maximumSteps; ++step)
   {
     const Jet jet = evaluateHessian(form, { u });
-    const glm::dvec3 gradient(jet.first[0].w, jet.first[1].w, jet.first[2].w);
-    const glm::dmat3 hessian = symmetric(jet.second);
+    const glm::dmat3 hessian = hessianOf(jet.second);
     if (glm::determinant(hessian) == 0.0)
     {
       return false;
     }
-    const glm::dvec3 du = -glm::inverse(hessian) * gradient;
+    const glm::dvec3 du = -glm::inverse(hessian) * gradientOf(jet);
     u += du;
     if (!(glm::distance(u, box.middle.u.xyz) <= searchRadii * box.referenceRadius))
     {

@@ -57,6 +57,11 @@ struct ElementMesh
       e.rational ? this->weights.data() + e.firstCoefficient : nullptr };
   }
 
+  const Face& face(int element, int face) const
+  {
+    return facts(this->elements[element].domain).faces[face];
+  }
+
   const FaceNeighbor& neighbor(int element, int face) const
   {
     return this->neighbors[faceSlot(element, face)];

@@ -123,8 +123,7 @@ Range Piece::cornerRange() const
   Range range{ infinity, -infinity };
   for (const int place : this->kind->cornerPlaces)
   {
-    range.lower = std::min(range.lower, this->coefficients[place].w);
-    range.upper = std::max(range.upper, this->coefficients[place].w);
+    range.include(this->coefficients[place].w);
   }
   return range;
 }
@@ -166,8 +165,7 @@ bool Piece::isOnRim() const
     [&](const Face& face)
     {
       return std::count_if(this->corners.begin(), this->corners.end(),
-               [&](const glm::dvec3& u)
-               { return glm::dot(face.inward.xyz, u) + face.offset < rounding; }) >= 3;
+               [&](const glm::dvec3& u) { return faceMargin(face, { u }) < rounding; }) >= 3;
     });
 }
 

@@ -75,8 +75,7 @@ std::optional<SheetPair> PieceTests::sheetPairIn(const Piece& piece) const
 
 double PieceTests::slackOf(const Range& range) const
 {
-  return RoundingShare *
-    (std::max(std::abs(range.lower), std::abs(range.upper)) + std::abs(this->Isovalue));
+  return RoundingShare * (range.magnitude() + std::abs(this->Isovalue));
 }
 
 } // namespace hop
