@@ -185,11 +185,6 @@ void join(ElementMesh& mesh, const FaceReference& a, const FaceReference& b,
 
 } // namespace
 
-void findFaceNeighbors(ElementMesh& mesh, double tolerance, const ParallelFor& parallelFor)
-{
-  findFaceNeighbors(mesh, std::vector<double>(mesh.elements.size(), tolerance), parallelFor);
-}
-
 void findFaceNeighbors(
   ElementMesh& mesh, const std::vector<double>& tolerances, const ParallelFor& parallelFor)
 {
