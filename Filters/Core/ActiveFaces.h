@@ -8,6 +8,13 @@ namespace hop
 /// Half-space values below this count as 'on the face' (reference coordinates are of order one).
 constexpr double OnFace = 1e-11;
 
+/// Whether a place lies on a face of its element.
+inline bool isOnFace(
+  const ElementMesh& mesh, const Location& location, int face, double accuracy = OnFace)
+{
+  return faceMargin(mesh.face(location.element, face), location.u) < accuracy;
+}
+
 /// Faces that hold a point back, at most two: with three it cannot move.
 struct ActiveFaces
 {
