@@ -8,6 +8,13 @@ namespace hop
 /// Half-space values below this count as 'on the face' (reference coordinates are of order one).
 constexpr double OnFace = 1e-11;
 
+/// Whether a place lies on a face of its element.
+inline bool isOnFace(
+  const ElementMesh& mesh, const Location& location, int face, double accuracy = OnFace)
+{
+  return faceMargin(mesh.face(location.element, face), location.u) < accuracy;
+}
+
 /// Faces that hold a point back, at most two: with three it cannot move.
 struct ActiveFaces
 {
@@ -20,12 +27,6 @@ struct ActiveFaces
   }
   void add(int f) { this->face[this->count++] = f; }
 };
-
-/// Half-space value of a face at u: how far inside of it.
-inline double faceMargin(const Face& face, const ReferencePoint& u)
-{
-  return glm::dot(face.inward.xyz, u.xyz) + face.offset;
-}
 
 /// The reference vector along the active faces whose world image is nearest to v.
 ReferenceVector pullAlong(

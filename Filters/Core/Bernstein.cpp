@@ -2,8 +2,6 @@
 
 #include "KernelAccess.h"
 
-#include <algorithm>
-
 namespace hop
 {
 namespace
@@ -104,9 +102,7 @@ Range fieldRange(const BernsteinForm& form)
   Range range{ controlPoint(form, 0).w, controlPoint(form, 0).w };
   for (int i = 1; i < count; ++i)
   {
-    const double f = controlPoint(form, i).w;
-    range.lower = std::min(range.lower, f);
-    range.upper = std::max(range.upper, f);
+    range.include(controlPoint(form, i).w);
   }
   return range;
 }

@@ -4,6 +4,9 @@
 
 #include <glm/vec4.hpp>
 
+#include <algorithm>
+#include <cmath>
+
 namespace hop
 {
 
@@ -19,6 +22,21 @@ struct Jet
   /// uu, uv, uw, vv, vw, ww
   std::array<Coefficient, 6> second{};
 };
+
+/// First derivatives of f.
+inline glm::dvec3 gradientOf(const Jet& jet)
+{
+  return { jet.first[0].w, jet.first[1].w, jet.first[2].w };
+}
+
+/// Second derivatives of f, or of another one of (x, y, z, f), as a matrix.
+/// \param second of a Jet
+inline glm::dmat3 hessianOf(const std::array<Coefficient, 6>& second, int component = 3)
+{
+  const auto entry = [&](int i) { return second[i][component]; };
+  return { entry(0), entry(1), entry(2), entry(1), entry(3), entry(4), entry(2), entry(4),
+    entry(5) };
+}
 
 /// A non-owning view of an element in Bernstein form. Where `weights` is given the element is
 /// rational: its coefficients are homogeneous, w (x, y, z, f), and what it stands for is
@@ -49,14 +67,23 @@ Jet evaluateHessian(const BernsteinForm& form, const ReferencePoint& u);
 /// \param basis room for coefficientCount(domain, degrees) values; they sum to one.
 void evaluateBasis(Domain domain, const Degrees& degrees, const ReferencePoint& u, double* basis);
 
-/// Smallest and largest value that the convex hull property allows f on the element, rational ones
-/// included: their weights are positive.
+/// Of values.
 struct Range
 {
   double lower = 0.0;
   double upper = 0.0;
+
+  void include(double value)
+  {
+    this->lower = std::min(this->lower, value);
+    this->upper = std::max(this->upper, value);
+  }
+  /// The largest absolute value.
+  double magnitude() const { return std::max(std::abs(this->lower), std::abs(this->upper)); }
 };
 
+/// Smallest and largest value that the convex hull property allows f on the element, rational ones
+/// included: their weights are positive.
 Range fieldRange(const BernsteinForm& form);
 
 } // namespace hop

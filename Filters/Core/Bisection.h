@@ -55,6 +55,9 @@ void LatticeLines::bisect(std::vector<Value>& coefficients, std::vector<Value>& 
   }
 }
 
+/// Halving adds rounding errors of the order of eps times the values themselves.
+constexpr double RoundingShare = 1e-14;
+
 /// Bisects once along a direction; see LatticeLines for many times.
 template <class Value>
 void bisect(Domain domain, const Degrees& degrees, const LatticePoint& direction,

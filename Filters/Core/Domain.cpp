@@ -192,12 +192,32 @@ LatticePoint cornerLatticePoint(Domain domain, const Degrees& degrees, int corne
     static_cast<int>(u.z) * degrees[2] };
 }
 
+ReferencePoint middleOf(const DomainFacts& domain)
+{
+  glm::dvec3 sum(0.0);
+  for (const ReferencePoint& corner : domain.corners)
+  {
+    sum += corner.xyz;
+  }
+  return { sum / static_cast<double>(domain.corners.size()) };
+}
+
+ReferencePoint middleOf(const DomainFacts& domain, const Face& face)
+{
+  ReferencePoint middle;
+  for (int c = 0; c < face.cornerCount; ++c)
+  {
+    middle.xyz += domain.corners[face.corners[c]].xyz / static_cast<double>(face.cornerCount);
+  }
+  return middle;
+}
+
 double insideMargin(Domain domain, const ReferencePoint& u)
 {
   double margin = std::numeric_limits<double>::infinity();
   for (const Face& face : facts(domain).faces)
   {
-    margin = std::min(margin, glm::dot(face.inward.xyz, u.xyz) + face.offset);
+    margin = std::min(margin, faceMargin(face, u));
   }
   return margin;
 }
@@ -207,8 +227,7 @@ ReferencePoint broughtInside(Domain domain, ReferencePoint u)
   for (const Face& face : facts(domain).faces)
   {
     const glm::dvec3& inward = face.inward.xyz;
-    const double margin = glm::dot(inward, u.xyz) + face.offset;
-    u.xyz -= std::min(0.0, margin) / glm::dot(inward, inward) * inward;
+    u.xyz -= std::min(0.0, faceMargin(face, u)) / glm::dot(inward, inward) * inward;
   }
   return u;
 }

@@ -93,6 +93,16 @@ ReferencePoint latticePosition(const Degrees& degrees, const LatticePoint& point
 /// The lattice point of a corner of the domain.
 LatticePoint cornerLatticePoint(Domain domain, const Degrees& degrees, int corner);
 
+/// The mean of a domain's corners, and that of a face's.
+ReferencePoint middleOf(const DomainFacts& domain);
+ReferencePoint middleOf(const DomainFacts& domain, const Face& face);
+
+/// Half-space value of a face at u: how far inside of it.
+inline double faceMargin(const Face& face, const ReferencePoint& u)
+{
+  return glm::dot(face.inward.xyz, u.xyz) + face.offset;
+}
+
 /// How far inside the domain u lies: the smallest half-space value; negative outside.
 double insideMargin(Domain domain, const ReferencePoint& u);
 

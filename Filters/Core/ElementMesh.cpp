@@ -55,11 +55,6 @@ int collapsedCorner(const Element& element, const Face& face)
   return -1;
 }
 
-const Face& faceOf(const ElementMesh& mesh, int element, int face)
-{
-  return facts(mesh.elements[element].domain).faces[face];
-}
-
 /// Weights of a face's corners at a point of the face: bilinear on quadrilaterals, barycentric on
 /// triangles. On a collapsed quadrilateral they add up to barycentric ones.
 std::array<double, 4> cornerWeights(
@@ -104,7 +99,7 @@ glm::dvec3 faceMiddle(const ElementMesh& mesh, const FaceReference& reference)
   const Face& face = domain.faces[reference.face];
   const Element& element = mesh.elements[reference.element];
   const int apex = collapsedCorner(element, face);
-  ReferencePoint middle;
+  ReferencePoint middle = middleOf(domain, face);
   if (apex >= 0)
   {
     std::array<double, MaximumCorners> thirds{};
@@ -114,10 +109,6 @@ glm::dvec3 faceMiddle(const ElementMesh& mesh, const FaceReference& reference)
     }
     middle = pointOnCollapsed(domain, face, apex, thirds);
   }
-  for (int c = 0; apex < 0 && c < face.cornerCount; ++c)
-  {
-    middle.xyz += domain.corners[face.corners[c]].xyz / static_cast<double>(face.cornerCount);
-  }
   return glm::dvec3(evaluateGradient(form, middle).value);
 }
 
@@ -125,8 +116,8 @@ FaceNeighbor joinTo(const ElementMesh& mesh, const FaceReference& from, const Fa
 {
   const Element& element = mesh.elements[from.element];
   const Element& other = mesh.elements[to.element];
-  const Face& face = faceOf(mesh, from.element, from.face);
-  const Face& otherFace = faceOf(mesh, to.element, to.face);
+  const Face& face = mesh.face(from.element, from.face);
+  const Face& otherFace = mesh.face(to.element, to.face);
   FaceNeighbor neighbor;
   neighbor.element = to.element;
   neighbor.face = static_cast<std::uint8_t>(to.face);
@@ -193,11 +184,6 @@ void join(ElementMesh& mesh, const FaceReference& a, const FaceReference& b,
 }
 
 } // namespace
-
-void findFaceNeighbors(ElementMesh& mesh, double tolerance, const ParallelFor& parallelFor)
-{
-  findFaceNeighbors(mesh, std::vector<double>(mesh.elements.size(), tolerance), parallelFor);
-}
 
 void findFaceNeighbors(
   ElementMesh& mesh, const std::vector<double>& tolerances, const ParallelFor& parallelFor)

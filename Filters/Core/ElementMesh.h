@@ -57,6 +57,11 @@ struct ElementMesh
       e.rational ? this->weights.data() + e.firstCoefficient : nullptr };
   }
 
+  const Face& face(int element, int face) const
+  {
+    return facts(this->elements[element].domain).faces[face];
+  }
+
   const FaceNeighbor& neighbor(int element, int face) const
   {
     return this->neighbors[faceSlot(element, face)];
@@ -75,11 +80,10 @@ struct Location
 double meshExtent(const ElementMesh& mesh);
 
 /// Fills mesh.neighbors: two faces are joined when their corners carry the same numbers and their
-/// middles coincide within `tolerance` (world units; two curved faces may share all corners and
-/// still be different). A quadrilateral of which two corners coincide joins triangles. Where three
+/// middles coincide within a tolerance (two curved faces may share all corners and still be
+/// different). A quadrilateral of which two corners coincide joins triangles. Where three
 /// or more elements claim one face, none is joined, nor are two faces of one element.
-/// \param tolerances instead: one an element; of two the smaller one counts
-void findFaceNeighbors(ElementMesh& mesh, double tolerance, const ParallelFor& parallelFor = {});
+/// \param tolerances one an element, world units; of two the smaller one counts
 void findFaceNeighbors(
   ElementMesh& mesh, const std::vector<double>& tolerances, const ParallelFor& parallelFor = {});
 

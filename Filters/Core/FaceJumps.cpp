@@ -147,7 +147,7 @@ std::optional<JumpFinder::Finding> JumpFinder::look(
   const FaceCrossing& crossing, double spacing, Walkers& walkers) const
 {
   const int element = crossing.location.element;
-  const Face& face = facts(this->Mesh.elements[element].domain).faces[crossing.face];
+  const Face& face = this->Mesh.face(element, crossing.face);
   Evaluated here = walkers.along.evaluate(crossing.location);
   const bool isNear =
     std::abs(here.point.value) <= nearSurface * spacing * length(here.point.gradient);

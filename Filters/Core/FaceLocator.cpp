@@ -41,25 +41,15 @@ FaceHull hullOf(
       first = false;
     }
     hull.bounds.include(point);
-    hull.range = { std::min(hull.range.lower, c.w), std::max(hull.range.upper, c.w) };
+    hull.range.include(c.w);
   }
   return hull;
 }
 
 bool straddles(const Range& range, double isovalue)
 {
-  const double slack = rounding * std::max(std::abs(range.lower), std::abs(range.upper));
+  const double slack = rounding * range.magnitude();
   return range.lower - slack <= isovalue && isovalue <= range.upper + slack;
-}
-
-ReferencePoint middleOf(const DomainFacts& domain, const Face& face)
-{
-  ReferencePoint middle;
-  for (int c = 0; c < face.cornerCount; ++c)
-  {
-    middle.xyz += domain.corners[face.corners[c]].xyz / static_cast<double>(face.cornerCount);
-  }
-  return middle;
 }
 
 LocalMap mapAt(const BernsteinForm& form, const ReferencePoint& u)

@@ -1,5 +1,6 @@
 #include "FaceSheets.h"
 
+#include "Bisection.h"
 #include "FaceLocator.h"
 #include "KeepMarked.h"
 
@@ -122,8 +123,7 @@ private:
     const auto& faces = this->Facts.faces;
     for (int f = 0; f < static_cast<int>(faces.size()); ++f)
     {
-      const auto margin = [&](const glm::dvec3& u)
-      { return glm::dot(faces[f].inward.xyz, u) + faces[f].offset; };
+      const auto margin = [&](const glm::dvec3& u) { return faceMargin(faces[f], { u }); };
       if (hasArea(element, faces[f]) &&
         std::all_of(side.corners.begin(), side.corners.begin() + side.cornerCount,
           [&](int c) { return margin(glm::dvec3(box.corners[c])) < cornerRounding; }))
@@ -148,8 +148,7 @@ private:
     const ElementMesh& mesh = *this->Surface.mesh;
     const BernsteinForm form = mesh.form(place->location.element);
     const Jet jet = evaluateGradient(form, place->location.u);
-    const glm::dvec3 slopes(jet.first[0].w, jet.first[1].w, jet.first[2].w);
-    const double rise = glm::dot(slopes, facts(form.domain).faces[place->face].inward.xyz);
+    const double rise = glm::dot(gradientOf(jet), facts(form.domain).faces[place->face].inward.xyz);
     const double value = std::abs(jet.value.w - this->Surface.isovalue);
     const double slack = RoundingShare * largestValue(form, this->Surface.isovalue);
     return value > std::max(slack, sameSheet * std::abs(rise)) ? 0 : (rise > 0.0) - (rise < 0.0);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "SurfaceBoxes.h"
+#include "SurfaceBox.h"
 
 namespace hop
 {

@@ -25,17 +25,6 @@ constexpr double liesInFace = 1e-6;
 /// What rounding leaves between a face and places on it that were located.
 constexpr double locatedOnFace = 1e-6;
 
-const Face& faceOf(const ElementMesh& mesh, const Location& location, int face)
-{
-  return facts(mesh.elements[location.element].domain).faces[face];
-}
-
-/// Whether a place lies on a face of its element, to that accuracy in reference coordinates.
-bool isOnFace(const ElementMesh& mesh, const Location& location, int face, double accuracy)
-{
-  return faceMargin(faceOf(mesh, location, face), location.u) < accuracy;
-}
-
 double distanceToSegment(const glm::dvec3& x, const glm::dvec3& a, const glm::dvec3& b)
 {
   const glm::dvec3 d = b - a;
@@ -115,10 +104,8 @@ bool RimChords::cross(int element, int face, const std::array<glm::dvec3, 2>& en
 /// if none.
 int RimTracer::wallOf(const Location& location, int preferred) const
 {
-  const auto onWall = [&](int f)
-  {
-    return this->Surface.mayEnd(location.element, f) &&
-      isOnFace(*this->Surface.mesh, location, f, OnFace);
+  const auto onWall = [&](int f) {
+    return this->Surface.mayEnd(location.element, f) && isOnFace(*this->Surface.mesh, location, f);
   };
   if (preferred >= 0 && onWall(preferred))
   {
@@ -150,7 +137,7 @@ bool RimTracer::goesOnAt(const FaceCrossing& crossing, double nearest)
 std::optional<RimPoint> RimTracer::project(const Location& start, int face, double maximumTravel)
 {
   // Newton's method in all directions would leave the edge of an element, where a corner of the rim may be.
-  if (face >= 0 && isOnFace(*this->Surface.mesh, start, face, OnFace))
+  if (face >= 0 && isOnFace(*this->Surface.mesh, start, face))
   {
     const int other = this->otherFaceAt(start, face, OnFace);
     const auto corner =
@@ -210,7 +197,7 @@ WorldVector RimTracer::tangent(const RimPoint& point) const
 {
   const LocalMap& map = point.at.point.map;
   const glm::dvec3 inward = glm::transpose(map.inverse) *
-    faceOf(*this->Surface.mesh, point.at.location, point.face).inward.xyz;
+    this->Surface.mesh->face(point.at.location.element, point.face).inward.xyz;
   const glm::dvec3 along = glm::cross(-point.at.point.gradient.xyz, inward);
   const double size = glm::length(along);
   const double full = length(point.at.point.gradient) * glm::length(inward);
@@ -234,8 +221,8 @@ std::optional<Evaluated> RimTracer::projectAlongEdge(
   ActiveFaces edge;
   edge.add(faceA);
   edge.add(faceB);
-  const glm::dvec3 direction =
-    glm::cross(faceOf(mesh, start, faceA).inward.xyz, faceOf(mesh, start, faceB).inward.xyz);
+  const glm::dvec3 direction = glm::cross(
+    mesh.face(start.element, faceA).inward.xyz, mesh.face(start.element, faceB).inward.xyz);
   Evaluated at = this->Walker.evaluate(start);
   double travel = 0.0;
   for (int n = 0; n < SurfaceWalker::MaximumNewtonSteps; ++n)
@@ -266,7 +253,7 @@ std::optional<Evaluated> RimTracer::projectAlongEdge(
 std::vector<std::int64_t> RimTracer::cornersOf(const Location& location, int face) const
 {
   const ElementMesh& mesh = *this->Surface.mesh;
-  const Face& which = faceOf(mesh, location, face);
+  const Face& which = mesh.face(location.element, face);
   std::vector<std::int64_t> numbers;
   for (int c = 0; c < which.cornerCount; ++c)
   {
@@ -310,7 +297,7 @@ int RimTracer::otherFaceAt(const Location& location, int one, double accuracy) c
 
 Location RimTracer::ontoFace(const Location& location, int face) const
 {
-  const Face& which = faceOf(*this->Surface.mesh, location, face);
+  const Face& which = this->Surface.mesh->face(location.element, face);
   const glm::dvec3& inward = which.inward.xyz;
   return { location.element,
     { location.u.xyz - faceMargin(which, location.u) / glm::dot(inward, inward) * inward } };

@@ -86,7 +86,7 @@ bool SampleComparison::meet(
   }
   const glm::dvec3 normal(here.normal);
   const glm::dvec3 other = normalAt(there->patch, onTangentPlane(there->patch, here.position));
-  const Face& face = facts(this->Mesh.elements[element].domain).faces[crossing.face];
+  const Face& face = this->Mesh.face(element, crossing.face);
   const glm::dvec3 across =
     glm::normalize(glm::transpose(glm::dmat3(sample.anchor.pull)) * face.inward.xyz);
   // The distance of the sides is that along their normal; along the face it is larger.

@@ -11,23 +11,6 @@ namespace
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-void widen(Range& range, double value)
-{
-  range.lower = std::min(range.lower, value);
-  range.upper = std::max(range.upper, value);
-}
-
-glm::dvec3 gradientOf(const Jet& jet)
-{
-  return { jet.first[0].w, jet.first[1].w, jet.first[2].w };
-}
-
-glm::dmat3 hessianOf(const Jet& jet)
-{
-  const auto& s = jet.second;
-  return { s[0].w, s[1].w, s[2].w, s[1].w, s[3].w, s[4].w, s[2].w, s[4].w, s[5].w };
-}
-
 /// The eigenvector of a symmetric matrix whose eigenvalue is largest, of either sign, by squaring; if there are
 /// two that large, something between theirs.
 glm::dvec3 dominantDirection(glm::dmat3 matrix)
@@ -71,7 +54,7 @@ public:
   {
     const Jet jet = evaluateHessian(this->Form, { u });
     return { jet.value.w, glm::dot(gradientOf(jet), this->Direction),
-      glm::dot(this->Direction, hessianOf(jet) * this->Direction) };
+      glm::dot(this->Direction, hessianOf(jet.second) * this->Direction) };
   }
 
   /// A line through a place, and where the field stands still on it.
@@ -160,8 +143,8 @@ std::optional<SheetPair::Sheet> sheetFrom(const BernsteinForm& form, const glm::
     const double distance = lines[c].distance - side * lines[c].reach;
     const double fromPlane = glm::dot(gradient, corners[c].xyz - place) / rise;
     error = std::max(error, std::abs(distance - fromPlane));
-    widen(heights, glm::dot(direction, corners[c].xyz));
-    widen(distances, distance);
+    heights.include(glm::dot(direction, corners[c].xyz));
+    distances.include(distance);
     const bool isAtSheet = std::abs(distance) < atSheet * lines[c].reach;
     sheet.values[c] = isAtSheet ? lines[c].valueHere : rise * distance;
   }
@@ -183,12 +166,9 @@ std::optional<SheetPair> findSheetPair(
   constexpr double steady = 0.5;
   const BernsteinForm field{ form.domain, form.degrees, form.coefficients, nullptr };
   const auto& corners = facts(form.domain).corners;
-  glm::dvec3 middle(0.0);
-  for (const ReferencePoint& corner : corners)
-  {
-    middle += corner.xyz / static_cast<double>(corners.size());
-  }
-  const glm::dvec3 direction = dominantDirection(hessianOf(evaluateHessian(field, { middle })));
+  const glm::dvec3 middle = middleOf(facts(form.domain)).xyz;
+  const glm::dvec3 direction =
+    dominantDirection(hessianOf(evaluateHessian(field, { middle }).second));
   const FieldOnLines along(field, direction);
   SheetPair pair;
   pair.outside = along.at(middle).bend > 0.0 ? 1.0 : -1.0;

@@ -11,12 +11,6 @@ namespace hop
 namespace
 {
 
-bool isOnFace(const ElementMesh& mesh, const Location& location, int face)
-{
-  const Domain domain = mesh.elements[location.element].domain;
-  return faceMargin(facts(domain).faces[face], location.u) < OnFace;
-}
-
 /// Cosine of the largest turn at a face at which the field jumps: particles on sheets that turn more do
 /// not keep each other off.
 constexpr double sameSheet = 0.5;
@@ -24,7 +18,7 @@ constexpr double sameSheet = 0.5;
 /// How fast the field changes along a face.
 double slopeAlong(const ElementMesh& mesh, const Evaluated& at, int face)
 {
-  const Face& which = facts(mesh.elements[at.location.element].domain).faces[face];
+  const Face& which = mesh.face(at.location.element, face);
   const WorldVector inward{ glm::transpose(at.point.map.inverse) * which.inward.xyz };
   const WorldVector& gradient = at.point.gradient;
   return length(gradient - (dot(gradient, inward) / dot(inward, inward)) * inward);

@@ -13,34 +13,6 @@ constexpr double levelShare = 1e-3;
 /// Places that far outside the domain say what happens in it.
 constexpr double reach = 0.25;
 
-double largestValue(const BernsteinForm& form)
-{
-  const Range range = fieldRange(form);
-  return std::max(std::abs(range.lower), std::abs(range.upper));
-}
-
-ReferencePoint middleOf(Domain domain)
-{
-  glm::dvec3 sum(0.0);
-  for (const ReferencePoint& corner : facts(domain).corners)
-  {
-    sum += corner.xyz;
-  }
-  return { sum / static_cast<double>(facts(domain).corners.size()) };
-}
-
-glm::dvec3 times(const std::array<Coefficient, 6>& second, const glm::dvec3& v)
-{
-  return { second[0].w * v.x + second[1].w * v.y + second[2].w * v.z,
-    second[1].w * v.x + second[3].w * v.y + second[4].w * v.z,
-    second[2].w * v.x + second[4].w * v.y + second[5].w * v.z };
-}
-
-glm::dvec3 gradientOf(const Jet& jet)
-{
-  return { jet.first[0].w, jet.first[1].w, jet.first[2].w };
-}
-
 /// Whether the field and its gradient are zero at a corner: there the way along the gradient may lead out.
 bool touchesAtCorner(const BernsteinForm& form, double largest)
 {
@@ -60,13 +32,13 @@ Approach approachToZero(const BernsteinForm& form, double sign)
 {
   // Enough for roots of order six, towards which a step goes a fifth of the way.
   constexpr int mostSteps = 12;
-  const double largest = largestValue(form);
+  const double largest = fieldRange(form).magnitude();
   const double least = touchingShare * largest;
   if (touchesAtCorner(form, largest))
   {
     return Approach::Touches;
   }
-  ReferencePoint u = middleOf(form.domain);
+  ReferencePoint u = middleOf(facts(form.domain));
   for (int step = 0; step < mostSteps && insideMargin(form.domain, u) >= -reach; ++step)
   {
     const Jet jet = evaluateHessian(form, u);
@@ -76,7 +48,7 @@ Approach approachToZero(const BernsteinForm& form, double sign)
       return value < -least ? Approach::Crosses : Approach::Touches;
     }
     const glm::dvec3 gradient = gradientOf(jet);
-    const double bend = sign * glm::dot(gradient, times(jet.second, gradient));
+    const double bend = sign * glm::dot(gradient, hessianOf(jet.second) * gradient);
     if (!(bend > 0.0))
     {
       return Approach::Misses;

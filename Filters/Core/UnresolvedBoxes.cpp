@@ -1,5 +1,7 @@
 #include "UnresolvedBoxes.h"
 
+#include "CriticalPoint.h"
+
 #include <algorithm>
 
 namespace hop

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "Particles.h"
-#include "SurfaceBoxes.h"
+#include "SurfaceBox.h"
 
 namespace hop
 {

@@ -2,6 +2,7 @@
 
 #include "AnalyticFields.h"
 #include "ClassicDistribution.h"
+#include "CriticalPoint.h"
 #include "ElementCases.h"
 #include "NodalBasis.h"
 #include "SurfaceSeeds.h"
@@ -84,7 +85,7 @@ TEST(Isolation, TheFieldRisesAlongItsMeanGradientInCertifiedBoxes)
       const auto gradientAt = [&](const glm::dvec3& t)
       {
         const Jet jet = evaluateGradient(form, { box.middle.u.xyz + (2.0 * t - 1.0) * half });
-        return half * glm::dvec3(jet.first[0].w, jet.first[1].w, jet.first[2].w);
+        return half * gradientOf(jet);
       };
       // The mean of a polynomial is the mean of its Bernstein coefficients.
       std::vector<glm::dvec3> nodal, coefficients(lattice.size());

@@ -15,8 +15,7 @@ namespace
 /// The field's gradient in reference space.
 glm::dvec3 gradientAt(const BernsteinForm& form, const ReferencePoint& u)
 {
-  const Jet jet = evaluateGradient(form, u);
-  return { jet.first[0].w, jet.first[1].w, jet.first[2].w };
+  return gradientOf(evaluateGradient(form, u));
 }
 
 std::vector<double> fieldOf(const std::vector<Coefficient>& coefficients)

@@ -3,6 +3,7 @@
 #include "ElementCases.h"
 #include "NodalBasis.h"
 #include "SurfaceSeeds.h"
+#include "TestMeshes.h"
 
 #include <gtest/gtest.h>
 

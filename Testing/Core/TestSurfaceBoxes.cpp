@@ -2,6 +2,7 @@
 
 #include "AnalyticFields.h"
 #include "ElementCases.h"
+#include "ElementSplitter.h"
 #include "Energy.h"
 #include "SurfaceSeeds.h"
 #include "SurfaceWalker.h"

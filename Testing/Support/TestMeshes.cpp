@@ -119,6 +119,11 @@ ElementMesh makeMesh(const MeshRecipe& recipe)
   return mesh;
 }
 
+void findFaceNeighbors(ElementMesh& mesh, double tolerance)
+{
+  hop::findFaceNeighbors(mesh, std::vector<double>(mesh.elements.size(), tolerance));
+}
+
 void appendBox(
   ElementMesh& mesh, const MeshRecipe& recipe, const glm::dvec3& lower, const glm::dvec3& upper)
 {

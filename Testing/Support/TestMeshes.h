@@ -26,6 +26,9 @@ struct MeshRecipe
 /// The mesh with its face neighbours found.
 ElementMesh makeMesh(const MeshRecipe& recipe);
 
+/// As of ElementMesh.h, with one tolerance for all elements.
+void findFaceNeighbors(ElementMesh& mesh, double tolerance);
+
 /// One element of the given corners (in the order of facts(domain).corners), straight-sided before
 /// `map` bends it.
 void appendElement(ElementMesh& mesh, const MeshRecipe& recipe,
