@@ -81,9 +81,12 @@ struct vtkSurfaceSplatMapper::Internals
   vtkSurfaceSplatLayer* DrawnLayer = nullptr;
   int DrawnTiles = 0;
   int DrawnKind = 2;
+  int HiddenSide = 0;
   bool Translucent = false;
   ColorSource Source = ColorSource::Property;
   bool OpacityIsInColors = false; // the property's has no part in it then
+  bool ScalarColors = false;      // for both sides
+  bool HasBackface = false;       // the shaders know of a backface property
   bool CannotSplat = false;       // the driver has no floating-point targets
 
   std::vector<vtkIdType> PointIds; // of the particles on the GPU, to colour them
@@ -317,17 +320,46 @@ bool vtkSurfaceSplatMapper::HasOpaqueGeometry()
 
 bool vtkSurfaceSplatMapper::HasTranslucentPolygonalGeometry()
 {
-  vtkDataArray* cellColors = this->GetCellColors(this->GetInput());
   return this->Superclass::HasTranslucentPolygonalGeometry() ||
-    (cellColors && cellColors->GetRange(3)[0] < 1.);
+    this->HasTranslucentCells(this->GetInput());
+}
+
+bool vtkSurfaceSplatMapper::HasTranslucentCells(vtkPolyData* input)
+{
+  vtkDataArray* cellColors = this->GetCellColors(input);
+  return cellColors && cellColors->GetRange(3)[0] < 1.;
+}
+
+bool vtkSurfaceSplatMapper::IsDrawnTwice(vtkRenderer* renderer, vtkActor* actor)
+{
+  return actor->HasOpaqueGeometry() && actor->HasTranslucentPolygonalGeometry() &&
+    !renderer->GetSelector(); // which has one pass for everything
 }
 
 int vtkSurfaceSplatMapper::GetDrawnKind(vtkRenderer* renderer, vtkActor* actor)
 {
   constexpr int all = 2;
-  const bool bothPasses = actor->HasOpaqueGeometry() && actor->HasTranslucentPolygonalGeometry() &&
-    !renderer->GetSelector(); // which has one pass for everything
-  return bothPasses ? actor->IsRenderingTranslucentPolygonalGeometry() : all;
+  return this->HasTranslucentCells(this->CurrentInput) && this->IsDrawnTwice(renderer, actor)
+    ? actor->IsRenderingTranslucentPolygonalGeometry()
+    : all;
+}
+
+// 1: what is seen from outward is not drawn in this pass; -1: from inward; 0: both are.
+int vtkSurfaceSplatMapper::GetHiddenSide(vtkRenderer* renderer, vtkActor* actor)
+{
+  vtkProperty* property = actor->GetProperty();
+  if (property->GetBackfaceCulling() || property->GetFrontfaceCulling())
+  {
+    return property->GetBackfaceCulling() ? -1 : 1;
+  }
+  vtkProperty* backface = actor->GetBackfaceProperty();
+  if (!backface || this->HasTranslucentCells(this->CurrentInput) ||
+    !this->IsDrawnTwice(renderer, actor))
+  {
+    return 0;
+  }
+  const bool translucentPass = actor->IsRenderingTranslucentPolygonalGeometry() != 0;
+  return translucentPass == (backface->GetOpacity() < 1.) ? 1 : -1;
 }
 
 //------------------------------------------------------------------------------
@@ -346,8 +378,10 @@ void vtkSurfaceSplatMapper::UploadColors(vtkRenderer* renderer, vtkActor* actor)
   Internals& internal = *this->Internal;
   const ColorSource sourceBefore = internal.Source;
   const bool opacityBefore = internal.OpacityIsInColors;
+  const bool scalarsBefore = internal.ScalarColors;
   internal.Source = ColorSource::Property;
   internal.OpacityIsInColors = cellColors != nullptr;
+  internal.ScalarColors = colors || this->ColorCoordinates;
   if (this->ColorCoordinates)
   {
     this->UploadLookupCoordinates(renderer);
@@ -369,7 +403,8 @@ void vtkSurfaceSplatMapper::UploadColors(vtkRenderer* renderer, vtkActor* actor)
         vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()), rgba);
     }
   }
-  if (internal.Source != sourceBefore || internal.OpacityIsInColors != opacityBefore)
+  if (internal.Source != sourceBefore || internal.OpacityIsInColors != opacityBefore ||
+    internal.ScalarColors != scalarsBefore)
   {
     this->ForgetShaders();
   }
@@ -448,6 +483,13 @@ void vtkSurfaceSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* act
     return; // there are no framebuffers without pixels
   }
   internal.DrawnKind = this->GetDrawnKind(renderer, actor);
+  internal.HiddenSide = this->GetHiddenSide(renderer, actor);
+  const bool hasBackface = actor->GetBackfaceProperty() != nullptr;
+  if (hasBackface != internal.HasBackface)
+  {
+    internal.HasBackface = hasBackface;
+    this->ForgetShaders();
+  }
   internal.Buffers.Activate();
   if (!this->DrawsSplats() || !this->DrawSplats(renderer, actor))
   {
@@ -509,7 +551,6 @@ void vtkSurfaceSplatMapper::DescribeDrawing(
   vtkRenderer* renderer, vtkActor* actor, vtkSurfaceSplatDrawing& drawing)
 {
   const ColorSource source = this->Internal->Source;
-  vtkProperty* property = actor->GetProperty();
   drawing.Window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   drawing.Buffers = &this->Internal->Buffers;
   drawing.View = &this->Internal->View;
@@ -518,8 +559,7 @@ void vtkSurfaceSplatMapper::DescribeDrawing(
   drawing.Stride = this->Stride;
   drawing.Kind = this->Internal->DrawnKind;
   drawing.FacesViewer = !this->CurrentInput->GetPointData()->GetNormals();
-  drawing.HiddenSide =
-    property->GetBackfaceCulling() ? -1 : (property->GetFrontfaceCulling() ? 1 : 0);
+  drawing.HiddenSide = this->Internal->HiddenSide;
   drawing.Colors = source == ColorSource::Colors || source == ColorSource::Lookup;
   drawing.Strongest = source == ColorSource::Strongest || renderer->GetSelector() != nullptr;
   drawing.NumberOfClippingPlanes = this->GetShiftedClippingPlanes(actor, drawing.ClippingPlanes);
@@ -593,6 +633,11 @@ void vtkSurfaceSplatMapper::DrawPrimitives(vtkRenderer* renderer, vtkActor* acto
   if (primitives.Program)
   {
     primitives.VAO->Bind(); // see DrawResolved()
+    // Sides are those of normals, which the vertex stage knows; mirrored triangles turn theirs.
+    vtkOpenGLState* state =
+      vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow())->GetState();
+    vtkOpenGLState::ScopedglEnableDisable cullFace(state, GL_CULL_FACE);
+    state->vtkglDisable(GL_CULL_FACE);
     const vtkIdType count =
       (this->Internal->Buffers.GetNumberOfParticles() + this->Stride - 1) / this->Stride;
     const bool points = this->Mode == Points;
@@ -651,14 +696,24 @@ void vtkSurfaceSplatMapper::ReplaceShaderColor(
 {
   vtkShader* fragment = shaders[vtkShader::Fragment];
   const ColorSource source = this->Internal->Source;
+  const bool hasBackface = this->Internal->HasBackface;
+  const bool sidesDiffer =
+    hasBackface && !this->Internal->ScalarColors && !this->ColorByNormalDirection;
   const std::string mixColors =
-    std::string("  ambientColor = ambientIntensity * splatRgba.rgb;\n"
-                "  diffuseColor = diffuseIntensity * splatRgba.rgb;\n") +
-    (this->Internal->OpacityIsInColors ? "  opacity = splatRgba.a;\n"
-                                       : "  opacity = opacityUniform * splatRgba.a;\n");
+    std::string(sidesDiffer ? "  if (splatSeenFromSide > 0.0) {\n" : "  {\n") +
+    "  ambientColor = ambientIntensity * splatRgba.rgb;\n"
+    "  diffuseColor = diffuseIntensity * splatRgba.rgb;\n" +
+    (this->Internal->OpacityIsInColors ? "  opacity = splatRgba.a; }\n"
+                                       : "  opacity = opacityUniform * splatRgba.a; }\n");
   if (this->DrawsSplats())
   {
     InsertAfter(fragment, "//VTK::Color::Impl", "  opacity *= splat.coverage;\n");
+  }
+  if (hasBackface)
+  {
+    InsertBefore(fragment, "//VTK::Color::Dec", "uniform vec2 splatOpacities; // outward, inward");
+    InsertAfter(fragment, "//VTK::Color::Impl",
+      "  opacity *= splatSeenFromSide > 0.0 ? splatOpacities.x : splatOpacities.y;\n");
   }
   if (this->ColorByNormalDirection)
   {
@@ -682,6 +737,9 @@ void vtkSurfaceSplatMapper::ReplaceShaderColor(
       "  vec4 splatRgba = texelFetch(splatColor, splatParticle);\n" + mixColors);
   }
   this->Superclass::ReplaceShaderColor(shaders, renderer, actor);
+  // By this the base class chooses between the two properties. Triangles and points that splats are drawn by
+  // have sides of their own.
+  Replace(fragment, "gl_FrontFacing", sidesDiffer ? "(splatSeenFromSide > 0.0)" : "true");
 }
 
 //------------------------------------------------------------------------------
@@ -886,6 +944,7 @@ void vtkSurfaceSplatMapper::SetMapperShaderParameters(
   program->SetUniformi("splatStride", this->Stride);
   program->SetUniformi("splatKind", this->Internal->DrawnKind);
   program->SetUniformi("splatSheet", -1);
+  program->SetUniformf("splatHiddenSide", static_cast<float>(this->Internal->HiddenSide));
   program->SetUniformi(
     "splatFacesViewer", this->CurrentInput->GetPointData()->GetNormals() ? 0 : 1);
   if (this->ColorByNormalDirection)
@@ -898,6 +957,31 @@ void vtkSurfaceSplatMapper::SetMapperShaderParameters(
     float planes[6][4] = {};
     this->GetShiftedClippingPlanes(actor, planes);
     program->SetUniform4fv("clipPlanes", 6, planes);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatMapper::SetPropertyShaderParameters(
+  vtkOpenGLHelper& cellBO, vtkRenderer* renderer, vtkActor* actor)
+{
+  this->Superclass::SetPropertyShaderParameters(cellBO, renderer, actor);
+  vtkProperty* backface = actor->GetBackfaceProperty();
+  if (!backface)
+  {
+    return;
+  }
+  // The base class would leave out the backface property's opacity where there are scalars.
+  const Internals& internal = *this->Internal;
+  const bool counted = internal.OpacityIsInColors && !this->ColorByNormalDirection;
+  const double outward = counted ? 1. : actor->GetProperty()->GetOpacity();
+  const float opacities[2] = { static_cast<float>(outward),
+    static_cast<float>(backface->GetOpacity()) };
+  vtkShaderProgram* program = cellBO.Program;
+  program->SetUniform2f("splatOpacities", opacities);
+  program->SetUniformf("opacityUniform", 1.f);
+  if (program->IsUniformUsed("opacityUniformBF"))
+  {
+    program->SetUniformf("opacityUniformBF", 1.f);
   }
 }
 

@@ -43,7 +43,11 @@
  * warning.
  *
  * Both sides of the surface are visible; backface culling of the vtkProperty leaves the outward one,
- * to which the normals point.
+ * to which the normals point. A backface property of the vtkActor is that of the inward side, as it is of the
+ * back faces of polygons: where scalars give the colours, or ColorByNormalDirection does, both sides have
+ * them, and of the backface property only the opacity counts (for polygons not even that). Colours of
+ * single particles (CellColorArrayName) are seen from outward then. With a vtkSurfaceSplatActor one side may be
+ * opaque and the other translucent.
  *
  * Cell arrays colour the particles of polydata with vertex cells only. Representation, edges and line
  * width of the vtkProperty and textures have no effect. At most 6 clipping planes.
@@ -201,6 +205,8 @@ protected:
   void ReplaceShaderPositionVC(ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor) override;
   void ReplaceShaderPicking(ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor) override;
   void ReplaceShaderValues(ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor) override;
+  void SetPropertyShaderParameters(
+    vtkOpenGLHelper& cellBO, vtkRenderer* renderer, vtkActor* actor) override;
   void SetMapperShaderParameters(
     vtkOpenGLHelper& cellBO, vtkRenderer* renderer, vtkActor* actor) override;
   void SetCameraShaderParameters(
@@ -232,8 +238,11 @@ private:
   void UploadParticles(vtkRenderer* renderer, vtkPolyData* input);
   void UploadColors(vtkRenderer* renderer, vtkActor* actor);
   vtkDataArray* GetCellColors(vtkPolyData* input);
+  bool HasTranslucentCells(vtkPolyData* input);
   std::vector<unsigned char> MappedColors(vtkUnsignedCharArray* colors, int source);
+  bool IsDrawnTwice(vtkRenderer* renderer, vtkActor* actor);
   int GetDrawnKind(vtkRenderer* renderer, vtkActor* actor);
+  int GetHiddenSide(vtkRenderer* renderer, vtkActor* actor);
   void UploadLookupCoordinates(vtkRenderer* renderer);
 
   bool DrawsSplats() const;

@@ -6,6 +6,6 @@ For pvpython, and for a Python that imports the same VTK as the ParaView that th
 """
 
 from .vtkHighOrderParticleFilters import vtkHighOrderParticleIsosurface
-from .vtkHighOrderParticleRendering import vtkSurfaceSplatMapper
+from .vtkHighOrderParticleRendering import vtkSurfaceSplatActor, vtkSurfaceSplatMapper
 
-__all__ = ["vtkHighOrderParticleIsosurface", "vtkSurfaceSplatMapper"]
+__all__ = ["vtkHighOrderParticleIsosurface", "vtkSurfaceSplatActor", "vtkSurfaceSplatMapper"]

@@ -1,6 +1,5 @@
 #include "vtkSurfaceSplatRepresentation.h"
 
-#include "vtkActor.h"
 #include "vtkAlgorithm.h"
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
@@ -12,6 +11,7 @@
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
 #include "vtkScalarsToColors.h"
+#include "vtkSurfaceSplatActor.h"
 #include "vtkSurfaceSplatInput.h"
 #include "vtkSurfaceSplatMapper.h"
 #include "vtkTransform.h"
@@ -100,6 +100,7 @@ void vtkSurfaceSplatRepresentation::PrepareMapper(vtkInformation* inInfo)
   this->Mapper->SetStride(lod ? static_cast<int>(1 + count / InteractiveParticles) : 1);
   this->Mapper->SetInputDataObject(particles);
   this->UpdateColoring();
+  this->UpdateBackface();
 }
 
 //------------------------------------------------------------------------------
@@ -127,7 +128,9 @@ bool vtkSurfaceSplatRepresentation::IsTranslucent()
   vtkScalarsToColors* table = this->Mapper->GetLookupTable();
   const bool blocks = std::any_of(this->Blocks.Opacities.begin(), this->Blocks.Opacities.end(),
     [](const auto& block) { return block.second < 1.; });
+  vtkProperty* backface = this->Actor->GetBackfaceProperty();
   return blocks || this->Actor->GetProperty()->GetOpacity() < 1. ||
+    (backface && backface->GetOpacity() < 1.) ||
     (this->Mapper->GetScalarVisibility() && table && !table->IsOpaque());
 }
 
@@ -162,6 +165,18 @@ void vtkSurfaceSplatRepresentation::UpdateColoring()
     default:
       this->Mapper->SetScalarMode(VTK_SCALAR_MODE_USE_POINT_FIELD_DATA);
   }
+}
+
+//------------------------------------------------------------------------------
+// All that the sides have in common.
+void vtkSurfaceSplatRepresentation::UpdateBackface()
+{
+  vtkProperty* property = this->Actor->GetProperty();
+  this->Backface->SetAmbient(property->GetAmbient());
+  this->Backface->SetDiffuse(property->GetDiffuse());
+  this->Backface->SetSpecular(property->GetSpecular());
+  this->Backface->SetSpecularColor(property->GetSpecularColor());
+  this->Backface->SetSpecularPower(property->GetSpecularPower());
 }
 
 //------------------------------------------------------------------------------
@@ -325,10 +340,27 @@ void vtkSurfaceSplatRepresentation::SetMapScalars(int map)
 
 void vtkSurfaceSplatRepresentation::SetBackfaceRepresentation(int sides)
 {
-  constexpr int onlyOutward = 401; // the values of ParaView's surface representation
+  constexpr int followFrontface = 400; // the values of ParaView's surface representation
+  constexpr int onlyOutward = 401;
   constexpr int onlyInward = 402;
   this->Actor->GetProperty()->SetBackfaceCulling(sides == onlyOutward);
   this->Actor->GetProperty()->SetFrontfaceCulling(sides == onlyInward);
+  this->Actor->SetBackfaceProperty(sides < followFrontface ? this->Backface.Get() : nullptr);
+}
+
+void vtkSurfaceSplatRepresentation::SetBackfaceAmbientColor(double r, double g, double b)
+{
+  this->Backface->SetAmbientColor(r, g, b);
+}
+
+void vtkSurfaceSplatRepresentation::SetBackfaceDiffuseColor(double r, double g, double b)
+{
+  this->Backface->SetDiffuseColor(r, g, b);
+}
+
+void vtkSurfaceSplatRepresentation::SetBackfaceOpacity(double value)
+{
+  this->Backface->SetOpacity(value);
 }
 
 //------------------------------------------------------------------------------
@@ -469,6 +501,11 @@ void vtkSurfaceSplatRepresentation::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ColorMode: " << this->Mapper->GetColorModeAsString() << "\n";
   os << indent << "BackfaceCulling: " << property->GetBackfaceCulling() << "\n";
   os << indent << "FrontfaceCulling: " << property->GetFrontfaceCulling() << "\n";
+  os << indent << "BackfaceProperty: " << (this->Actor->GetBackfaceProperty() ? "On" : "Off")
+     << "\n";
+  print("BackfaceAmbientColor", this->Backface->GetAmbientColor(), 3);
+  print("BackfaceDiffuseColor", this->Backface->GetDiffuseColor(), 3);
+  os << indent << "BackfaceOpacity: " << this->Backface->GetOpacity() << "\n";
   os << indent << "Ambient: " << property->GetAmbient() << "\n";
   print("AmbientColor", property->GetAmbientColor(), 3);
   os << indent << "Diffuse: " << property->GetDiffuse() << "\n";

@@ -18,9 +18,10 @@
 #include "vtkSmartPointer.h"      // for vtkSmartPointer
 #include "vtkSurfaceSplatInput.h" // for vtkSurfaceSplatInput::Blocks
 
-class vtkActor;
 class vtkPolyData;
+class vtkProperty;
 class vtkScalarsToColors;
+class vtkSurfaceSplatActor;
 class vtkSurfaceSplatMapper;
 
 class VTKHIGHORDERPARTICLEREPRESENTATION_EXPORT vtkSurfaceSplatRepresentation
@@ -79,8 +80,21 @@ public:
    */
   void SetBlockColorsDistinctValues(int count);
 
-  /** 400: both sides; 401: only the outward one; 402: only the inward one. */
+  /**
+   * 400: both sides alike; 401: only the outward one; 402: only the inward one; less: the inward side has the
+   * colours and the opacity below. Default: 400.
+   */
   void SetBackfaceRepresentation(int sides);
+
+  ///@{
+  /**
+   * Of the inward side, as vtkProperty's. Where an array gives the colours, both sides have them. By
+   * default white and opaque.
+   */
+  void SetBackfaceAmbientColor(double r, double g, double b);
+  void SetBackfaceDiffuseColor(double r, double g, double b);
+  void SetBackfaceOpacity(double value);
+  ///@}
 
   ///@{
   /** Forwarded to vtkProperty. PointSize: 2 by default. */
@@ -125,10 +139,12 @@ private:
   void PrepareMapper(vtkInformation* inInfo);
   void ProvideParticles(vtkInformation* inInfo, vtkInformation* outInfo);
   void UpdateColoring();
+  void UpdateBackface();
   bool IsTranslucent();
 
   vtkNew<vtkSurfaceSplatMapper> Mapper;
-  vtkNew<vtkActor> Actor;
+  vtkNew<vtkSurfaceSplatActor> Actor;
+  vtkNew<vtkProperty> Backface;
   vtkSurfaceSplatInput::Blocks Blocks;
   vtkSmartPointer<vtkPolyData> Particles;       // of this process; empty where it has no data
   vtkSmartPointer<vtkPolyData> ArraysToColorBy; // the same as far as users care

@@ -153,6 +153,81 @@ def test_one_side_can_be_culled(view, picture):
     assert np.all(np.argmax(pixels, axis=1) == 0), "the far side from within, red"
 
 
+@pytest.fixture
+def nested():
+    """Half a sphere that shows its inside to the camera, and a smaller sphere behind it that shows its outside."""
+    half = simple.Sphere(Center=(0, -0.5, 0), EndTheta=180, ThetaResolution=60, PhiResolution=60)
+    whole = simple.Sphere(Center=(0, 1, 0), Radius=0.4, ThetaResolution=60, PhiResolution=60)
+    both = simple.AppendGeometry(Input=[half, whole])
+    radii = simple.Calculator(Input=both, Function="0.035", ResultArrayName="Radius")
+    return simple.GroupDatasets(Input=[radii])
+
+
+STYLE = {"BackfaceRepresentation": "Surface"}
+
+
+@pytest.mark.parametrize("settings, color", [
+    ({}, (255, 255, 0)),
+    (STYLE, (0, 0, 255)),
+    ({**STYLE, "BackfaceOpacity": 0.4}, (153, 153, 102)),
+    ({**STYLE, "Opacity": 0.4}, (0, 0, 255)),
+    ({**STYLE, "BlockColors": ["/", "1", "0", "1"]}, (0, 0, 255)),
+    ({**STYLE, "BlockOpacities": ["/", "0.5"]}, (0, 0, 255)),
+    ({**STYLE, "BackfaceOpacity": 0.4, "BlockColors": ["/", "1", "0", "1"]}, (153, 0, 255)),
+    ({**STYLE, "Ambient": 0.0, "Diffuse": 0.8}, None),
+    ({**STYLE, "Ambient": 0.2, "Specular": 0.5, "SpecularPower": 10.0}, None),
+], ids=str)
+def test_the_inward_side_looks_as_back_faces_of_polygons_do(view, picture, nested, settings, color):
+    compare_with_polygons(nested, view, picture, settings, color, array="")
+
+
+@pytest.mark.parametrize("settings, color", [
+    (STYLE, (255, 0, 0)),
+    ({**STYLE, "BackfaceOpacity": 0.4}, (102, 0, 153)),
+    ({**STYLE, "BackfaceOpacity": 0.0}, (0, 0, 255)),
+], ids=str)
+def test_both_sides_have_the_colours_of_an_array(view, picture, nested, settings, color):
+    """Red on the half sphere, blue behind it."""
+    distance = simple.Calculator(Input=nested, Function="coordsY", ResultArrayName="distance")
+    table = simple.GetColorTransferFunction("distance")
+    table.RGBPoints = [-0.5, 1, 0, 0, 0.2, 1, 0, 0, 0.3, 0, 0, 1, 1, 0, 0, 1]
+    table.ColorSpace = "RGB"
+    compare_with_polygons(distance, view, picture, settings, color, array="distance")
+
+
+@pytest.mark.parametrize("name", ["Points", "Wireframe", "Surface", "Surface With Edges"])
+def test_any_representation_of_back_faces_means_the_surface(view, picture, nested, name):
+    display = show(nested, view)
+    display.Ambient, display.Diffuse = 1.0, 0.0
+    display.BackfaceAmbientColor = [0, 0, 1]
+    display.BackfaceRepresentation = name
+    assert tuple(picture()[SIZE // 2, SIZE // 2]) == (0, 0, 255)
+    display.BackfaceRepresentation = "Follow Frontface"
+    display.AmbientColor = [1, 0, 0]
+    assert tuple(picture()[SIZE // 2, SIZE // 2]) == (255, 0, 0)
+
+
+def compare_with_polygons(source, view, picture, settings, color, array):
+    """Both show `color` in the middle, or, without one, the same."""
+    seen = []
+    for representation in ("Surface", "Surface Splats"):
+        display = show(source, view)
+        display.SetRepresentationType(representation)
+        display.ColorArrayName = ["POINTS", array]
+        if array:
+            display.LookupTable = simple.GetColorTransferFunction(array)
+        display.Ambient, display.Diffuse = 1.0, 0.0
+        display.AmbientColor = display.DiffuseColor = [1, 1, 0]
+        display.BackfaceAmbientColor = display.BackfaceDiffuseColor = [0, 0, 1]
+        for name, value in settings.items():
+            setattr(display, name, value)
+        seen.append(picture()[SIZE // 2, SIZE // 2])
+    polygons, splats = seen
+    assert np.abs(splats - polygons).max() <= 3, f"polygons {polygons}, splats {splats}"
+    if color:
+        assert np.abs(splats - color).max() <= 2, f"splats {splats}"
+
+
 @pytest.fixture(params=["vtkMultiBlockDataSet", "vtkPartitionedDataSetCollection"])
 def two_blocks(request):
     """Two spheres side by side, and the selectors of the left and the right one."""
