@@ -2,6 +2,7 @@
 
 #include "ActiveFaces.h"
 #include "Energy.h"
+#include "KeepMarked.h"
 #include "KinkCorners.h"
 #include "SpacingGrid.h"
 
@@ -210,14 +211,10 @@ glm::dvec3 nearestOnCrossing(const Quadratic& a, const Quadratic& b)
 
 /// The face by which the surface leaves an element, touched where the surface is nearest to leaving, as a particle
 /// in the element sees that to second order. (Planes across the surface would not be the same from both sides.)
-/// \param at the particle's place, with its second derivatives
+/// \param field, wall around the particle: F - c, and faceMargin() of the face
 /// \return the plane exists only if that place is within reach
-ClipPlane edgeSeenFrom(const Particle& particle, const Evaluated& at, const Face& face)
+ClipPlane edgeSeenFrom(const Particle& particle, const Quadratic& field, const Quadratic& wall)
 {
-  const WorldVector inward{ glm::transpose(at.point.map.inverse) * face.inward.xyz };
-  const Quadratic field{ at.point.value, { at.point.gradient, at.hessian } };
-  const Quadratic wall{ faceMargin(face, at.location.u),
-    { inward, worldHessianOfLinear(at.second, at.point.map, inward) } };
   const glm::dvec3 nearest = nearestOnCrossing(field, wall);
   if (!(glm::length(nearest) <= ClipReach * particle.spacing))
   {
@@ -244,41 +241,71 @@ public:
   {
   }
 
+  /// Faces at which the surface is almost smooth.
   /// \param pull the inverse Jacobian of the particle's element there
-  /// \param walker to evaluate by
-  void offerTo(Particle& particle, const glm::mat3& pull, SurfaceWalker& walker) const
+  /// \return whether a kink is near
+  bool offerSmooth(Particle& particle, const glm::mat3& pull) const
   {
-    const Location& location = particle.location;
-    const auto& faces = facts(this->Mesh.elements[location.element].domain).faces;
-    std::optional<Evaluated> at;
+    bool nearKink = false;
+    this->visitTurns(particle,
+      [&](const Face& face, int, double turn)
+      {
+        ClipPlane plane = planeOf(face, particle, pull);
+        if (plane.distance > ClipReach * particle.spacing)
+        {
+          return;
+        }
+        nearKink = nearKink || turn > KinkAngle;
+        if (turn <= KinkAngle)
+        {
+          plane.turn = turn;
+          offer(particle, plane);
+        }
+      });
+    return nearKink;
+  }
+
+  /// \param jet at the particle's place, with second derivatives
+  void offerKinks(Particle& particle, const Jet& jet) const
+  {
+    const FieldPoint point = fieldPoint(jet, this->Surface.isovalue);
+    const Quadratic field{ point.value, { point.gradient, worldHessian(jet, point) } };
+    this->visitTurns(particle,
+      [&](const Face& face, int f, double turn)
+      {
+        if (turn <= KinkAngle)
+        {
+          return;
+        }
+        const Quadratic wall{ faceMargin(face, particle.location.u),
+          faceLevels(jet, point.map, face) };
+        ClipPlane plane = edgeSeenFrom(particle, field, wall);
+        if (plane.exists() &&
+          this->goesOnBehind(particle, f, particle.position + plane.distance * plane.normal))
+        {
+          plane.turn = turn;
+          offer(particle, plane);
+        }
+      });
+  }
+
+private:
+  /// Calls use(face, number, turn) for faces of its element at which the normal turns.
+  template <class Use>
+  void visitTurns(const Particle& particle, const Use& use) const
+  {
+    const int element = particle.location.element;
+    const auto& faces = facts(this->Mesh.elements[element].domain).faces;
     for (int f = 0; f < static_cast<int>(faces.size()); ++f)
     {
-      const double turn = this->Turns[faceSlot(location.element, f)];
-      if (turn == 0.0)
+      const double turn = this->Turns[faceSlot(element, f)];
+      if (turn != 0.0)
       {
-        continue;
-      }
-      ClipPlane plane = planeOf(faces[f], particle, pull);
-      if (plane.distance > ClipReach * particle.spacing)
-      {
-        continue;
-      }
-      if (turn > KinkAngle)
-      {
-        at = at ? at : walker.evaluateCurved(location);
-        plane = edgeSeenFrom(particle, *at, faces[f]);
-      }
-      plane.turn = turn;
-      if (plane.exists() &&
-        (turn <= KinkAngle ||
-          this->goesOnBehind(particle, f, particle.position + plane.distance * plane.normal)))
-      {
-        offer(particle, plane);
+        use(faces[f], f, turn);
       }
     }
   }
 
-private:
   /// The face itself, to first order.
   static ClipPlane planeOf(const Face& face, const Particle& particle, const glm::mat3& pull)
   {
@@ -328,6 +355,34 @@ private:
   const ParticleGrid& Grid;
 };
 
+/// Offers those of `count` particles the faces around.
+/// \param particleAt, pullAt functions of 0 to count - 1
+/// \return the number of evaluations
+template <class ParticleAt, class PullAt>
+std::int64_t offerFaces(const Isosurface& surface, const FacePlanes& faces, std::size_t count,
+  const ParticleAt& particleAt, const PullAt& pullAt, const ParallelFor& parallelFor)
+{
+  std::vector<char> marks(count);
+  forAll(parallelFor, count,
+    [&](std::size_t i) { marks[i] = faces.offerSmooth(particleAt(i), pullAt(i)); });
+  const std::vector<int> nearKinks = markedIndices(marks, count);
+  std::vector<Location> places;
+  places.reserve(nearKinks.size());
+  for (const int i : nearKinks)
+  {
+    places.push_back(particleAt(i).location);
+  }
+  const ElementMesh& mesh = *surface.mesh;
+  const std::vector<int> order = orderByElement(places, mesh.elements.size(), parallelFor);
+  runParallel(parallelFor, static_cast<std::ptrdiff_t>(order.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      evaluateInOrder(mesh, places, order, begin, end,
+        [&](int n, const Jet& jet) { faces.offerKinks(particleAt(nearKinks[n]), jet); });
+    });
+  return static_cast<std::int64_t>(order.size());
+}
+
 } // namespace
 
 std::int64_t markClipPlanes(const Isosurface& surface, const FaceJumps& jumps,
@@ -344,29 +399,10 @@ std::int64_t markClipPlanes(const Isosurface& surface, const FaceJumps& jumps,
     });
   const SpacingGrid grid(positions, spacings, ClipReach, 0.5, parallelFor);
   openRimsThatGoOn(grid, particles, rims, parallelFor);
-  const FacePlanes faces(surface, jumps.turns, particles, rims, all);
-  std::atomic<std::int64_t> evaluations{ 0 };
-  const auto forAllWithWalker = [&](std::size_t count, const auto& use)
-  {
-    runParallel(parallelFor, static_cast<std::ptrdiff_t>(count),
-      [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-      {
-        SurfaceWalker walker(surface);
-        for (std::ptrdiff_t i = begin; i < end; ++i)
-        {
-          use(i, walker);
-        }
-        evaluations += walker.evaluations();
-      });
-  };
-  forAllWithWalker(particles.size(),
-    [&](std::ptrdiff_t i, SurfaceWalker& walker)
-    {
-      offerRims(grid, rims, particles[i]);
-      faces.offerTo(particles[i], anchors[i].pull, walker);
-    });
-  forAllWithWalker(rims.size(),
-    [&](std::ptrdiff_t i, SurfaceWalker& walker)
+  forAll(
+    parallelFor, particles.size(), [&](std::size_t i) { offerRims(grid, rims, particles[i]); });
+  forAll(parallelFor, rims.size(),
+    [&](std::size_t i)
     {
       auto& [particle, patch, pull, side, other] = rims[i];
       offerRims(grid, rims, particle);
@@ -374,8 +410,15 @@ std::int64_t markClipPlanes(const Isosurface& surface, const FaceJumps& jumps,
       {
         offer(particle, { other.outward, 0.0, Pi, other.bend });
       }
-      faces.offerTo(particle, pull, walker);
     });
+  const FacePlanes faces(surface, jumps.turns, particles, rims, all);
+  const std::int64_t evaluations =
+    offerFaces(
+      surface, faces, particles.size(), [&](std::size_t i) -> Particle& { return particles[i]; },
+      [&](std::size_t i) { return anchors[i].pull; }, parallelFor) +
+    offerFaces(
+      surface, faces, rims.size(), [&](std::size_t i) -> Particle& { return rims[i].particle; },
+      [&](std::size_t i) { return rims[i].pull; }, parallelFor);
   closeKinkCorners(all, particles, rims, parallelFor);
   return evaluations;
 }

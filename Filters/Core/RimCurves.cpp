@@ -59,23 +59,14 @@ struct RimPlace
   double spacing = 0.0;
 };
 
-/// How the surface ends at a face of the element; not at all where it is parallel to that.
-/// \param at with its second derivatives
-RimSide rimSideAt(const ElementMesh& mesh, const Evaluated& at, int face)
+/// Out of the surface along it, at a face of the element; zero where it is parallel to that.
+WorldVector outwardAt(const ElementMesh& mesh, const Evaluated& at, int face)
 {
-  const auto& faces = facts(mesh.elements[at.location.element].domain).faces;
-  const FieldPoint& point = at.point;
-  const glm::dvec3 normal = surfaceNormal(point.gradient).xyz;
-  const WorldVector inward{ glm::transpose(point.map.inverse) * faces[face].inward.xyz };
-  const glm::dvec3 along = inward.xyz - glm::dot(inward.xyz, normal) * normal;
-  if (!(glm::length(along) > 0.0))
-  {
-    return {};
-  }
-  const WorldVector outward{ -glm::normalize(along) };
-  const WorldVector bend = bendOfCrossing(
-    { point.gradient, at.hessian }, { inward, worldHessianOfLinear(at.second, point.map, inward) });
-  return { outward, dot(bend, outward) };
+  const glm::dvec3 normal = surfaceNormal(at.point.gradient).xyz;
+  const glm::dvec3 inward =
+    glm::transpose(at.point.map.inverse) * mesh.face(at.location.element, face).inward.xyz;
+  const glm::dvec3 along = inward - glm::dot(inward, normal) * normal;
+  return { glm::length(along) > 0.0 ? -glm::normalize(along) : glm::dvec3(0.0) };
 }
 
 /// Makes particles of such places; one a thread.
@@ -135,6 +126,7 @@ private:
   void finish(const ParallelFor& parallelFor);
   bool isTooNear(int i, int j) const;
   void thinOut(const ParallelFor& parallelFor);
+  void findBends(const ParallelFor& parallelFor);
 
   Isosurface Surface;
   const SurfaceProxy& Proxy;
@@ -301,8 +293,9 @@ bool RimFinisher::finish(const RimPlace& place, RimParticle& rim)
     curvature(field.gradient, point->at.hessian), std::abs(field.value) / length(field.gradient),
     this->Law.angularDensity == 0.0 ? this->Law.spacing : rim.patch.spacing, {},
     rim.particle.jump };
-  const auto side = [&](int face)
-  { return face < 0 ? RimSide{} : rimSideAt(*this->Surface.mesh, point->at, face); };
+  const auto side = [&](int face) {
+    return face < 0 ? RimSide{} : RimSide{ face, outwardAt(*this->Surface.mesh, point->at, face) };
+  };
   rim.side = side(point->face);
   rim.otherSide = side(otherWall);
   return true;
@@ -428,6 +421,37 @@ void RimSampler::thinOut(const ParallelFor& parallelFor)
   keepMarked(rims, kept);
 }
 
+/// By how much the rims bend at their particles, each evaluated once more, many together.
+void RimSampler::findBends(const ParallelFor& parallelFor)
+{
+  const ElementMesh& mesh = *this->Surface.mesh;
+  Buffer<RimParticle>& rims = this->Result.particles;
+  std::vector<Location> places;
+  places.reserve(rims.size());
+  for (const RimParticle& rim : rims)
+  {
+    places.push_back(rim.particle.location);
+  }
+  const std::vector<int> order = orderByElement(places, mesh.elements.size(), parallelFor);
+  const auto findBend = [&](int i, const Jet& jet)
+  {
+    const FieldPoint point = fieldPoint(jet, this->Surface.isovalue);
+    const LevelSet field{ point.gradient, worldHessian(jet, point) };
+    for (RimSide* side : { &rims[i].side, &rims[i].otherSide })
+    {
+      if (side->exists())
+      {
+        const Face& face = mesh.face(places[i].element, side->face);
+        side->bend = dot(bendOfCrossing(field, faceLevels(jet, point.map, face)), side->outward);
+      }
+    }
+  };
+  runParallel(parallelFor, static_cast<std::ptrdiff_t>(order.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    { evaluateInOrder(mesh, places, order, begin, end, findBend); });
+  this->Result.evaluations += static_cast<std::int64_t>(order.size());
+}
+
 RimCurves RimSampler::run(const ParallelFor& parallelFor)
 {
   for (const std::vector<RimHint>& hintsOfBox : this->findHints(parallelFor))
@@ -443,6 +467,7 @@ RimCurves RimSampler::run(const ParallelFor& parallelFor)
   }
   this->finish(parallelFor);
   this->thinOut(parallelFor);
+  this->findBends(parallelFor);
   this->Result.evaluations += this->Tracer.evaluations() + this->Walker.evaluations();
   return std::move(this->Result);
 }

@@ -9,6 +9,8 @@ namespace hop
 /// Where the surface ends at a wall.
 struct RimSide
 {
+  /// Of the particle's element.
+  int face = -1;
   /// Unit vector along the surface, out of where it ends; zero where it goes on all the same, less than
   /// particles' distance away.
   WorldVector outward;

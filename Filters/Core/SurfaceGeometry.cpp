@@ -29,20 +29,13 @@ LocalMap localMap(const Jet& jet)
   return map;
 }
 
-glm::dmat3 symmetric(const std::array<Coefficient, 6>& second, int component)
-{
-  const auto entry = [&](int i) { return second[i][component]; };
-  return { entry(0), entry(1), entry(2), entry(1), entry(3), entry(4), entry(2), entry(4),
-    entry(5) };
-}
-
 /// To world space, of a function with that Hessian in reference space.
 glm::dmat3 pulled(glm::dmat3 hessian, const std::array<Coefficient, 6>& second, const LocalMap& map,
   const WorldVector& gradient)
 {
   for (int i = 0; i < 3; ++i)
   {
-    hessian -= gradient.xyz[i] * symmetric(second, i);
+    hessian -= gradient.xyz[i] * hessianOf(second, i);
   }
   return glm::transpose(map.inverse) * hessian * map.inverse;
 }
@@ -68,13 +61,13 @@ bool isNearInReference(const FieldPoint& point)
 
 glm::dmat3 worldHessian(const Jet& jet, const FieldPoint& point)
 {
-  return pulled(symmetric(jet.second, 3), jet.second, point.map, point.gradient);
+  return pulled(hessianOf(jet.second), jet.second, point.map, point.gradient);
 }
 
-glm::dmat3 worldHessianOfLinear(
-  const std::array<Coefficient, 6>& second, const LocalMap& map, const WorldVector& gradient)
+LevelSet faceLevels(const Jet& jet, const LocalMap& map, const Face& face)
 {
-  return pulled(glm::dmat3(0.0), second, map, gradient);
+  const WorldVector gradient{ glm::transpose(map.inverse) * face.inward.xyz };
+  return { gradient, pulled(glm::dmat3(0.0), jet.second, map, gradient) };
 }
 
 WorldVector bendOfCrossing(const LevelSet& a, const LevelSet& b)

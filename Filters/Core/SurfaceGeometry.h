@@ -53,18 +53,16 @@ bool isNearInReference(const FieldPoint& point);
 /// form follows from differentiating F*(u) = F(x(u)) twice.
 glm::dmat3 worldHessian(const Jet& jet, const FieldPoint& point);
 
-/// The same of a function that is linear in reference space, as a face's distance is.
-/// \param second Jet::second; that of the field does not matter
-/// \param gradient of the function in world space
-glm::dmat3 worldHessianOfLinear(
-  const std::array<Coefficient, 6>& second, const LocalMap& map, const WorldVector& gradient);
-
 /// A function of world space near a place.
 struct LevelSet
 {
   WorldVector gradient;
   glm::dmat3 hessian{ 0.0 };
 };
+
+/// Of faceMargin() of a face, which is linear in reference space.
+/// \param jet with second derivatives; that of the field does not matter
+LevelSet faceLevels(const Jet& jet, const LocalMap& map, const Face& face);
 
 /// How the curve in which two level sets cross bends: its second derivative by arc length, 1/r on a circle of
 /// radius r, towards the middle. Zero where they touch.

@@ -48,7 +48,6 @@ Evaluated SurfaceWalker::evaluateCurved(const Location& location)
   const Jet jet = evaluateHessian(this->Surface.mesh->form(location.element), location.u);
   Evaluated result{ location, fieldPoint(jet, this->Surface.isovalue) };
   result.hessian = worldHessian(jet, result.point);
-  result.second = jet.second;
   return result;
 }
 

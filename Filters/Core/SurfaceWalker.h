@@ -59,9 +59,8 @@ struct Evaluated
 {
   Location location;
   FieldPoint point;
-  /// Of the field in world space, and second derivatives in reference space; zero unless asked for.
+  /// Zero unless asked for.
   glm::dmat3 hessian{ 0.0 };
-  std::array<Coefficient, 6> second{};
 };
 
 /// Moves points through the mesh and onto the surface. Counts its evaluations. One a thread.
