@@ -53,7 +53,8 @@ void offer(Particle& particle, const ClipPlane& plane)
 /// are those of the other side of a jump. Bent rims leave their planes by less.
 constexpr double sameSide = 0.2;
 
-/// The rim, known at one of its particles, as another particle sees it: the plane touches it where it is nearest.
+/// The rim, known at one of its particles, as another particle sees it: the plane touches it where it is nearest,
+/// but no farther off than where it has turned by half a radian: behind that it may run anywhere.
 /// \pre the rim is one
 ClipPlane rimSeenFrom(const RimParticle& rim, const Particle& particle)
 {
@@ -62,7 +63,8 @@ ClipPlane rimSeenFrom(const RimParticle& rim, const Particle& particle)
   const glm::dvec3 step = particle.position.xyz - rim.particle.position.xyz;
   const double largest = 1.0 / particle.spacing; // more than that a parabola does not follow
   const double bend = std::clamp(rim.side.bend, -largest, largest);
-  const double s = glm::dot(step, along);
+  const double farthest = 0.5 / std::max(std::abs(bend), 1e-3 * largest);
+  const double s = std::clamp(glm::dot(step, along), -farthest, farthest);
   const glm::dvec3 normal = glm::normalize(outward - bend * s * along);
   const glm::dvec3 nearest = s * along + 0.5 * bend * s * s * outward;
   return { { normal }, glm::dot(nearest - step, normal), Pi, bend };

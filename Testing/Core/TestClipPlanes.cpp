@@ -270,6 +270,38 @@ TEST(ClipPlanes, OfBentRimsFollowThemOnInclinedSurfaces)
   EXPECT_GT(onRim, 130);
 }
 
+/// A rim that bends within less than a spacing may run anywhere behind that: of such a one no plane is turned far.
+TEST(ClipPlanes, OfRimsThatBendStronglyAreNotTurnedFar)
+{
+  const ElementMesh mesh = makeMesh(MeshRecipe{});
+  const Isosurface surface{ &mesh, 0.0, 1e-9 };
+  FaceJumps jumps;
+  jumps.turns.resize(mesh.elements.size() * MaximumFaces);
+  for (const double bend : { -0.9, 0.9 })
+  {
+    Buffer<RimParticle> rims(1);
+    rims[0] = {};
+    rims[0].particle.location.element = 0;
+    rims[0].particle.normal = { { 0, 0, 1 } };
+    rims[0].particle.spacing = spacing;
+    rims[0].patch.spacing = static_cast<float>(spacing);
+    rims[0].side = { 0, { { 1, 0, 0 } }, bend / spacing };
+    Buffer<Particle> particles(1);
+    particles[0] = {};
+    particles[0].location.element = 0;
+    particles[0].position = { { -0.9 * spacing, 1.1 * spacing, 0.0 } };
+    particles[0].normal = rims[0].particle.normal;
+    particles[0].spacing = spacing;
+    Buffer<Anchor> anchors(1);
+    anchors[0] = {};
+    const ParticleGrid all(particles, rims, {});
+    markClipPlanes(surface, jumps, all, rims, particles, anchors, {});
+    const ClipPlane& plane = particles[0].clips[0];
+    ASSERT_TRUE(plane.exists()) << bend;
+    EXPECT_GT(plane.normal.xyz.x, std::cos(0.5)) << bend;
+  }
+}
+
 /// Two rings with a plane in the inner one, a bowl around it in the outer one: the kink is a circle.
 TEST(ClipPlanes, OfBentKinksTouchThemWhereTheyAreNearest)
 {
