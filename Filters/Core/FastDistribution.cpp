@@ -396,7 +396,7 @@ void FastSystem::startMoving()
 
 void FastSystem::makeRims()
 {
-  this->Rims = findRimCurves(this->Surface, *this->Proxy, this->Law, this->Parallel);
+  this->Rims = findRimCurves(this->Surface, this->Jumps, *this->Proxy, this->Law, this->Parallel);
   this->RimPatches.clear();
   for (const RimParticle& rim : this->Rims.particles)
   {
@@ -604,7 +604,8 @@ void FastSystem::settleNumber(std::int64_t count)
 /// Takes all particles to the tolerance and says what there is to say about them.
 void FastSystem::finish()
 {
-  FinishedParticles finished = finishParticles(*this->Moving, this->Law, this->Parallel);
+  FinishedParticles finished =
+    finishParticles(*this->Moving, this->Jumps, this->Law, this->Parallel);
   this->Evaluations += finished.evaluations;
   DistributionReport& report = this->Result.report;
   std::vector<char>& kept = finished.settled;
@@ -616,11 +617,8 @@ void FastSystem::finish()
   Buffer<Particle>& particles = this->Result.particles;
   particles = std::move(finished.particles);
   particles.resize(closeGaps(particles, particles.size(), kept));
-  Buffer<Anchor> anchors = this->Moving->takeAnchors();
-  anchors.resize(closeGaps(anchors, anchors.size(), kept));
   const ParticleGrid all(particles, this->Rims.particles, this->Parallel);
-  this->Evaluations += markClipPlanes(
-    this->Surface, this->Jumps, all, this->Rims.particles, particles, anchors, this->Parallel);
+  markClipPlanes(this->Surface, all, this->Rims.particles, particles, this->Parallel);
   for (const RimParticle& rim : this->Rims.particles)
   {
     particles.push_back(rim.particle);

@@ -75,7 +75,7 @@ bool isBehindRim(const Particle& particle, const glm::dvec3& place)
   return std::any_of(particle.clips.begin(), particle.clips.end(),
     [&](const ClipPlane& plane)
     {
-      return plane.exists() && plane.turn == Pi &&
+      return plane.isRim() &&
         glm::dot(place - particle.position.xyz, plane.normal.xyz) >
         plane.distance + filledBehind * particle.spacing;
     });

@@ -59,8 +59,6 @@ public:
     this->Patches[i].normal = glm::vec3(surfaceNormal(point.gradient).xyz);
     this->Anchors[i] = { place, glm::mat3(point.map.inverse), 0.0f };
   }
-  /// The anchors of all that move, which do not move any more.
-  Buffer<Anchor> takeAnchors() { return std::move(this->Anchors); }
   const Isosurface& surface() const { return this->Surface; }
 
 private:

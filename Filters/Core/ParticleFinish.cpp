@@ -1,5 +1,7 @@
 #include "ParticleFinish.h"
 
+#include "FacePlanes.h"
+
 #include <atomic>
 #include <cmath>
 #include <numeric>
@@ -12,8 +14,10 @@ namespace
 class Finish
 {
 public:
-  Finish(MovingParticles& moving, const SpacingLaw& law, const ParallelFor& parallelFor)
+  Finish(MovingParticles& moving, const FaceJumps& jumps, const SpacingLaw& law,
+    const ParallelFor& parallelFor)
     : Moving(moving)
+    , Jumps(jumps)
     , Law(law)
     , Parallel(parallelFor)
     , Pending(moving.count())
@@ -42,6 +46,7 @@ private:
   bool settle(int i, const Location& place, const Jet& jet);
 
   MovingParticles& Moving;
+  const FaceJumps& Jumps;
   const SpacingLaw& Law;
   const ParallelFor& Parallel;
   std::vector<int> Pending;
@@ -64,6 +69,7 @@ bool Finish::settle(int i, const Location& place, const Jet& jet)
     this->Law.angularDensity == 0.0 ? this->Law.spacing : this->Moving.patches()[i].spacing;
   this->Result.particles[i] = { place, point.map.position, surfaceNormal(point.gradient),
     curvature(point.gradient, worldHessian(jet, point)), residual, spacing, {}, 0.0 };
+  offerFaces(surface, this->Jumps, jet, point, this->Result.particles[i]);
   this->Result.settled[i] = 1;
   this->Moving.settle(i, place, point);
   return true;
@@ -141,10 +147,10 @@ void Finish::persist()
 
 } // namespace
 
-FinishedParticles finishParticles(
-  MovingParticles& moving, const SpacingLaw& law, const ParallelFor& parallelFor)
+FinishedParticles finishParticles(MovingParticles& moving, const FaceJumps& jumps,
+  const SpacingLaw& law, const ParallelFor& parallelFor)
 {
-  return Finish(moving, law, parallelFor).run();
+  return Finish(moving, jumps, law, parallelFor).run();
 }
 
 } // namespace hop

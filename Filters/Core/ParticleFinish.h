@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Energy.h"
+#include "FaceJumps.h"
 #include "MovingParticles.h"
 #include "Particles.h"
 
@@ -18,8 +19,8 @@ struct FinishedParticles
 };
 
 /// Takes all particles that move to the surface by Newton's method: a few steps for all that need them at
-/// once, then one by one.
-FinishedParticles finishParticles(
-  MovingParticles& moving, const SpacingLaw& law, const ParallelFor& parallelFor);
+/// once, then one by one. Each is offered the faces of its element at which the surface turns (FacePlanes.h).
+FinishedParticles finishParticles(MovingParticles& moving, const FaceJumps& jumps,
+  const SpacingLaw& law, const ParallelFor& parallelFor);
 
 } // namespace hop

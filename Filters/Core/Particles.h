@@ -17,12 +17,15 @@ struct ClipPlane
   WorldVector normal;
   /// World units, >= 0; more than that of the edge where others leave a corner between kinks open.
   double distance = 0.0;
-  /// By which the surface turns there, radians, see FaceJumps::turns; pi where it ends.
-  double turn = 0.0;
   /// By which the edge bends along the surface, towards the plane's normal, 1/radius; 0 where it is almost smooth.
   double bend = 0.0;
+  /// By which the surface turns there, radians, see FaceJumps::turns; pi where it ends.
+  float turn = 0.0f;
+  /// Of the particle's element, at which the surface turns; -1 where it ends.
+  int face = -1;
 
   bool exists() const { return dot(this->normal, this->normal) > 0.0; }
+  bool isRim() const { return this->exists() && this->face < 0; }
 };
 
 /// One particle of a finished distribution.

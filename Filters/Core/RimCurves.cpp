@@ -2,7 +2,7 @@
 
 #include "ActiveFaces.h"
 #include "FaceCrossings.h"
-#include "FaceJumps.h"
+#include "FacePlanes.h"
 #include "KeepMarked.h"
 #include "RimTracer.h"
 #include "SampleComparison.h"
@@ -73,8 +73,10 @@ WorldVector outwardAt(const ElementMesh& mesh, const Evaluated& at, int face)
 class RimFinisher
 {
 public:
-  RimFinisher(const Isosurface& surface, const SurfaceProxy& proxy, const SpacingLaw& law)
+  RimFinisher(const Isosurface& surface, const FaceJumps& jumps, const SurfaceProxy& proxy,
+    const SpacingLaw& law)
     : Surface(surface)
+    , Jumps(jumps)
     , Proxy(proxy)
     , Law(law)
     , Exact(surface, RimTracer::Points::Exact)
@@ -92,8 +94,10 @@ public:
 
 private:
   bool lookBehind(const RimPoint& point, double& jump, int& otherWall);
+  RimSide sideAt(int face, const Evaluated& at, const Jet& jet) const;
 
   const Isosurface& Surface;
+  const FaceJumps& Jumps;
   const SurfaceProxy& Proxy;
   const SpacingLaw& Law;
   RimTracer Exact;
@@ -104,8 +108,10 @@ private:
 class RimSampler
 {
 public:
-  RimSampler(const Isosurface& surface, const SurfaceProxy& proxy, const SpacingLaw& law)
+  RimSampler(const Isosurface& surface, const FaceJumps& jumps, const SurfaceProxy& proxy,
+    const SpacingLaw& law)
     : Surface(surface)
+    , Jumps(jumps)
     , Proxy(proxy)
     , Law(law)
     , Samples(*surface.mesh, proxy)
@@ -126,9 +132,9 @@ private:
   void finish(const ParallelFor& parallelFor);
   bool isTooNear(int i, int j) const;
   void thinOut(const ParallelFor& parallelFor);
-  void findBends(const ParallelFor& parallelFor);
 
   Isosurface Surface;
+  const FaceJumps& Jumps;
   const SurfaceProxy& Proxy;
   SpacingLaw Law;
   SampleComparison Samples;
@@ -287,18 +293,30 @@ bool RimFinisher::finish(const RimPlace& place, RimParticle& rim)
   const FieldPoint& field = point->at.point;
   rim.patch.spacing = this->Proxy.spacingAt(rim.patch.position, rim.patch.curvatureMagnitude());
   rim.patch.fixed = true;
-  rim.pull = anchor.pull;
   const WorldVector normal = surfaceNormal(field.gradient);
   rim.particle = { point->at.location, field.map.position, normal,
     curvature(field.gradient, point->at.hessian), std::abs(field.value) / length(field.gradient),
     this->Law.angularDensity == 0.0 ? this->Law.spacing : rim.patch.spacing, {},
     rim.particle.jump };
-  const auto side = [&](int face) {
-    return face < 0 ? RimSide{} : RimSide{ face, outwardAt(*this->Surface.mesh, point->at, face) };
-  };
-  rim.side = side(point->face);
-  rim.otherSide = side(otherWall);
+  const Jet& jet = this->Exact.jetAt(*point);
+  offerFaces(this->Surface, this->Jumps, jet, field, rim.particle);
+  rim.side = this->sideAt(point->face, point->at, jet);
+  rim.otherSide = this->sideAt(otherWall, point->at, jet);
   return true;
+}
+
+/// Where the surface ends at a face; nothing at no face.
+RimSide RimFinisher::sideAt(int face, const Evaluated& at, const Jet& jet) const
+{
+  if (face < 0)
+  {
+    return {};
+  }
+  const WorldVector outward = outwardAt(*this->Surface.mesh, at, face);
+  const LevelSet field{ at.point.gradient, at.hessian };
+  const LevelSet wall =
+    faceLevels(jet, at.point.map, this->Surface.mesh->face(at.location.element, face));
+  return { face, outward, dot(bendOfCrossing(field, wall), outward) };
 }
 
 /// F - c on the other side of the faces on which a point lies; zero where there is no other side.
@@ -344,7 +362,7 @@ void RimSampler::finish(const ParallelFor& parallelFor)
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(rims.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
-      RimFinisher finisher(this->Surface, this->Proxy, this->Law);
+      RimFinisher finisher(this->Surface, this->Jumps, this->Proxy, this->Law);
       for (std::ptrdiff_t n = begin; n < end; ++n)
       {
         found[n] = finisher.finish(this->Places[n], rims[n]);
@@ -421,37 +439,6 @@ void RimSampler::thinOut(const ParallelFor& parallelFor)
   keepMarked(rims, kept);
 }
 
-/// By how much the rims bend at their particles, each evaluated once more, many together.
-void RimSampler::findBends(const ParallelFor& parallelFor)
-{
-  const ElementMesh& mesh = *this->Surface.mesh;
-  Buffer<RimParticle>& rims = this->Result.particles;
-  std::vector<Location> places;
-  places.reserve(rims.size());
-  for (const RimParticle& rim : rims)
-  {
-    places.push_back(rim.particle.location);
-  }
-  const std::vector<int> order = orderByElement(places, mesh.elements.size(), parallelFor);
-  const auto findBend = [&](int i, const Jet& jet)
-  {
-    const FieldPoint point = fieldPoint(jet, this->Surface.isovalue);
-    const LevelSet field{ point.gradient, worldHessian(jet, point) };
-    for (RimSide* side : { &rims[i].side, &rims[i].otherSide })
-    {
-      if (side->exists())
-      {
-        const Face& face = mesh.face(places[i].element, side->face);
-        side->bend = dot(bendOfCrossing(field, faceLevels(jet, point.map, face)), side->outward);
-      }
-    }
-  };
-  runParallel(parallelFor, static_cast<std::ptrdiff_t>(order.size()),
-    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-    { evaluateInOrder(mesh, places, order, begin, end, findBend); });
-  this->Result.evaluations += static_cast<std::int64_t>(order.size());
-}
-
 RimCurves RimSampler::run(const ParallelFor& parallelFor)
 {
   for (const std::vector<RimHint>& hintsOfBox : this->findHints(parallelFor))
@@ -467,17 +454,16 @@ RimCurves RimSampler::run(const ParallelFor& parallelFor)
   }
   this->finish(parallelFor);
   this->thinOut(parallelFor);
-  this->findBends(parallelFor);
   this->Result.evaluations += this->Tracer.evaluations() + this->Walker.evaluations();
   return std::move(this->Result);
 }
 
 } // namespace
 
-RimCurves findRimCurves(const Isosurface& surface, const SurfaceProxy& proxy, const SpacingLaw& law,
-  const ParallelFor& parallelFor)
+RimCurves findRimCurves(const Isosurface& surface, const FaceJumps& jumps,
+  const SurfaceProxy& proxy, const SpacingLaw& law, const ParallelFor& parallelFor)
 {
-  return RimSampler(surface, proxy, law).run(parallelFor);
+  return RimSampler(surface, jumps, proxy, law).run(parallelFor);
 }
 
 } // namespace hop

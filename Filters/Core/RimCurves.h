@@ -1,5 +1,6 @@
 #pragma once
 
+#include "FaceJumps.h"
 #include "Particles.h"
 #include "SurfaceProxy.h"
 
@@ -26,8 +27,6 @@ struct RimParticle
   Particle particle;
   /// Anchored to the wall and fixed.
   Patch patch;
-  /// K = J^-1 there.
-  glm::mat3 pull{ 0.0f };
   RimSide side;
   /// In corners of its element, at the other wall.
   RimSide otherSide;
@@ -45,7 +44,7 @@ struct RimCurves
 /// Follows every rim that the boxes of the proxy show, and places particles on it, evenly at the
 /// spacing that the surface wants there, and on its corners. Where two curves run side by side (on the two
 /// sides of a jump that is hardly wider than the surface may pass), only one keeps its particles.
-RimCurves findRimCurves(const Isosurface& surface, const SurfaceProxy& proxy, const SpacingLaw& law,
-  const ParallelFor& parallelFor);
+RimCurves findRimCurves(const Isosurface& surface, const FaceJumps& jumps,
+  const SurfaceProxy& proxy, const SpacingLaw& law, const ParallelFor& parallelFor);
 
 } // namespace hop

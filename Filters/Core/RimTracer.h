@@ -89,6 +89,9 @@ public:
   /// \param face of the place's element; -1 if it is not known
   std::optional<RimPoint> project(const Location& start, int face, double maximumTravel);
 
+  /// With second derivatives; costs nothing where the tracer was exact last.
+  const Jet& jetAt(const RimPoint& point) { return this->Walker.jetAt(point.at.location); }
+
   /// Whether the surface ends there.
   bool isOnRim(const RimPoint& point) { return this->Passer.endsAt(point.at, point.face); }
 

@@ -22,7 +22,7 @@ double drawnPart(const Particle& particle)
 {
   constexpr double atRim = 0.05;
   const auto isAtRim = [&](const ClipPlane& plane)
-  { return plane.turn == Pi && plane.distance < atRim * particle.spacing; };
+  { return plane.isRim() && plane.distance < atRim * particle.spacing; };
   const auto& [first, second] = particle.clips;
   if (isAtRim(first) && isAtRim(second))
   {

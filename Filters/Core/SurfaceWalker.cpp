@@ -42,10 +42,20 @@ Evaluated SurfaceWalker::evaluate(const Location& location)
   return { location, fieldPoint(jet, this->Surface.isovalue) };
 }
 
+const Jet& SurfaceWalker::jetAt(const Location& location)
+{
+  if (location.element != this->LastPlace.element || location.u.xyz != this->LastPlace.u.xyz)
+  {
+    ++this->Evaluations;
+    this->LastPlace = location;
+    this->LastJet = evaluateHessian(this->Surface.mesh->form(location.element), location.u);
+  }
+  return this->LastJet;
+}
+
 Evaluated SurfaceWalker::evaluateCurved(const Location& location)
 {
-  ++this->Evaluations;
-  const Jet jet = evaluateHessian(this->Surface.mesh->form(location.element), location.u);
+  const Jet& jet = this->jetAt(location);
   Evaluated result{ location, fieldPoint(jet, this->Surface.isovalue) };
   result.hessian = worldHessian(jet, result.point);
   return result;

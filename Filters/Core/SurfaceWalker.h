@@ -80,6 +80,9 @@ public:
   /// Value, gradient and Hessian at a place.
   Evaluated evaluateCurved(const Location& location);
 
+  /// Value and derivatives to second order at a place; costs nothing where the last ones were.
+  const Jet& jetAt(const Location& location);
+
   /// What lies behind a face, on which a place lies, where the surface goes on there: joined by the mesh or
   /// found by the locator, and no farther off than the face's gap.
   struct Behind
@@ -135,6 +138,8 @@ private:
 
   Isosurface Surface;
   bool Curved = false;
+  Location LastPlace;
+  Jet LastJet;
   std::int64_t Evaluations = 0;
 };
 

@@ -127,7 +127,7 @@ TEST(ClipPlanes, OfRimsComeFirstThoughOthersAreNearer)
     if (std::abs(x.x) < toWall && toWall < spacing)
     {
       ++both;
-      EXPECT_EQ(p.clips[0].turn, Pi);
+      EXPECT_TRUE(p.clips[0].isRim());
       EXPECT_GT(std::abs(p.clips[0].normal.xyz.y), 0.99);
       EXPECT_LT(p.clips[1].turn, KinkAngle);
       EXPECT_GT(std::abs(p.clips[1].normal.xyz.x), 0.99);
@@ -185,7 +185,7 @@ TEST(ClipPlanes, AreNotWhereTheSurfaceGoesOnBehindAnEdge)
     {
       ++near;
       rims += std::hypot(x.x, x.y) < 2.0 * gap;
-      EXPECT_TRUE(!p.clips[0].exists() || p.clips[0].turn < Pi) << x.x << " " << x.y << " " << x.z;
+      EXPECT_FALSE(p.clips[0].isRim()) << x.x << " " << x.y << " " << x.z;
     }
   }
   EXPECT_GT(near, 30);
@@ -235,7 +235,7 @@ TEST(ClipPlanes, OfBentRimsTouchThemWhereTheyAreNearest)
       inner += r < 1.5;
       outer += r > 1.5;
       const ClipPlane& plane = p.clips[0];
-      ASSERT_EQ(plane.turn, Pi);
+      ASSERT_TRUE(plane.isRim());
       EXPECT_NEAR(plane.bend, r < 1.5 ? 1.0 : -0.5, 1e-3);
       EXPECT_LT(glm::distance(plane.normal.xyz, outward), 0.03 * spacing);
       EXPECT_NEAR(plane.distance, toRim, 0.002 * spacing);
@@ -275,8 +275,6 @@ TEST(ClipPlanes, OfRimsThatBendStronglyAreNotTurnedFar)
 {
   const ElementMesh mesh = makeMesh(MeshRecipe{});
   const Isosurface surface{ &mesh, 0.0, 1e-9 };
-  FaceJumps jumps;
-  jumps.turns.resize(mesh.elements.size() * MaximumFaces);
   for (const double bend : { -0.9, 0.9 })
   {
     Buffer<RimParticle> rims(1);
@@ -292,10 +290,8 @@ TEST(ClipPlanes, OfRimsThatBendStronglyAreNotTurnedFar)
     particles[0].position = { { -0.9 * spacing, 1.1 * spacing, 0.0 } };
     particles[0].normal = rims[0].particle.normal;
     particles[0].spacing = spacing;
-    Buffer<Anchor> anchors(1);
-    anchors[0] = {};
     const ParticleGrid all(particles, rims, {});
-    markClipPlanes(surface, jumps, all, rims, particles, anchors, {});
+    markClipPlanes(surface, all, rims, particles, {});
     const ClipPlane& plane = particles[0].clips[0];
     ASSERT_TRUE(plane.exists()) << bend;
     EXPECT_GT(plane.normal.xyz.x, std::cos(0.5)) << bend;

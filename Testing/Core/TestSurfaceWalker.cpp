@@ -171,6 +171,21 @@ TEST(SurfaceWalker, CountsEveryEvaluation)
   EXPECT_EQ(walker.evaluations(), 2);
 }
 
+/// Derivatives where it evaluated with a Hessian last are at hand, those of elsewhere are not.
+TEST(SurfaceWalker, KeepsTheLastDerivatives)
+{
+  const ElementMesh mesh = makeMesh(MeshRecipe{});
+  SurfaceWalker walker({ &mesh, 0.0, 0.0 });
+  const Location here{ 0, { { 0.5, 0.25, 0.5 } } };
+  const Evaluated at = walker.evaluateCurved(here);
+  EXPECT_EQ(fieldPoint(walker.jetAt(here), 0.0).gradient.xyz, at.point.gradient.xyz);
+  EXPECT_EQ(walker.evaluations(), 1);
+  const Location elsewhere{ 0, { { 0.5, 0.25, 0.75 } } };
+  EXPECT_EQ(fieldPoint(walker.jetAt(elsewhere), 0.0).map.position.xyz,
+    walker.evaluate(elsewhere).point.map.position.xyz);
+  EXPECT_EQ(walker.evaluations(), 3);
+}
+
 TEST_P(WalkThrough, ProjectsOntoTheSurfaceAcrossFaces)
 {
   const ElementMesh mesh = makeMesh(this->bent(4, 3, sphere({ 0, 0, 0 }, 0.55).field));
