@@ -151,6 +151,8 @@ private:
   void dropNearRims(double nearest);
   void startMoving();
   std::unique_ptr<MovingParticles> drawSeeds(std::int64_t count) const;
+  /// Adds seeds, that many in all.
+  void draw(std::int64_t count, MovingParticles& particles) const;
   void addSeeds(MovingParticles& seeds, const std::vector<char>& wanted);
   void addSamples(const std::vector<int>& boxes);
   void makeSeeds(std::int64_t count);
@@ -311,11 +313,16 @@ void FastSystem::matchCount(std::int64_t count)
 /// Seeds as particles that are not on their way to the surface yet.
 std::unique_ptr<MovingParticles> FastSystem::drawSeeds(std::int64_t count) const
 {
-  const double phase = Random(this->Parameters.seed).uniform();
   auto seeds =
     std::make_unique<MovingParticles>(this->Surface, *this->Proxy, Buffer<Patch>{}, this->Parallel);
-  seeds->add(this->Proxy->seeds(count, phase, this->Parallel));
+  this->draw(count, *seeds);
   return seeds;
+}
+
+void FastSystem::draw(std::int64_t count, MovingParticles& particles) const
+{
+  const double phase = Random(this->Parameters.seed).uniform();
+  particles.add(this->Proxy->seeds(count, phase, this->Parallel));
 }
 
 void FastSystem::addSeeds(MovingParticles& seeds, const std::vector<char>& wanted)
@@ -351,9 +358,9 @@ void FastSystem::makeSeeds(std::int64_t count)
     this->IsWarm =
       static_cast<double>(this->Moving->size()) >= worthContinuing * static_cast<double>(count);
   }
-  const auto seeds = this->drawSeeds(count);
   if (this->IsWarm)
   {
+    const auto seeds = this->drawSeeds(count);
     this->addSeeds(*seeds,
       keepDistance(
         seeds->patches(), seeds->count(), this->Moving->patches(), uncovered, this->Parallel));
@@ -361,7 +368,8 @@ void FastSystem::makeSeeds(std::int64_t count)
   else
   {
     this->startMoving();
-    this->addSeeds(*seeds, std::vector<char>(seeds->count(), 1));
+    this->draw(count, *this->Moving);
+    this->Moving->approach(seedOffset);
   }
   this->dropNearRims(seedToRim);
   this->coverBoxes();

@@ -113,6 +113,11 @@ public:
         sum += 1.0;
       }
     }
+    std::vector<Split>& splits = this->Result.splits;
+    forAll(parallelFor, splits.size(),
+      [&](std::size_t n) {
+        splits[n].displacement = this->freePlace(splits[n].particle, childDistance).displacement;
+      });
   }
 
   /// Puts particles where one is missing among its neighbours, which have too little energy then.
@@ -155,11 +160,12 @@ private:
     this->Touched[i] = 1;
   }
 
+  /// Where the new one stands is found later.
   void split(int i)
   {
     if (!this->Touched[i])
     {
-      this->Result.splits.push_back({ i, this->freePlace(i, childDistance).displacement });
+      this->Result.splits.push_back({ i, glm::vec2(0.0f) });
       this->Touched[i] = 1;
     }
   }
