@@ -122,8 +122,8 @@ bool bendsOneWay(
 /// \param reach of the line on which it is
 /// \param lines through the corners
 /// \param side 1 for the sheet ahead along the direction, -1 for the other one
-/// \return nothing where it is far from the other one, or not as good as a plane, or comes so near to the domain without parting its corners
-///   that it may be in it
+/// \return nothing where it is far from the other one, or not as good as a plane, or comes so near to the domain
+///   without parting its corners that it may be in it
 std::optional<SheetPair::Sheet> sheetFrom(const BernsteinForm& form, const glm::dvec3& place,
   const glm::dvec3& direction, double reach, const std::vector<FieldOnLines::Line>& lines,
   double side)

@@ -36,8 +36,9 @@ struct SheetPair
 /// Whether zeros of a field are two sheets, provably: along the direction n in which it bends most its second
 /// derivative has coefficients of one sign, so that lines along n meet at most two zeros, one on each side of where
 /// dF/dn is zero; and there the field has the other sign than outside on the lines through the corners, where they
-/// are not twice as near to each other as in the middle, nor half: the two are not seen to meet. They are no farther apart than the domain is thick; each
-/// is to bend by less than a tenth of that, and to part the corners or to be seen to pass by.
+/// are not twice as near to each other as in the middle, nor half: the two are not seen to meet. They are no
+/// farther apart than the domain is thick; each is to bend by less than a tenth of that, and to part the corners or
+/// to be seen to pass by.
 /// \param form whose last coefficients are the field; weights do not count
 /// \param test for its domain and degrees
 /// \param slack what counts as zero between them, >= 0
