@@ -49,6 +49,11 @@ public:
     , Count(values.size())
   {
   }
+  Span(const T* first, std::size_t count)
+    : First(first)
+    , Count(count)
+  {
+  }
 
   std::size_t size() const { return this->Count; }
   bool empty() const { return this->Count == 0; }

@@ -125,8 +125,8 @@ public:
 private:
   std::vector<std::vector<RimHint>> findHints(const ParallelFor& parallelFor) const;
   void follow(const RimHint& hint);
-  void sample(const RimTrace& trace);
-  void sampleStretch(const std::vector<RimVertex>& vertices, bool withEnd);
+  void sample(RimTrace trace);
+  void sampleStretch(Span<RimVertex> vertices, bool withEnd);
   double spacingAt(const RimPoint& point);
   ReferencePoint between(const RimPoint& from, const RimPoint& to, double t) const;
   void finish(const ParallelFor& parallelFor);
@@ -193,14 +193,13 @@ void RimSampler::follow(const RimHint& hint)
   {
     return;
   }
-  const RimTrace trace = this->Tracer.trace(*start, chordPerSpacing * nearby);
-  this->sample(trace);
+  this->sample(this->Tracer.trace(*start, chordPerSpacing * nearby));
 }
 
 /// Cuts a rim at its corners, and samples stretch by stretch.
-void RimSampler::sample(const RimTrace& trace)
+void RimSampler::sample(RimTrace trace)
 {
-  std::vector<RimVertex> vertices = trace.vertices;
+  std::vector<RimVertex>& vertices = trace.vertices;
   if (trace.closed)
   {
     const auto corner = std::find_if(
@@ -217,8 +216,7 @@ void RimSampler::sample(const RimTrace& trace)
       ++last;
     }
     const bool end = last + 1 == vertices.size();
-    this->sampleStretch(
-      { vertices.begin() + first, vertices.begin() + last + 1 }, end && !trace.closed);
+    this->sampleStretch({ &vertices[first], last + 1 - first }, end && !trace.closed);
     first = last;
   }
 }
@@ -242,7 +240,7 @@ ReferencePoint RimSampler::between(const RimPoint& from, const RimPoint& to, dou
 }
 
 /// Particles at equal distances, in units of the spacing wanted, from the first vertex on.
-void RimSampler::sampleStretch(const std::vector<RimVertex>& vertices, bool withEnd)
+void RimSampler::sampleStretch(Span<RimVertex> vertices, bool withEnd)
 {
   std::vector<double> sums{ 0.0 };
   double spacing = 0.0;

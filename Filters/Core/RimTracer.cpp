@@ -67,15 +67,15 @@ bool meet(const std::array<glm::dvec3, 2>& a, const std::array<glm::dvec3, 2>& b
 
 } // namespace
 
-void RimChords::add(const RimPoint& from, const RimPoint& to)
+RimChords::Chord::Chord(const RimPoint& from, const RimPoint& to)
+  : face(faceSlot(from.at.location.element, from.face))
+  , positions{ from.at.point.map.position.xyz, to.at.point.map.position.xyz }
+  , gradient(from.at.point.gradient)
 {
   const Location& first = from.at.location;
   const Location& last = to.at.location;
   // A chord that leaves its element is known by its first place there.
-  const Location& end = last.element == first.element ? last : first;
-  this->Chords[faceSlot(first.element, from.face)].push_back(
-    { { from.at.point.map.position.xyz, to.at.point.map.position.xyz }, { first.u.xyz, end.u.xyz },
-      from.at.point.gradient });
+  this->places = { first.u.xyz, (last.element == first.element ? last : first).u.xyz };
 }
 
 bool RimChords::pass(const RimPoint& point) const
@@ -386,16 +386,14 @@ RimTracer::Ahead RimTracer::passEdge(
 ReferenceVector RimTracer::predict(const Heading& heading, double step) const
 {
   const RimPoint& here = heading.here;
-  const ReferenceVector now = this->velocity(here);
-  const bool isSmooth = heading.before && heading.before->face == here.face &&
-    heading.before->at.location.element == here.at.location.element;
-  if (!isSmooth)
+  const ReferenceVector& now = heading.velocity;
+  const auto& before = heading.before;
+  if (!before || before->face != here.face || before->element != here.at.location.element)
   {
     return (heading.direction * step) * now;
   }
-  const double come =
-    glm::distance(heading.before->at.point.map.position.xyz, here.at.point.map.position.xyz);
-  const ReferenceVector change = now - this->velocity(*heading.before);
+  const double come = glm::distance(before->position.xyz, here.at.point.map.position.xyz);
+  const ReferenceVector change = now - before->velocity;
   const double weight = std::min(1.0, 0.5 * step / come);
   return (heading.direction * step) * (now + weight * change);
 }
@@ -447,40 +445,44 @@ bool RimTracer::follow(
   const RimPoint& start, double step, double direction, std::vector<RimVertex>& vertices)
 {
   RimPoint here = start;
-  std::optional<std::pair<RimPoint, RimPoint>> lastChord;
+  std::optional<Passed> before;
+  std::optional<RimChords::Chord> lastChord;
+  const auto addLast = [&]()
+  {
+    if (lastChord)
+    {
+      this->Chords.add(*lastChord);
+    }
+  };
   double chord = step;
   int stuck = 0;
   while (stuck <= mostStuck)
   {
-    const auto before = lastChord ? std::optional<RimPoint>(lastChord->first) : std::nullopt;
-    const auto next = this->advanceAtMost(chord, step, { here, direction, before });
+    const ReferenceVector velocity = this->velocity(here);
+    const auto next = this->advanceAtMost(chord, step, { here, velocity, direction, before });
     if (!next)
     {
       break;
     }
-    const double moved = glm::distance(here.at.point.map.position.xyz, next->position());
+    const WorldPoint& position = here.at.point.map.position;
+    const double moved = glm::distance(position.xyz, next->position());
     stuck = moved < 1e-9 * step ? stuck + 1 : 0;
     // The last chord ends where this one begins: it does not count.
     const bool again = this->Chords.pass(next->leaving);
-    if (lastChord)
-    {
-      this->Chords.add(lastChord->first, lastChord->second);
-    }
-    lastChord = { here, next->arriving };
+    addLast();
+    lastChord.emplace(here, next->arriving);
     if (again)
     {
-      this->Chords.add(lastChord->first, lastChord->second);
-      return distanceToSegment(start.at.point.map.position.xyz, here.at.point.map.position.xyz,
-               next->position()) < 0.5 * moved;
+      addLast();
+      return distanceToSegment(start.at.point.map.position.xyz, position.xyz, next->position()) <
+        0.5 * moved;
     }
     vertices.push_back(*next);
+    before = Passed{ here.at.location.element, here.face, position, velocity };
     here = next->leaving;
     chord = std::min(step, 1.5 * chord);
   }
-  if (lastChord)
-  {
-    this->Chords.add(lastChord->first, lastChord->second);
-  }
+  addLast();
   return false;
 }
 

@@ -39,7 +39,19 @@ struct RimTrace
 class RimChords
 {
 public:
-  void add(const RimPoint& from, const RimPoint& to);
+  struct Chord
+  {
+    Chord(const RimPoint& from, const RimPoint& to);
+
+    std::size_t face = 0; ///< slot
+    /// In the world, and in the element's reference space.
+    std::array<glm::dvec3, 2> positions;
+    std::array<glm::dvec3, 2> places;
+    /// The field's: two sheets close to each other have opposite ones.
+    WorldVector gradient;
+  };
+
+  void add(const Chord& chord) { this->Chords[chord.face].push_back(chord); }
 
   /// Whether a chord of the same sheet on the same face passes a point, to a fifth of its length.
   bool pass(const RimPoint& point) const;
@@ -48,15 +60,6 @@ public:
   bool cross(int element, int face, const std::array<glm::dvec3, 2>& ends) const;
 
 private:
-  struct Chord
-  {
-    /// In the world, and in the element's reference space.
-    std::array<glm::dvec3, 2> positions;
-    std::array<glm::dvec3, 2> places;
-    /// The field's: two sheets close to each other have opposite ones.
-    WorldVector gradient;
-  };
-
   /// By the slots of the faces that they run on.
   std::unordered_map<std::size_t, std::vector<Chord>> Chords;
 };
@@ -129,12 +132,23 @@ private:
     bool fades = false;
   };
 
-  /// Where a rim is, which way it is followed there, and where it was before.
+  /// Where a rim was.
+  struct Passed
+  {
+    int element = -1;
+    int face = -1;
+    WorldPoint position;
+    /// See velocity().
+    ReferenceVector velocity;
+  };
+
+  /// Where a rim is, which way it is followed there, and where it was before, unless it begins.
   struct Heading
   {
-    RimPoint here;
+    const RimPoint& here;
+    ReferenceVector velocity;
     double direction = 1.0;
-    std::optional<RimPoint> before;
+    std::optional<Passed> before;
   };
 
   std::optional<RimVertex> advanceAtMost(double& chord, double step, const Heading& heading);

@@ -42,23 +42,24 @@ Evaluated SurfaceWalker::evaluate(const Location& location)
   return { location, fieldPoint(jet, this->Surface.isovalue) };
 }
 
-const Jet& SurfaceWalker::jetAt(const Location& location)
-{
-  if (location.element != this->LastPlace.element || location.u.xyz != this->LastPlace.u.xyz)
-  {
-    ++this->Evaluations;
-    this->LastPlace = location;
-    this->LastJet = evaluateHessian(this->Surface.mesh->form(location.element), location.u);
-  }
-  return this->LastJet;
-}
-
 Evaluated SurfaceWalker::evaluateCurved(const Location& location)
 {
-  const Jet& jet = this->jetAt(location);
-  Evaluated result{ location, fieldPoint(jet, this->Surface.isovalue) };
-  result.hessian = worldHessian(jet, result.point);
+  ++this->Evaluations;
+  this->LastPlace = location;
+  this->LastJet = evaluateHessian(this->Surface.mesh->form(location.element), location.u);
+  Evaluated result{ location, fieldPoint(this->LastJet, this->Surface.isovalue) };
+  result.hessian = worldHessian(this->LastJet, result.point);
   return result;
+}
+
+const Jet& SurfaceWalker::jetAt(const Location& location)
+{
+  const Location& last = this->LastPlace;
+  if (location.element != last.element || location.u.xyz != last.u.xyz)
+  {
+    this->evaluateCurved(location);
+  }
+  return this->LastJet;
 }
 
 std::optional<LocatedPlace> SurfaceWalker::placeBehind(const Evaluated& here, int face)

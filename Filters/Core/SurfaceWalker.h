@@ -80,7 +80,7 @@ public:
   /// Value, gradient and Hessian at a place.
   Evaluated evaluateCurved(const Location& location);
 
-  /// Value and derivatives to second order at a place; costs nothing where the last ones were.
+  /// Value and derivatives to second order at a place; costs nothing where Hessians were evaluated last.
   const Jet& jetAt(const Location& location);
 
   /// What lies behind a face, on which a place lies, where the surface goes on there: joined by the mesh or

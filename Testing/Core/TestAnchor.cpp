@@ -143,7 +143,7 @@ TEST(RimChords, CrossLinesOnTheirFaceOnly)
     return point;
   };
   RimChords chords;
-  chords.add(pointAt({ 0.2, 0.2, 0.0 }), pointAt({ 0.6, 0.6, 0.0 }));
+  chords.add({ pointAt({ 0.2, 0.2, 0.0 }), pointAt({ 0.6, 0.6, 0.0 }) });
   const auto crosses = [&](const glm::dvec3& a, const glm::dvec3& b) {
     return chords.cross(7, 4, { a, b });
   };

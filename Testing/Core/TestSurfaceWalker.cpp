@@ -184,6 +184,9 @@ TEST(SurfaceWalker, KeepsTheLastDerivatives)
   EXPECT_EQ(fieldPoint(walker.jetAt(elsewhere), 0.0).map.position.xyz,
     walker.evaluate(elsewhere).point.map.position.xyz);
   EXPECT_EQ(walker.evaluations(), 3);
+  // What others left behind must not make it cheaper.
+  walker.evaluateCurved(elsewhere);
+  EXPECT_EQ(walker.evaluations(), 4);
 }
 
 TEST_P(WalkThrough, ProjectsOntoTheSurfaceAcrossFaces)
