@@ -439,6 +439,17 @@ vtkHighOrderParticleIsosurface::Scale vtkHighOrderParticleIsosurface::FindScale(
   return scale;
 }
 
+std::vector<double> vtkHighOrderParticleIsosurface::DistinctIsovalues() const
+{
+  const double* values = this->ContourValues->GetValues();
+  std::vector<double> distinct;
+  std::copy_if(values, values + this->ContourValues->GetNumberOfContours(),
+    std::back_inserter(distinct),
+    [&](double value)
+    { return std::find(distinct.begin(), distinct.end(), value) == distinct.end(); });
+  return distinct;
+}
+
 bool vtkHighOrderParticleIsosurface::CheckParameters()
 {
   const double* values = this->ContourValues->GetValues();
@@ -638,20 +649,21 @@ void vtkHighOrderParticleIsosurface::UnlessAborted(const InputBlocks& blocks, co
 std::vector<RankShare> vtkHighOrderParticleIsosurface::ShareOut(
   const InputBlocks& blocks, const GridElements& elements, const Scale& scale, const Work& work)
 {
-  const auto isovalueCount = static_cast<std::size_t>(this->GetNumberOfContours());
-  std::vector<RankShare> shares(isovalueCount, { this->NumberOfParticles, 0.0 });
+  const std::vector<double> isovalues = this->DistinctIsovalues();
+  std::vector<RankShare> shares(isovalues.size(), { this->NumberOfParticles, 0.0 });
   // More than all ranks hold is refused by each of them when it is asked for.
   if (this->NumberOfParticles > 0 &&
     static_cast<double>(this->NumberOfParticles) <=
       sumOfRanks(static_cast<double>(particlesThatFit())))
   {
-    shares = shareOutToRanks(this->NumberOfParticles, isovalueCount,
+    shares = shareOutToRanks(this->NumberOfParticles, isovalues.size(),
       firstSpacingPerDiagonal * scale.Diagonal,
       [&](std::size_t i, double spacing)
       {
         WantedParticles wanted;
-        this->UnlessAborted(
-          blocks, [&]() { wanted = this->CountWanted(blocks, elements, scale, i, spacing, work); });
+        this->UnlessAborted(blocks,
+          [&]()
+          { wanted = this->CountWanted(blocks, elements, scale, isovalues[i], spacing, work); });
         return wanted;
       });
   }
@@ -660,16 +672,15 @@ std::vector<RankShare> vtkHighOrderParticleIsosurface::ShareOut(
 
 /// \throw hop::Interrupted
 WantedParticles vtkHighOrderParticleIsosurface::CountWanted(const InputBlocks& blocks,
-  const GridElements& elements, const Scale& scale, std::size_t isovalue, double spacing,
+  const GridElements& elements, const Scale& scale, double isovalue, double spacing,
   const Work& work)
 {
-  const double value = this->ContourValues->GetValue(static_cast<int>(isovalue));
-  if (!elements.canBe(value))
+  if (!elements.canBe(isovalue))
   {
     return {};
   }
   const std::vector<double> ofElements =
-    hop::wantedParticles({ &elements.mesh, elements.fieldIsovalue(value), scale.Tolerance },
+    hop::wantedParticles({ &elements.mesh, elements.fieldIsovalue(isovalue), scale.Tolerance },
       { spacing, this->AngularDensity }, work.monitor, work.parallelFor);
   WantedParticles wanted;
   for (std::size_t e = 0; e < ofElements.size(); ++e)
@@ -685,17 +696,17 @@ WantedParticles vtkHighOrderParticleIsosurface::CountWanted(const InputBlocks& b
 void vtkHighOrderParticleIsosurface::Fill(const InputBlocks& blocks, const GridElements& elements,
   const Scale& scale, std::size_t group, const std::vector<RankShare>& shares, const Work& work)
 {
-  const std::size_t isovalueCount = shares.size();
+  const std::vector<double> isovalues = this->DistinctIsovalues();
   const double shareOfIsovalue =
-    (distributedShare - convertedShare) / static_cast<double>(isovalueCount);
+    (distributedShare - convertedShare) / static_cast<double>(isovalues.size());
   RunOrigin origin = this->OriginOf(blocks, scale);
   std::vector<IsovalueParticles> particles;
-  for (std::size_t i = 0; i < isovalueCount && !isAborted(this); ++i)
+  for (std::size_t i = 0; i < isovalues.size() && !isAborted(this); ++i)
   {
-    origin.isovalue = this->ContourValues->GetValue(static_cast<int>(i));
+    origin.isovalue = isovalues[i];
     const double begin = convertedShare + static_cast<double>(i) * shareOfIsovalue;
     particles.push_back({ origin.isovalue,
-      this->Distribute(elements, scale, origin, group * isovalueCount + i, shares[i],
+      this->Distribute(elements, scale, origin, group * isovalues.size() + i, shares[i],
         work.part(begin, begin + shareOfIsovalue)) });
     this->Review(blocks, particles.back().distribution, origin.isovalue);
   }
@@ -715,9 +726,8 @@ GridElements vtkHighOrderParticleIsosurface::Convert(const InputBlocks& blocks, 
   };
   const auto spacing = this->NodeSpacing == UNIFORM ? hop::NodeSpacing::Uniform
                                                     : hop::NodeSpacing::GaussLobattoLegendre;
-  const double* values = this->ContourValues->GetValues();
-  GridElements elements = buildGridElements(
-    blocks, spacing, { values, values + this->GetNumberOfContours() }, std::ref(loops), reached);
+  GridElements elements =
+    buildGridElements(blocks, spacing, this->DistinctIsovalues(), std::ref(loops), reached);
   this->Review(blocks, elements);
   return elements;
 }

@@ -97,7 +97,7 @@ public:
 
   ///@{
   /**
-   * The isovalues, as in vtkContourFilter. None by default.
+   * The isovalues, as in vtkContourFilter; one that is given twice counts once. None by default.
    */
   void SetValue(int i, double value);
   double GetValue(int i);
@@ -256,6 +256,7 @@ private:
   };
   bool IsAskedForMore(vtkInformationVector* outputs);
   Scale FindScale(const std::vector<InputBlock>& blocks);
+  std::vector<double> DistinctIsovalues() const;
   bool CheckParameters();
   bool CheckScale(const Scale& scale);
   bool CheckInput(const GatheredBlocks& gathered);
@@ -271,7 +272,7 @@ private:
   std::vector<RankShare> ShareOut(
     const InputBlocks& blocks, const GridElements& elements, const Scale& scale, const Work& work);
   WantedParticles CountWanted(const InputBlocks& blocks, const GridElements& elements,
-    const Scale& scale, std::size_t isovalue, double spacing, const Work& work);
+    const Scale& scale, double isovalue, double spacing, const Work& work);
   void Fill(const InputBlocks& blocks, const GridElements& elements, const Scale& scale,
     std::size_t group, const std::vector<RankShare>& shares, const Work& work);
   hop::Distribution Distribute(const GridElements& elements, const Scale& scale,

@@ -261,6 +261,13 @@ def test_an_isovalue_that_is_no_number(good, isovalue):
     assert_one_error(messages, "isovalue is NaN or infinite")
 
 
+@pytest.mark.parametrize("properties", [{"Spacing": 0.1}, {"NumberOfParticles": 200}])
+def test_an_isovalue_that_is_given_twice_counts_once(good, properties):
+    once = support.run_quietly(good, "F", [0.9, 1.0], **properties)
+    twice = support.run_quietly(good, "F", [0.9, 1.0, 0.9], **properties)
+    assert np.array_equal(support.points_of(twice), support.points_of(once))
+
+
 def test_no_isovalue(good):
     proxy, messages = support.make_filter(good, "F", 1.0)
     proxy.Isosurfaces = []
