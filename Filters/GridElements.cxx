@@ -76,9 +76,11 @@ struct CellRange
   std::size_t firstCoefficient = 0;
 };
 
-bool isFinite(double value)
+/// Whether gradients can be squared, of magnitudes too, whose squares are contoured.
+bool isUsable(double value)
 {
-  return std::isfinite(value);
+  constexpr double largest = 1e75;
+  return std::abs(value) <= largest;
 }
 
 /// Adds a row, times a factor, to all rows of values.
@@ -373,7 +375,7 @@ Verdict Builder::read(const BlockCell& where, const CellBasis& basis, CellValues
       this->Result.squared ? c : this->Blocks.component(), values.field.data() + c,
       this->Components);
   }
-  if (!std::all_of(values.field.begin(), values.field.end(), isFinite))
+  if (!std::all_of(values.field.begin(), values.field.end(), isUsable))
   {
     return Verdict::NotFinite;
   }
@@ -384,7 +386,7 @@ Verdict Builder::read(const BlockCell& where, const CellBasis& basis, CellValues
     values.weights.resize(values.count);
     gatherComponent(weights, values.ids, values.count, 0, values.weights.data());
   }
-  const auto isGood = [](double weight) { return weight > 0.0 && isFinite(weight); };
+  const auto isGood = [](double weight) { return weight > 0.0 && std::isfinite(weight); };
   return std::all_of(values.weights.begin(), values.weights.end(), isGood) ? Verdict::Keep
                                                                            : Verdict::BadWeights;
 }
@@ -663,7 +665,8 @@ std::string CellCensus::describe() const
         " (hexahedra: " + std::to_string(hop::maximumInputDegree(hop::Domain::Hexahedron)) + ")");
   }
   describeCells(text, this->brokenConnectivity, "skipped: point ids outside the grid");
-  describeCells(text, this->notFinite, "skipped: coordinates or values that are NaN or infinite");
+  describeCells(text, this->notFinite,
+    "skipped: coordinates or values that are NaN or infinite, or values beyond 1e75");
   describeCells(text, this->badWeights, "skipped: RationalWeights that are not positive");
   describeCells(
     text, this->level, "skipped: the field is the isovalue throughout, which is no surface");

@@ -35,7 +35,7 @@ struct CellCensus
   std::map<int, SkippedCells> unsupported;
   /// Point ids outside the grid.
   SkippedCells brokenConnectivity;
-  /// Coordinates or values that are NaN or infinite.
+  /// Coordinates or values that are NaN or infinite, or values too large to be squared.
   SkippedCells notFinite;
   /// Rational Bezier cells with weights that are not positive.
   SkippedCells badWeights;

@@ -350,7 +350,7 @@ def test_too_few_particles_are_told_what_there_is_to_change(good, given, advice)
 # Numbers that are none
 
 
-@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf, 1e80])
 def test_elements_with_values_that_are_not_finite_are_left_out(good, bad):
     whole = support.run_quietly(good, **SPHERE)
     for cell in (4, 22):
