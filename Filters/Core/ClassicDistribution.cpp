@@ -1,5 +1,6 @@
 #include "ClassicDistribution.h"
 
+#include "KeepMarked.h"
 #include "ParticleBins.h"
 #include "Random.h"
 #include "SurfaceBoxes.h"
@@ -32,6 +33,7 @@ constexpr double smallestLambda = 1e-4;
 constexpr int maximumSweeps = 60;
 constexpr int maximumPopulationRounds = 40;
 constexpr int maximumCoarseRounds = 8;
+constexpr int mostExchanges = 4;
 constexpr double coarsestSpacingPerExtent = 0.1;
 constexpr double boxSizePerSpacing = 3.0;
 constexpr double smallestBoxPerExtent = 1.0 / 400.0;
@@ -44,6 +46,8 @@ constexpr double movingTolerance = 1e-4;
 constexpr double bentTooFar = 1.0;
 /// Scaled distance of particles that nothing will part any more, as in a corner of the domain.
 constexpr double overlapDistance = 0.1;
+/// Energy, in units of that of hexagonal packing, beyond which it says nothing about the number of particles.
+constexpr double largestExcess = 2.5;
 
 /// A particle on its way.
 struct Mover
@@ -100,6 +104,7 @@ private:
   double scaledDistance(const Mover& a, const Mover& b) const;
   bool changePopulation();
   bool overlapsEarlier(std::size_t i) const;
+  bool dropOverlapping();
   bool addBeside(const Mover& parent, double distance, double angle);
   void splitByFour(double oldSpacing);
   double excessEnergy() const;
@@ -384,6 +389,19 @@ bool ClassicSystem::overlapsEarlier(std::size_t i) const
     });
 }
 
+/// \return whether there were any
+bool ClassicSystem::dropOverlapping()
+{
+  const std::size_t before = this->Movers.size();
+  std::vector<char> apart(before);
+  for (std::size_t i = 0; i < before; ++i)
+  {
+    apart[i] = !this->overlapsEarlier(i);
+  }
+  keepMarked(this->Movers, apart);
+  return this->Movers.size() < before;
+}
+
 bool ClassicSystem::bendsTooFar(const Mover& mover)
 {
   const Evaluated at = this->Walker.evaluateCurved(mover.at.location);
@@ -448,7 +466,8 @@ double ClassicSystem::excessEnergy() const
   double ideal = 0.0;
   for (const Mover& m : this->Movers)
   {
-    energy += m.energy;
+    // One pair that cannot part would outweigh all others.
+    energy += std::min(m.energy, largestExcess * m.ideal);
     ideal += m.ideal;
   }
   return ideal > 0.0 ? (energy / ideal - 1.0) / slope : 0.0;
@@ -626,8 +645,12 @@ Distribution ClassicSystem::run()
   }
   // The biased coin may have taken the last particles of a component smaller than the spacing.
   this->addUncovered(seeds);
-  if (fixedNumber && this->proceed())
+  for (int n = 0; n < (fixedNumber ? mostExchanges : 0) && this->proceed(); ++n)
   {
+    if (n > 0 && !this->dropOverlapping())
+    {
+      break;
+    }
     this->forceCount(static_cast<std::size_t>(this->Parameters.particleCount));
     this->relaxLevel(maximumPopulationRounds, true);
   }

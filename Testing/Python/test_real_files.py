@@ -250,6 +250,19 @@ def test_particles_cross_the_faces_of_refined_elements(data, method, least):
         assert np.any(ends & (normals > 0))
 
 
+def test_a_pair_that_cannot_part_does_not_change_the_spacing(data):
+    """Classic: particles of a given number, two of which come together in a corner of the surface."""
+    reader = support.read(data("dealii_shell_p3_00.1.vtu"))
+    runs = [
+        support.run_quietly(reader, "u", 0.3, NumberOfParticles=count, AngularDensity=0, Method="Classic")
+        for count in (267, 268)
+    ]
+    assert [particles.GetNumberOfPoints() for particles in runs] == [267, 268]
+    one, other = (support.array_of(particles, "Radius") for particles in runs)
+    assert one.max() == pytest.approx(other.max(), rel=0.03)
+    assert support.nearest_neighbors(runs[0]).min() >= 0.5
+
+
 @pytest.mark.parametrize(
     "file, array, isovalue, field, error",
     [
