@@ -193,8 +193,7 @@ private:
   void sortByNeighbors(int* begin, int* end) const;
   void layOut();
   void fillBlocks();
-  void fillNeighbors(const SweepBlock& block);
-  void fillLane(SweepBlock& block, int lane) const;
+  void fillLane(int particle, SweepBlock& block, int lane);
   void makeStages(std::size_t tileSize, std::size_t groupsPerTile);
   void runStages(int first, int last);
 
@@ -205,6 +204,8 @@ private:
   /// One a particle, and one beyond the sight of all that stands in for neighbours missing in a block.
   Buffer<Seen> SeenParticles;
   Buffer<SweepBlock> Blocks;
+  /// Where each particle that moves is: SweepLanes times its block, and its lane.
+  Buffer<int> LaneOf;
   /// Blocks of particles of one tile and colour follow each other: where each such group starts.
   std::vector<std::ptrdiff_t> GroupStart{ 0 };
   /// What may move at the same time: within a piece one block after the other, pieces in threads.
@@ -322,6 +323,7 @@ void SweepSystem::layOut()
   }
   this->makeStages(tileSize, colorCount);
   this->Blocks = Buffer<SweepBlock>(this->GroupStart.back());
+  this->LaneOf = Buffer<int>(count);
   forAll(this->Parallel, this->Blocks.size(),
     [&](std::size_t b)
     {
@@ -335,9 +337,13 @@ void SweepSystem::layOut()
       block.count = std::min(SweepLanes, groups.start[group + 1] - first);
       for (int lane = 0; lane < SweepLanes; ++lane)
       {
-        block.particle[lane] = groups.order[first + std::min(lane, block.count - 1)];
-        block.neighborCount =
-          std::max(block.neighborCount, this->Lists.count(block.particle[lane]));
+        const int particle = groups.order[first + std::min(lane, block.count - 1)];
+        block.particle[lane] = particle;
+        block.neighborCount = std::max(block.neighborCount, this->Lists.count(particle));
+        if (lane < block.count)
+        {
+          this->LaneOf[particle] = static_cast<int>(b) * SweepLanes + lane;
+        }
       }
     });
 }
@@ -369,6 +375,7 @@ void SweepSystem::makeStages(std::size_t tileSize, std::size_t groupsPerTile)
   }
 }
 
+/// Particle by particle, as what is known about them lies in memory: blocks that fill up at a time are few.
 void SweepSystem::fillBlocks()
 {
   std::ptrdiff_t neighbors = 0;
@@ -378,33 +385,21 @@ void SweepSystem::fillBlocks()
     neighbors += std::ptrdiff_t{ block.neighborCount } * SweepLanes;
   }
   this->Neighbors = Buffer<std::int32_t>(neighbors);
-  forAll(this->Parallel, this->Blocks.size(),
-    [&](std::size_t b)
+  forAll(this->Parallel, this->Patches.size(),
+    [&](std::size_t i)
     {
-      SweepBlock& block = this->Blocks[b];
-      for (int lane = 0; lane < SweepLanes; ++lane)
+      if (!this->Patches[i].fixed)
       {
-        this->fillLane(block, lane);
+        SweepBlock& block = this->Blocks[this->LaneOf[i] / SweepLanes];
+        const int lane = this->LaneOf[i] % SweepLanes;
+        // The last one takes lanes that are left over, too.
+        const int end = lane == block.count - 1 ? SweepLanes : lane + 1;
+        for (int n = lane; n < end; ++n)
+        {
+          this->fillLane(static_cast<int>(i), block, n);
+        }
       }
-      this->fillNeighbors(block);
     });
-}
-
-void SweepSystem::fillNeighbors(const SweepBlock& block)
-{
-  const auto beyond = static_cast<std::int32_t>(this->Patches.size());
-  std::int32_t* rows = this->Neighbors.data() + block.firstNeighbor;
-  std::fill_n(rows, block.neighborCount * SweepLanes, beyond);
-  for (int lane = 0; lane < SweepLanes; ++lane)
-  {
-    std::int32_t* neighbor = rows + lane;
-    const int particle = block.particle[lane];
-    for (const int* j = this->Lists.begin(particle); j != this->Lists.end(particle); ++j)
-    {
-      *neighbor = *j;
-      neighbor += SweepLanes;
-    }
-  }
 }
 
 Relaxed SweepSystem::result(const Balance& balance) const
@@ -426,9 +421,8 @@ Relaxed SweepSystem::result(const Balance& balance) const
   return result;
 }
 
-void SweepSystem::fillLane(SweepBlock& block, int lane) const
+void SweepSystem::fillLane(int particle, SweepBlock& block, int lane)
 {
-  const int particle = block.particle[lane];
   const Patch& patch = this->Patches[particle];
   const auto tangents = tangentsOf(patch.normal);
   for (int axis = 0; axis < 3; ++axis)
@@ -445,6 +439,17 @@ void SweepSystem::fillLane(SweepBlock& block, int lane) const
     std::max(bentRelaxation, flatRelaxation - std::max(0.0f, bend * patch.spacing - flatUpTo));
   block.farthest[lane] =
     std::min(farthestPerSpacing * patch.spacing, farthestPerRadius / std::max(bend, 1e-30f));
+  std::int32_t* neighbor = this->Neighbors.data() + block.firstNeighbor + lane;
+  for (const int* j = this->Lists.begin(particle); j != this->Lists.end(particle); ++j)
+  {
+    *neighbor = *j;
+    neighbor += SweepLanes;
+  }
+  for (int n = this->Lists.count(particle); n < block.neighborCount; ++n)
+  {
+    *neighbor = static_cast<std::int32_t>(this->Patches.size());
+    neighbor += SweepLanes;
+  }
 }
 
 } // namespace
