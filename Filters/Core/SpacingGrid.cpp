@@ -226,6 +226,8 @@ SeenLists::SeenLists(
   this->Places.resize(positions.size());
   this->Chunks.resize((positions.size() + pointsPerChunk - 1) / pointsPerChunk);
 
+  Buffer<double> inverse(positions.size());
+  forAll(parallelFor, inverse.size(), [&](std::size_t i) { inverse[i] = 1.0 / spacings[i]; });
   // Two points see each other if d <= 2 reach/(1/h_i + 1/h_j).
   const double limit = 4.0 * reach * reach;
   const auto findNear = kernel::current().near;
@@ -243,14 +245,14 @@ SeenLists::SeenLists(
         continue;
       }
       candidates.clear();
-      grid.visitAround(points, [&](int j) { candidates.add(positions[j], 1.0 / spacings[j], j); });
+      grid.visitAround(points, [&](int j) { candidates.add(positions[j], inverse[j], j); });
       const kernel::Candidates rows = candidates.filledUp();
       for (const int i : points)
       {
         lists.resize(std::max(lists.size(), used + rows.count));
         const glm::dvec3& x = positions[i];
         int* list = lists.data() + used;
-        int* listEnd = findNear(rows, { x.x, x.y, x.z }, 1.0 / spacings[i], limit, list);
+        int* listEnd = findNear(rows, { x.x, x.y, x.z }, inverse[i], limit, list);
         listEnd = std::remove(list, listEnd, i);
         this->Places[i] = { static_cast<int>(chunk), static_cast<int>(used),
           static_cast<int>(listEnd - list) };
