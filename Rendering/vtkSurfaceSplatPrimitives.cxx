@@ -24,15 +24,46 @@ namespace
 // From middle to rim, splats cover at least that many pixels.
 constexpr double LeastPixels = 0.75;
 
-// Mesa's rasterizers in software keep what they have set up of each primitive until they are flushed.
-// As long as that fits into the processor's cache a picture of 10^6 splats takes half the time.
-constexpr vtkIdType SoftwareBatch = 4096;
+// Of draw calls in which some points are left out, Mesa goes through all vertices again for every 4 KB of those
+// that it passes on.
+constexpr vtkIdType SoftwarePiece = 512;
+
+// Mesa's rasterizers in software keep what they have set up of each primitive until they are flushed: what that
+// many pieces need fits into the processor's cache.
+constexpr int PiecesAFlush = 8;
 
 bool IsDrawnInSoftware()
 {
   const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   return name && (std::strstr(name, "llvmpipe") || std::strstr(name, "softpipe"));
 }
+
+// Lets Mesa's threads draw what was flushed while more is set up. At most two flushes are under way: they share
+// the processor's cache, and once there were 64 llvmpipe sets nothing up any more while it draws.
+class SoftwareFlushes
+{
+public:
+  SoftwareFlushes() = default;
+  ~SoftwareFlushes() { glDeleteSync(this->Last); }
+
+  void Flush()
+  {
+    const GLsync before = this->Last;
+    this->Last = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    glFlush();
+    if (before)
+    {
+      glClientWaitSync(before, 0, GL_TIMEOUT_IGNORED);
+      glDeleteSync(before);
+    }
+  }
+
+private:
+  SoftwareFlushes(const SoftwareFlushes&) = delete;
+  void operator=(const SoftwareFlushes&) = delete;
+
+  GLsync Last = nullptr;
+};
 
 /**
  * Up to where a splat makes a surface, in radii, whatever the weights are: where those of sharpness 2 have fallen
@@ -120,16 +151,18 @@ void vtkSurfaceSplatPrimitives::Draw(const vtkSurfaceSplatDrawing& drawing)
     (drawing.Buffers->GetNumberOfParticles() + drawing.Stride - 1) / drawing.Stride;
   const bool points = drawing.DrawsPoints();
   const int corners = points ? 1 : 3;
-  const vtkIdType batch = IsDrawnInSoftware() ? SoftwareBatch : count;
+  const bool software = IsDrawnInSoftware();
+  const vtkIdType piece = software ? SoftwarePiece : count;
+  SoftwareFlushes flushes;
   this->VertexArray->Bind(); // empty, but OpenGL wants one
-  for (vtkIdType first = 0; first < count; first += batch)
+  for (vtkIdType first = 0; first < count; first += piece)
   {
-    const vtkIdType size = std::min(batch, count - first);
+    const vtkIdType size = std::min(piece, count - first);
     glDrawArrays(points ? GL_POINTS : GL_TRIANGLES, static_cast<GLint>(corners * first),
       static_cast<GLsizei>(corners * size));
-    if (first + size < count)
+    if (software && (first / piece + 1) % PiecesAFlush == 0)
     {
-      glFlush();
+      flushes.Flush();
     }
   }
   this->VertexArray->Release();
