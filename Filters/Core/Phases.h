@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Monitor.h"
+#include "SharedPieces.h"
 
 #include <atomic>
 #include <thread>
@@ -21,9 +22,10 @@ void runPhases(
   const ParallelFor& parallelFor, int phases, const PieceCount& pieceCount, const Body& body)
 {
   constexpr std::ptrdiff_t mostThreads = 64;
-  std::vector<std::atomic<std::ptrdiff_t>> taken(phases);
+  std::vector<SharedPieces> pieces(phases);
   std::vector<std::atomic<std::ptrdiff_t>> done(phases);
   std::atomic<int> current{ 0 };
+  std::atomic<int> workers{ 0 };
   std::atomic<bool> failed{ false };
   const auto run = [&](int phase, std::ptrdiff_t piece)
   {
@@ -39,14 +41,22 @@ void runPhases(
   };
   const auto work = [&](std::ptrdiff_t, std::ptrdiff_t)
   {
+    const int worker = workers++;
     for (int phase = current; phase < phases; ++phase)
     {
       const std::ptrdiff_t count = pieceCount(phase);
-      for (std::ptrdiff_t piece = taken[phase]++; piece < count && !failed; piece = taken[phase]++)
-      {
-        run(phase, piece);
-        ++done[phase];
-      }
+      std::ptrdiff_t mine = 0;
+      pieces[phase].take(worker, count,
+        [&](std::ptrdiff_t piece)
+        {
+          if (!failed)
+          {
+            run(phase, piece);
+            ++mine;
+          }
+          return !failed;
+        });
+      done[phase] += mine;
       while (done[phase] < count && !failed)
       {
         std::this_thread::yield();

@@ -1,6 +1,7 @@
 #include "Monitor.h"
 
 #include "Phases.h"
+#include "SharedPieces.h"
 #include "ThreadTeam.h"
 #include "ThreadedFor.h"
 
@@ -67,6 +68,48 @@ TEST(RunParallel, TellsTheSeamOfLoopsThatAreOver)
   { left.push_back(count); };
   forAll(parallelFor, 1, [](std::size_t) {});
   EXPECT_EQ(left, std::vector<std::ptrdiff_t>{ 0 });
+}
+
+TEST(SharedPieces, AreTakenOnceAndOnesOwnFirst)
+{
+  constexpr std::ptrdiff_t count = 40;
+  for (const int workers : { 1, 2, 3, 10 })
+  {
+    SharedPieces pieces;
+    std::vector<int> taken(count, 0);
+    std::vector<std::ptrdiff_t> first;
+    // Each takes one, then the last one all that are left.
+    for (int worker = 0; worker < workers; ++worker)
+    {
+      pieces.take(worker, count,
+        [&](std::ptrdiff_t piece)
+        {
+          ++taken[piece];
+          first.push_back(piece);
+          return worker + 1 == workers;
+        });
+    }
+    EXPECT_EQ(taken, std::vector<int>(count, 1)) << workers;
+    EXPECT_EQ(first[0], 0);
+    EXPECT_EQ(first[1], workers == 1 ? 1 : count / 2);
+  }
+}
+
+TEST(SharedPieces, MayBeFewOrNone)
+{
+  for (const std::ptrdiff_t count : { 0, 1, 3 })
+  {
+    SharedPieces pieces;
+    std::ptrdiff_t taken = 0;
+    const auto take = [&](std::ptrdiff_t)
+    {
+      ++taken;
+      return true;
+    };
+    pieces.take(1, count, take);
+    pieces.take(0, count, take);
+    EXPECT_EQ(taken, count);
+  }
 }
 
 /// Pieces that wait for each other: threads are there from the start.
