@@ -26,8 +26,8 @@
  * components a plane: unit vector to the side that is cut off; zero: no plane) and `Clip_Distance` (1
  * component a plane: distance of the plane from the particle along that vector, >= 0, world units). A third
  * array, `Clip_Angle` (1 component a plane: by how many degrees the surface turns there; 180 where it ends),
- * lets splats fill gaps that others leave beyond planes: everywhere below 10 degrees, where the surface is
- * almost smooth, up to an eighth of a radius at kinks, not at rims. Without it all planes are rims. A fourth
+ * lets splats fill gaps that others leave beyond planes: up to a third of a radius below 10 degrees, where the
+ * surface is almost smooth, up to a seventh at kinks, not at rims. Without it all planes are rims. A fourth
  * one, `Clip_Curvature` (1 component a plane, 1 / world units), bends the line in which a plane cuts its disk to
  * a parabola, towards the plane's vector where it is positive.
  *

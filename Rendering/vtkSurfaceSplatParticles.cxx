@@ -169,10 +169,9 @@ std::vector<double> FindSheets(vtkDataArray* values, const std::vector<vtkIdType
 float vtkSurfaceSplatParticles::OverlapAt(double degrees)
 {
   constexpr double smooth = 10.;
-  constexpr double atKink = 0.125;
-  constexpr float everywhere = 2.f; // disks end at 1, planes lie before them
+  constexpr double atKink = 0.15;
   const double cosine = std::cos(vtkMath::RadiansFromDegrees(degrees));
-  return degrees < smooth ? everywhere : cosine > 0. ? static_cast<float>(atKink * cosine) : 0.f;
+  return degrees < smooth ? SmoothOverlap : cosine > 0. ? static_cast<float>(atKink * cosine) : 0.f;
 }
 
 //------------------------------------------------------------------------------

@@ -85,11 +85,14 @@ struct vtkSurfaceSplatParticles
    */
   static double EstimateDistance(const double bounds[6], vtkIdType count);
 
+  /** OverlapAt() planes at which the surface is almost smooth: at others it is less than half as much. */
+  static constexpr float SmoothOverlap = 0.35f;
+
   /**
    * How far, in radii, a splat fills gaps beyond a plane at which the surface turns by so many degrees.
-   * Everywhere below 10 degrees, where it is almost smooth. At kinks a little, for particles on both sides do
-   * not know the line between them exactly; the less the sharper they are, and not at all from 90 degrees on,
-   * where splats would stick out.
+   * SmoothOverlap below 10 degrees, where it is almost smooth: farther off splats stand out at outlines. At
+   * kinks a little, for particles on both sides do not know the line between them exactly; the less the sharper
+   * they are, and not at all from 90 degrees on, where splats would stick out.
    */
   static float OverlapAt(double degrees);
 

@@ -20,6 +20,10 @@ namespace
 constexpr double Reach = 1.5;
 constexpr double LongestReach = 4.;
 
+// What neighbours count behind a plane at which the surface is almost smooth: they belong to another cell's surface,
+// which may also lie a step higher or lower, but the splat goes on over that plane a little.
+constexpr double ShareBehindSmooth = 0.5;
+
 // By how much a normal may miss a neighbour's for the particle's own shape operator to count as much as
 // all neighbours together, radians.
 constexpr double OwnError = 0.01;
@@ -87,21 +91,26 @@ vtkVector3d Times(const float shape[8], const vtkVector3d& v)
     shape[6] * v[0] + shape[5] * v[1] + shape[2] * v[2]);
 }
 
-// Whether the surface ends or has a kink before the place that is so far off. Particles of a rim lie on each
-// other's edges, more or less: `margin` is what does not count.
-bool IsBehindClip(
+// How much a neighbour counts that is so far off: not at all if the surface ends or has a kink before it. Particles
+// of a rim lie on each other's edges, more or less: `margin` is what does not count.
+double ShareOf(
   const std::vector<float>& clip, vtkIdType particle, const vtkVector3d& offset, double margin)
 {
-  const auto isBehind = [&](vtkIdType plane)
+  double share = 1.;
+  for (vtkIdType plane = 0; plane < 2 && !clip.empty(); ++plane)
   {
     const vtkIdType first = 12 * particle + 4 * plane;
-    const bool isSmooth = clip[12 * particle + 8 + plane] >= 1.f;
+    const bool isSmooth =
+      clip[12 * particle + 8 + plane] >= vtkSurfaceSplatParticles::SmoothOverlap;
     const double across = VectorAt(clip, first).Dot(offset);
     const double bend = 0.5 * clip[12 * particle + 10 + plane];
     const double edge = clip[first + 3] + bend * (offset.SquaredNorm() - across * across);
-    return !isSmooth && across > edge + margin;
-  };
-  return !clip.empty() && (isBehind(0) || isBehind(1));
+    if (across > edge + margin)
+    {
+      share = std::min(share, isSmooth ? ShareBehindSmooth : 0.);
+    }
+  }
+  return share;
 }
 
 /** The shape operator of one particle, in the plane of its disk and in units of 1 / radius. */
@@ -136,13 +145,13 @@ public:
     const double square = x * x + y * y;
     const bool isDrawn = this->Particles.CentreRadius[4 * neighbor + 3] > 0.f;
     if (neighbor == this->Particle || !isDrawn || cosine < 0.5 ||
-      3. * height * height > square || // more than 30 degrees above the disk
-      IsBehindClip(this->Particles.Clip, this->Particle, offset, 0.1 * this->Radius))
+      3. * height * height > square) // more than 30 degrees above the disk
     {
       return;
     }
     // At the height -Q(t) / 2 over the disk the normal is n + Q t, not normalized.
-    const double weight = std::exp(-2. * square);
+    const double weight = std::exp(-2. * square) *
+      ShareOf(this->Particles.Clip, this->Particle, offset, 0.1 * this->Radius);
     this->Fit.Add({ x, y, 0. }, normal.Dot(this->Tangent) / cosine, weight);
     this->Fit.Add({ 0., x, y }, normal.Dot(this->Bitangent) / cosine, weight);
     this->Fit.Add({ 0.5 * x * x, x * y, 0.5 * y * y }, -height, weight);

@@ -16,7 +16,8 @@ struct vtkSurfaceSplatParticles;
 
 /**
  * Replaces the shape operators of particles that have some. Neighbours behind a particle's clip planes,
- * turned away from it or above it do not count.
+ * turned away from it or above it do not count; those behind planes at which the surface is almost smooth
+ * count less.
  */
 void vtkSurfaceSplatFitShapes(vtkSurfaceSplatParticles& particles);
 

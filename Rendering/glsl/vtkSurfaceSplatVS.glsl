@@ -46,8 +46,8 @@ void main()
       splatDiskCoord.y * disk.bitangentMC, 1.0);
   // Disks are not mixed: they go on over planes where the surface is almost smooth, and end at others.
   vec2 overlaps = splatOverlaps(splatParticle);
-  splatClipLines[0] = overlaps.x > 1.0 ? vec4(0.0) : splatClipLine(splatParticle, 0, disk);
-  splatClipLines[1] = overlaps.y > 1.0 ? vec4(0.0) : splatClipLine(splatParticle, 1, disk);
+  splatClipLines[0] = overlaps.x > splatKinkOverlap ? vec4(0.0) : splatClipLine(splatParticle, 0, disk);
+  splatClipLines[1] = overlaps.y > splatKinkOverlap ? vec4(0.0) : splatClipLine(splatParticle, 1, disk);
   splatSeenFromSide = disk.seenFrom;
   splatNormalVC = disk.seenFrom * (normalMatrix * disk.normalMC);
 

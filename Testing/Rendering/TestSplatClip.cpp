@@ -163,13 +163,33 @@ TEST(SplatClip, WhereTheSurfaceIsAlmostSmoothSplatsFillWholeGaps)
   }
 }
 
+// Seen from the side, splats that go on over the ridge of a roof stand above it.
+TEST(SplatClip, WhereTheSurfaceIsAlmostSmoothSplatsHardlyStandOut)
+{
+  constexpr double halfHeight = 0.1;
+  constexpr double pixel = 2. * halfHeight / SplatScene::Size;
+  SplatScene scene(Roof(9., 0.));
+  scene.Mapper->SetMode(vtkSurfaceSplatMapper::Splats);
+  scene.LookFrom({ 1., 0., 0. }, true, 4., halfHeight);
+  scene.Render();
+  int top = 0; // the left of the picture is above
+  while (top < SplatScene::Size && !scene.PositionAt(top, SplatScene::Size / 2))
+  {
+    ++top;
+  }
+  const double beyondRidge = Radius * vtkSurfaceSplatParticles::OverlapAt(9.);
+  EXPECT_NEAR(pixel * (SplatScene::Size / 2 - top),
+    (0.25 + beyondRidge) * std::tan(glm::radians(4.5)), 2. * pixel);
+  EXPECT_LT(beyondRidge, 0.4 * Radius);
+}
+
 TEST(SplatClip, AtKinksSplatsFillSmallGapsAndStaySharp)
 {
   for (const double degrees : { 12., 60., 80. })
   {
     const double overlap = Radius * vtkSurfaceSplatParticles::OverlapAt(degrees);
     EXPECT_GT(overlap, 0.) << degrees;
-    EXPECT_LT(overlap, 0.13 * Radius) << degrees;
+    EXPECT_LT(overlap, 0.16 * Radius) << degrees;
     const auto gap = [&](double before)
     { return GapOf(Roof(degrees, before), vtkSurfaceSplatMapper::Splats, degrees, before); };
     EXPECT_EQ(gap(0.), 0.) << degrees;

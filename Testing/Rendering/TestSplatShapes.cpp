@@ -130,10 +130,11 @@ TEST(SplatShapes, DoNotBendAroundAnEdgeThatParticlesKnowOf)
   vtkSurfaceSplatFitShapes(aware);
   EXPECT_NEAR(BendOfMiddle(aware), 0., 1e-5);
 
-  // Where the surface is almost smooth, fits go on over it.
+  // Where the surface is almost smooth, neighbours behind count less.
   filling.Clip[12 * Middle + 8] = vtkSurfaceSplatParticles::OverlapAt(5.);
   vtkSurfaceSplatFitShapes(filling);
-  EXPECT_FLOAT_EQ(BendOfMiddle(filling), BendOfMiddle(unaware));
+  EXPECT_LT(BendOfMiddle(filling), 0.8 * BendOfMiddle(unaware));
+  EXPECT_GT(BendOfMiddle(filling), 0.1 * BendOfMiddle(unaware));
 }
 
 TEST(SplatShapes, DoNotSeeAnotherSheet)
