@@ -39,8 +39,9 @@
  * where kinks meet, a plane is moved outwards if nothing else would cover what it cuts off), `Jump` (on rims
  * where the field jumps from element to element: F - c on the other side; else 0), `Isovalue`,
  * `vtkOriginalCellIds`, `ParametricCoordinates` (of VTK's cell), and every numeric point array of the input
- * evaluated by the element's own polynomials, in double precision (the contoured one holds the isovalue). An input array of one of these names, or of those of the field data
- * below, is not passed on; a warning names it. Cell arrays are copied to the vertex cells.
+ * evaluated by the element's own polynomials, in double precision (the contoured one holds the isovalue).
+ * An input array of one of these names, or of those of the field data below, is not passed on; a warning
+ * names it. Cell arrays are copied to the vertex cells.
  * Points are ordered by isovalue, then by cell.
  *
  * Field data of the output: `Evaluations` (of element polynomials), `Iterations` (relaxation

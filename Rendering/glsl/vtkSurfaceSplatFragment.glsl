@@ -1,6 +1,7 @@
 // What the fragment stages of the splat passes share. Inserted at //Splat::Fragment::Dec, behind
 // definitions of SPLAT_POINTS (splats are points: 0 or 1), SPLAT_HAS_CLIP (particles have clip planes: 0 or
-// 1), SPLAT_GAP_SHARE, SPLAT_APART (sheets are told apart: 0 or 1) and SPLAT_CLIPPING_PLANES (the number of the mapper's).
+// 1), SPLAT_GAP_SHARE, SPLAT_APART (sheets are told apart: 0 or 1) and SPLAT_CLIPPING_PLANES (the number of
+// the mapper's).
 
 #if SPLAT_POINTS
 flat in vec4 splatPixelToDisk;
