@@ -16,10 +16,6 @@ namespace
 /// are those of the other side of a jump. Bent rims leave their planes by less.
 constexpr double sameSide = 0.2;
 
-/// The rim of particles whose normals are turned by more than 60 degrees (this is the cosine) is another sheet's: it
-/// would cut off whole splats on a rim that lies beside it.
-constexpr double sameSheet = 0.5;
-
 /// The rim, known at one of its particles, as another particle sees it: the plane touches it where it is nearest,
 /// but no farther off than where it has turned by half a radian: behind that it may run anywhere.
 /// \pre the rim is one
@@ -37,7 +33,8 @@ ClipPlane rimSeenFrom(const RimParticle& rim, const Particle& particle)
   return { { normal }, glm::dot(nearest - step, normal), bend, static_cast<float>(Pi) };
 }
 
-/// Planes of the rims around, each by the nearest particle on it.
+/// Planes of the rims around, each by the nearest particle on it. Another sheet's would cut off whole splats on a
+/// rim that lies beside it.
 void offerRims(const SpacingGrid& grid, const Buffer<RimParticle>& rims, Particle& particle)
 {
   struct Edge
@@ -53,7 +50,7 @@ void offerRims(const SpacingGrid& grid, const Buffer<RimParticle>& rims, Particl
     {
       const Edge edge{ j, length(rims[j].particle.position - particle.position) };
       if (edge.distance > ClipReach * particle.spacing || !rims[j].side.exists() ||
-        dot(rims[j].particle.normal, particle.normal) <= sameSheet ||
+        dot(rims[j].particle.normal, particle.normal) <= SameSheet ||
         rimSeenFrom(rims[j], particle).distance < -sameSide * particle.spacing)
       {
         return;

@@ -376,11 +376,10 @@ void RimSampler::finish(const ParallelFor& parallelFor)
 bool RimSampler::isTooNear(int i, int j) const
 {
   constexpr double sharpEdge = 0.3;
-  constexpr double sameSheet = 0.5;
   const RimParticle& a = this->Result.particles[i];
   const RimParticle& b = this->Result.particles[j];
   const double turn = dot(a.particle.normal, b.particle.normal);
-  const double near = turn > sameSheet ? sameSurface : sharpEdge;
+  const double near = turn > SameSheet ? sameSurface : sharpEdge;
   return turn > 0.0 && glm::distance(a.patch.position, b.patch.position) < near * a.patch.spacing;
 }
 

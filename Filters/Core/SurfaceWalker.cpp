@@ -11,10 +11,6 @@ namespace hop
 namespace
 {
 
-/// Cosine of the largest turn at a face at which the field jumps: particles on sheets that turn more do
-/// not keep each other off.
-constexpr double sameSheet = 0.5;
-
 /// How fast the field changes along a face.
 double slopeAlong(const ElementMesh& mesh, const Evaluated& at, int face)
 {
@@ -110,7 +106,7 @@ bool SurfaceWalker::goesOn(
   const WorldVector& after = there.at.point.gradient;
   return !std::isfinite(gap) ||
     (missBetween(*surface.mesh, here, face, there) <= gap &&
-      dot(before, after) >= sameSheet * length(after) * length(before));
+      dot(before, after) >= SameSheet * length(after) * length(before));
 }
 
 std::optional<SurfaceWalker::Behind> SurfaceWalker::behind(const Location& here, int face)

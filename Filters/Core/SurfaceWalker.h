@@ -54,6 +54,10 @@ struct Isosurface
   }
 };
 
+/// Cosine of the largest angle between normals of one sheet where the field jumps: particles on sheets that are
+/// turned more do not keep each other off, and end at rims of their own.
+constexpr double SameSheet = 0.5;
+
 /// A place that was evaluated.
 struct Evaluated
 {

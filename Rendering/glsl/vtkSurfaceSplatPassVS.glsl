@@ -2,9 +2,9 @@
 
 // Vertex stage of the splat passes (visibility, accumulation, strongest), behind definitions of
 // SPLAT_POINTS, SPLAT_LEAST_PIXELS and SPLAT_APART (sheets are told apart: 0 or 1). A splat is a triangle in
-// the plane of its disk, so that depth and disk coordinates are interpolated by the rasterizer, right for every projection, and the near
-// plane clips it. Where all splats cover a few pixels only (SPLAT_POINTS 1), each is a point instead,
-// of the depth of its middle: a third of the vertices.
+// the plane of its disk, so that depth and disk coordinates are interpolated by the rasterizer, right for every
+// projection, and the near plane clips it. Where all splats cover a few pixels only (SPLAT_POINTS 1), each is
+// a point instead, of the depth of its middle: a third of the vertices.
 
 //Splat::Disk::Dec
 
