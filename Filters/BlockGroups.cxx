@@ -1,12 +1,12 @@
 #include "BlockGroups.h"
 
+#include "SortedBy.h"
 #include "VtkCompatibility.h"
 
-#include "vtkCellArray.h"
+#include "vtkBoundingBox.h"
 #include "vtkGenericCell.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
-#include "vtkPoints.h"
 #include "vtkSmartPointer.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
@@ -17,12 +17,16 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <mutex>
 #include <set>
 #include <tuple>
 #include <utility>
 
 namespace
 {
+
+/// Blocks in ascending order.
+using Members = std::vector<std::size_t>;
 
 /// Where a cell of a block is: the sum of its first points, which are its corners. Copies of a grid
 /// agree in it to the last bit, and no two cells of one sound grid do.
@@ -35,9 +39,14 @@ struct PlacedCell
   {
     return std::tie(this->place, this->block) < std::tie(other.place, other.block);
   }
-  bool operator==(const PlacedCell& other) const
+  std::size_t hash() const
   {
-    return std::tie(this->place, this->block) == std::tie(other.place, other.block);
+    std::size_t sum = 0;
+    for (const double x : this->place)
+    {
+      sum = 31 * sum + std::hash<double>()(x);
+    }
+    return sum;
   }
 };
 
@@ -58,15 +67,59 @@ private:
   std::map<int, bool> Known;
 };
 
-/// The sum of up to eight points; not a number where a point is missing or not finite.
-std::array<double, 3> placeOf(vtkUnstructuredGrid* grid, vtkIdType cell, vtkIdList* room)
+/// Finds cells that several blocks have.
+class SharedCells
+{
+public:
+  SharedCells(const InputBlocks& blocks, const hop::ParallelFor& parallelFor);
+
+  /// All different sets of blocks that have one cell in common.
+  std::set<Members> find() const;
+
+private:
+  std::vector<PlacedCell> placeCells() const;
+  void addPlaced(const BlockCell& where, vtkIdList* room, std::vector<PlacedCell>& cells) const;
+
+  const InputBlocks& Blocks;
+  const hop::ParallelFor& Parallel;
+  /// For each block, the bounds of others that overlap it: only there can it share cells.
+  std::vector<std::vector<vtkBoundingBox>> Others;
+  std::vector<vtkUnsignedCharArray*> Ghosts;
+};
+
+SharedCells::SharedCells(const InputBlocks& blocks, const hop::ParallelFor& parallelFor)
+  : Blocks(blocks)
+  , Parallel(parallelFor)
+  , Others(blocks.size())
+{
+  std::vector<vtkBoundingBox> bounds;
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+  {
+    this->Ghosts.push_back(blocks[b].grid->GetCellGhostArray());
+    bounds.push_back(finiteBounds(blocks[b].grid));
+    for (std::size_t other = 0; other < b; ++other)
+    {
+      if (bounds[b].Intersects(bounds[other]))
+      {
+        this->Others[b].push_back(bounds[other]);
+        this->Others[other].push_back(bounds[b]);
+      }
+    }
+  }
+}
+
+/// Adds a cell if its points are there and others may have it: if its middle is where they are.
+void SharedCells::addPlaced(
+  const BlockCell& where, vtkIdList* room, std::vector<PlacedCell>& cells) const
 {
   constexpr vtkIdType mostCorners = 8;
+  vtkUnstructuredGrid* grid = this->Blocks[where.block].grid;
   vtkIdType count = 0;
   const vtkIdType* ids = nullptr;
-  cellPoints(grid->GetCells(), cell, count, ids, room);
-  std::array<double, 3> place{};
-  for (vtkIdType i = 0; i < std::min(count, mostCorners); ++i)
+  cellPoints(grid->GetCells(), where.cell, count, ids, room);
+  count = std::min(count, mostCorners);
+  PlacedCell cell{ {}, where.block };
+  for (vtkIdType i = 0; i < count; ++i)
   {
     double x[3];
     std::fill_n(x, 3, std::numeric_limits<double>::quiet_NaN());
@@ -74,50 +127,116 @@ std::array<double, 3> placeOf(vtkUnstructuredGrid* grid, vtkIdType cell, vtkIdLi
     {
       grid->GetPoint(ids[i], x);
     }
-    std::transform(place.begin(), place.end(), x, place.begin(), std::plus<>());
+    std::transform(cell.place.begin(), cell.place.end(), x, cell.place.begin(), std::plus<>());
   }
-  return place;
+  std::array<double, 3> middle = cell.place;
+  for (double& x : middle)
+  {
+    x /= static_cast<double>(count);
+  }
+  const std::vector<vtkBoundingBox>& others = this->Others[where.block];
+  const auto holdsMiddle = [&](const vtkBoundingBox& box)
+  { return box.ContainsPoint(middle.data()) != 0; };
+  if (std::all_of(middle.begin(), middle.end(), [](double x) { return std::isfinite(x); }) &&
+    std::any_of(others.begin(), others.end(), holdsMiddle))
+  {
+    cells.push_back(cell);
+  }
 }
 
-/// All cells with a volume that their block owns, in ascending order of their places; of cells of a block in
-/// one place only one, as all may be in one where coordinates were never written.
-std::vector<PlacedCell> placeCells(const std::vector<InputBlock>& blocks)
+/// Cells with a volume that their block owns, in any order.
+std::vector<PlacedCell> SharedCells::placeCells() const
 {
   std::vector<PlacedCell> cells;
-  SolidTypes solid;
-  vtkNew<vtkIdList> room;
-  for (std::size_t b = 0; b < blocks.size(); ++b)
-  {
-    vtkUnstructuredGrid* grid = blocks[b].grid;
-    vtkUnsignedCharArray* ghosts = grid->GetCellGhostArray();
-    for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
+  std::mutex access;
+  hop::runParallel(this->Parallel, static_cast<std::ptrdiff_t>(this->Blocks.cellCount()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
-      if (!isGhostCell(ghosts, cell) && solid.contains(grid->GetCellType(cell)))
+      std::vector<PlacedCell> found;
+      SolidTypes solid;
+      vtkNew<vtkIdList> room;
+      for (std::ptrdiff_t number = begin; number < end; ++number)
       {
-        const std::array<double, 3> place = placeOf(grid, cell, room);
-        if (std::all_of(place.begin(), place.end(), [](double x) { return std::isfinite(x); }))
+        const BlockCell where = this->Blocks.locate(number);
+        if (!this->Others[where.block].empty() &&
+          !isGhostCell(this->Ghosts[where.block], where.cell) &&
+          solid.contains(this->Blocks[where.block].grid->GetCellType(where.cell)))
         {
-          cells.push_back({ place, b });
+          this->addPlaced(where, room, found);
         }
       }
+      const std::lock_guard<std::mutex> lock(access);
+      cells.insert(cells.end(), found.begin(), found.end());
+    });
+  return cells;
+}
+
+/// Adds the sets of blocks of cells in one place.
+template <class Iterator>
+void addSets(Iterator first, Iterator last, std::set<Members>& sets)
+{
+  std::sort(first, last);
+  while (first != last)
+  {
+    Members members;
+    const std::array<double, 3> place = first->place;
+    for (; first != last && first->place == place; ++first)
+    {
+      // All cells of a block may be in one place where coordinates were never written.
+      if (members.empty() || members.back() != first->block)
+      {
+        members.push_back(first->block);
+      }
+    }
+    if (members.size() > 1)
+    {
+      sets.insert(members);
     }
   }
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  return cells;
+}
+
+std::set<Members> SharedCells::find() const
+{
+  constexpr std::size_t cellsPerBin = 16;
+  const std::vector<PlacedCell> cells = this->placeCells();
+  const std::size_t bins = cells.size() / cellsPerBin + 1;
+  const hop::Grouping binned = hop::groupedBy(
+    cells, bins, [bins](const PlacedCell& cell) { return cell.hash() % bins; }, this->Parallel);
+  std::set<Members> sets;
+  std::mutex access;
+  hop::runParallel(this->Parallel, static_cast<std::ptrdiff_t>(bins),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      std::set<Members> found;
+      std::vector<PlacedCell> bin;
+      for (std::ptrdiff_t b = begin; b < end; ++b)
+      {
+        bin.clear();
+        for (int n = binned.start[b]; n < binned.start[b + 1]; ++n)
+        {
+          bin.push_back(cells[binned.order[n]]);
+        }
+        addSets(bin.begin(), bin.end(), found);
+      }
+      const std::lock_guard<std::mutex> lock(access);
+      sets.merge(found);
+    });
+  return sets;
 }
 
 /// Pairs of blocks, the earlier one first, that have a cell in common.
 std::set<std::pair<std::size_t, std::size_t>> blocksThatShareCells(
-  const std::vector<InputBlock>& blocks)
+  const InputBlocks& blocks, const hop::ParallelFor& parallelFor)
 {
   std::set<std::pair<std::size_t, std::size_t>> pairs;
-  const std::vector<PlacedCell> cells = placeCells(blocks);
-  for (auto first = cells.begin(); first != cells.end(); ++first)
+  for (const Members& members : SharedCells(blocks, parallelFor).find())
   {
-    for (auto other = first + 1; other != cells.end() && other->place == first->place; ++other)
+    for (auto first = members.begin(); first != members.end(); ++first)
     {
-      pairs.insert({ first->block, other->block });
+      std::for_each(first + 1, members.end(),
+        [&](std::size_t other) {
+          pairs.insert({ *first, other });
+        });
     }
   }
   return pairs;
@@ -125,17 +244,14 @@ std::set<std::pair<std::size_t, std::size_t>> blocksThatShareCells(
 
 } // namespace
 
-std::vector<std::vector<InputBlock>> groupWithoutSharedCells(const std::vector<InputBlock>& blocks)
+std::vector<InputBlocks> groupWithoutSharedCells(
+  const InputBlocks& blocks, const hop::ParallelFor& parallelFor)
 {
-  if (blocks.size() == 1)
-  {
-    return { blocks };
-  }
-  const auto sharing = blocksThatShareCells(blocks);
-  std::vector<std::vector<std::size_t>> groups;
+  const auto sharing = blocksThatShareCells(blocks, parallelFor);
+  std::vector<Members> groups;
   for (std::size_t b = 0; b < blocks.size(); ++b)
   {
-    const auto isFree = [&](const std::vector<std::size_t>& group)
+    const auto isFree = [&](const Members& group)
     {
       return std::none_of(group.begin(), group.end(),
         [&](std::size_t member) {
@@ -145,18 +261,19 @@ std::vector<std::vector<InputBlock>> groupWithoutSharedCells(const std::vector<I
     auto group = std::find_if(groups.begin(), groups.end(), isFree);
     if (group == groups.end())
     {
-      group = groups.insert(groups.end(), std::vector<std::size_t>{});
+      group = groups.insert(groups.end(), Members{});
     }
     group->push_back(b);
   }
-  std::vector<std::vector<InputBlock>> result;
-  for (const std::vector<std::size_t>& group : groups)
+  std::vector<InputBlocks> result;
+  for (const Members& group : groups)
   {
-    result.emplace_back();
+    std::vector<InputBlock> members;
     for (const std::size_t member : group)
     {
-      result.back().push_back(blocks[member]);
+      members.push_back(blocks[member]);
     }
+    result.emplace_back(std::move(members), blocks.component());
   }
   return result;
 }

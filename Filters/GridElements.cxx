@@ -399,7 +399,8 @@ bool Builder::straddles(double lower, double upper) const
 
 /// Nodal values on both sides of an isovalue decide at once; else the convex hull of the Bernstein
 /// coefficients does, widened by the rounding errors of the conversion. A magnitude is no larger
-/// than the longest control vector, and no smaller either where the vector is constant. Positive weights change no hull.
+/// than the longest control vector, and no smaller either where the vector is constant. Positive weights
+/// change no hull.
 bool Builder::canHoldSurface(const CellBasis& cell, const CellValues& values) const
 {
   const auto [lowest, highest] = std::minmax_element(values.field.begin(), values.field.end());

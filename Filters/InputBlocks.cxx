@@ -5,6 +5,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 InputBlocks::InputBlocks(std::vector<InputBlock> blocks, int component)
@@ -42,4 +43,26 @@ bool isGhostCell(vtkUnsignedCharArray* ghosts, vtkIdType cell)
   constexpr int notOwned = vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::REFINEDCELL |
     vtkDataSetAttributes::HIDDENCELL;
   return ghosts && (ghosts->GetValue(cell) & notOwned) != 0;
+}
+
+vtkBoundingBox finiteBounds(vtkUnstructuredGrid* grid)
+{
+  const auto isFinite = [](double x) { return std::isfinite(x); };
+  double bounds[6];
+  grid->GetBounds(bounds);
+  if (std::all_of(bounds, bounds + 6, isFinite))
+  {
+    return vtkBoundingBox(bounds);
+  }
+  vtkBoundingBox box;
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+  {
+    double x[3];
+    grid->GetPoint(i, x);
+    if (std::all_of(x, x + 3, isFinite))
+    {
+      box.AddPoint(x);
+    }
+  }
+  return box;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "vtkBoundingBox.h"
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
@@ -64,3 +65,6 @@ private:
 /// What else `vtkGhostType` may say about a cell does not matter.
 /// \param ghosts the grid's, or nullptr
 bool isGhostCell(vtkUnsignedCharArray* ghosts, vtkIdType cell);
+
+/// The bounds of a grid, without points whose coordinates are not finite.
+vtkBoundingBox finiteBounds(vtkUnstructuredGrid* grid);

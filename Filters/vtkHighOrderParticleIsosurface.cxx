@@ -57,8 +57,8 @@ constexpr double convertedShare = 0.1;
 constexpr double distributedShare = 0.95;
 /// Peak of the whole filter, measured at 0.7 to 1.5 kB with one point array.
 constexpr std::int64_t bytesPerParticle = 1536;
-/// Particles are numbered by int.
-constexpr std::int64_t mostParticles = 2'000'000'000;
+/// Particles are numbered by int, and so are places in tables with room for half as many more.
+constexpr std::int64_t mostParticles = 1'000'000'000;
 
 /// How many particles this machine has memory for now.
 std::int64_t particlesThatFit()
@@ -70,29 +70,6 @@ std::int64_t particlesThatFit()
   // 0: the system does not say.
   return available > 0 ? std::min(mostParticles, available * megabyte / bytesPerParticle)
                        : hop::DistributionParameters().particleLimit;
-}
-
-/// The bounds of a grid, without points whose coordinates are not finite.
-vtkBoundingBox boundsOf(vtkUnstructuredGrid* grid)
-{
-  const auto isFinite = [](double x) { return std::isfinite(x); };
-  double bounds[6];
-  grid->GetBounds(bounds);
-  if (std::all_of(bounds, bounds + 6, isFinite))
-  {
-    return vtkBoundingBox(bounds);
-  }
-  vtkBoundingBox box;
-  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
-  {
-    double x[3];
-    grid->GetPoint(i, x);
-    if (std::all_of(x, x + 3, isFinite))
-    {
-      box.AddPoint(x);
-    }
-  }
-  return box;
 }
 
 /// What the data say about a run; the properties say the rest.
@@ -118,7 +95,7 @@ RunOrigin originOf(const InputBlocks& blocks)
   return origin;
 }
 
-/// The spacing at which all but so small a share of the particles would have D h <= 2, evenly spread.
+/// The spacing at which all but so small a share of the particles would follow the surface, evenly spread.
 double resolvingSpacing(const hop::Buffer<hop::Particle>& particles)
 {
   std::vector<double> bends;
@@ -127,10 +104,11 @@ double resolvingSpacing(const hop::Buffer<hop::Particle>& particles)
   {
     bends.push_back(particle.curvature.magnitude);
   }
-  const auto rank = static_cast<std::ptrdiff_t>(
-    (1.0 - warnUndersampledShare) * static_cast<double>(bends.size() - 1));
+  const auto above =
+    static_cast<std::ptrdiff_t>(warnUndersampledShare * static_cast<double>(bends.size()));
+  const auto rank = static_cast<std::ptrdiff_t>(bends.size()) - 1 - above;
   std::nth_element(bends.begin(), bends.begin() + rank, bends.end());
-  return 2.0 / bends[rank];
+  return hop::Particle::LargestBend / bends[rank];
 }
 
 std::string listOf(const std::vector<std::string>& names)
@@ -389,14 +367,15 @@ int vtkHighOrderParticleIsosurface::RequestData(
     ? this->CheckLengths(this->FindScalars(gathered))
     : std::vector<InputBlock>{};
   this->ReviewArrays(blocks);
-  const auto groups = groupWithoutSharedCells(blocks);
+  const int component = componentOf(blocks, this->Component);
+  const std::vector<InputBlocks> groups = this->Group(InputBlocks(blocks, component));
+  const InputBlocks none({}, component);
   // A number of particles is shared out group by group, also by ranks that have fewer of them.
   const std::size_t count =
     this->NumberOfParticles > 0 ? largestOfRanks(groups.size()) : groups.size();
   for (std::size_t g = 0; g < count; ++g)
   {
-    const InputBlocks group(g < groups.size() ? groups[g] : std::vector<InputBlock>{},
-      componentOf(blocks, this->Component));
+    const InputBlocks& group = g < groups.size() ? groups[g] : none;
     const double share = 1.0 / static_cast<double>(count);
     const double begin = share * static_cast<double>(g);
     withThreads(
@@ -415,7 +394,7 @@ vtkHighOrderParticleIsosurface::Scale vtkHighOrderParticleIsosurface::FindScale(
   {
     if (block.grid->GetNumberOfPoints() > 0)
     {
-      box.AddBox(boundsOf(block.grid));
+      box.AddBox(finiteBounds(block.grid));
     }
   }
   box = overAllRanks(box);
@@ -593,6 +572,25 @@ hop::Monitor vtkHighOrderParticleIsosurface::MonitorOf(double begin, double end)
       this->UpdateProgress(begin + (end - begin) * fraction);
       return !isAborted(this);
     } };
+}
+
+/// Blocks that are contoured as one mesh each; none where the run is to stop.
+std::vector<InputBlocks> vtkHighOrderParticleIsosurface::Group(const InputBlocks& blocks)
+{
+  if (blocks.size() == 1)
+  {
+    return { blocks };
+  }
+  std::vector<InputBlocks> groups;
+  const hop::Monitor monitor = this->MonitorOf(0.0, 0.0);
+  withThreads(
+    [&](const hop::ParallelFor& parallelFor)
+    {
+      hop::Interruptible loops(monitor, parallelFor);
+      this->UnlessAborted(
+        blocks, [&]() { groups = groupWithoutSharedCells(blocks, std::ref(loops)); });
+    });
+  return groups;
 }
 
 /// Particles of all isovalues in one group of blocks. A rank without a group of that number takes part in what

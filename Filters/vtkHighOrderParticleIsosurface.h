@@ -169,7 +169,7 @@ public:
   /**
    * How particles are distributed. FAST (default) seeds them everywhere as dense as wanted and relaxes
    * them on local quadratic approximations of the surface. CLASSIC is the paper's Gauss-Seidel
-   * relaxation with split and delete, which needs forty to two hundred times as many evaluations.
+   * relaxation with split and delete, which needs many times as many evaluations.
    */
   vtkSetClampMacro(Method, int, CLASSIC, FAST);
   vtkGetMacro(Method, int);
@@ -265,6 +265,7 @@ private:
   std::vector<InputBlock> CheckLengths(const std::vector<InputBlock>& blocks);
   RunOrigin OriginOf(const InputBlocks& blocks, const Scale& scale) const;
   struct Work;
+  std::vector<InputBlocks> Group(const InputBlocks& blocks);
   hop::Monitor MonitorOf(double begin, double end);
   void Process(const InputBlocks& blocks, const Scale& scale, std::size_t group, const Work& work);
   template <class Use>

@@ -1,5 +1,6 @@
 #include "ClassicDistribution.h"
 
+#include "Interruptible.h"
 #include "KeepMarked.h"
 #include "ParticleBins.h"
 #include "Random.h"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 namespace hop
@@ -74,11 +76,11 @@ class ClassicSystem
 public:
   ClassicSystem(const Isosurface& surface, const DistributionParameters& parameters,
     const Monitor& monitor, const ParallelFor& parallelFor)
-    : Locator(*surface.mesh, surface.isovalue, parallelFor)
+    : Work(monitor, parallelFor)
+    , Parallel(std::ref(this->Work))
+    , Locator(*surface.mesh, surface.isovalue, this->Parallel)
     , Surface(located(surface, this->Locator))
     , Parameters(parameters)
-    , Progress(monitor)
-    , Parallel(parallelFor)
     , Moving(whileMoving(this->Surface, parameters.law))
     , Walker(this->Moving)
     , Dice(parameters.seed)
@@ -117,14 +119,12 @@ private:
   static Isosurface located(Isosurface surface, const FaceLocator& locator);
   static Isosurface whileMoving(const Isosurface& surface, const SpacingLaw& law);
   bool settle(const Mover& mover, SurfaceWalker& walker, Particle& particle) const;
-  bool proceed() { return this->Report.aborted ? false : this->askMonitor(); }
-  bool askMonitor();
 
+  Interruptible Work;
+  ParallelFor Parallel;
   FaceLocator Locator;
   Isosurface Surface;
   DistributionParameters Parameters;
-  const Monitor& Progress;
-  const ParallelFor& Parallel;
   Isosurface Moving;
   SurfaceWalker Walker;
   Random Dice;
@@ -132,7 +132,6 @@ private:
   std::vector<Mover> Movers;
   NeighborLists Neighbors;
   DistributionReport Report;
-  double Fraction = 0.0;
 };
 
 glm::dvec3 orthogonal(const glm::dvec3& n)
@@ -158,12 +157,6 @@ double idealEnergyOnBoundary(int boundaryFaces)
 {
   constexpr double neighbors[] = { 6.0, 4.0, 2.0, 1.0 };
   return neighbors[std::min(boundaryFaces, 3)] * pairEnergy(HexagonalDistance);
-}
-
-bool ClassicSystem::askMonitor()
-{
-  this->Report.aborted = !this->Progress.proceed(this->Fraction);
-  return !this->Report.aborted;
 }
 
 /// Puts a place on the surface and notes what the distribution needs to know there.
@@ -350,9 +343,9 @@ double ClassicSystem::sweep()
   double energy = 0.0;
   for (std::size_t i = 0; i < this->Movers.size(); ++i)
   {
-    if (i % 1024 == 0 && !this->proceed())
+    if (i % 1024 == 0)
     {
-      return energy;
+      this->Work.ask();
     }
     this->relaxParticle(i);
     energy += this->Movers[i].energy;
@@ -508,10 +501,6 @@ void ClassicSystem::relaxLevel(int maximumRounds, bool fixedNumber)
         this->renewNeighbors();
       }
       const double energy = this->sweep();
-      if (this->Report.aborted)
-      {
-        return;
-      }
       if ((n + 1) % sweepsPerNeighborList == 0)
       {
         steady = std::abs(energy - last) <= steadyChange * energy;
@@ -619,7 +608,7 @@ Distribution ClassicSystem::run()
 
   const bool fixedNumber = this->Parameters.particleCount > 0;
   int levels = this->chooseLevels(extentOf(seeds));
-  for (int level = 0; level <= levels && this->proceed(); ++level)
+  for (int level = 0; level <= levels; ++level)
   {
     if (level > 0)
     {
@@ -629,6 +618,8 @@ Distribution ClassicSystem::run()
     }
     this->addUncovered(seeds);
     this->relaxLevel(level < levels ? maximumCoarseRounds : maximumPopulationRounds, false);
+    // The biased coin may have taken the last particles of a component smaller than the spacing.
+    this->addUncovered(seeds);
     if (level == 0 && fixedNumber)
     {
       // On a flat surface the number goes with 1/s^2.
@@ -641,11 +632,9 @@ Distribution ClassicSystem::run()
     {
       return this->finish();
     }
-    this->Fraction = std::pow(0.25, levels - level);
+    this->Work.raiseFraction(std::pow(0.25, levels - level));
   }
-  // The biased coin may have taken the last particles of a component smaller than the spacing.
-  this->addUncovered(seeds);
-  for (int n = 0; n < (fixedNumber ? mostExchanges : 0) && this->proceed(); ++n)
+  for (int n = 0; n < (fixedNumber ? mostExchanges : 0); ++n)
   {
     if (n > 0 && !this->dropOverlapping())
     {
@@ -713,9 +702,8 @@ Distribution ClassicSystem::finish()
   this->Report.particlesRejected += static_cast<std::int64_t>(count - result.particles.size());
   this->Report.evaluations += std::accumulate(
     cost.begin(), cost.end(), this->Walker.evaluations() + this->Locator.evaluations());
-  this->Report.particlesUndersampled =
-    std::count_if(result.particles.begin(), result.particles.end(),
-      [](const Particle& p) { return p.curvature.magnitude * p.spacing > 2.0; });
+  this->Report.particlesUndersampled = std::count_if(result.particles.begin(),
+    result.particles.end(), [](const Particle& p) { return p.isUndersampled(); });
   result.report = this->Report;
   return result;
 }
@@ -725,7 +713,8 @@ Distribution ClassicSystem::finish()
 Distribution distributeClassic(const Isosurface& surface, const DistributionParameters& parameters,
   const Monitor& monitor, const ParallelFor& parallelFor)
 {
-  return ClassicSystem(surface, parameters, monitor, parallelFor).run();
+  return unlessInterrupted(
+    [&]() { return ClassicSystem(surface, parameters, monitor, parallelFor).run(); });
 }
 
 } // namespace hop

@@ -50,8 +50,9 @@ struct DistributionParameters
     }
     // No integer holds what tiny spacings ask for.
     const std::string number = std::to_string(std::round(count));
-    return "the spacing asks for about " + number.substr(0, number.find('.')) +
-      " particles, more than the limit of " + std::to_string(this->particleLimit);
+    return (this->particleCount > 0 ? "there are to be " : "the spacing asks for about ") +
+      number.substr(0, number.find('.')) + " particles, more than the limit of " +
+      std::to_string(this->particleLimit);
   }
 };
 

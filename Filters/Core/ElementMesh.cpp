@@ -130,6 +130,19 @@ FaceNeighbor joinTo(const ElementMesh& mesh, const FaceReference& from, const Fa
     }
     neighbor.corners[c] = static_cast<std::uint8_t>(otherFace.corners[match]);
   }
+  const int apex = collapsedCorner(element, face);
+  const int otherApex = collapsedCorner(other, otherFace);
+  if (apex >= 0 && otherApex >= 0 &&
+    cornerNumber(element, face, apex) == cornerNumber(other, otherFace, otherApex))
+  {
+    // Of the two corners in one place, each is that at the end of the same side.
+    const bool sameWay = cornerNumber(element, face, (apex + 3) % 4) ==
+      cornerNumber(other, otherFace, (otherApex + 3) % 4);
+    neighbor.corners[apex] =
+      static_cast<std::uint8_t>(otherFace.corners[(otherApex + !sameWay) % 4]);
+    neighbor.corners[(apex + 1) % 4] =
+      static_cast<std::uint8_t>(otherFace.corners[(otherApex + sameWay) % 4]);
+  }
   return neighbor;
 }
 

@@ -4,6 +4,7 @@
 #include "FaceCrossings.h"
 #include "SampleComparison.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -70,12 +71,17 @@ double differenceAt(const ElementMesh& mesh, int element, int face)
   const Element& there = mesh.elements[neighbor.element];
   const Face& from = facts(here.domain).faces[face];
   const int sides = from.cornerCount;
+  const auto* corners = neighbor.corners.data();
+  const bool isFolded = std::any_of(
+    corners, corners + sides, [&](int c) { return std::count(corners, corners + sides, c) > 1; });
+  if (isFolded || here.rational || there.rational ||
+    facts(there.domain).faces[neighbor.face].cornerCount != sides)
+  {
+    return std::numeric_limits<double>::infinity();
+  }
   const FaceLattice mine(here, { from.corners[0], from.corners[1], from.corners[sides - 1] });
-  const FaceLattice other(
-    there, { neighbor.corners[0], neighbor.corners[1], neighbor.corners[sides - 1] });
-  if (here.rational || there.rational ||
-    facts(there.domain).faces[neighbor.face].cornerCount != sides ||
-    mine.steps(1) != other.steps(1) || mine.steps(2) != other.steps(2))
+  const FaceLattice other(there, { corners[0], corners[1], corners[sides - 1] });
+  if (mine.steps(1) != other.steps(1) || mine.steps(2) != other.steps(2))
   {
     return std::numeric_limits<double>::infinity();
   }

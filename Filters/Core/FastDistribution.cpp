@@ -13,6 +13,7 @@
 #include "SurfaceProxy.h"
 #include "UnresolvedBoxes.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <functional>
@@ -123,8 +124,8 @@ public:
     , Parameters(parameters)
     , Law(parameters.law)
     , Work(monitor, parallelFor)
-    , Parallel([this](std::ptrdiff_t count, const auto& body) { this->Work(count, body); })
-    , Locator(this->Mesh, surface.isovalue, parallelFor)
+    , Parallel(std::ref(this->Work))
+    , Locator(this->Mesh, surface.isovalue, this->Parallel)
   {
     this->Surface.locator = &this->Locator;
   }
@@ -631,8 +632,8 @@ void FastSystem::finish()
   {
     particles.push_back(rim.particle);
   }
-  report.particlesUndersampled = std::count_if(particles.begin(), particles.end(),
-    [](const Particle& p) { return p.curvature.magnitude * p.spacing > 2.0; });
+  report.particlesUndersampled = std::count_if(
+    particles.begin(), particles.end(), [](const Particle& p) { return p.isUndersampled(); });
   fitSmallPieces(*this->Proxy, all, particles, this->Parallel);
 }
 
@@ -703,15 +704,7 @@ Distribution FastSystem::run()
   {
     return {};
   }
-  try
-  {
-    this->make();
-  }
-  catch (const Interrupted&)
-  {
-    this->Result.particles.clear();
-    this->Result.report.aborted = true;
-  }
+  this->make();
   this->Result.report.evaluations = this->Evaluations +
     (this->Moving ? this->Moving->evaluations() : 0) + this->Locator.evaluations();
   return std::move(this->Result);
@@ -722,7 +715,8 @@ Distribution FastSystem::run()
 Distribution distributeFast(const Isosurface& surface, const DistributionParameters& parameters,
   const Monitor& monitor, const ParallelFor& parallelFor)
 {
-  return FastSystem(surface, parameters, monitor, parallelFor).run();
+  return unlessInterrupted(
+    [&]() { return FastSystem(surface, parameters, monitor, parallelFor).run(); });
 }
 
 std::vector<double> wantedParticles(const Isosurface& surface, const SpacingLaw& law,

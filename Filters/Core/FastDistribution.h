@@ -7,7 +7,7 @@
 namespace hop
 {
 
-/// Spreads particles as evenly as the paper's scheme at a hundredth of its evaluations:
+/// Spreads particles more evenly than the paper's scheme, at a small part of its evaluations:
 ///  - boxes that hold all of the surface (SurfaceBoxes.h) give a rough picture of it, from which the
 ///    number of particles follows and first places are drawn, everywhere as dense as wanted
 ///    (SurfaceProxy.h);

@@ -90,4 +90,20 @@ private:
   Clock::time_point LastAsked{};
 };
 
+/// What `run` returns; where it was interrupted, nothing but a report that says so.
+template <class Run>
+auto unlessInterrupted(const Run& run)
+{
+  try
+  {
+    return run();
+  }
+  catch (const Interrupted&)
+  {
+    decltype(run()) nothing;
+    nothing.report.aborted = true;
+    return nothing;
+  }
+}
+
 } // namespace hop

@@ -47,6 +47,10 @@ struct Particle
   /// Of the splat's radius to the spacing: less than 1 where it stands alone on a piece of the surface smaller
   /// than that.
   double shrink = 1.0;
+
+  /// Largest D h that particles can follow; beyond it the surface bends faster.
+  static constexpr double LargestBend = 2.0;
+  bool isUndersampled() const { return this->curvature.magnitude * this->spacing > LargestBend; }
 };
 
 /// What a distribution cost and what it found.
@@ -65,7 +69,7 @@ struct DistributionReport
   std::int64_t singularPoints = 0;
   /// Particles given up because they could not be put on the surface again.
   std::int64_t particlesRejected = 0;
-  /// Particles with D h > 2: the surface bends faster than their spacing can follow.
+  /// See Particle::isUndersampled().
   std::int64_t particlesUndersampled = 0;
   bool converged = true;
   bool aborted = false;

@@ -7,8 +7,8 @@
 namespace hop
 {
 
-/// Pieces of work that threads take, each first those of its own part, so that the same thread is at the same pieces
-/// when there is the same work again: what they write stays in its cache.
+/// Pieces of work that threads take, each first those of its own part (from the ninth on they share parts), so that
+/// the same thread is at the same pieces when there is the same work again: what they write stays in its cache.
 class SharedPieces
 {
 public:

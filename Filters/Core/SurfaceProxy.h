@@ -91,7 +91,7 @@ public:
 
   const std::vector<Sample>& samples() const { return this->Samples; }
 
-  /// First and last but one of an element's boxes.
+  /// The first of an element's boxes, and the first behind them.
   std::pair<std::size_t, std::size_t> boxesOf(int element) const
   {
     return { this->FirstBox[element], this->FirstBox[element + 1] };

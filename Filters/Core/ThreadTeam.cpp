@@ -1,15 +1,23 @@
 #include "ThreadTeam.h"
 
 #include <algorithm>
+#include <system_error>
 
 namespace hop
 {
 
 ThreadTeam::ThreadTeam(int size)
 {
-  for (int n = 1; n < size; ++n)
+  try
   {
-    this->Helpers.emplace_back([this]() { this->help(); });
+    for (int n = 1; n < size; ++n)
+    {
+      this->Helpers.emplace_back([this]() { this->help(); });
+    }
+  }
+  catch (const std::system_error&)
+  {
+    // The system gives no more threads: those that are there do.
   }
 }
 

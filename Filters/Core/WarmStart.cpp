@@ -13,7 +13,7 @@ Buffer<CellPlace> cellPlaces(
     [&](std::size_t i)
     {
       const Particle& particle = particles[i];
-      const bool onRim = particle.clips[0].exists() && particle.clips[0].distance == 0.0;
+      const bool onRim = particle.clips[0].isRim() && particle.clips[0].distance == 0.0;
       const std::int64_t cell = mesh.elements[particle.location.element].cell;
       places[i] = { onRim ? -1 : cell, particle.location.u };
     });

@@ -15,7 +15,7 @@ struct CellPlace
   ReferencePoint u;
 };
 
-/// Where the particles of a run stood that moved: those on rims are placed anew.
+/// Where the particles of a run stood, but for those on rims, which are placed anew.
 Buffer<CellPlace> cellPlaces(
   const ElementMesh& mesh, const Buffer<Particle>& particles, const ParallelFor& parallelFor);
 

@@ -74,7 +74,7 @@ void vtkPVQuantileInformation::CopyFromObject(vtkObject* object)
   std::vector<double> values;
   for (vtkDataArray* array : arrays)
   {
-    this->AddValues(array, 1 + size / mostLookedAt, values);
+    this->AddValues(array, 1 + (size - 1) / mostLookedAt, values);
   }
   std::sort(values.begin(), values.end());
   const std::size_t count = std::min(values.size(), mostSamples);

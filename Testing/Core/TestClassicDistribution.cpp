@@ -411,9 +411,7 @@ TEST(ClassicDistribution, StopsWhenTheMonitorAsksForIt)
       distribute(mesh, parameters, { [&](double) { return ++calls <= allowed; } });
     EXPECT_TRUE(result.report.aborted);
     EXPECT_EQ(calls, allowed + 1);
-    // What there is by then is as good as it looks.
-    expectHonestParticles(
-      mesh, result, { result.particles.empty() ? 1.0 : result.particles[0].spacing, 0.0 });
+    EXPECT_TRUE(result.particles.empty());
   }
 }
 

@@ -192,6 +192,20 @@ class PyramidWith : public ::testing::TestWithParam<Kind>
 INSTANTIATE_TEST_SUITE_P(ElementMesh, PyramidWith, ::testing::ValuesIn(allKinds),
   [](const auto& which) { return nameOf(which.param); });
 
+/// Corners that follow each other around a quadrilateral do so behind it, those in one place too: what is known
+/// along an edge of the domain is known along one there.
+void expectRing(const ElementMesh& mesh, int element, int face)
+{
+  const FaceNeighbor& neighbor = mesh.neighbor(element, face);
+  const auto& corners = facts(mesh.elements[neighbor.element].domain).corners;
+  for (int c = 0; c < 4; ++c)
+  {
+    const glm::dvec3 edge =
+      corners[neighbor.corners[c]].xyz - corners[neighbor.corners[(c + 1) % 4]].xyz;
+    EXPECT_EQ(glm::length(edge), 1.0) << "corner " << c;
+  }
+}
+
 TEST_P(PyramidWith, JoinsInEveryOrientation)
 {
   const Kind other = this->GetParam();
@@ -199,6 +213,7 @@ TEST_P(PyramidWith, JoinsInEveryOrientation)
   const Solid unit = unitSolid(other);
   Random random(1);
   int meetings = 0;
+  int sharedApexes = 0;
   for (int face = 0; face < 6; ++face)
   {
     for (int otherFace = 0; otherFace < static_cast<int>(facts(domainOf(other)).faces.size());
@@ -228,6 +243,13 @@ TEST_P(PyramidWith, JoinsInEveryOrientation)
         {
           expectSamePlaces(mesh, 0, face, otherFace, random);
           expectSamePlaces(mesh, 1, otherFace, face, random);
+          constexpr int apex = 4;
+          if (other == Kind::Pyramid && behind.numbers[apex] == pyramid.numbers[apex])
+          {
+            ++sharedApexes;
+            expectRing(mesh, 0, face);
+            expectRing(mesh, 1, otherFace);
+          }
         }
         ++meetings;
       }
@@ -237,6 +259,7 @@ TEST_P(PyramidWith, JoinsInEveryOrientation)
   const std::map<Kind, int> expected{ { Kind::Hexahedron, 6 * 8 }, { Kind::Tetrahedron, 4 * 4 * 6 },
     { Kind::Wedge, 4 * 2 * 6 + 3 * 8 }, { Kind::Pyramid, 4 * 4 * 6 + 8 } };
   EXPECT_EQ(meetings, expected.at(other));
+  EXPECT_EQ(sharedApexes, other == Kind::Pyramid ? 4 * 4 * 2 : 0);
 }
 
 /// The cube [-1,1]^3 around a common apex: five pyramids and, on the sixth side, two tetrahedra; a

@@ -1,6 +1,7 @@
 """Input that is wrong, odd or empty: the filter says what is wrong and what to do, keeps what is right,
 and never writes a NaN."""
 
+import re
 import time
 
 import numpy as np
@@ -24,6 +25,7 @@ from vtkmodules.vtkCommonDataModel import (
 
 CELLS = 3  # of the block below, along each side
 DEGREE = 2
+METHODS = ["Fast", "Classic"]
 
 
 def place(x):
@@ -315,9 +317,10 @@ def test_an_absurdly_small_spacing_is_refused_at_once(good, spacing):
     assert_one_error(messages, "particles", "limit", "larger Spacing")
 
 
+@pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("spacing", [50.0, 1e30, 1e300])
-def test_a_spacing_larger_than_the_surface_leaves_a_few_particles(good, spacing):
-    particles, messages = support.run(good, "F", 1.0, Spacing=spacing)
+def test_a_spacing_larger_than_the_surface_leaves_a_few_particles(good, spacing, method):
+    particles, messages = support.run(good, "F", 1.0, Spacing=spacing, Method=method)
     assert messages.errors == []
     assert 1 <= particles.GetNumberOfPoints() <= 12
     assert_clean(particles)
@@ -326,15 +329,29 @@ def test_a_spacing_larger_than_the_surface_leaves_a_few_particles(good, spacing)
 def test_too_many_particles_are_refused(good):
     particles, messages = support.run(good, "F", 1.0, Spacing=0.3, NumberOfParticles=10**12)
     assert_empty(particles)
-    assert_one_error(messages, "1000000000000", "limit", "smaller NumberOfParticles")
+    wanted = "there are to be 1000000000000 particles"
+    assert_one_error(messages, wanted, "limit", "smaller NumberOfParticles")
 
 
+@pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("number", [1, 2, 3])
-def test_very_few_particles(good, number):
-    particles, messages = support.run(good, "F", 1.0, NumberOfParticles=number)
+def test_very_few_particles(good, number, method):
+    particles, messages = support.run(good, "F", 1.0, NumberOfParticles=number, Method=method)
     assert messages.errors == []
     assert particles.GetNumberOfPoints() == number
     assert_clean(particles)
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("number", [3, 12, 500])
+def test_more_particles_than_a_tiny_surface_has_room_for_at_first(number, method):
+    """A corner cut off a cube, a five-hundredth of its side: the first spacing is larger than that."""
+    grid = block(lambda x: x, 1, lambda x: x.sum(axis=1))
+    for seed in range(1, 6):
+        particles = support.run_quietly(
+            grid, "F", 0.003, NumberOfParticles=number, Method=method, Seed=seed)
+        assert 1 <= particles.GetNumberOfPoints() <= number
+        assert_clean(particles)
 
 
 @pytest.mark.parametrize("given, advice", [
@@ -345,6 +362,15 @@ def test_too_few_particles_are_told_what_there_is_to_change(good, given, advice)
     particles, messages = support.run(good, "F", 0.2, AngularDensity=0, **given)
     assert particles.GetNumberOfPoints() > 0
     assert_one_warning(messages, "bends faster than their spacing", advice)
+
+
+@pytest.mark.parametrize("spacing", [0.15, 0.2, 0.3, 0.5])
+def test_the_spacing_advised_is_smaller(good, spacing):
+    """Also where one particle is more than the share that may be left."""
+    _, messages = support.run(good, "F", 0.2, AngularDensity=0, Spacing=spacing)
+    for message in messages.warnings:
+        advised = re.search(r"Choose a Spacing of ([0-9.e+-]+),", message)
+        assert advised and float(advised[1]) < spacing
 
 
 # Numbers that are none
