@@ -22,13 +22,6 @@ constexpr double pullRounding = 1e-6;
 /// Steps from farther off have to shorten the way by this factor.
 constexpr float smallestProgress = 0.7f;
 
-/// World vector of a displacement on a patch.
-glm::dvec3 worldStep(const Patch& patch, const glm::vec2& t)
-{
-  const auto tangents = tangentsOf(patch.normal);
-  return glm::dvec3(t.x * tangents[0] + t.y * tangents[1] - patch.sink(t) * patch.normal);
-}
-
 /// Whether a step leads to the surface, or nearer to it at least, and not astray.
 bool accepts(const Anchor& from, const Patch& before, const Anchor& to, const Patch& after)
 {
@@ -218,7 +211,7 @@ Location MovingParticles::target(std::size_t i, const glm::dvec3& step, std::int
 glm::dvec3 MovingParticles::stepTo(std::size_t i, const glm::vec2& displacement) const
 {
   const Patch& patch = this->Patches[i];
-  return worldStep(patch, displacement) +
+  return patch.step(displacement) +
     static_cast<double>(this->Anchors[i].offset) * glm::dvec3(patch.normal);
 }
 

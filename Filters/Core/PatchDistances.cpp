@@ -26,17 +26,13 @@ bool isNear(const Patch& a, const Patch& b, double distance)
 /// Whether the surface around a patch runs through a sample.
 bool covers(const Patch& patch, const Patch& sample)
 {
-  const glm::vec3 d(sample.position - patch.position);
-  const float distance = glm::length(d);
+  const auto distance = static_cast<float>(glm::distance(patch.position, sample.position));
   if (distance > patch.spacing || glm::dot(patch.normal, sample.normal) <= 0.0f)
   {
     return false;
   }
-  const auto tangents = tangentsOf(patch.normal);
-  const glm::vec2 t(glm::dot(d, tangents[0]), glm::dot(d, tangents[1]));
   const float bend = patch.curvatureMagnitude() * distance;
-  return std::abs(glm::dot(d, patch.normal) + patch.sink(t)) <=
-    (coverOffset + bend * bend) * patch.spacing;
+  return std::abs(patch.heightOf(sample.position)) <= (coverOffset + bend * bend) * patch.spacing;
 }
 
 /// test(i) for every i in [0, count), in threads.

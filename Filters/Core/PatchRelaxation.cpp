@@ -454,18 +454,6 @@ void SweepSystem::fillLane(int particle, SweepBlock& block, int lane)
 
 } // namespace
 
-float Patch::curvatureMagnitude() const
-{
-  const auto& s = this->shape;
-  return std::sqrt(s[0] * s[0] + 2.0f * s[1] * s[1] + s[2] * s[2]);
-}
-
-float Patch::sink(const glm::vec2& t) const
-{
-  const auto& s = this->shape;
-  return 0.5f * (s[0] * t.x * t.x + 2.0f * s[1] * t.x * t.y + s[2] * t.y * t.y);
-}
-
 SpacedPoints::SpacedPoints(const Buffer<Patch>& patches, const ParallelFor& parallelFor)
   : positions(patches.size())
   , spacings(patches.size())

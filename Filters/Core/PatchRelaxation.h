@@ -2,49 +2,14 @@
 
 #include "Buffer.h"
 #include "Monitor.h"
+#include "Patch.h"
 
-#include <glm/glm.hpp>
-
-#include <array>
-#include <cmath>
 #include <functional>
 #include <optional>
 #include <vector>
 
 namespace hop
 {
-
-/// The surface around a particle, to second order: x(t) = position + t - (t.S t / 2) normal for t in
-/// the tangent plane.
-struct Patch
-{
-  glm::dvec3 position{ 0.0 };
-  /// Unit length.
-  glm::vec3 normal{ 0.0f };
-  /// xx, xy, yy of S = -P F_xx P / |F_x| in the basis of tangentsOf(normal): positive where the
-  /// surface bends away from the normal -grad F.
-  std::array<float, 3> shape{};
-  /// h, > 0.
-  float spacing = 1.0f;
-  /// Stays where it is, but is seen by others.
-  bool fixed = false;
-
-  /// The paper's D = sqrt(k1^2 + k2^2).
-  float curvatureMagnitude() const;
-
-  /// How far the surface has fallen below the tangent plane at t: t.S t / 2.
-  float sink(const glm::vec2& t) const;
-};
-
-/// Two unit vectors that span the plane normal to a unit vector, right-handed with it.
-inline std::array<glm::vec3, 2> tangentsOf(const glm::vec3& normal)
-{
-  // Across the normal and an axis that is not near it, written out.
-  const glm::vec3 across = std::abs(normal.x) < 0.6f ? glm::vec3(0.0f, normal.z, -normal.y)
-                                                     : glm::vec3(-normal.z, 0.0f, normal.x);
-  const glm::vec3 first = glm::normalize(across);
-  return { first, glm::cross(normal, first) };
-}
 
 /// Where patches are and how far apart they are to stand, as SpacingGrid.h wants it.
 struct SpacedPoints

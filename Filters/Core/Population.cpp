@@ -49,14 +49,6 @@ double missingShare(double excess)
   return 2.0 * eps + eps * eps;
 }
 
-/// Where a particle stands once it has moved.
-glm::dvec3 movedPosition(const Patch& patch, const glm::vec2& t)
-{
-  const auto tangents = tangentsOf(patch.normal);
-  return patch.position +
-    glm::dvec3(t.x * tangents[0] + t.y * tangents[1] - patch.sink(t) * patch.normal);
-}
-
 class Population
 {
 public:
@@ -254,7 +246,8 @@ private:
     others.reserve(this->Lists.count(i));
     for (const int* j = this->Lists.begin(i); j != this->Lists.end(i); ++j)
     {
-      others.push_back(movedPosition(this->Patches[*j], this->Result.displacements[*j]));
+      const Patch& other = this->Patches[*j];
+      others.push_back(other.position + other.step(this->Result.displacements[*j]));
     }
     FreePlace best;
     for (int n = 0; n < directions; ++n)
@@ -263,7 +256,7 @@ private:
       FreePlace place;
       place.displacement = this->Result.displacements[i] +
         distance * patch.spacing * glm::vec2(std::cos(angle), std::sin(angle));
-      place.position = movedPosition(patch, place.displacement);
+      place.position = patch.position + patch.step(place.displacement);
       place.clearance = distance;
       for (const glm::dvec3& other : others)
       {

@@ -17,29 +17,13 @@ constexpr double largestTurn = 0.5;
 /// Cosine of the largest angle between the normals of sides that meet.
 constexpr double meetingCosine = 0.9;
 
-/// A place's coordinates in the tangent plane of a patch.
-glm::dvec2 onTangentPlane(const Patch& patch, const glm::dvec3& position)
-{
-  const auto tangents = tangentsOf(patch.normal);
-  const glm::dvec3 d = position - patch.position;
-  return { glm::dot(d, glm::dvec3(tangents[0])), glm::dot(d, glm::dvec3(tangents[1])) };
-}
-
-/// How far above a patch a place lies.
-double heightAbove(const Patch& patch, const glm::dvec3& position)
-{
-  return glm::dot(position - patch.position, glm::dvec3(patch.normal)) +
-    patch.sink(glm::vec2(onTangentPlane(patch, position)));
-}
-
 /// Unit normal of a patch above a place of its tangent plane.
 glm::dvec3 normalAt(const Patch& patch, const glm::dvec2& t)
 {
   const auto tangents = tangentsOf(patch.normal);
-  const auto& s = patch.shape;
-  return glm::normalize(glm::dvec3(patch.normal) +
-    (s[0] * t.x + s[1] * t.y) * glm::dvec3(tangents[0]) +
-    (s[1] * t.x + s[2] * t.y) * glm::dvec3(tangents[1]));
+  const glm::dvec2 slope = patch.slope(t);
+  return glm::normalize(glm::dvec3(patch.normal) + slope.x * glm::dvec3(tangents[0]) +
+    slope.y * glm::dvec3(tangents[1]));
 }
 
 /// Whether two patches look like parts of one smooth sheet: one lies where the other leads to, and halfway
@@ -47,9 +31,9 @@ glm::dvec3 normalAt(const Patch& patch, const glm::dvec2& t)
 bool areSmooth(const Patch& a, const Patch& b)
 {
   const double distance = glm::distance(a.position, b.position);
-  return std::abs(heightAbove(a, b.position)) <= offSheet * distance &&
-    glm::dot(normalAt(a, 0.5 * onTangentPlane(a, b.position)),
-      normalAt(b, 0.5 * onTangentPlane(b, a.position))) >= smoothCosine;
+  return std::abs(a.heightOf(b.position)) <= offSheet * distance &&
+    glm::dot(normalAt(a, 0.5 * a.inPlane(b.position)), normalAt(b, 0.5 * b.inPlane(a.position))) >=
+    smoothCosine;
 }
 
 } // namespace
@@ -85,14 +69,14 @@ bool SampleComparison::meet(
     return false;
   }
   const glm::dvec3 normal(here.normal);
-  const glm::dvec3 other = normalAt(there->patch, onTangentPlane(there->patch, here.position));
+  const glm::dvec3 other = normalAt(there->patch, there->patch.inPlane(here.position));
   const Face& face = this->Mesh.face(element, crossing.face);
   const glm::dvec3 across =
     glm::normalize(glm::transpose(glm::dmat3(sample.anchor.pull)) * face.inward.xyz);
   // The distance of the sides is that along their normal; along the face it is larger.
   const double slant = glm::length(normal - glm::dot(normal, across) * across);
   return glm::dot(normal, other) >= meetingCosine &&
-    std::abs(heightAbove(there->patch, here.position)) <= largestMiss * spacing * slant;
+    std::abs(there->patch.heightOf(here.position)) <= largestMiss * spacing * slant;
 }
 
 } // namespace hop

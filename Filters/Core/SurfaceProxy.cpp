@@ -383,19 +383,17 @@ double SurfaceProxy::weigh(std::size_t which, std::vector<WeighedTriangle>& weig
   appendProxyTriangles(this->Surface.mesh->elements[box.middle.element].domain, box, triangles);
   const glm::dmat3 push = glm::inverse(glm::dmat3(sample.anchor.pull));
   double sum = 0.0;
-  const auto tangents = tangentsOf(sample.patch.normal);
-  const auto& s = sample.patch.shape;
+  const Patch& patch = sample.patch;
+  const auto tangents = tangentsOf(patch.normal);
   // Corners lie off the patch where it bends, by the square of the box's size: they are taken to it along
   // its normal there, which is (S t, 1).
   const auto onPatch = [&](const glm::vec3& corner)
   {
     const glm::dvec3 d = push * (glm::dvec3(corner) - sample.anchor.place.u.xyz);
     const glm::dvec2 t(glm::dot(d, glm::dvec3(tangents[0])), glm::dot(d, glm::dvec3(tangents[1])));
-    const glm::dvec2 slope(s[0] * t.x + s[1] * t.y, s[1] * t.x + s[2] * t.y);
-    const double off = glm::dot(d, glm::dvec3(sample.patch.normal)) - sample.anchor.offset +
-      0.5 * glm::dot(t, slope);
-    const double bend = sample.patch.curvatureMagnitude();
-    return t - std::clamp(off, -largestShift / bend, largestShift / bend) * slope;
+    const double off = glm::dot(d, glm::dvec3(patch.normal)) - sample.anchor.offset + patch.sink(t);
+    const double farthest = largestShift / patch.curvatureMagnitude();
+    return t - std::clamp(off, -farthest, farthest) * patch.slope(t);
   };
   for (const ReferenceTriangle& t : triangles)
   {
@@ -403,13 +401,11 @@ double SurfaceProxy::weigh(std::size_t which, std::vector<WeighedTriangle>& weig
     const glm::dvec2 b = onPatch(t[1]);
     const glm::dvec2 c = onPatch(t[2]);
     const glm::dvec2 middle = (a + b + c) / 3.0;
-    const glm::dvec2 slope(s[0] * middle.x + s[1] * middle.y, s[1] * middle.x + s[2] * middle.y);
+    const glm::dvec2 slope = patch.slope(middle);
     const double stretch = std::min(largestStretch, std::sqrt(1.0 + glm::dot(slope, slope)));
     const double footprint = 0.5 * std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
-    const glm::dvec3 position = sample.patch.position + middle.x * glm::dvec3(tangents[0]) +
-      middle.y * glm::dvec3(tangents[1]) -
-      0.5 * glm::dot(middle, slope) * glm::dvec3(sample.patch.normal);
-    const double h = this->spacingAt(position, sample.patch.curvatureMagnitude());
+    const glm::dvec3 position = patch.position + patch.step(glm::vec2(middle));
+    const double h = this->spacingAt(position, patch.curvatureMagnitude());
     weighed.push_back({ t, stretch * footprint * 2.0 / (std::sqrt(3.0) * h * h) });
     sum += weighed.back().weight;
   }
