@@ -103,14 +103,15 @@ bool areFacing(const RimParticle& a, const RimParticle& b)
 
 /// Where a rim comes to an edge of the mesh, and behind that edge the surface goes on though the elements on
 /// both sides of it hold none, it is none: there is a gap far smaller than a spacing.
-void openRimsThatGoOn(const SpacingGrid& grid, const Buffer<Particle>& particles,
-  Buffer<RimParticle>& rims, const ParallelFor& parallelFor)
+void openRimsThatGoOn(
+  const SpacingGrid& grid, const ParticleGrid& all, const ParallelFor& parallelFor)
 {
+  Buffer<RimParticle>& rims = all.rims();
   std::vector<std::atomic<char>> goesOn(rims.size());
-  forAll(parallelFor, particles.size(),
+  forAll(parallelFor, all.size() - rims.size(),
     [&](std::size_t i)
     {
-      const Particle& particle = particles[i];
+      const Particle& particle = all.at(i);
       grid.visit(particle.position.xyz, particle.spacing,
         [&](int j)
         {
@@ -145,12 +146,9 @@ void openRimsThatGoOn(const SpacingGrid& grid, const Buffer<Particle>& particles
 class KinkCovers
 {
 public:
-  KinkCovers(const Isosurface& surface, const Buffer<Particle>& particles,
-    const Buffer<RimParticle>& rims, const ParticleGrid& grid)
+  KinkCovers(const Isosurface& surface, const ParticleGrid& all)
     : Surface(surface)
-    , Particles(particles)
-    , Rims(rims)
-    , Grid(grid)
+    , All(all)
   {
   }
 
@@ -187,34 +185,27 @@ private:
         : this->Surface.locator && this->Surface.locator->mayGoOnIn(element, plane.face, other);
     };
     bool found = false;
-    this->Grid.visit(foot, particle.spacing,
+    this->All.visit(foot, particle.spacing,
       [&](int j)
       {
         found = found ||
-          (glm::distance(this->Grid.position(j), foot) <=
-              nearEnough * std::max<double>(particle.spacing, this->Grid.spacing(j)) &&
-            isBehind(this->elementOf(j)));
+          (glm::distance(this->All.position(j), foot) <=
+              nearEnough * std::max<double>(particle.spacing, this->All.spacing(j)) &&
+            isBehind(this->All.at(j).location.element));
       });
     return found;
   }
 
-  int elementOf(std::size_t i) const
-  {
-    const std::size_t free = this->Particles.size();
-    return (i < free ? this->Particles[i] : this->Rims[i - free].particle).location.element;
-  }
-
   const Isosurface& Surface;
-  const Buffer<Particle>& Particles;
-  const Buffer<RimParticle>& Rims;
-  const ParticleGrid& Grid;
+  const ParticleGrid& All;
 };
 
 } // namespace
 
-void markClipPlanes(const Isosurface& surface, const ParticleGrid& all, Buffer<RimParticle>& rims,
-  Buffer<Particle>& particles, const ParallelFor& parallelFor)
+void markClipPlanes(
+  const Isosurface& surface, const ParticleGrid& all, const ParallelFor& parallelFor)
 {
+  Buffer<RimParticle>& rims = all.rims();
   Buffer<glm::dvec3> positions(rims.size());
   Buffer<float> spacings(rims.size());
   forAll(parallelFor, rims.size(),
@@ -224,25 +215,24 @@ void markClipPlanes(const Isosurface& surface, const ParticleGrid& all, Buffer<R
       spacings[i] = rims[i].patch.spacing;
     });
   const SpacingGrid grid(positions, spacings, ClipReach, 0.5, parallelFor);
-  openRimsThatGoOn(grid, particles, rims, parallelFor);
-  const KinkCovers covers(surface, particles, rims, all);
-  const auto mark = [&](Particle& particle)
-  {
-    covers.dropOpen(particle);
-    offerRims(grid, rims, particle);
-  };
-  forAll(parallelFor, particles.size(), [&](std::size_t i) { mark(particles[i]); });
+  openRimsThatGoOn(grid, all, parallelFor);
+  const KinkCovers covers(surface, all);
+  forAll(parallelFor, all.size(),
+    [&](std::size_t i)
+    {
+      covers.dropOpen(all.at(i));
+      offerRims(grid, rims, all.at(i));
+    });
   forAll(parallelFor, rims.size(),
     [&](std::size_t i)
     {
       auto& [particle, patch, side, other] = rims[i];
-      mark(particle);
       if (side.exists() && other.exists())
       {
         offerPlane(particle, { other.outward, 0.0, other.bend, static_cast<float>(Pi) });
       }
     });
-  closeKinkCorners(all, particles, rims, parallelFor);
+  closeKinkCorners(all, parallelFor);
 }
 
 } // namespace hop

@@ -11,9 +11,7 @@ namespace hop
 /// there are particles behind to cover what is cut off. A splat that reaches beyond a plane is to be cut off there,
 /// or, where the surface is almost smooth, to count only where no other does. In corners two planes meet; where
 /// kinks do, some planes are moved outwards, see KinkCorners.h.
-/// \param all of these particles
-/// \param particles those that are not on rims; particles on rims are marked with them
-void markClipPlanes(const Isosurface& surface, const ParticleGrid& all, Buffer<RimParticle>& rims,
-  Buffer<Particle>& particles, const ParallelFor& parallelFor);
+void markClipPlanes(
+  const Isosurface& surface, const ParticleGrid& all, const ParallelFor& parallelFor);
 
 } // namespace hop

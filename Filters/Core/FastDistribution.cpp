@@ -1,13 +1,14 @@
 #include "FastDistribution.h"
 
 #include "ClipPlanes.h"
+#include "GivenNumber.h"
 #include "Interruptible.h"
 #include "KeepMarked.h"
 #include "KinkSpacings.h"
 #include "MovingParticles.h"
+#include "PackingRepair.h"
 #include "ParticleFinish.h"
 #include "PatchDistances.h"
-#include "Random.h"
 #include "RimCurves.h"
 #include "SmallPieces.h"
 #include "SurfaceProxy.h"
@@ -40,24 +41,8 @@ constexpr double firstSpacingPerExtent = 0.02;
 /// Particles on rims stand for half as much area as others, and count as so much of one.
 constexpr double onRim = 0.5;
 /// Seeds nearer to a rim's particle than this, in units of their spacing, are dropped: half the
-/// distance of two rows of hexagonal packing. Those that a round of relaxation squeezed against the rim
-/// are dropped after it, as is one of two that are that near in the end: where a strip between rims has no
-/// room for both.
+/// distance of two rows of hexagonal packing.
 constexpr double seedToRim = 0.433;
-constexpr double squeezed = 0.65;
-/// Pairs nearer than this, in units of their spacing, are defects of the packing. Particles within some
-/// spacings of them are relaxed further.
-constexpr double smallestSpacing = 0.82;
-constexpr double repairReach = 3.0;
-constexpr int repairRounds = 2;
-/// What is left is repaired again, so often at most, if it is no more than that share of all particles: where
-/// fields jump there is much that cannot be.
-constexpr int furtherRepairs = 2;
-constexpr double fewDefects = 0.005;
-constexpr int repairSweeps = 8;
-/// The first round may start from patches that were evaluated that far from the surface, in units of the
-/// spacing.
-constexpr float seedOffset = 0.5f;
 /// Particles of a run before come from no farther off than the first, and have arrived if they are nearer to
 /// the surface than the second, in units of their spacing.
 constexpr float farthestStart = 2.0f;
@@ -66,11 +51,6 @@ constexpr float arrivedOffset = 0.1f;
 /// join them, in units of the spacing.
 constexpr double worthContinuing = 0.7;
 constexpr double uncovered = 0.75;
-/// So often at most particles are exchanged until a given number of them stands well; how far apart those are that
-/// are added or removed at once, in units of the spacing.
-constexpr int exchanges = 3;
-constexpr double exchangedApart = 2.0;
-
 /// Shares of the run that are over with seeding and relaxation.
 constexpr double seededFraction = 0.45;
 constexpr double relaxedFraction = 0.9;
@@ -87,23 +67,6 @@ std::vector<int> sweepsOfRounds(Quality quality, bool isWarm)
       // Where particles of a run before crowd or thin out there is more to do.
       return isWarm ? std::vector<int>{ 12, 22 } : std::vector<int>{ 7, 13 };
   }
-}
-
-std::vector<char> opposite(std::vector<char> marks)
-{
-  std::transform(marks.begin(), marks.end(), marks.begin(), std::logical_not<>());
-  return marks;
-}
-
-/// Indices of values, the first in that order first; of equal ones, the first.
-template <class Before>
-std::vector<int> indicesBy(const std::vector<double>& values, const Before& before)
-{
-  std::vector<int> order(values.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(
-    order.begin(), order.end(), [&](int a, int b) { return before(values[a], values[b]); });
-  return order;
 }
 
 /// A part of the run, as far as progress is concerned.
@@ -151,25 +114,12 @@ private:
   void makeRims();
   void dropNearRims(double nearest);
   void startMoving();
-  std::unique_ptr<MovingParticles> drawSeeds(std::int64_t count) const;
-  /// Adds seeds, that many in all.
-  void draw(std::int64_t count, MovingParticles& particles) const;
-  void addSeeds(MovingParticles& seeds, const std::vector<char>& wanted);
   void addSamples(const std::vector<int>& boxes);
   void makeSeeds(std::int64_t count);
   void continueFrom(const std::vector<Location>& places);
   bool countIsGiven() const { return this->Parameters.particleCount > 0; }
   void coverBoxes();
-  Buffer<Patch> removeSqueezed();
-  Buffer<Patch> remove(const std::vector<int>& particles);
-  Buffer<Patch> addInGaps(std::int64_t count);
-  Buffer<Patch> matchNumber(std::int64_t count);
-  void settleNumber(std::int64_t count);
-  void relax(MovingParticles& moving, int sweeps, const Balance& balance, const Section& section);
   void relaxAll(int sweeps, bool isLast, const Section& section);
-  Buffer<Patch> findCrowded(const Buffer<Patch>& patches, std::size_t count) const;
-  void repair();
-  Buffer<Patch> repairAround(const Buffer<Patch>& crowded, Balance::Extent extent);
   void finish();
 
   Isosurface Surface;
@@ -216,7 +166,7 @@ bool FastSystem::isSmall(const SurfaceBox& box, const SpacingLaw& law)
   }
   const double spacing = law.at(patch.curvatureMagnitude());
   const bool isThin = patch.curvatureMagnitude() * spacing > 1.0 ||
-    (box.weakly && std::abs(anchor.offset) > seedOffset * spacing);
+    (box.weakly && std::abs(anchor.offset) > MovingParticles::SeedOffset * spacing);
   const double perOwnSpacing = isThin ? 1.0 : box.weakly ? weaklyPerSpacing : perSpacing;
   return box.size <= perOwnSpacing * spacing;
 }
@@ -311,29 +261,6 @@ void FastSystem::matchCount(std::int64_t count)
   keepMarked(this->RimPatches, kept);
 }
 
-/// Seeds as particles that are not on their way to the surface yet.
-std::unique_ptr<MovingParticles> FastSystem::drawSeeds(std::int64_t count) const
-{
-  auto seeds =
-    std::make_unique<MovingParticles>(this->Surface, *this->Proxy, Buffer<Patch>{}, this->Parallel);
-  this->draw(count, *seeds);
-  return seeds;
-}
-
-void FastSystem::draw(std::int64_t count, MovingParticles& particles) const
-{
-  const double phase = Random(this->Parameters.seed).uniform();
-  particles.add(this->Proxy->seeds(count, phase, this->Parallel));
-}
-
-void FastSystem::addSeeds(MovingParticles& seeds, const std::vector<char>& wanted)
-{
-  seeds.keep(wanted);
-  seeds.approach(seedOffset);
-  this->Moving->add(seeds.anchors(), seeds.patches());
-  this->Evaluations += seeds.evaluations();
-}
-
 void FastSystem::addSamples(const std::vector<int>& boxes)
 {
   Buffer<Anchor> anchors;
@@ -355,22 +282,24 @@ void FastSystem::makeSeeds(std::int64_t count)
   {
     this->continueFrom(this->Parameters.start);
     const std::vector<char> all(this->Moving->count(), 1);
-    this->Moving->keep(standApart(this->Moving->patches(), all, squeezed, this->Parallel));
+    this->Moving->keep(standApart(this->Moving->patches(), all, Squeezed, this->Parallel));
     this->IsWarm =
       static_cast<double>(this->Moving->size()) >= worthContinuing * static_cast<double>(count);
   }
   if (this->IsWarm)
   {
-    const auto seeds = this->drawSeeds(count);
-    this->addSeeds(*seeds,
-      keepDistance(
-        seeds->patches(), seeds->count(), this->Moving->patches(), uncovered, this->Parallel));
+    MovingParticles seeds(this->Surface, *this->Proxy, {}, this->Parallel);
+    seeds.draw(count, this->Parameters.seed);
+    seeds.keep(keepDistance(
+      seeds.patches(), seeds.count(), this->Moving->patches(), uncovered, this->Parallel));
+    seeds.approach();
+    this->Moving->join(seeds);
   }
   else
   {
     this->startMoving();
-    this->draw(count, *this->Moving);
-    this->Moving->approach(seedOffset);
+    this->Moving->draw(count, this->Parameters.seed);
+    this->Moving->approach();
   }
   this->dropNearRims(seedToRim);
   this->coverBoxes();
@@ -420,31 +349,6 @@ void FastSystem::dropNearRims(double nearest)
     this->Moving->patches(), this->Moving->count(), this->RimPatches, nearest, this->Parallel));
 }
 
-/// Sweeps, what they tell about the number of particles, and one evaluation each.
-void FastSystem::relax(
-  MovingParticles& moving, int sweeps, const Balance& balance, const Section& section)
-{
-  const auto reached = [&](double share) { this->Work.raiseFraction(section.at(share)); };
-  Relaxed relaxed = relaxOnPatches(moving.patches(), sweeps, balance, this->Parallel, reached);
-  const std::size_t count = moving.count();
-  relaxed.displacements.resize(count);
-  relaxed.kept.resize(count);
-  Buffer<Anchor> anchors;
-  Buffer<Patch> patches;
-  for (const Split& split : relaxed.splits)
-  {
-    anchors.push_back(moving.anchors()[split.particle]);
-    patches.push_back(moving.patches()[split.particle]);
-    relaxed.displacements.push_back(split.displacement);
-    relaxed.kept.push_back(1);
-  }
-  moving.add(anchors, patches);
-  // Holes that cannot be filled lie beyond the end of the surface.
-  const bool fills = balance.extent == Balance::Defects;
-  moving.commit(relaxed.displacements, std::move(relaxed.kept), fills ? relaxed.splits.size() : 0);
-  this->Result.report.iterations += sweeps;
-}
-
 /// One round. Before the last one so many are added or removed everywhere that their number is as wanted; the last
 /// one mends single defects.
 void FastSystem::relaxAll(int sweeps, bool isLast, const Section& section)
@@ -462,65 +366,9 @@ void FastSystem::relaxAll(int sweeps, bool isLast, const Section& section)
   {
     balance.missing = this->wantedCount() - size;
   }
-  this->relax(*this->Moving, sweeps, balance, section);
-  this->dropNearRims(squeezed);
-}
-
-/// Those of the first `count` patches that stand too near to another one.
-Buffer<Patch> FastSystem::findCrowded(const Buffer<Patch>& patches, std::size_t count) const
-{
-  return marked(patches, opposite(haveDistance(patches, count, smallestSpacing, this->Parallel)));
-}
-
-/// Mends places where particles stand too near to each other, and what is left of them as long as that may
-/// be mended.
-void FastSystem::repair()
-{
-  Buffer<Patch> crowded = this->findCrowded(this->Moving->patches(), this->Moving->count());
-  for (int n = 0; n <= furtherRepairs && !crowded.empty(); ++n)
-  {
-    const double share =
-      static_cast<double>(crowded.size()) / static_cast<double>(this->Moving->count());
-    if (n > 0 && share > fewDefects)
-    {
-      break;
-    }
-    crowded = this->repairAround(crowded, Balance::Crowded);
-  }
-}
-
-/// Particles around some go on alone, those farther off stay.
-/// \return those that stand too near to each other now
-Buffer<Patch> FastSystem::repairAround(const Buffer<Patch>& crowded, Balance::Extent extent)
-{
-  const Buffer<Patch>& patches = this->Moving->patches();
-  const std::size_t count = this->Moving->count();
-  const std::vector<char> staying =
-    keepDistance(patches, count, crowded, repairReach, this->Parallel);
-  const std::vector<char> outOfSight =
-    keepDistance(patches, patches.size(), crowded, 2.0 * repairReach, this->Parallel);
-  Buffer<Patch> around;
-  for (std::size_t i = 0; i < patches.size(); ++i)
-  {
-    if (!outOfSight[i] && (i >= count || staying[i]))
-    {
-      around.push_back(patches[i]);
-      around.back().fixed = true;
-    }
-  }
-  const std::vector<char> moving = opposite(staying);
-  MovingParticles part(this->Surface, *this->Proxy, std::move(around), this->Parallel);
-  part.add(marked(this->Moving->anchors(), moving), marked(patches, moving));
-  for (int n = 0; n < repairRounds; ++n)
-  {
-    Balance balance;
-    balance.extent = extent;
-    this->relax(part, repairSweeps, balance, { relaxedFraction, relaxedFraction });
-  }
-  this->Moving->keep(staying);
-  this->Moving->add(part.anchors(), marked(part.patches(), std::vector<char>(part.count(), 1)));
-  this->Evaluations += part.evaluations();
-  return this->findCrowded(part.patches(), part.count());
+  this->Moving->relax(
+    sweeps, balance, [&](double share) { this->Work.raiseFraction(section.at(share)); });
+  this->dropNearRims(Squeezed);
 }
 
 /// Boxes on whose piece of surface no particle stands get one. Those added cover others in turn.
@@ -529,85 +377,6 @@ void FastSystem::coverBoxes()
   const auto& samples = this->Proxy->samples();
   const std::vector<char> lonely = findLonely(samples, this->Moving->patches(), this->Parallel);
   this->addSamples(chooseUncovered(samples, lonely, this->Parallel));
-}
-
-/// Removes particles that were squeezed against rims or each other.
-/// \return what stood there
-Buffer<Patch> FastSystem::removeSqueezed()
-{
-  const Buffer<Patch>& patches = this->Moving->patches();
-  const std::vector<char> kept =
-    keepDistance(patches, this->Moving->count(), this->RimPatches, squeezed, this->Parallel);
-  const std::vector<char> apart = standApart(patches, kept, squeezed, this->Parallel);
-  const Buffer<Patch> removed = marked(patches, opposite(apart));
-  this->Moving->keep(apart);
-  return removed;
-}
-
-/// \return what stood there
-Buffer<Patch> FastSystem::remove(const std::vector<int>& particles)
-{
-  std::vector<char> kept(this->Moving->count(), 1);
-  for (const int i : particles)
-  {
-    kept[i] = 0;
-  }
-  const Buffer<Patch> removed = marked(this->Moving->patches(), opposite(kept));
-  this->Moving->keep(kept);
-  return removed;
-}
-
-/// Adds particles where there is most room.
-/// \return where they are
-Buffer<Patch> FastSystem::addInGaps(std::int64_t count)
-{
-  constexpr std::int64_t seedsPerParticle = 2;
-  constexpr std::int64_t someSeeds = 64;
-  const auto seeds = this->drawSeeds(someSeeds + seedsPerParticle * this->Parameters.particleCount);
-  const std::vector<double> room = clearances(
-    seeds->patches(), seeds->count(), this->Moving->patches(), exchangedApart, this->Parallel);
-  const std::vector<int> order = indicesBy(room, std::greater<>());
-  std::vector<char> wanted(seeds->count(), 0);
-  for (const int s : chooseApart(seeds->patches(), order, count, exchangedApart, this->Parallel))
-  {
-    wanted[s] = 1;
-  }
-  this->addSeeds(*seeds, wanted);
-  return seeds->patches();
-}
-
-/// Adds or removes particles until there are as many as that, if possible.
-/// \return where that was
-Buffer<Patch> FastSystem::matchNumber(std::int64_t count)
-{
-  const std::int64_t missing = count - static_cast<std::int64_t>(this->Moving->size());
-  if (missing > 0)
-  {
-    return this->addInGaps(missing);
-  }
-  const Buffer<Patch>& patches = this->Moving->patches();
-  const std::vector<int> order =
-    indicesBy(clearances(patches, this->Moving->count(), patches, exchangedApart, this->Parallel),
-      std::less<>());
-  return this->remove(chooseApart(patches, order, -missing, exchangedApart, this->Parallel));
-}
-
-/// Makes particles a given number of them; those that stand badly are exchanged for others.
-void FastSystem::settleNumber(std::int64_t count)
-{
-  for (int n = 0;; ++n)
-  {
-    Buffer<Patch> changed = this->removeSqueezed();
-    for (const Patch& patch : this->matchNumber(count))
-    {
-      changed.push_back(patch);
-    }
-    if (changed.empty() || n == exchanges)
-    {
-      return;
-    }
-    this->repairAround(changed, Balance::None);
-  }
 }
 
 /// Takes all particles to the tolerance and says what there is to say about them.
@@ -621,13 +390,13 @@ void FastSystem::finish()
   report.particlesRejected += std::count(kept.begin(), kept.end(), 0);
   if (!this->countIsGiven())
   {
-    kept = standApart(this->Moving->patches(), kept, squeezed, this->Parallel);
+    kept = standApart(this->Moving->patches(), kept, Squeezed, this->Parallel);
   }
   Buffer<Particle>& particles = this->Result.particles;
   particles = std::move(finished.particles);
   particles.resize(closeGaps(particles, particles.size(), kept));
   const ParticleGrid all(particles, this->Rims.particles, this->Parallel);
-  markClipPlanes(this->Surface, all, this->Rims.particles, particles, this->Parallel);
+  markClipPlanes(this->Surface, all, this->Parallel);
   for (const RimParticle& rim : this->Rims.particles)
   {
     particles.push_back(rim.particle);
@@ -668,12 +437,12 @@ void FastSystem::make()
       this->relaxAll(rounds[n], n + 1 == rounds.size(), round);
       this->reach(round.end);
     }
-    this->repair();
+    repairPacking(*this->Moving, this->Parallel);
     // Beside another sheet the last particle of a small component may have been taken for one too many.
     this->coverBoxes();
     if (this->countIsGiven())
     {
-      this->settleNumber(this->Parameters.particleCount);
+      settleNumber(this->Parameters, this->RimPatches, *this->Moving, this->Parallel);
     }
     this->finish();
   }
@@ -705,8 +474,13 @@ Distribution FastSystem::run()
     return {};
   }
   this->make();
-  this->Result.report.evaluations = this->Evaluations +
-    (this->Moving ? this->Moving->evaluations() : 0) + this->Locator.evaluations();
+  DistributionReport& report = this->Result.report;
+  report.evaluations = this->Evaluations + this->Locator.evaluations();
+  if (this->Moving)
+  {
+    report.evaluations += this->Moving->evaluations();
+    report.iterations = this->Moving->sweeps();
+  }
   return std::move(this->Result);
 }
 

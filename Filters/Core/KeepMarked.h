@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace hop
@@ -48,6 +49,12 @@ std::size_t closeGaps(Items& items, std::size_t end, const std::vector<char>& ma
     }
   }
   return end;
+}
+
+inline std::vector<char> opposite(std::vector<char> marks)
+{
+  std::transform(marks.begin(), marks.end(), marks.begin(), std::logical_not<>());
+  return marks;
 }
 
 /// Which of the first `count` marks are set.

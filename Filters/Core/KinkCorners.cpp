@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -84,11 +85,8 @@ bool isBehindRim(const Particle& particle, const glm::dvec3& place)
 class KinkCorners
 {
 public:
-  KinkCorners(const ParticleGrid& grid, Buffer<Particle>& particles, Buffer<RimParticle>& rims,
-    const ParallelFor& parallelFor)
-    : Grid(grid)
-    , Particles(particles)
-    , Rims(rims)
+  KinkCorners(const ParticleGrid& all, const ParallelFor& parallelFor)
+    : All(all)
     , Parallel(parallelFor)
   {
   }
@@ -108,11 +106,6 @@ private:
     double cosine = 0.0;
   };
 
-  Particle& at(std::size_t i) const
-  {
-    const std::size_t free = this->Particles.size();
-    return i < free ? this->Particles[i] : this->Rims[i - free].particle;
-  }
   static Cut cutOf(const Particle& particle, const ClipPlane& plane);
   bool isCornerOf(int i, int plane, const std::vector<int>& around) const;
   std::vector<int> findAround(int i) const;
@@ -121,9 +114,7 @@ private:
   double openFrom(int i, int plane, const glm::dvec3& start, const glm::dvec3& away,
     const std::vector<int>& around) const;
 
-  const ParticleGrid& Grid;
-  Buffer<Particle>& Particles;
-  Buffer<RimParticle>& Rims;
+  const ParticleGrid& All;
   const ParallelFor& Parallel;
 };
 
@@ -139,12 +130,12 @@ KinkCorners::Cut KinkCorners::cutOf(const Particle& particle, const ClipPlane& p
 /// Particles whose splats may overlap that of particle i.
 std::vector<int> KinkCorners::findAround(int i) const
 {
-  const Particle& particle = this->at(i);
+  const Particle& particle = this->All.at(i);
   std::vector<int> found;
-  this->Grid.visit(particle.position.xyz, particle.spacing,
+  this->All.visit(particle.position.xyz, particle.spacing,
     [&](int j)
     {
-      const Particle& other = this->at(j);
+      const Particle& other = this->All.at(j);
       if (j != i && dot(other.normal, particle.normal) > 0.0 &&
         length(other.position - particle.position) <
           splatReach * (particle.spacing + other.spacing))
@@ -159,10 +150,10 @@ std::vector<int> KinkCorners::findAround(int i) const
 bool KinkCorners::isCornerOf(int i, int plane, const std::vector<int>& around) const
 {
   constexpr double sameKink = 0.9;
-  const glm::dvec3 along = alongEdge(this->at(i), this->at(i).clips[plane]);
+  const glm::dvec3 along = alongEdge(this->All.at(i), this->All.at(i).clips[plane]);
   const auto hasAnother = [&](int j)
   {
-    const Particle& other = this->at(j);
+    const Particle& other = this->All.at(j);
     return std::any_of(other.clips.begin(), other.clips.end(),
       [&](const ClipPlane& clip)
       { return cuts(clip) && std::abs(glm::dot(alongEdge(other, clip), along)) < sameKink; });
@@ -174,11 +165,11 @@ bool KinkCorners::isCornerOf(int i, int plane, const std::vector<int>& around) c
 /// plane of another, nor beyond a rim.
 bool KinkCorners::isOpen(int i, const glm::dvec3& place, const std::vector<int>& around) const
 {
-  const double own = behindKinks(this->at(i), place);
+  const double own = behindKinks(this->All.at(i), place);
   return std::none_of(around.begin(), around.end(),
     [&](int j)
     {
-      const Particle& other = this->at(j);
+      const Particle& other = this->All.at(j);
       if (!reaches(other, place))
       {
         return false;
@@ -193,7 +184,7 @@ bool KinkCorners::isOpen(int i, const glm::dvec3& place, const std::vector<int>&
 double KinkCorners::openFrom(int i, int plane, const glm::dvec3& start, const glm::dvec3& away,
   const std::vector<int>& around) const
 {
-  const Particle& particle = this->at(i);
+  const Particle& particle = this->All.at(i);
   const ClipPlane& other = particle.clips[1 - plane];
   const double step = placeStep * particle.spacing;
   const double farthest = farthestOff / std::sin(particle.clips[plane].turn);
@@ -219,7 +210,7 @@ double KinkCorners::openBehind(int i, int plane, const std::vector<int>& around)
   {
     return 0.0;
   }
-  const Particle& particle = this->at(i);
+  const Particle& particle = this->All.at(i);
   const Cut cut = cutOf(particle, particle.clips[plane]);
   const double reach = splatReach * particle.spacing;
   const double half = std::sqrt(std::max(0.0, reach * reach - glm::dot(cut.foot, cut.foot)));
@@ -236,15 +227,15 @@ double KinkCorners::openBehind(int i, int plane, const std::vector<int>& around)
 
 void KinkCorners::close()
 {
-  const std::size_t count = this->Particles.size() + this->Rims.size();
+  const std::size_t count = this->All.size();
   std::vector<std::array<double, 2>> moves(count);
   forAll(this->Parallel, count,
     [&](std::size_t n)
     {
       const auto i = static_cast<int>(n);
       const auto isCut = [&](const ClipPlane& plane)
-      { return isKink(plane) && plane.distance < splatReach * this->at(i).spacing; };
-      const auto& clips = this->at(i).clips;
+      { return isKink(plane) && plane.distance < splatReach * this->All.at(i).spacing; };
+      const auto& clips = this->All.at(i).clips;
       const std::array<bool, 2> wanted{ isCut(clips[0]), isCut(clips[1]) };
       if (wanted[0] || wanted[1])
       {
@@ -255,21 +246,27 @@ void KinkCorners::close()
     });
   for (std::size_t i = 0; i < count; ++i)
   {
-    this->at(i).clips[0].distance += moves[i][0];
-    this->at(i).clips[1].distance += moves[i][1];
+    this->All.at(i).clips[0].distance += moves[i][0];
+    this->All.at(i).clips[1].distance += moves[i][1];
   }
 }
 
 } // namespace
 
-void closeKinkCorners(const ParticleGrid& all, Buffer<Particle>& particles,
-  Buffer<RimParticle>& rims, const ParallelFor& parallelFor)
+void closeKinkCorners(const ParticleGrid& all, const ParallelFor& parallelFor)
 {
-  const auto hasKink = [](const Particle& particle)
-  { return isKink(particle.clips[0]) || isKink(particle.clips[1]); };
-  if (std::any_of(particles.begin(), particles.end(), hasKink))
+  std::atomic<bool> hasKinks{ false };
+  forAll(parallelFor, all.size(),
+    [&](std::size_t i)
+    {
+      if (isKink(all.at(i).clips[0]) || isKink(all.at(i).clips[1]))
+      {
+        hasKinks = true;
+      }
+    });
+  if (hasKinks)
   {
-    KinkCorners(all, particles, rims, parallelFor).close();
+    KinkCorners(all, parallelFor).close();
   }
 }
 

@@ -11,8 +11,6 @@ namespace hop
 ///
 /// Planes of kinks of more than 80 degrees stay: splats would stand off from what they are to cover.
 /// \pre planes are marked
-/// \param all of these particles
-void closeKinkCorners(const ParticleGrid& all, Buffer<Particle>& particles,
-  Buffer<RimParticle>& rims, const ParallelFor& parallelFor);
+void closeKinkCorners(const ParticleGrid& all, const ParallelFor& parallelFor);
 
 } // namespace hop

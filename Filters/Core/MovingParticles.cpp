@@ -2,6 +2,7 @@
 
 #include "ActiveFaces.h"
 #include "KeepMarked.h"
+#include "Random.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,7 @@ namespace
 /// A step of relaxation is taken back by half while it ends farther from the surface than this, in
 /// units of the spacing, or on a sheet that is turned away.
 constexpr float largestOffset = 0.5f;
-constexpr float smallestTurn = 0.3f;
+constexpr float leastCosine = 0.3f;
 constexpr int maximumHalvings = 3;
 /// Relative error of steps in reference space, as anchors keep their map in single precision.
 constexpr double pullRounding = 1e-6;
@@ -27,7 +28,7 @@ bool accepts(const Anchor& from, const Patch& before, const Anchor& to, const Pa
 {
   const float farthest =
     std::max(largestOffset * before.spacing, smallestProgress * std::abs(from.offset));
-  return std::abs(to.offset) <= farthest && glm::dot(before.normal, after.normal) > smallestTurn &&
+  return std::abs(to.offset) <= farthest && glm::dot(before.normal, after.normal) > leastCosine &&
     glm::distance(before.position, after.position) <= 2.0 * before.spacing;
 }
 
@@ -130,6 +131,21 @@ void MovingParticles::add(const Buffer<Anchor>& anchors, const Buffer<Patch>& pa
   this->Patches.insert(this->Patches.begin() + static_cast<std::ptrdiff_t>(this->count()),
     patches.begin(), patches.end());
   this->Anchors.insert(this->Anchors.end(), anchors.begin(), anchors.end());
+}
+
+void MovingParticles::join(const MovingParticles& others)
+{
+  const auto count = static_cast<std::ptrdiff_t>(others.count());
+  this->Patches.insert(this->Patches.begin() + static_cast<std::ptrdiff_t>(this->count()),
+    others.Patches.begin(), others.Patches.begin() + count);
+  this->Anchors.insert(this->Anchors.end(), others.Anchors.begin(), others.Anchors.end());
+  this->Evaluations += others.Evaluations;
+  this->Sweeps += others.Sweeps;
+}
+
+void MovingParticles::draw(std::int64_t count, std::uint64_t randomSeed)
+{
+  this->add(this->Proxy.seeds(count, Random(randomSeed).uniform(), this->Parallel));
 }
 
 /// Of those that move, puts order[0], order[1], ... first, and leaves out what is not in the order.
@@ -283,6 +299,28 @@ std::vector<char> MovingParticles::step(
       this->Evaluations += cost;
     });
   return arrived;
+}
+
+void MovingParticles::relax(
+  int sweeps, const Balance& balance, const std::function<void(double share)>& reached)
+{
+  Relaxed relaxed = relaxOnPatches(this->Patches, sweeps, balance, this->Parallel, reached);
+  relaxed.displacements.resize(this->count());
+  relaxed.kept.resize(this->count());
+  Buffer<Anchor> anchors;
+  Buffer<Patch> patches;
+  for (const Split& split : relaxed.splits)
+  {
+    anchors.push_back(this->Anchors[split.particle]);
+    patches.push_back(this->Patches[split.particle]);
+    relaxed.displacements.push_back(split.displacement);
+    relaxed.kept.push_back(1);
+  }
+  this->add(anchors, patches);
+  // Holes that cannot be filled lie beyond the end of the surface.
+  const bool fills = balance.extent == Balance::Defects;
+  this->commit(relaxed.displacements, std::move(relaxed.kept), fills ? relaxed.splits.size() : 0);
+  this->Sweeps += sweeps;
 }
 
 void MovingParticles::commit(

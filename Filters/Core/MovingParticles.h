@@ -1,9 +1,11 @@
 #pragma once
 
 #include "Anchor.h"
+#include "PatchRelaxation.h"
 #include "SurfaceProxy.h"
 
 #include <atomic>
+#include <functional>
 #include <vector>
 
 namespace hop
@@ -25,19 +27,34 @@ public:
   std::size_t size() const { return this->Patches.size(); }
   const Buffer<Anchor>& anchors() const { return this->Anchors; }
   const Buffer<Patch>& patches() const { return this->Patches; }
+  const Isosurface& surface() const { return this->Surface; }
+  const SurfaceProxy& proxy() const { return this->Proxy; }
   std::int64_t evaluations() const { return this->Evaluations; }
+  std::int64_t sweeps() const { return this->Sweeps; }
 
   /// Adds a particle for each place from which one Newton step leads to the surface; one evaluation each.
   void add(const std::vector<Location>& places);
   /// The same for seeds; those near samples cost nothing.
   void add(const std::vector<SurfaceProxy::Seed>& seeds);
+  /// Adds so many seeds in all, everywhere as dense as wanted.
+  void draw(std::int64_t count, std::uint64_t randomSeed);
+  /// The first round may start from patches that were evaluated that far from the surface, in units of the
+  /// spacing.
+  static constexpr float SeedOffset = 0.5f;
   /// Takes a Newton step with those that are farther from the surface than that, in units of the spacing.
-  void approach(float farthest);
+  void approach(float farthest = SeedOffset);
   /// Adds particles whose patches are known.
   void add(const Buffer<Anchor>& anchors, const Buffer<Patch>& patches);
+  /// Adds those that move of others, and what they cost.
+  void join(const MovingParticles& others);
   /// Keeps those marked, of those that move.
   /// \param kept one for each of them at least
   void keep(const std::vector<char>& kept);
+
+  /// Sweeps, what they tell about the number of particles, and one evaluation each.
+  /// \param reached told now and then which share of the sweeps is done
+  void relax(
+    int sweeps, const Balance& balance, const std::function<void(double share)>& reached = {});
 
   /// Takes particles to where relaxation wants them, and to the surface; one evaluation each gives them
   /// new patches there, more where half a step has to do. Afterwards they are sorted by element.
@@ -59,7 +76,6 @@ public:
     this->Patches[i].normal = glm::vec3(surfaceNormal(point.gradient).xyz);
     this->Anchors[i] = { place, glm::mat3(point.map.inverse), 0.0f };
   }
-  const Isosurface& surface() const { return this->Surface; }
 
 private:
   std::size_t makeRoom(std::size_t count);
@@ -83,6 +99,7 @@ private:
   Buffer<Anchor> SpareAnchors;
   Buffer<Patch> SparePatches;
   std::atomic<std::int64_t> Evaluations{ 0 };
+  std::int64_t Sweeps = 0;
 };
 
 } // namespace hop

@@ -7,6 +7,10 @@
 namespace hop
 {
 
+/// Particles that a round of relaxation has squeezed nearer to a rim than this, in units of their spacing, are
+/// dropped, as is one of two that are that near in the end: where a strip between rims has no room for both.
+inline constexpr double Squeezed = 0.65;
+
 /// For each of the first `count` patches, whether it keeps that distance, in units of its spacing, from
 /// all others that are not turned away.
 std::vector<char> keepDistance(const Buffer<Patch>& patches, std::size_t count,

@@ -9,8 +9,8 @@ namespace
 {
 
 /// Cosine of the largest turn from chord to chord, and of the turn that makes a corner.
-constexpr double smallestTurn = 0.9;
-constexpr double cornerTurn = 0.94;
+constexpr double leastCosine = 0.9;
+constexpr double cornerCosine = 0.94;
 /// A rim that cannot be followed by chords that short, in units of the step, ends: all but tangent to its
 /// face it is not known to be there.
 constexpr double smallestChord = 1.0 / 32.0;
@@ -377,7 +377,7 @@ RimTracer::Ahead RimTracer::passEdge(
     return {};
   }
   RimVertex vertex{ { *at, from.face }, *beyond, false };
-  vertex.corner = dot(this->tangent(vertex.arriving), this->tangent(vertex.leaving)) < cornerTurn;
+  vertex.corner = dot(this->tangent(vertex.arriving), this->tangent(vertex.leaving)) < cornerCosine;
   return { vertex, false };
 }
 
@@ -413,7 +413,7 @@ RimTracer::Ahead RimTracer::advance(const Heading& heading, double step)
     return this->passEdge(from, u, exit.face, step);
   }
   const auto next = this->project({ from.at.location.element, u }, from.face, step);
-  if (!next || dot(this->tangent(*next), this->tangent(from)) < smallestTurn)
+  if (!next || dot(this->tangent(*next), this->tangent(from)) < leastCosine)
   {
     return {};
   }

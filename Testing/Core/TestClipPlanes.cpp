@@ -306,7 +306,7 @@ TEST(ClipPlanes, OfRimsThatBendStronglyAreNotTurnedFar)
     particles[0].normal = rims[0].particle.normal;
     particles[0].spacing = spacing;
     const ParticleGrid all(particles, rims, {});
-    markClipPlanes(surface, all, rims, particles, {});
+    markClipPlanes(surface, all, {});
     const ClipPlane& plane = particles[0].clips[0];
     ASSERT_TRUE(plane.exists()) << bend;
     EXPECT_GT(plane.normal.xyz.x, std::cos(0.5)) << bend;
