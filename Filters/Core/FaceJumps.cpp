@@ -132,7 +132,23 @@ private:
     SurfaceWalker across;
   };
 
+  /// What is known of a face of an element, while the boxes there are gone through.
+  struct FaceState
+  {
+    int neighbor = -1;
+    /// By which its two sides differ at most.
+    double difference = 0.0;
+    /// See mayBeOpen().
+    bool open = false;
+    /// There may be more to see.
+    bool wanted = false;
+    unsigned boxesSeen = 0;
+  };
+
+  FaceState stateOf(int element, int face) const;
   std::optional<Finding> look(const FaceCrossing& crossing, double spacing, Walkers& walkers) const;
+  void lookAtCrossing(const FaceCrossing& crossing, const SurfaceProxy::Sample& sample,
+    FaceState& face, Walkers& walkers);
   void lookAtElement(int element, Walkers& walkers);
   bool mayBeOpen(int element, int face) const;
   bool mayJump(
@@ -203,22 +219,53 @@ bool JumpFinder::mayJump(
   return !(difference * glm::length(edge) <= largest * crossing.rise);
 }
 
-/// A few looks at a face are enough to see a kink: at the first, second, fourth ... box, from one side.
-/// Jumps are looked for at all of them, but one is enough.
+JumpFinder::FaceState JumpFinder::stateOf(int element, int face) const
+{
+  FaceState state;
+  state.neighbor = this->Mesh.neighbor(element, face).element;
+  state.difference = state.neighbor >= 0 ? differenceAt(this->Mesh, element, face) : 0.0;
+  state.open = this->mayBeOpen(element, face);
+  // Kinks are looked for from one side.
+  state.wanted = state.difference > 0.0 || state.open || element < state.neighbor;
+  return state;
+}
+
+/// Looks at a face where a box crosses it, if that may tell something new. A few looks are enough to see a
+/// kink: at the first, second, fourth ... box. Jumps are looked for at all of them, but one is enough.
+void JumpFinder::lookAtCrossing(const FaceCrossing& crossing, const SurfaceProxy::Sample& sample,
+  FaceState& face, Walkers& walkers)
+{
+  const int element = crossing.location.element;
+  const double spacing = sample.patch.spacing;
+  std::vector<Finding>& findings = this->OfElement[element];
+  if (face.open)
+  {
+    const std::size_t slot = faceSlot(element, crossing.face);
+    findings.push_back({ slot, slot, static_cast<float>(LargestJumpPerSpacing * spacing) });
+  }
+  const unsigned before = face.boxesSeen++;
+  const bool forKinks = (before & (before + 1)) == 0 &&
+    (face.open || (element < face.neighbor && !this->Samples.isSmoothTo(sample, face.neighbor)));
+  if (forKinks ||
+    (this->mayJump(crossing, sample, face.difference) &&
+      !this->Samples.meet(crossing, sample, clearMiss)))
+  {
+    if (const auto finding = this->look(crossing, spacing, walkers))
+    {
+      findings.push_back(*finding);
+      face.wanted = face.open || !std::isfinite(finding->gap);
+    }
+  }
+}
+
 void JumpFinder::lookAtElement(int element, Walkers& walkers)
 {
-  std::array<double, MaximumFaces> differences{};
-  std::array<bool, MaximumFaces> open{};
-  std::array<bool, MaximumFaces> wanted{};
-  std::array<unsigned, MaximumFaces> boxesSeen{};
-  const auto faceCount = static_cast<int>(facts(this->Mesh.elements[element].domain).faces.size());
-  const auto neighborOf = [&](int face) { return this->Mesh.neighbor(element, face).element; };
   const auto [firstBox, lastBox] = this->Proxy.boxesOf(element);
+  std::array<FaceState, MaximumFaces> faces{};
+  const auto faceCount = static_cast<int>(facts(this->Mesh.elements[element].domain).faces.size());
   for (int f = 0; f < faceCount && firstBox < lastBox; ++f)
   {
-    differences[f] = neighborOf(f) >= 0 ? differenceAt(this->Mesh, element, f) : 0.0;
-    open[f] = this->mayBeOpen(element, f);
-    wanted[f] = differences[f] > 0.0 || open[f] || element < neighborOf(f);
+    faces[f] = this->stateOf(element, f);
   }
   for (std::size_t b = firstBox; b < lastBox; ++b)
   {
@@ -226,36 +273,13 @@ void JumpFinder::lookAtElement(int element, Walkers& walkers)
     std::array<bool, MaximumFaces> seen{};
     visitFaceCrossings(
       this->Mesh, this->Proxy.boxes()[b],
-      [&](int face) { return wanted[face] && sample.found && !seen[face]; },
+      [&](int face) { return faces[face].wanted && sample.found && !seen[face]; },
       [&](const FaceCrossing& crossing)
       {
-        const int face = crossing.face;
-        if (seen[face])
+        if (!seen[crossing.face])
         {
-          return;
-        }
-        seen[face] = true;
-        const double spacing = sample.patch.spacing;
-        if (open[face])
-        {
-          const std::size_t slot = faceSlot(element, face);
-          this->OfElement[element].push_back(
-            { slot, slot, static_cast<float>(LargestJumpPerSpacing * spacing) });
-        }
-        const unsigned before = boxesSeen[face]++;
-        const bool forKinks = (before & (before + 1)) == 0 &&
-          (open[face] ||
-            (element < neighborOf(face) && !this->Samples.isSmoothTo(sample, neighborOf(face))));
-        if (!forKinks &&
-          (!this->mayJump(crossing, sample, differences[face]) ||
-            this->Samples.meet(crossing, sample, clearMiss)))
-        {
-          return;
-        }
-        if (const auto finding = this->look(crossing, spacing, walkers))
-        {
-          this->OfElement[element].push_back(*finding);
-          wanted[face] = open[face] || !std::isfinite(finding->gap);
+          seen[crossing.face] = true;
+          this->lookAtCrossing(crossing, sample, faces[crossing.face], walkers);
         }
       });
   }
