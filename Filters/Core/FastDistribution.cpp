@@ -282,7 +282,7 @@ void FastSystem::makeSeeds(std::int64_t count)
   {
     this->continueFrom(this->Parameters.start);
     const std::vector<char> all(this->Moving->count(), 1);
-    this->Moving->keep(standApart(this->Moving->patches(), all, Squeezed, this->Parallel));
+    this->Moving->keep(thinOut(this->Moving->patches(), all, Squeezed, this->Parallel));
     this->IsWarm =
       static_cast<double>(this->Moving->size()) >= worthContinuing * static_cast<double>(count);
   }
@@ -290,7 +290,7 @@ void FastSystem::makeSeeds(std::int64_t count)
   {
     MovingParticles seeds(this->Surface, *this->Proxy, {}, this->Parallel);
     seeds.draw(count, this->Parameters.seed);
-    seeds.keep(keepDistance(
+    seeds.keep(areFarFrom(
       seeds.patches(), seeds.count(), this->Moving->patches(), uncovered, this->Parallel));
     seeds.approach();
     this->Moving->join(seeds);
@@ -345,7 +345,7 @@ void FastSystem::makeRims()
 /// Particles on rims are there first: others too near to one are dropped.
 void FastSystem::dropNearRims(double nearest)
 {
-  this->Moving->keep(keepDistance(
+  this->Moving->keep(areFarFrom(
     this->Moving->patches(), this->Moving->count(), this->RimPatches, nearest, this->Parallel));
 }
 
@@ -390,7 +390,7 @@ void FastSystem::finish()
   report.particlesRejected += std::count(kept.begin(), kept.end(), 0);
   if (!this->countIsGiven())
   {
-    kept = standApart(this->Moving->patches(), kept, Squeezed, this->Parallel);
+    kept = thinOut(this->Moving->patches(), kept, Squeezed, this->Parallel);
   }
   Buffer<Particle>& particles = this->Result.particles;
   particles = std::move(finished.particles);

@@ -69,8 +69,8 @@ Buffer<Patch> NumberSettler::removeSqueezed()
 {
   const Buffer<Patch>& patches = this->Moving.patches();
   const std::vector<char> kept =
-    keepDistance(patches, this->Moving.count(), this->Rims, Squeezed, this->Parallel);
-  return this->keep(standApart(patches, kept, Squeezed, this->Parallel));
+    areFarFrom(patches, this->Moving.count(), this->Rims, Squeezed, this->Parallel);
+  return this->keep(thinOut(patches, kept, Squeezed, this->Parallel));
 }
 
 /// Removes the most crowded particles.

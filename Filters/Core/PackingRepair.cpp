@@ -24,7 +24,7 @@ Buffer<Patch> findCrowded(const MovingParticles& particles, const ParallelFor& p
 {
   const Buffer<Patch>& patches = particles.patches();
   return marked(
-    patches, opposite(haveDistance(patches, particles.count(), smallestSpacing, parallelFor)));
+    patches, opposite(areAlone(patches, particles.count(), smallestSpacing, parallelFor)));
 }
 
 } // namespace
@@ -34,9 +34,9 @@ Buffer<Patch> relaxAround(const Buffer<Patch>& places, Balance::Extent extent,
 {
   const Buffer<Patch>& patches = moving.patches();
   const std::size_t count = moving.count();
-  const std::vector<char> staying = keepDistance(patches, count, places, repairReach, parallelFor);
+  const std::vector<char> staying = areFarFrom(patches, count, places, repairReach, parallelFor);
   const std::vector<char> outOfSight =
-    keepDistance(patches, patches.size(), places, 2.0 * repairReach, parallelFor);
+    areFarFrom(patches, patches.size(), places, 2.0 * repairReach, parallelFor);
   Buffer<Patch> around;
   for (std::size_t i = 0; i < patches.size(); ++i)
   {

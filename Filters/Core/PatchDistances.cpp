@@ -91,7 +91,7 @@ private:
 
 } // namespace
 
-std::vector<char> keepDistance(const Buffer<Patch>& patches, std::size_t count,
+std::vector<char> areFarFrom(const Buffer<Patch>& patches, std::size_t count,
   const Buffer<Patch>& others, double distance, const ParallelFor& parallelFor)
 {
   const SpacedPoints points(others, parallelFor);
@@ -108,14 +108,14 @@ std::vector<char> keepDistance(const Buffer<Patch>& patches, std::size_t count,
     });
 }
 
-std::vector<char> haveDistance(
+std::vector<char> areAlone(
   const Buffer<Patch>& patches, std::size_t count, double distance, const ParallelFor& parallelFor)
 {
   const Crowd crowd(patches, distance, parallelFor);
   return testAll(count, parallelFor, [&](std::size_t i) { return crowd.isAlone(i); });
 }
 
-std::vector<char> standApart(const Buffer<Patch>& patches, const std::vector<char>& wanted,
+std::vector<char> thinOut(const Buffer<Patch>& patches, const std::vector<char>& wanted,
   double distance, const ParallelFor& parallelFor)
 {
   const std::size_t count = wanted.size();
@@ -170,7 +170,7 @@ std::vector<int> chooseApart(const Buffer<Patch>& patches, const std::vector<int
     inOrder.push_back(patches[i]);
   }
   const std::vector<char> apart =
-    standApart(inOrder, std::vector<char>(order.size(), 1), distance, parallelFor);
+    thinOut(inOrder, std::vector<char>(order.size(), 1), distance, parallelFor);
   std::vector<int> chosen;
   for (const char wanted : { 1, 0 })
   {

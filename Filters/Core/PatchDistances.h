@@ -13,18 +13,18 @@ inline constexpr double Squeezed = 0.65;
 
 /// For each of the first `count` patches, whether it keeps that distance, in units of its spacing, from
 /// all others that are not turned away.
-std::vector<char> keepDistance(const Buffer<Patch>& patches, std::size_t count,
+std::vector<char> areFarFrom(const Buffer<Patch>& patches, std::size_t count,
   const Buffer<Patch>& others, double distance, const ParallelFor& parallelFor);
 
 /// For each of the first `count` patches, whether it keeps that distance, in units of the smaller of two
 /// spacings, from every other patch that is not turned away.
-std::vector<char> haveDistance(
+std::vector<char> areAlone(
   const Buffer<Patch>& patches, std::size_t count, double distance, const ParallelFor& parallelFor);
 
 /// For each of the first wanted.size() patches, whether to keep it if any two are to be that far apart, in
 /// units of the smaller of their spacings: of two that are wanted the first stays, and those behind all these
 /// do.
-std::vector<char> standApart(const Buffer<Patch>& patches, const std::vector<char>& wanted,
+std::vector<char> thinOut(const Buffer<Patch>& patches, const std::vector<char>& wanted,
   double distance, const ParallelFor& parallelFor);
 
 /// For each of the first `count` patches, how far the nearest of the others is that is not turned away, in units
@@ -32,7 +32,7 @@ std::vector<char> standApart(const Buffer<Patch>& patches, const std::vector<cha
 std::vector<double> clearances(const Buffer<Patch>& patches, std::size_t count,
   const Buffer<Patch>& others, double most, const ParallelFor& parallelFor);
 
-/// The `count` first of some patches in a new order, but for those nearer than a distance (see standApart) to one
+/// The `count` first of some patches in a new order, but for those nearer than a distance (see thinOut) to one
 /// before, as long as there are enough others.
 /// \param order indices, the one wanted most first
 /// \return indices of patches
