@@ -9,12 +9,10 @@
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
-#include "vtkGenericCell.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
-#include "vtkSmartPointer.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -23,22 +21,9 @@
 #include <limits>
 #include <numeric>
 #include <set>
-#include <sstream>
 
 namespace
 {
-
-enum class Verdict : char
-{
-  Keep,
-  Drop,
-  BrokenConnectivity,
-  NotFinite,
-  BadWeights,
-  Level,
-  Unsupported,
-  Hidden
-};
 
 /// What is read of one cell.
 struct CellValues
@@ -113,34 +98,6 @@ void snapToIsovalues(std::vector<hop::Coefficient>& coefficients,
     {
       c.w = std::abs(c.w - isovalue) <= slack ? isovalue : c.w;
     }
-  }
-}
-
-/// Counts a cell that is left out.
-void count(Verdict verdict, vtkIdType cell, int cellType, CellCensus& census)
-{
-  switch (verdict)
-  {
-    case Verdict::Drop:
-      ++census.dropped;
-      break;
-    case Verdict::Unsupported:
-      census.unsupported[cellType].add(cell);
-      break;
-    case Verdict::BrokenConnectivity:
-      census.brokenConnectivity.add(cell);
-      break;
-    case Verdict::NotFinite:
-      census.notFinite.add(cell);
-      break;
-    case Verdict::BadWeights:
-      census.badWeights.add(cell);
-      break;
-    case Verdict::Level:
-      census.level.add(cell);
-      break;
-    default:
-      break;
   }
 }
 
@@ -272,7 +229,7 @@ void Builder::judge(CellRange& range, BasisLookup& bases, CellValues& values) co
     const Verdict verdict = this->judge({ range.block, cell }, basis, values);
     if (verdict != Verdict::Keep)
     {
-      count(verdict, cell, grid->GetCellType(cell), range.census);
+      range.census.count(verdict, cell, grid->GetCellType(cell));
       continue;
     }
     range.kept.push_back({ cell, basis });
@@ -609,72 +566,7 @@ void Builder::dropDoubledGhosts()
   this->Result.bases.resize(kept);
 }
 
-/// VTK's table of names has Lagrange and Bezier triangles and quadrilaterals the wrong way round, but
-/// it also knows the types of which no cell can be made.
-std::string nameOfCellType(int type)
-{
-  const auto cell = vtk::TakeSmartPointer(vtkGenericCell::InstantiateCell(type));
-  return cell ? cell->GetClassName() : CellTypeNames::GetClassNameFromTypeId(type);
-}
-
-void describeCells(std::ostream& text, const SkippedCells& cells, const std::string& reason)
-{
-  if (cells.count > 0)
-  {
-    text << "\n  " << cells.count << (cells.count == 1 ? " cell " : " cells ") << reason
-         << " (first: cell " << cells.first << ")";
-  }
-}
-
 } // namespace
-
-void CellCensus::add(const CellCensus& others)
-{
-  this->dropped += others.dropped;
-  for (const auto& [type, cells] : others.unsupported)
-  {
-    this->unsupported[type].add(cells);
-  }
-  this->brokenConnectivity.add(others.brokenConnectivity);
-  this->notFinite.add(others.notFinite);
-  this->badWeights.add(others.badWeights);
-  this->level.add(others.level);
-  this->collapsed.add(others.collapsed);
-  this->folded.add(others.folded);
-}
-
-vtkIdType CellCensus::skipped() const
-{
-  vtkIdType sum = this->brokenConnectivity.count + this->notFinite.count + this->badWeights.count +
-    this->level.count + this->collapsed.count;
-  for (const auto& [type, cells] : this->unsupported)
-  {
-    sum += cells.count;
-  }
-  return sum;
-}
-
-std::string CellCensus::describe() const
-{
-  std::ostringstream text;
-  for (const auto& [type, cells] : this->unsupported)
-  {
-    describeCells(text, cells,
-      "of type " + nameOfCellType(type) +
-        " skipped: not a supported 3-D cell, or its number of points fits no degree up to " +
-        std::to_string(hop::maximumInputDegree(hop::Domain::Tetrahedron)) +
-        " (hexahedra: " + std::to_string(hop::maximumInputDegree(hop::Domain::Hexahedron)) + ")");
-  }
-  describeCells(text, this->brokenConnectivity, "skipped: point ids outside the grid");
-  describeCells(text, this->notFinite,
-    "skipped: coordinates or values that are NaN or infinite, or values beyond 1e75");
-  describeCells(text, this->badWeights, "skipped: RationalWeights that are not positive");
-  describeCells(
-    text, this->level, "skipped: the field is the isovalue throughout, which is no surface");
-  describeCells(text, this->collapsed, "skipped: without volume");
-  describeCells(text, this->folded, "kept, but partly inverted: the Jacobian changes its sign");
-  return text.str();
-}
 
 GridElements buildGridElements(const InputBlocks& blocks, hop::NodeSpacing spacing,
   const std::vector<double>& isovalues, const hop::ParallelFor& parallelFor,
