@@ -45,6 +45,7 @@ public:
   std::size_t size() const { return this->Blocks.size(); }
   const InputBlock& operator[](std::size_t block) const { return this->Blocks[block]; }
   int component() const { return this->Component; }
+  bool isMagnitude() const { return this->Component == Magnitude; }
   std::int64_t cellCount() const { return this->FirstCells.back(); }
   /// The number of a block's first cell; that of block size() is the number of all cells.
   std::int64_t firstCell(std::size_t block) const { return this->FirstCells[block]; }
