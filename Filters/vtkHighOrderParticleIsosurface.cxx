@@ -1,29 +1,27 @@
 #include "vtkHighOrderParticleIsosurface.h"
 
-#include "ArrayLengths.h"
 #include "BlockGroups.h"
 #include "ClassicDistribution.h"
 #include "FastDistribution.h"
 #include "GatherBlocks.h"
 #include "GridElements.h"
+#include "InputChecks.h"
 #include "Interruptible.h"
 #include "ParticlePacker.h"
 #include "PreviousRun.h"
 #include "Ranks.h"
+#include "RunMessages.h"
 #include "Threads.h"
 #include "VtkCompatibility.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkCellArray.h"
-#include "vtkCellData.h"
 #include "vtkContourValues.h"
 #include "vtkDataArray.h"
 #include "vtkDataObjectTree.h"
-#include "vtkDataSetAttributes.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
@@ -38,7 +36,6 @@
 #include <limits>
 #include <numeric>
 #include <optional>
-#include <sstream>
 #include <string>
 
 namespace
@@ -47,11 +44,8 @@ namespace
 constexpr double automaticSpacingPerSide = 0.01;
 /// Larger spacings say no more: a component has its least number of particles long before.
 constexpr double largestSpacingPerSide = 1e3;
-/// Diagonals of grids; volumes of larger ones do not fit into doubles.
-constexpr double largestDiagonal = 1e90;
 /// The first spacing that ranks try together where a number of particles is given.
 constexpr double firstSpacingPerDiagonal = 0.02;
-constexpr double warnUndersampledShare = 0.01;
 /// Where a run's progress stands when cells are converted, and when particles are done.
 constexpr double convertedShare = 0.1;
 constexpr double distributedShare = 0.95;
@@ -95,53 +89,6 @@ RunOrigin originOf(const InputBlocks& blocks)
   return origin;
 }
 
-/// The spacing at which all but so small a share of the particles would follow the surface, evenly spread.
-double resolvingSpacing(const hop::Buffer<hop::Particle>& particles)
-{
-  std::vector<double> bends;
-  bends.reserve(particles.size());
-  for (const hop::Particle& particle : particles)
-  {
-    bends.push_back(particle.curvature.magnitude);
-  }
-  const auto above =
-    static_cast<std::ptrdiff_t>(warnUndersampledShare * static_cast<double>(bends.size()));
-  const auto rank = static_cast<std::ptrdiff_t>(bends.size()) - 1 - above;
-  std::nth_element(bends.begin(), bends.begin() + rank, bends.end());
-  return hop::Particle::LargestBend / bends[rank];
-}
-
-std::string listOf(const std::vector<std::string>& names)
-{
-  constexpr std::size_t most = 10;
-  std::string list;
-  for (std::size_t n = 0; n < std::min(names.size(), most); ++n)
-  {
-    list += (n == 0 ? "" : ", ") + names[n];
-  }
-  const std::size_t more = names.size() - std::min(names.size(), most);
-  return names.empty() ? "none" : list + (more > 0 ? " and " + std::to_string(more) + " more" : "");
-}
-
-/// Names of the point arrays of all grids.
-std::vector<std::string> pointArraysOf(const std::vector<InputBlock>& blocks)
-{
-  std::vector<std::string> names;
-  for (const InputBlock& block : blocks)
-  {
-    vtkPointData* data = block.grid->GetPointData();
-    for (int a = 0; a < data->GetNumberOfArrays(); ++a)
-    {
-      const std::string name = data->GetArrayName(a) ? data->GetArrayName(a) : "(unnamed)";
-      if (std::find(names.begin(), names.end(), name) == names.end())
-      {
-        names.push_back(name);
-      }
-    }
-  }
-  return names;
-}
-
 /// Which component of the blocks' scalars to contour by; `asked` may be more than they have.
 int componentOf(const std::vector<InputBlock>& blocks, int asked)
 {
@@ -156,66 +103,6 @@ double timeOf(vtkInformationVector* outputs)
   return output->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP())
     ? output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP())
     : 0.0;
-}
-
-/// The array that was asked for.
-struct ArrayChoice
-{
-  /// Empty for the active one of a kind.
-  std::string name;
-  int kind = vtkDataSetAttributes::SCALARS;
-
-  vtkDataArray* of(vtkDataSetAttributes* data) const
-  {
-    return this->name.empty() ? data->GetAttribute(this->kind) : data->GetArray(this->name.c_str());
-  }
-
-  /// \param association "point" or "cell"
-  std::string describe(const std::string& association) const
-  {
-    const char* nameOfKind = vtkDataSetAttributes::GetAttributeTypeAsString(this->kind);
-    return this->name.empty()
-      ? "active " + association + " array (" + (nameOfKind ? nameOfKind : "of no kind") + ")"
-      : association + " array '" + this->name + "'";
-  }
-};
-
-ArrayChoice choiceOf(vtkInformation* asked)
-{
-  ArrayChoice choice;
-  const char* name = asked->Get(vtkDataObject::FIELD_NAME());
-  choice.name = name ? name : "";
-  if (asked->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
-  {
-    choice.kind = asked->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE());
-  }
-  return choice;
-}
-
-/// The blocks with cells that have the chosen array of points, of as many components as in the first of
-/// them; names of the rest are added to `others`. An active array has to have the same name in all.
-std::vector<InputBlock> blocksWithScalars(
-  const std::vector<InputBlock>& blocks, ArrayChoice choice, std::vector<std::string>& others)
-{
-  std::vector<InputBlock> found;
-  for (InputBlock block : blocks)
-  {
-    if (block.grid->GetNumberOfCells() == 0)
-    {
-      continue;
-    }
-    block.scalars = choice.of(block.grid->GetPointData());
-    if (!block.scalars ||
-      (!found.empty() &&
-        block.scalars->GetNumberOfComponents() != found[0].scalars->GetNumberOfComponents()))
-    {
-      others.push_back(block.name);
-      continue;
-    }
-    found.push_back(block);
-    choice.name = block.scalars->GetName() ? block.scalars->GetName() : "";
-  }
-  return found;
 }
 
 } // namespace
@@ -359,14 +246,14 @@ int vtkHighOrderParticleIsosurface::RequestData(
   {
     this->Previous->forget();
   }
-  if (!this->CheckParameters() || !this->CheckScale(scale))
+  if (!this->Accepts(scale))
   {
     return 1;
   }
-  const std::vector<InputBlock> blocks = this->CheckInput(gathered)
-    ? this->CheckLengths(this->FindScalars(gathered))
-    : std::vector<InputBlock>{};
-  this->ReviewArrays(blocks);
+  const CheckedBlocks checked = checkBlocks(gathered, this->GetInputArrayInformation(0));
+  const std::vector<InputBlock>& blocks = checked.sound;
+  this->Tell(checked.messages);
+  this->Tell(reviewArrays(blocks));
   const int component = componentOf(blocks, this->Component);
   const std::vector<InputBlocks> groups = this->Group(InputBlocks(blocks, component));
   const InputBlocks none({}, component);
@@ -429,125 +316,32 @@ std::vector<double> vtkHighOrderParticleIsosurface::DistinctIsovalues() const
   return distinct;
 }
 
-bool vtkHighOrderParticleIsosurface::CheckParameters()
+/// Whether a run is possible at all, whatever arrays there are.
+bool vtkHighOrderParticleIsosurface::Accepts(const Scale& scale)
 {
-  const double* values = this->ContourValues->GetValues();
-  const vtkIdType count = this->GetNumberOfContours();
-  if (count == 0)
+  UserMessages messages = checkParameters(
+    this->DistinctIsovalues(), this->Spacing, this->AngularDensity, this->Tolerance);
+  if (messages.empty())
   {
-    vtkWarningMacro(
-      "There are no particles, as no isovalue is given; set ContourBy and Isosurfaces. ParaView "
-      "chooses them where the input was updated before this filter was made.");
-    return false;
+    messages = checkDiagonal(scale.Diagonal);
   }
-  if (!std::all_of(values, values + count, [](double value) { return std::isfinite(value); }))
-  {
-    vtkErrorMacro("An isovalue is NaN or infinite; give finite ones.");
-    return false;
-  }
-  if (!std::isfinite(this->Spacing))
-  {
-    vtkErrorMacro("Spacing is NaN or infinite; give a length, or 0 for the automatic one.");
-    return false;
-  }
-  if (std::isnan(this->AngularDensity) || std::isnan(this->Tolerance))
-  {
-    vtkErrorMacro("AngularDensity or Tolerance is NaN; give a number.");
-    return false;
-  }
-  return true;
+  this->Tell(messages);
+  return messages.empty();
 }
 
-bool vtkHighOrderParticleIsosurface::CheckScale(const Scale& scale)
+void vtkHighOrderParticleIsosurface::Tell(const UserMessages& messages)
 {
-  const bool isFit = scale.Diagonal < largestDiagonal;
-  if (!isFit)
+  for (const UserMessage& message : messages)
   {
-    vtkErrorMacro("The bounding diagonal of the grid, " << scale.Diagonal
-                                                        << ", is too long to compute with. Correct "
-                                                           "points that are far off, or scale the "
-                                                           "grid by Transform.");
-  }
-  return isFit;
-}
-
-/// Whether the input and the choice of an array make sense, whatever arrays there are.
-bool vtkHighOrderParticleIsosurface::CheckInput(const GatheredBlocks& gathered)
-{
-  if (gathered.blocks.empty() && !gathered.others.empty())
-  {
-    vtkErrorMacro("The input holds no unstructured grid, only " << listOf(gathered.others) << ".");
-    return false;
-  }
-  vtkInformation* asked = this->GetInputArrayInformation(0);
-  if (asked->Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_CELLS)
-  {
-    vtkErrorMacro(
-      "The " << choiceOf(asked).describe("cell")
-             << " is asked for; an isosurface needs a point array. The grid's point arrays: "
-             << listOf(pointArraysOf(gathered.blocks)) << ".");
-    return false;
-  }
-  return true;
-}
-
-/// The blocks that have the array to contour by, with it. An error that says what to do where there is
-/// none, a warning where some take no part.
-std::vector<InputBlock> vtkHighOrderParticleIsosurface::FindScalars(const GatheredBlocks& gathered)
-{
-  const ArrayChoice choice = choiceOf(this->GetInputArrayInformation(0));
-  std::vector<std::string> others = gathered.others;
-  const std::vector<InputBlock> found = blocksWithScalars(gathered.blocks, choice, others);
-  const std::string wanted = choice.describe("point");
-  if (found.empty() && !others.empty())
-  {
-    const auto hasCellArray = [&](const InputBlock& block)
-    { return choice.of(block.grid->GetCellData()) != nullptr; };
-    const bool isCellArray =
-      std::any_of(gathered.blocks.begin(), gathered.blocks.end(), hasCellArray);
-    vtkErrorMacro("There is no " << wanted << (isCellArray ? ", only one of cells" : "")
-                                 << "; choose one with ContourBy. The grid's point arrays: "
-                                 << listOf(pointArraysOf(gathered.blocks)) << ".");
-  }
-  else if (!others.empty())
-  {
-    vtkWarningMacro("Without particles are " << listOf(others) << ": no unstructured grid with the "
-                                             << wanted << " of as many components as in "
-                                             << found[0].name << ".");
-  }
-  return found;
-}
-
-/// The blocks whose scalars reach their last point, without arrays that do not; an error and a warning name
-/// what is too short.
-std::vector<InputBlock> vtkHighOrderParticleIsosurface::CheckLengths(
-  const std::vector<InputBlock>& blocks)
-{
-  std::vector<InputBlock> sound;
-  std::vector<std::string> unusable;
-  std::vector<std::string> dropped;
-  for (InputBlock block : blocks)
-  {
-    const std::string shortScalars = describeShortScalars(block);
-    if (!shortScalars.empty())
+    if (message.kind == UserMessage::Error)
     {
-      unusable.push_back(shortScalars);
-      continue;
+      vtkErrorMacro(<< message.text);
     }
-    const std::vector<std::string> some = dropShortArrays(block);
-    dropped.insert(dropped.end(), some.begin(), some.end());
-    sound.push_back(block);
+    else
+    {
+      vtkWarningMacro(<< message.text);
+    }
   }
-  if (!unusable.empty())
-  {
-    vtkErrorMacro("Too short to contour by: " << listOf(unusable) << ".");
-  }
-  if (!dropped.empty())
-  {
-    vtkWarningMacro(
-      "Arrays that are too short are taken as if they were not there: " << listOf(dropped) << ".");
-  }
-  return sound;
 }
 
 /// What a run is made of, but for its isovalue.
@@ -637,9 +431,7 @@ void vtkHighOrderParticleIsosurface::UnlessAborted(const InputBlocks& blocks, co
   catch (const std::exception& failure)
   {
     empty();
-    vtkErrorMacro("There are no particles, as the run failed ("
-      << failure.what() << "). If that is for want of memory, choose " << this->FewerParticles()
-      << ".");
+    this->Tell({ describeFailure(failure, this->NumberOfParticles) });
   }
 }
 
@@ -706,7 +498,8 @@ void vtkHighOrderParticleIsosurface::Fill(const InputBlocks& blocks, const GridE
     particles.push_back({ origin.isovalue,
       this->Distribute(elements, scale, origin, group * isovalues.size() + i, shares[i],
         work.part(begin, begin + shareOfIsovalue)) });
-    this->Review(blocks, particles.back().distribution, origin.isovalue);
+    this->Tell(reviewDistribution(
+      blocks, particles.back().distribution, origin.isovalue, this->NumberOfParticles));
   }
   const Work packing = work.part(distributedShare, 1.0);
   hop::Interruptible loops(packing.monitor, packing.parallelFor);
@@ -726,7 +519,7 @@ GridElements vtkHighOrderParticleIsosurface::Convert(const InputBlocks& blocks, 
                                                     : hop::NodeSpacing::GaussLobattoLegendre;
   GridElements elements =
     buildGridElements(blocks, spacing, this->DistinctIsovalues(), std::ref(loops), reached);
-  this->Review(blocks, elements);
+  this->Tell(reviewCells(blocks, elements.census));
   return elements;
 }
 
@@ -756,94 +549,6 @@ hop::Distribution vtkHighOrderParticleIsosurface::Distribute(const GridElements&
     this->Previous->remember(number, origin, elements.mesh, distribution, work.parallelFor);
   }
   return distribution;
-}
-
-/// What a user has to change for fewer particles.
-const char* vtkHighOrderParticleIsosurface::FewerParticles() const
-{
-  return this->NumberOfParticles > 0 ? "a smaller NumberOfParticles" : "a larger Spacing";
-}
-
-/// What a user has to change for particles that follow the surface's bends.
-std::string vtkHighOrderParticleIsosurface::MoreParticles(
-  const hop::Distribution& distribution) const
-{
-  if (this->NumberOfParticles > 0)
-  {
-    return "a larger NumberOfParticles"; // Spacing is ignored
-  }
-  std::ostringstream text;
-  text << "a Spacing of " << resolvingSpacing(distribution.particles)
-       << ", which follows all but 1%,";
-  return text.str();
-}
-
-/// Tells the user which arrays are not passed on.
-void vtkHighOrderParticleIsosurface::ReviewArrays(const std::vector<InputBlock>& blocks)
-{
-  const std::vector<std::string> names = replacedArrays(blocks);
-  if (!names.empty())
-  {
-    vtkWarningMacro("The output has arrays of its own with names of the input's; not passed on: "
-      << listOf(names)
-      << ". Where they are needed, copy them under other names before this filter, by Calculator "
-         "for instance.");
-  }
-}
-
-/// Tells the user which cells are not as they should be.
-void vtkHighOrderParticleIsosurface::Review(const InputBlocks& blocks, const GridElements& elements)
-{
-  std::string remarks;
-  for (std::size_t b = 0; b < blocks.size(); ++b)
-  {
-    const std::string some = elements.census[b].describe();
-    const bool isNamed = !some.empty() && !blocks[b].name.empty();
-    remarks += (isNamed ? "\n  in " + blocks[b].name + ":" : "") + some;
-  }
-  if (!remarks.empty())
-  {
-    vtkWarningMacro("Not every cell is as it should be:" << remarks);
-  }
-}
-
-/// Tells the user what a distribution could not do.
-void vtkHighOrderParticleIsosurface::Review(
-  const InputBlocks& blocks, const hop::Distribution& distribution, double isovalue)
-{
-  const hop::DistributionReport& report = distribution.report;
-  const double count = static_cast<double>(distribution.particles.size());
-  if (!report.error.empty())
-  {
-    vtkErrorMacro("Isovalue " << isovalue << ": " << report.error
-                              << ", which is what memory holds. Choose " << this->FewerParticles()
-                              << ".");
-  }
-  else if (!report.converged)
-  {
-    vtkWarningMacro("Isovalue " << isovalue
-                                << ": the particles did not come to rest; they lie on the surface, "
-                                   "but less evenly than they should.");
-  }
-  if (report.boxesUnresolved > 0)
-  {
-    vtkWarningMacro("Isovalue "
-      << isovalue << ": in " << report.unresolvedCells.size()
-      << " cells (first: " << blocks.describe(report.unresolvedCells.front())
-      << "; all: field data 'UnresolvedCellIds') " << report.boxesUnresolved
-      << " small parts are not proven to hold at most one sheet of the "
-      << "surface; what lies between the particles there may be missing. Singular points found on "
-      << "the surface: " << report.singularPoints << ".");
-  }
-  if (report.particlesUndersampled > warnUndersampledShare * count)
-  {
-    vtkWarningMacro(
-      "Isovalue " << isovalue << ": at " << report.particlesUndersampled << " of "
-                  << distribution.particles.size() << " particles ("
-                  << std::lround(100.0 * report.particlesUndersampled / count)
-                  << "%) the surface bends faster than their spacing can follow. Choose "
-                  << this->MoreParticles(distribution) << " or a larger AngularDensity.");
-  }
 }
 
 void vtkHighOrderParticleIsosurface::PrintSelf(ostream& os, vtkIndent indent)

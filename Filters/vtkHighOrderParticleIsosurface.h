@@ -69,17 +69,16 @@
 #include "vtkTimeStamp.h" // for the last abort
 
 #include <memory> // for the run before
-#include <string> // for advice
 #include <vector> // for the blocks of the input
 
 class InputBlocks;
 class PreviousRun;
 class vtkContourValues;
-struct GatheredBlocks;
 struct GridElements;
 struct InputBlock;
 struct RankShare;
 struct RunOrigin;
+struct UserMessage;
 struct WantedParticles;
 
 namespace hop
@@ -258,11 +257,8 @@ private:
   bool IsAskedForMore(vtkInformationVector* outputs);
   Scale FindScale(const std::vector<InputBlock>& blocks);
   std::vector<double> DistinctIsovalues() const;
-  bool CheckParameters();
-  bool CheckScale(const Scale& scale);
-  bool CheckInput(const GatheredBlocks& gathered);
-  std::vector<InputBlock> FindScalars(const GatheredBlocks& gathered);
-  std::vector<InputBlock> CheckLengths(const std::vector<InputBlock>& blocks);
+  bool Accepts(const Scale& scale);
+  void Tell(const std::vector<UserMessage>& messages);
   RunOrigin OriginOf(const InputBlocks& blocks, const Scale& scale) const;
   struct Work;
   std::vector<InputBlocks> Group(const InputBlocks& blocks);
@@ -279,11 +275,6 @@ private:
     std::size_t group, const std::vector<RankShare>& shares, const Work& work);
   hop::Distribution Distribute(const GridElements& elements, const Scale& scale,
     const RunOrigin& origin, std::size_t number, const RankShare& share, const Work& work);
-  const char* FewerParticles() const;
-  std::string MoreParticles(const hop::Distribution& distribution) const;
-  void ReviewArrays(const std::vector<InputBlock>& blocks);
-  void Review(const InputBlocks& blocks, const GridElements& elements);
-  void Review(const InputBlocks& blocks, const hop::Distribution& distribution, double isovalue);
 
   vtkNew<vtkContourValues> ContourValues;
   double Spacing = 0.0;
