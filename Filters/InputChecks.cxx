@@ -182,15 +182,29 @@ std::vector<InputBlock> checkLengths(const std::vector<InputBlock>& blocks, User
 
 } // namespace
 
+UserMessages checkIsovalues(const std::vector<double>& isovalues, const GatheredBlocks& gathered)
+{
+  if (!isovalues.empty())
+  {
+    return {};
+  }
+  const bool isChoice = std::any_of(gathered.blocks.begin(), gathered.blocks.end(),
+    [](const InputBlock& block)
+    {
+      return block.grid->GetNumberOfCells() > 0 &&
+        block.grid->GetPointData()->GetNumberOfArrays() > 0;
+    });
+  const std::string advice = isChoice
+    ? "set ContourBy and Isosurfaces. ParaView chooses them where the input was updated before "
+      "this "
+      "filter was made."
+    : "the input has no cells with a point array that there could be one of.";
+  return { { UserMessage::Warning, "There are no particles, as no isovalue is given; " + advice } };
+}
+
 UserMessages checkParameters(
   const std::vector<double>& isovalues, double spacing, double angularDensity, double tolerance)
 {
-  if (isovalues.empty())
-  {
-    return { { UserMessage::Warning,
-      "There are no particles, as no isovalue is given; set ContourBy and Isosurfaces. ParaView "
-      "chooses them where the input was updated before this filter was made." } };
-  }
   if (!std::all_of(
         isovalues.begin(), isovalues.end(), [](double value) { return std::isfinite(value); }))
   {

@@ -7,6 +7,9 @@
 
 class vtkInformation;
 
+/// What to do where no isovalue is given; empty where there are some.
+UserMessages checkIsovalues(const std::vector<double>& isovalues, const GatheredBlocks& gathered);
+
 /// What is wrong with the filter's properties, whatever the input; empty where they are sound.
 UserMessages checkParameters(
   const std::vector<double>& isovalues, double spacing, double angularDensity, double tolerance);

@@ -246,7 +246,7 @@ int vtkHighOrderParticleIsosurface::RequestData(
   {
     this->Previous->forget();
   }
-  if (!this->Accepts(scale))
+  if (!this->Accepts(gathered, scale))
   {
     return 1;
   }
@@ -317,10 +317,14 @@ std::vector<double> vtkHighOrderParticleIsosurface::DistinctIsovalues() const
 }
 
 /// Whether a run is possible at all, whatever arrays there are.
-bool vtkHighOrderParticleIsosurface::Accepts(const Scale& scale)
+bool vtkHighOrderParticleIsosurface::Accepts(const GatheredBlocks& gathered, const Scale& scale)
 {
-  UserMessages messages = checkParameters(
-    this->DistinctIsovalues(), this->Spacing, this->AngularDensity, this->Tolerance);
+  const std::vector<double> isovalues = this->DistinctIsovalues();
+  UserMessages messages = checkIsovalues(isovalues, gathered);
+  if (messages.empty())
+  {
+    messages = checkParameters(isovalues, this->Spacing, this->AngularDensity, this->Tolerance);
+  }
   if (messages.empty())
   {
     messages = checkDiagonal(scale.Diagonal);

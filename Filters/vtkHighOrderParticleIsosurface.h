@@ -74,6 +74,7 @@
 class InputBlocks;
 class PreviousRun;
 class vtkContourValues;
+struct GatheredBlocks;
 struct GridElements;
 struct InputBlock;
 struct RankShare;
@@ -257,7 +258,7 @@ private:
   bool IsAskedForMore(vtkInformationVector* outputs);
   Scale FindScale(const std::vector<InputBlock>& blocks);
   std::vector<double> DistinctIsovalues() const;
-  bool Accepts(const Scale& scale);
+  bool Accepts(const GatheredBlocks& gathered, const Scale& scale);
   void Tell(const std::vector<UserMessage>& messages);
   RunOrigin OriginOf(const InputBlocks& blocks, const Scale& scale) const;
   struct Work;

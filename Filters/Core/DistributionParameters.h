@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -48,11 +49,14 @@ struct DistributionParameters
     {
       return {};
     }
-    // No integer holds what tiny spacings ask for.
-    const std::string number = std::to_string(std::round(count));
-    return (this->particleCount > 0 ? "there are to be " : "the spacing asks for about ") +
-      number.substr(0, number.find('.')) + " particles, more than the limit of " +
-      std::to_string(this->particleLimit);
+    // Tiny spacings ask for more than integers hold, and the tiniest for no number.
+    constexpr double most = 1e300;
+    std::ostringstream text;
+    text.precision(15);
+    text << (this->particleCount > 0 ? "there are to be " : "the spacing asks for about ")
+         << std::round(std::fmin(count, most)) << " particles, more than the limit of "
+         << this->particleLimit;
+    return text.str();
   }
 };
 

@@ -277,6 +277,15 @@ def test_no_isovalue(good):
     assert_one_warning(messages, "no isovalue", "Isosurfaces")
 
 
+def test_no_isovalue_and_nothing_to_choose_one_of():
+    for grid in (block(field=lambda x: x[:, 0]), vtkUnstructuredGrid()):
+        grid.GetPointData().Initialize()
+        proxy = simple.HighOrderParticleIsosurface(Input=support.source_of(grid))
+        messages = support.Messages(proxy.GetClientSideObject())
+        assert_empty(support.output_of(proxy))
+        assert_one_warning(messages, "no isovalue", "no cells with a point array")
+
+
 @pytest.mark.parametrize("name", ["vtkdata_notch_quadratic_hex20_wedge15.vtu", "vtkdata_pyramid_quadratic.vtu"])
 def test_an_input_that_was_not_read_yet_gives_no_defaults(data, name):
     """The first file has active scalars, in which VTK's own list of isovalues would find its 0."""
@@ -315,6 +324,7 @@ def test_an_absurdly_small_spacing_is_refused_at_once(good, spacing):
     assert time.monotonic() - begin < 60
     assert_empty(particles)
     assert_one_error(messages, "particles", "limit", "larger Spacing")
+    assert "nan" not in messages.errors[0] and len(messages.errors[0]) < 400
 
 
 @pytest.mark.parametrize("method", METHODS)
