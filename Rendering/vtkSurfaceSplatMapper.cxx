@@ -20,21 +20,15 @@
 #include "vtkScalarsToColors.h"
 #include "vtkShaderProgram.h"
 #include "vtkShaderProperty.h"
-#include "vtkStaticCellLinksTemplate.h"
 #include "vtkSurfaceSplatBuffers.h"
 #include "vtkSurfaceSplatColors.h"
-#include "vtkSurfaceSplatDisk.h"
 #include "vtkSurfaceSplatDrawing.h"
-#include "vtkSurfaceSplatEdge.h"
 #include "vtkSurfaceSplatLayer.h"
-#include "vtkSurfaceSplatOutline.h"
 #include "vtkSurfaceSplatParticles.h"
 #include "vtkSurfaceSplatPrimitives.h"
-#include "vtkSurfaceSplatRay.h"
-#include "vtkSurfaceSplatResolve.h"
-#include "vtkSurfaceSplatResolveVS.h"
+#include "vtkSurfaceSplatSelection.h"
+#include "vtkSurfaceSplatShaders.h"
 #include "vtkSurfaceSplatTiles.h"
-#include "vtkSurfaceSplatVS.h"
 #include "vtkSurfaceSplatView.h"
 #include "vtkUnsignedCharArray.h"
 
@@ -45,14 +39,7 @@
 
 namespace
 {
-// Where the colour of a pixel comes from.
-enum class ColorSource
-{
-  Property, // of the actor
-  Colors,   // one a particle, averaged
-  Lookup,   // averaged lookup coordinates
-  Strongest // one a particle, not to be mixed
-};
+using Source = vtkSurfaceSplatColoring::Source;
 
 // The base class keeps a program for every kind of primitive. Those of triangles and of strips are lit
 // alike; the second one draws outlines if the surface is opaque, else the back layer.
@@ -83,11 +70,9 @@ struct vtkSurfaceSplatMapper::Internals
   int DrawnKind = 2;
   int HiddenSide = 0;
   bool Translucent = false;
-  ColorSource Source = ColorSource::Property;
-  bool OpacityIsInColors = false; // the property's has no part in it then
-  bool ScalarColors = false;      // for both sides
-  bool HasBackface = false;       // the shaders know of a backface property
-  bool CannotSplat = false;       // the driver has no floating-point targets
+  vtkSurfaceSplatColoring Coloring;
+  bool HasBackface = false; // the shaders know of a backface property
+  bool CannotSplat = false; // the driver has no floating-point targets
 
   std::vector<vtkIdType> PointIds; // of the particles on the GPU, to colour them
   std::vector<vtkIdType> CellIds;
@@ -375,37 +360,23 @@ void vtkSurfaceSplatMapper::UploadColors(vtkRenderer* renderer, vtkActor* actor)
   vtkUnsignedCharArray* colors = this->MapScalars(this->CurrentInput, 1.0, source);
   this->InterpolateScalarsBeforeMapping = interpolate;
 
-  Internals& internal = *this->Internal;
-  const ColorSource sourceBefore = internal.Source;
-  const bool opacityBefore = internal.OpacityIsInColors;
-  const bool scalarsBefore = internal.ScalarColors;
-  internal.Source = ColorSource::Property;
-  internal.OpacityIsInColors = cellColors != nullptr;
-  internal.ScalarColors = colors || this->ColorCoordinates;
+  vtkSurfaceSplatColoring coloring;
+  coloring.OpacityIsInColors = cellColors != nullptr;
+  coloring.OfScalars = colors || this->ColorCoordinates;
   if (this->ColorCoordinates)
   {
-    this->UploadLookupCoordinates(renderer);
+    coloring.From = this->UploadLookupCoordinates(renderer) ? Source::Lookup : Source::Property;
   }
-  else
+  else if (this->UploadMappedColors(
+             renderer, actor, this->MappedColors(colors, source), cellColors))
   {
-    std::vector<unsigned char> rgba = this->MappedColors(colors, source);
-    if (cellColors)
-    {
-      vtkSurfaceSplatReplaceColors(rgba, cellColors, internal.CellIds,
-        internal.Buffers.GetNumberOfParticles(), actor->GetProperty());
-    }
-    if (!rgba.empty())
-    {
-      const bool categorical = colors && this->LookupTable &&
-        this->LookupTable->GetIndexedLookup() && this->ColorMode != VTK_COLOR_MODE_DIRECT_SCALARS;
-      internal.Source = categorical ? ColorSource::Strongest : ColorSource::Colors;
-      internal.Buffers.UploadColors(
-        vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()), rgba);
-    }
+    const bool categorical = colors && this->LookupTable && this->LookupTable->GetIndexedLookup() &&
+      this->ColorMode != VTK_COLOR_MODE_DIRECT_SCALARS;
+    coloring.From = categorical ? Source::Strongest : Source::Colors;
   }
-  if (internal.Source != sourceBefore || internal.OpacityIsInColors != opacityBefore ||
-    internal.ScalarColors != scalarsBefore)
+  if (coloring != this->Internal->Coloring)
   {
+    this->Internal->Coloring = coloring;
     this->ForgetShaders();
   }
 }
@@ -435,18 +406,38 @@ std::vector<unsigned char> vtkSurfaceSplatMapper::MappedColors(
 }
 
 //------------------------------------------------------------------------------
-void vtkSurfaceSplatMapper::UploadLookupCoordinates(vtkRenderer* renderer)
+// False if nothing gives particles colours of their own.
+bool vtkSurfaceSplatMapper::UploadMappedColors(
+  vtkRenderer* renderer, vtkActor* actor, std::vector<unsigned char> rgba, vtkDataArray* cellColors)
+{
+  Internals& internal = *this->Internal;
+  if (cellColors)
+  {
+    vtkSurfaceSplatReplaceColors(rgba, cellColors, internal.CellIds,
+      internal.Buffers.GetNumberOfParticles(), actor->GetProperty());
+  }
+  if (rgba.empty())
+  {
+    return false;
+  }
+  internal.Buffers.UploadColors(
+    vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()), rgba);
+  return true;
+}
+
+//------------------------------------------------------------------------------
+// False if there are none.
+bool vtkSurfaceSplatMapper::UploadLookupCoordinates(vtkRenderer* renderer)
 {
   const vtkIdType count = this->Internal->Buffers.GetNumberOfParticles();
   auto* coordinates = vtkFloatArray::SafeDownCast(this->ColorCoordinates);
   if (!coordinates || coordinates->GetNumberOfComponents() != 2 || count == 0)
   {
-    return;
+    return false;
   }
   this->Internal->Buffers.UploadColors(
     vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()),
     vtkSurfaceSplatLookupTexels(coordinates, this->Internal->PointIds, count));
-  this->Internal->Source = ColorSource::Lookup;
 
   // The base class binds this texture, of one colour a column, whenever there is a ColorTextureMap.
   if (!this->InternalColorTexture)
@@ -455,6 +446,7 @@ void vtkSurfaceSplatMapper::UploadLookupCoordinates(vtkRenderer* renderer)
     this->InternalColorTexture->RepeatOff();
   }
   this->InternalColorTexture->SetInputData(this->ColorTextureMap);
+  return true;
 }
 
 //------------------------------------------------------------------------------
@@ -550,7 +542,7 @@ bool vtkSurfaceSplatMapper::DrawSplats(vtkRenderer* renderer, vtkActor* actor)
 void vtkSurfaceSplatMapper::DescribeDrawing(
   vtkRenderer* renderer, vtkActor* actor, vtkSurfaceSplatDrawing& drawing)
 {
-  const ColorSource source = this->Internal->Source;
+  const Source source = this->Internal->Coloring.From;
   drawing.Window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   drawing.Buffers = &this->Internal->Buffers;
   drawing.View = &this->Internal->View;
@@ -560,8 +552,8 @@ void vtkSurfaceSplatMapper::DescribeDrawing(
   drawing.Kind = this->Internal->DrawnKind;
   drawing.FacesViewer = !this->CurrentInput->GetPointData()->GetNormals();
   drawing.HiddenSide = this->Internal->HiddenSide;
-  drawing.Colors = source == ColorSource::Colors || source == ColorSource::Lookup;
-  drawing.Strongest = source == ColorSource::Strongest || renderer->GetSelector() != nullptr;
+  drawing.Colors = source == Source::Colors || source == Source::Lookup;
+  drawing.Strongest = source == Source::Strongest || renderer->GetSelector() != nullptr;
   drawing.NumberOfClippingPlanes = this->GetShiftedClippingPlanes(actor, drawing.ClippingPlanes);
   drawing.Key.push_back(static_cast<double>(this->VBOBuildTime.GetMTime()));
 }
@@ -646,30 +638,27 @@ void vtkSurfaceSplatMapper::DrawPrimitives(vtkRenderer* renderer, vtkActor* acto
   }
 }
 
-namespace
+//------------------------------------------------------------------------------
+vtkSurfaceSplatShaders vtkSurfaceSplatMapper::DescribeShaders(vtkActor* actor) const
 {
-// Puts code in front of a tag and keeps the tag for the base class's own code.
-void InsertBefore(vtkShader* shader, const std::string& tag, const std::string& code)
-{
-  std::string source = shader->GetSource();
-  vtkShaderProgram::Substitute(source, tag, code + "\n" + tag, false);
-  shader->SetSource(source);
-}
-
-// Puts code behind what the base class will put at a tag.
-void InsertAfter(vtkShader* shader, const std::string& tag, const std::string& code)
-{
-  std::string source = shader->GetSource();
-  vtkShaderProgram::Substitute(source, tag, tag + "\n" + code, false);
-  shader->SetSource(source);
-}
-
-void Replace(vtkShader* shader, const std::string& what, const std::string& code)
-{
-  std::string source = shader->GetSource();
-  vtkShaderProgram::Substitute(source, what, code);
-  shader->SetSource(source);
-}
+  using Part = vtkSurfaceSplatShaders::Part;
+  const bool translucent = this->Internal->Translucent;
+  const bool extra = this->LastBoundBO == &this->Primitives[Extra];
+  const bool folds = this->LastBoundBO == &this->Primitives[Folds];
+  vtkProperty* property = actor->GetProperty();
+  vtkSurfaceSplatShaders shaders;
+  shaders.DrawsSplats = this->DrawsSplats();
+  shaders.DrawsPoints = this->Mode == Points;
+  shaders.Drawn = folds ? Part::Folds
+    : !extra            ? Part::Surface
+    : translucent       ? Part::BackLayer
+                        : Part::Outline;
+  shaders.Coloring = this->Internal->Coloring;
+  shaders.ColorsBySide = this->ColorByNormalDirection;
+  shaders.HasBackface = this->Internal->HasBackface;
+  shaders.HasCoat = property->GetInterpolation() == VTK_PBR && property->GetCoatStrength() > 0.;
+  shaders.SelectionPass = this->LastSelectionState;
+  return shaders;
 }
 
 //------------------------------------------------------------------------------
@@ -677,217 +666,52 @@ void vtkSurfaceSplatMapper::GetShaderTemplate(
   ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor)
 {
   this->Superclass::GetShaderTemplate(shaders, renderer, actor);
-  if (actor->GetShaderProperty()->HasVertexShaderCode())
+  if (!actor->GetShaderProperty()->HasVertexShaderCode())
   {
-    return;
+    this->DescribeShaders(actor).SetVertexStage(shaders[vtkShader::Vertex]);
   }
-  vtkShader* vertex = shaders[vtkShader::Vertex];
-  vertex->SetSource(this->DrawsSplats() ? vtkSurfaceSplatResolveVS : vtkSurfaceSplatVS);
-  Replace(vertex, "SPLAT_TILE_SIZE", std::to_string(vtkSurfaceSplatTiles::Size));
-  Replace(vertex, "SPLAT_FOLDS", std::to_string(this->LastBoundBO == &this->Primitives[Folds]));
-  Replace(vertex, "//Splat::Disk::Dec",
-    std::string(vtkSurfaceSplatDisk) +
-      "const int splatVerticesAParticle = " + (this->Mode == Points ? "1" : "3") + ";\n");
 }
 
-//------------------------------------------------------------------------------
 void vtkSurfaceSplatMapper::ReplaceShaderColor(
   ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor)
 {
-  vtkShader* fragment = shaders[vtkShader::Fragment];
-  const ColorSource source = this->Internal->Source;
-  const bool hasBackface = this->Internal->HasBackface;
-  const bool sidesDiffer =
-    hasBackface && !this->Internal->ScalarColors && !this->ColorByNormalDirection;
-  const std::string mixColors =
-    std::string(sidesDiffer ? "  if (splatSeenFromSide > 0.0) {\n" : "  {\n") +
-    "  ambientColor = ambientIntensity * splatRgba.rgb;\n"
-    "  diffuseColor = diffuseIntensity * splatRgba.rgb;\n" +
-    (this->Internal->OpacityIsInColors ? "  opacity = splatRgba.a; }\n"
-                                       : "  opacity = opacityUniform * splatRgba.a; }\n");
-  if (this->DrawsSplats())
-  {
-    InsertAfter(fragment, "//VTK::Color::Impl", "  opacity *= splat.coverage;\n");
-  }
-  if (hasBackface)
-  {
-    InsertBefore(fragment, "//VTK::Color::Dec", "uniform vec2 splatOpacities; // outward, inward");
-    InsertAfter(fragment, "//VTK::Color::Impl",
-      "  opacity *= splatSeenFromSide > 0.0 ? splatOpacities.x : splatOpacities.y;\n");
-  }
-  if (this->ColorByNormalDirection)
-  {
-    InsertBefore(fragment, "//VTK::Color::Dec",
-      "uniform vec3 splatOutwardColor;\n"
-      "uniform vec3 splatInwardColor;");
-    InsertAfter(fragment, "//VTK::Color::Impl",
-      "  vec3 splatSide = splatSeenFromSide > 0.0 ? splatOutwardColor : splatInwardColor;\n"
-      "  ambientColor = ambientIntensity * splatSide;\n"
-      "  diffuseColor = diffuseIntensity * splatSide;\n");
-  }
-  else if (source == ColorSource::Colors && this->DrawsSplats())
-  {
-    InsertAfter(fragment, "//VTK::Color::Impl",
-      "  vec4 splatRgba = texelFetch(splatColorSum, splat.texel, 0) / splat.weight;\n" + mixColors);
-  }
-  else if (source == ColorSource::Colors || source == ColorSource::Strongest)
-  {
-    InsertBefore(fragment, "//VTK::Color::Dec", "uniform samplerBuffer splatColor;");
-    InsertAfter(fragment, "//VTK::Color::Impl",
-      "  vec4 splatRgba = texelFetch(splatColor, splatParticle);\n" + mixColors);
-  }
+  const vtkSurfaceSplatShaders ours = this->DescribeShaders(actor);
+  ours.InsertColor(shaders[vtkShader::Fragment]);
   this->Superclass::ReplaceShaderColor(shaders, renderer, actor);
-  // By this the base class chooses between the two properties. Triangles and points that splats are drawn by
-  // have sides of their own.
-  Replace(fragment, "gl_FrontFacing", sidesDiffer ? "(splatSeenFromSide > 0.0)" : "true");
+  ours.ReplaceSide(shaders[vtkShader::Fragment]);
 }
 
-//------------------------------------------------------------------------------
 void vtkSurfaceSplatMapper::ReplaceShaderNormal(ShaderMap shaders, vtkRenderer*, vtkActor* actor)
 {
-  vtkShader* fragment = shaders[vtkShader::Fragment];
-  const bool splats = this->DrawsSplats();
-  Replace(fragment, "//VTK::Normal::Dec", splats ? "" : "flat in vec3 splatNormalVC;\n");
-  std::string code = splats ? "vec3 normalVCVSOutput = splat.normalVC;\n"
-                            : "vec3 normalVCVSOutput = normalize(splatNormalVC);\n";
-  vtkProperty* property = actor->GetProperty();
-  if (property->GetInterpolation() == VTK_PBR && property->GetCoatStrength() > 0.)
-  {
-    code += "  vec3 coatNormalVCVSOutput = normalVCVSOutput;\n";
-  }
-  Replace(fragment, "//VTK::Normal::Impl", code);
+  this->DescribeShaders(actor).ReplaceNormal(shaders[vtkShader::Fragment]);
 }
 
-//------------------------------------------------------------------------------
 void vtkSurfaceSplatMapper::ReplaceShaderPositionVC(
   ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor)
 {
-  vtkShader* fragment = shaders[vtkShader::Fragment];
-  if (this->DrawsSplats())
-  {
-    const bool extra = this->LastBoundBO == &this->Primitives[Extra];
-    const bool folds = this->LastBoundBO == &this->Primitives[Folds];
-    Replace(fragment, "//VTK::PositionVC::Dec",
-      "#define SPLAT_OUTLINE " + std::to_string(folds || (extra && !this->Internal->Translucent)) +
-        "\n#define SPLAT_FOLDS " + std::to_string(folds) + "\n#define SPLAT_BACK_LAYER " +
-        std::to_string(extra && this->Internal->Translucent) + "\n" + vtkSurfaceSplatResolve);
-    Replace(fragment, "//Splat::Ray::Dec", vtkSurfaceSplatRay);
-    Replace(fragment, "//Splat::Outline::Dec", vtkSurfaceSplatOutline);
-    std::string code = "SplatSurface splat = splatResolve();\n"
-                       "  vec4 vertexVC = vec4(splat.positionVC, 1.0);\n"
-                       "  float splatSeenFromSide = splat.seenFrom;\n"
-                       "  gl_FragDepth = splat.depth;\n";
-    if (this->Internal->Source == ColorSource::Strongest ||
-      this->LastSelectionState >= vtkHardwareSelector::MIN_KNOWN_PASS)
-    {
-      code += "  int splatParticle = splatStrongestAt(splat.texel);\n";
-    }
-    if (this->Internal->Source == ColorSource::Lookup)
-    {
-      // Under the names that VTK 9.2 and later versions read.
-      code += "  vec2 tcoordVCVSOutput = splatLookupCoordinates(splat);\n"
-              "  vec2 colorTCoordVCVSOutput = tcoordVCVSOutput;\n";
-    }
-    Replace(fragment, "//VTK::PositionVC::Impl", code);
-  }
+  this->DescribeShaders(actor).ReplacePosition(shaders[vtkShader::Fragment]);
   this->Superclass::ReplaceShaderPositionVC(shaders, renderer, actor);
 }
 
-//------------------------------------------------------------------------------
 void vtkSurfaceSplatMapper::ReplaceShaderClip(
   ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor)
 {
-  vtkShader* fragment = shaders[vtkShader::Fragment];
-  if (this->DrawsSplats())
-  {
-    Replace(fragment, "//VTK::Clip::Dec", ""); // the splat passes have clipped
-    Replace(fragment, "//VTK::Clip::Impl", "if (!splat.covered) discard;");
-  }
-  else
-  {
-    InsertBefore(fragment, "//VTK::Clip::Dec",
-      "in vec2 splatDiskCoord;\n"
-      "flat in vec4 splatClipLines[2];\n"
-      "flat in int splatParticle;\n"
-      "flat in float splatSeenFromSide;\n" +
-        std::string(vtkSurfaceSplatEdge));
-    InsertBefore(fragment, "//VTK::Clip::Impl",
-      "if (dot(splatDiskCoord, splatDiskCoord) > 1.0 ||\n"
-      "    splatBehindLine(splatClipLines[0], splatDiskCoord) > 0.0 ||\n"
-      "    splatBehindLine(splatClipLines[1], splatDiskCoord) > 0.0) discard;");
-  }
+  this->DescribeShaders(actor).InsertClip(shaders[vtkShader::Fragment]);
   this->Superclass::ReplaceShaderClip(shaders, renderer, actor);
 }
 
-//------------------------------------------------------------------------------
 void vtkSurfaceSplatMapper::ReplaceShaderPicking(
   ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor)
 {
-  // The base class would take gl_VertexID and gl_PrimitiveID, which are not those of particles here.
-  // Its cell ids count through the vertex cells in order, as particles do; where there are none, see
-  // ProcessSelectorPixelBuffers().
-  const char* code = nullptr;
-  switch (this->LastSelectionState)
-  {
-    case vtkHardwareSelector::POINT_ID_LOW24:
-      code = "  gl_FragData[0] = vec4(texelFetch(splatPointIds, splatParticle).rgb, 1.0);\n";
-      break;
-    case vtkHardwareSelector::POINT_ID_HIGH24:
-      code =
-        "  gl_FragData[0] = vec4(texelFetch(splatPointIds, splatParticle).a, 0.0, 0.0, 1.0);\n";
-      break;
-    case vtkHardwareSelector::CELL_ID_LOW24:
-      code =
-        "  gl_FragData[0] = vec4(vec3((ivec3(splatParticle) >> ivec3(0, 8, 16)) & 255) / 255.0, "
-        "1.0);\n";
-      break;
-    case vtkHardwareSelector::CELL_ID_HIGH24:
-      code = "  gl_FragData[0] = vec4(float(splatParticle >> 24) / 255.0, 0.0, 0.0, 1.0);\n";
-      break;
-    default:
-      break;
-  }
-  if (code)
-  {
-    Replace(shaders[vtkShader::Fragment], "//VTK::Picking::Dec",
-      "uniform samplerBuffer splatPointIds;\n");
-    Replace(shaders[vtkShader::Fragment], "//VTK::Picking::Impl", code);
-    Replace(shaders[vtkShader::Vertex], "//VTK::Picking::Dec", "");
-    Replace(shaders[vtkShader::Vertex], "//VTK::Picking::Impl", "");
-  }
+  this->DescribeShaders(actor).ReplacePicking(shaders);
   this->Superclass::ReplaceShaderPicking(shaders, renderer, actor);
 }
 
-namespace
+void vtkSurfaceSplatMapper::ReplaceShaderValues(
+  ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor)
 {
-// Takes the points' numbers out of the pixels of a selection by cells and puts those of cells in.
-void SelectCellsAtPoints(
-  vtkPolyData* input, vtkHardwareSelector* selector, const std::vector<unsigned int>& pixels)
-{
-  const unsigned char* low = selector->GetRawPixelBuffer(vtkHardwareSelector::CELL_ID_LOW24);
-  const unsigned char* high = selector->GetRawPixelBuffer(vtkHardwareSelector::CELL_ID_HIGH24);
-  const int pass = selector->GetCurrentPass();
-  const int shift = pass == vtkHardwareSelector::CELL_ID_LOW24 ? 0 : 24;
-  const bool byCells = selector->GetFieldAssociation() == vtkDataObject::FIELD_ASSOCIATION_CELLS;
-  vtkStaticCellLinksTemplate<vtkIdType> links;
-  links.BuildLinks(input);
-  for (unsigned int pixel : pixels)
-  {
-    const vtkIdType point = low[pixel] | low[pixel + 1] << 8 | low[pixel + 2] << 16 |
-      static_cast<vtkIdType>(high ? high[pixel] : 0) << 24;
-    const bool used = point < input->GetNumberOfPoints() && links.GetNcells(point) > 0;
-    const vtkIdType cell = used ? links.GetCells(point)[0] : 0;
-    for (int byte = 0; byte < 3; ++byte)
-    {
-      selector->GetPixelBuffer(pass)[pixel + byte] =
-        static_cast<unsigned char>((cell >> (shift + 8 * byte)) & 0xff);
-    }
-    if (!used && byCells)
-    {
-      std::fill_n(selector->GetPixelBuffer(vtkHardwareSelector::ACTOR_PASS) + pixel, 3, 0);
-    }
-  }
-}
+  this->Superclass::ReplaceShaderValues(shaders, renderer, actor);
+  this->DescribeShaders(actor).ReplaceDepth(shaders[vtkShader::Fragment]);
 }
 
 //------------------------------------------------------------------------------
@@ -899,23 +723,11 @@ void vtkSurfaceSplatMapper::ProcessSelectorPixelBuffers(
     pass == vtkHardwareSelector::CELL_ID_LOW24 || pass == vtkHardwareSelector::CELL_ID_HIGH24;
   if (cells && this->Internal->CellIds.empty())
   {
-    SelectCellsAtPoints(this->CurrentInput, selector, pixels);
+    vtkSurfaceSplatSelectCells(this->CurrentInput, selector, pixels);
   }
   else
   {
     this->Superclass::ProcessSelectorPixelBuffers(selector, pixels, prop);
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkSurfaceSplatMapper::ReplaceShaderValues(
-  ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor)
-{
-  this->Superclass::ReplaceShaderValues(shaders, renderer, actor);
-  if (this->DrawsSplats())
-  {
-    // Offsets and render passes that ask for the depth of the fragment mean that of the surface.
-    Replace(shaders[vtkShader::Fragment], "gl_FragCoord.z", "gl_FragDepth");
   }
 }
 
@@ -972,7 +784,7 @@ void vtkSurfaceSplatMapper::SetPropertyShaderParameters(
   }
   // The base class would leave out the backface property's opacity where there are scalars.
   const Internals& internal = *this->Internal;
-  const bool counted = internal.OpacityIsInColors && !this->ColorByNormalDirection;
+  const bool counted = internal.Coloring.OpacityIsInColors && !this->ColorByNormalDirection;
   const double outward = counted ? 1. : actor->GetProperty()->GetOpacity();
   const float opacities[2] = { static_cast<float>(outward),
     static_cast<float>(backface->GetOpacity()) };

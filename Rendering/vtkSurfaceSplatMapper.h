@@ -64,6 +64,7 @@
 
 class vtkSurfaceSplatLayer;
 struct vtkSurfaceSplatDrawing;
+struct vtkSurfaceSplatShaders;
 
 class VTKHIGHORDERPARTICLERENDERING_EXPORT vtkSurfaceSplatMapper : public vtkOpenGLPolyDataMapper
 {
@@ -243,7 +244,9 @@ private:
   bool IsDrawnTwice(vtkRenderer* renderer, vtkActor* actor);
   int GetDrawnKind(vtkRenderer* renderer, vtkActor* actor);
   int GetHiddenSide(vtkRenderer* renderer, vtkActor* actor);
-  void UploadLookupCoordinates(vtkRenderer* renderer);
+  bool UploadLookupCoordinates(vtkRenderer* renderer);
+  bool UploadMappedColors(vtkRenderer* renderer, vtkActor* actor, std::vector<unsigned char> rgba,
+    vtkDataArray* cellColors);
 
   bool DrawsSplats() const;
   bool DrawSplats(vtkRenderer* renderer, vtkActor* actor);
@@ -253,6 +256,7 @@ private:
   void ForgetShaders();
   void DrawPrimitives(vtkRenderer* renderer, vtkActor* actor);
   void DescribeDrawing(vtkRenderer* renderer, vtkActor* actor, vtkSurfaceSplatDrawing& drawing);
+  vtkSurfaceSplatShaders DescribeShaders(vtkActor* actor) const;
   int GetShiftedClippingPlanes(vtkActor* actor, float planes[6][4]);
 
   struct Internals; // what lives on the GPU

@@ -1,0 +1,85 @@
+/**
+ * @struct vtkSurfaceSplatShaders
+ * @brief  what the programs of particles have in VTK's shader template, tag by tag
+ *
+ * Their text depends on the members and on nothing else. Where a function says so, VTK's own text is to be
+ * inserted between it and the next one.
+ */
+
+#ifndef vtkSurfaceSplatShaders_h
+#define vtkSurfaceSplatShaders_h
+
+#include "vtkShader.h" // for vtkShader::Type
+
+#include <map>
+
+/** Where the colour of a pixel comes from. */
+struct vtkSurfaceSplatColoring
+{
+  enum class Source
+  {
+    Property, // of the actor
+    Colors,   // one a particle, averaged
+    Lookup,   // averaged lookup coordinates
+    Strongest // one a particle, not to be mixed
+  };
+
+  Source From = Source::Property;
+  bool OpacityIsInColors = false; // the property's has no part in it then
+  bool OfScalars = false;         // for both sides
+
+  bool operator!=(const vtkSurfaceSplatColoring& other) const;
+};
+
+struct vtkSurfaceSplatShaders
+{
+  /** What one program draws of a picture. */
+  enum class Part
+  {
+    Surface,  // what is nearest
+    Outline,  // the same, and smooth outlines
+    Folds,    // outlines in front of the surface itself
+    BackLayer // what is farthest, where that is another surface
+  };
+
+  bool DrawsSplats = true;  // resolves the sums of a layer; else each particle is drawn for itself
+  bool DrawsPoints = false; // of particles for themselves
+  Part Drawn = Part::Surface;
+  vtkSurfaceSplatColoring Coloring;
+  bool ColorsBySide = false; // instead of that
+  bool HasBackface = false;  // a property of its own for the inward side
+  bool HasCoat = false;      // asks for a normal of its own
+  int SelectionPass = -1;    // of vtkHardwareSelector; -1: nothing is selected
+
+  /** The vertex stage as a whole, with VTK's tags. */
+  void SetVertexStage(vtkShader* vertex) const;
+
+  /** Colours and opacities; to be called before VTK's own are inserted. */
+  void InsertColor(vtkShader* fragment) const;
+
+  /** Which side VTK's own colours take for the front; to be called after those are inserted. */
+  void ReplaceSide(vtkShader* fragment) const;
+
+  /** Instead of VTK's own. */
+  void ReplaceNormal(vtkShader* fragment) const;
+
+  /** Where the surface is; to be called before VTK's own places are inserted. */
+  void ReplacePosition(vtkShader* fragment) const;
+
+  /** What is no part of the surface; to be called before VTK's own clipping is inserted. */
+  void InsertClip(vtkShader* fragment) const;
+
+  /** What is selected; to be called before VTK's own is inserted. */
+  void ReplacePicking(const std::map<vtkShader::Type, vtkShader*>& shaders) const;
+
+  /** Which depth is meant by all that asks for it; to be called at last. */
+  void ReplaceDepth(vtkShader* fragment) const;
+
+private:
+  bool SidesDiffer() const;
+  void InsertOpacity(vtkShader* fragment) const;
+  void InsertSideColors(vtkShader* fragment) const;
+  void InsertParticleColors(vtkShader* fragment) const;
+};
+
+#endif
