@@ -6,11 +6,33 @@
 #ifndef vtkSurfaceSplatDrawing_h
 #define vtkSurfaceSplatDrawing_h
 
+#include "vtkType.h"
+
+#include <optional>
 #include <vector>
 
+class vtkActor;
 class vtkOpenGLRenderWindow;
+class vtkRenderer;
+class vtkShaderProgram;
 class vtkSurfaceSplatBuffers;
 class vtkSurfaceSplatView;
+
+/** Which particles are drawn, in the numbers of splatKind (glsl/vtkSurfaceSplatDisk.glsl). */
+enum class vtkSurfaceSplatKind
+{
+  Opaque = 0,
+  Translucent = 1,
+  All = 2
+};
+
+/** From which side particles are left out that are seen from it, in the numbers of splatHiddenSide (there). */
+enum class vtkSurfaceSplatHiddenSide
+{
+  Inward = -1,
+  None = 0,
+  Outward = 1
+};
 
 struct vtkSurfaceSplatDrawing
 {
@@ -19,16 +41,24 @@ struct vtkSurfaceSplatDrawing
   const vtkSurfaceSplatView* View = nullptr;
   double RadiusScale = 1.;
   double Sharpness = 2.;
-  int Kind = 2;             // 0: opaque particles; 1: translucent ones; 2: all
-  int Sheet = -1;           // of these, the ones of this sheet; -1: of all
+  vtkSurfaceSplatKind Kind = vtkSurfaceSplatKind::All;
+  std::optional<int> Sheet; // of these, the ones of this sheet; without one, of all
   int Stride = 1;           // every how-manieth particle is drawn
   bool FacesViewer = false; // there are no normals
-  int HiddenSide = 0;       // 1: splats seen from outward are left out; -1: from inward; 0: none
-  bool Colors = false;      // colours or lookup coordinates are accumulated
-  bool Strongest = false;   // the strongest particle of every pixel is found
+  vtkSurfaceSplatHiddenSide HiddenSide = vtkSurfaceSplatHiddenSide::None;
+  bool Colors = false;    // colours or lookup coordinates are accumulated
+  bool Strongest = false; // the strongest particle of every pixel is found
   int NumberOfClippingPlanes = 0;
   float ClippingPlanes[6][4] = {}; // shifted model coordinates
   std::vector<double> Key;         // whatever else the picture depends on
+
+  /** Chooses the kind and the hidden side: a renderer may draw an actor in two passes, opaque and translucent. */
+  void ChooseParticles(vtkRenderer* renderer, vtkActor* actor, bool hasTranslucentCells);
+
+  /** Those uniforms of glsl/vtkSurfaceSplatDisk.glsl that a program uses, and where it finds the particles. */
+  void SetUniforms(vtkShaderProgram* program) const;
+
+  vtkIdType GetNumberOfDrawnParticles() const;
 
   /** All that the picture depends on. */
   std::vector<double> GetWholeKey() const;

@@ -65,10 +65,9 @@ struct vtkSurfaceSplatMapper::Internals
   vtkSurfaceSplatView View;
   vtkSurfaceSplatLayer FrontLayer{ vtkSurfaceSplatSide::Front };
   vtkSurfaceSplatLayer BackLayer{ vtkSurfaceSplatSide::Back };
+  const vtkSurfaceSplatDrawing* Drawing = nullptr; // while it goes on, as is the next
   vtkSurfaceSplatLayer* DrawnLayer = nullptr;
   int DrawnTiles = 0;
-  int DrawnKind = 2;
-  int HiddenSide = 0;
   bool Translucent = false;
   vtkSurfaceSplatColoring Coloring;
   bool HasBackface = false; // the shaders know of a backface property
@@ -315,38 +314,6 @@ bool vtkSurfaceSplatMapper::HasTranslucentCells(vtkPolyData* input)
   return cellColors && cellColors->GetRange(3)[0] < 1.;
 }
 
-bool vtkSurfaceSplatMapper::IsDrawnTwice(vtkRenderer* renderer, vtkActor* actor)
-{
-  return actor->HasOpaqueGeometry() && actor->HasTranslucentPolygonalGeometry() &&
-    !renderer->GetSelector(); // which has one pass for everything
-}
-
-int vtkSurfaceSplatMapper::GetDrawnKind(vtkRenderer* renderer, vtkActor* actor)
-{
-  constexpr int all = 2;
-  return this->HasTranslucentCells(this->CurrentInput) && this->IsDrawnTwice(renderer, actor)
-    ? actor->IsRenderingTranslucentPolygonalGeometry()
-    : all;
-}
-
-// 1: what is seen from outward is not drawn in this pass; -1: from inward; 0: both are.
-int vtkSurfaceSplatMapper::GetHiddenSide(vtkRenderer* renderer, vtkActor* actor)
-{
-  vtkProperty* property = actor->GetProperty();
-  if (property->GetBackfaceCulling() || property->GetFrontfaceCulling())
-  {
-    return property->GetBackfaceCulling() ? -1 : 1;
-  }
-  vtkProperty* backface = actor->GetBackfaceProperty();
-  if (!backface || this->HasTranslucentCells(this->CurrentInput) ||
-    !this->IsDrawnTwice(renderer, actor))
-  {
-    return 0;
-  }
-  const bool translucentPass = actor->IsRenderingTranslucentPolygonalGeometry() != 0;
-  return translucentPass == (backface->GetOpacity() < 1.) ? 1 : -1;
-}
-
 //------------------------------------------------------------------------------
 void vtkSurfaceSplatMapper::UploadColors(vtkRenderer* renderer, vtkActor* actor)
 {
@@ -474,20 +441,21 @@ void vtkSurfaceSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* act
   {
     return; // there are no framebuffers without pixels
   }
-  internal.DrawnKind = this->GetDrawnKind(renderer, actor);
-  internal.HiddenSide = this->GetHiddenSide(renderer, actor);
   const bool hasBackface = actor->GetBackfaceProperty() != nullptr;
   if (hasBackface != internal.HasBackface)
   {
     internal.HasBackface = hasBackface;
     this->ForgetShaders();
   }
+  const vtkSurfaceSplatDrawing drawing = this->DescribeDrawing(renderer, actor);
+  internal.Drawing = &drawing;
   internal.Buffers.Activate();
   if (!this->DrawsSplats() || !this->DrawSplats(renderer, actor))
   {
     this->DrawPrimitives(renderer, actor);
   }
   internal.Buffers.Deactivate();
+  internal.Drawing = nullptr;
 }
 
 //------------------------------------------------------------------------------
@@ -511,15 +479,17 @@ bool vtkSurfaceSplatMapper::DrawSplats(vtkRenderer* renderer, vtkActor* actor)
     this->Internal->Translucent = translucent;
     this->ForgetShaders();
   }
-  vtkSurfaceSplatDrawing drawing;
-  this->DescribeDrawing(renderer, actor, drawing);
   // Nested sheets shine through each other: each has layers of its own, one after the other in the same
   // textures.
   const int allSheets = this->Internal->Buffers.GetNumberOfSheets();
   const int sheets = translucent && allSheets <= MaximumNumberOfLayeredSheets ? allSheets : 1;
   for (int sheet = 0; sheet < sheets; ++sheet)
   {
-    drawing.Sheet = sheets > 1 ? sheet : -1;
+    vtkSurfaceSplatDrawing drawing = *this->Internal->Drawing;
+    if (sheets > 1)
+    {
+      drawing.Sheet = sheet;
+    }
     if (!std::all_of(layers.begin(), layers.end(),
           [&](vtkSurfaceSplatLayer* layer) { return layer->Update(drawing); }))
     {
@@ -539,23 +509,24 @@ bool vtkSurfaceSplatMapper::DrawSplats(vtkRenderer* renderer, vtkActor* actor)
 }
 
 //------------------------------------------------------------------------------
-void vtkSurfaceSplatMapper::DescribeDrawing(
-  vtkRenderer* renderer, vtkActor* actor, vtkSurfaceSplatDrawing& drawing)
+vtkSurfaceSplatDrawing vtkSurfaceSplatMapper::DescribeDrawing(
+  vtkRenderer* renderer, vtkActor* actor)
 {
+  vtkSurfaceSplatDrawing drawing;
   const Source source = this->Internal->Coloring.From;
+  drawing.ChooseParticles(renderer, actor, this->HasTranslucentCells(this->CurrentInput));
   drawing.Window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   drawing.Buffers = &this->Internal->Buffers;
   drawing.View = &this->Internal->View;
   drawing.RadiusScale = this->GetDrawnRadiusScale();
   drawing.Sharpness = this->Sharpness;
   drawing.Stride = this->Stride;
-  drawing.Kind = this->Internal->DrawnKind;
   drawing.FacesViewer = !this->CurrentInput->GetPointData()->GetNormals();
-  drawing.HiddenSide = this->Internal->HiddenSide;
   drawing.Colors = source == Source::Colors || source == Source::Lookup;
   drawing.Strongest = source == Source::Strongest || renderer->GetSelector() != nullptr;
   drawing.NumberOfClippingPlanes = this->GetShiftedClippingPlanes(actor, drawing.ClippingPlanes);
   drawing.Key.push_back(static_cast<double>(this->VBOBuildTime.GetMTime()));
+  return drawing;
 }
 
 //------------------------------------------------------------------------------
@@ -590,8 +561,7 @@ void vtkSurfaceSplatMapper::DrawLayer(
 //------------------------------------------------------------------------------
 void vtkSurfaceSplatMapper::DrawFolds(vtkRenderer* renderer, vtkActor* actor)
 {
-  if (!this->CurrentInput->GetPointData()->GetNormals() ||
-    actor->GetProperty()->GetInterpolation() == VTK_FLAT)
+  if (this->Internal->Drawing->FacesViewer || actor->GetProperty()->GetInterpolation() == VTK_FLAT)
   {
     return; // VTK would not light them
   }
@@ -630,8 +600,7 @@ void vtkSurfaceSplatMapper::DrawPrimitives(vtkRenderer* renderer, vtkActor* acto
       vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow())->GetState();
     vtkOpenGLState::ScopedglEnableDisable cullFace(state, GL_CULL_FACE);
     state->vtkglDisable(GL_CULL_FACE);
-    const vtkIdType count =
-      (this->Internal->Buffers.GetNumberOfParticles() + this->Stride - 1) / this->Stride;
+    const vtkIdType count = this->Internal->Drawing->GetNumberOfDrawnParticles();
     const bool points = this->Mode == Points;
     glDrawArrays(
       points ? GL_POINTS : GL_TRIANGLES, 0, static_cast<GLsizei>(points ? count : 3 * count));
@@ -737,13 +706,13 @@ void vtkSurfaceSplatMapper::SetMapperShaderParameters(
 {
   this->Superclass::SetMapperShaderParameters(cellBO, renderer, actor);
 
+  const vtkSurfaceSplatDrawing& drawing = *this->Internal->Drawing;
   vtkShaderProgram* program = cellBO.Program;
-  this->Internal->Buffers.SetSamplers(program);
-  this->Internal->View.SetUniforms(program);
+  drawing.SetUniforms(program);
   if (const vtkSurfaceSplatLayer* layer = this->Internal->DrawnLayer)
   {
-    const double diameter = 2. * this->GetDrawnRadiusScale() *
-      this->Internal->Buffers.GetMeanRadius() * this->Internal->View.GetScale();
+    const double diameter = 2. * drawing.RadiusScale * this->Internal->Buffers.GetMeanRadius() *
+      this->Internal->View.GetScale();
     layer->SetSamplers(program, this->Internal->FrontLayer);
     // Pixels with surface have at least twice this summed weight, others none (see the visibility pass).
     program->SetUniformf("splatLeastWeight",
@@ -752,13 +721,6 @@ void vtkSurfaceSplatMapper::SetMapperShaderParameters(
     program->SetUniformf("splatJump", static_cast<float>(5. * diameter));
     vtkSurfaceSplatTiles(this->Internal->View).SetUniforms(program, this->Internal->DrawnTiles);
   }
-  program->SetUniformf("splatRadiusScale", static_cast<float>(this->GetDrawnRadiusScale()));
-  program->SetUniformi("splatStride", this->Stride);
-  program->SetUniformi("splatKind", this->Internal->DrawnKind);
-  program->SetUniformi("splatSheet", -1);
-  program->SetUniformf("splatHiddenSide", static_cast<float>(this->Internal->HiddenSide));
-  program->SetUniformi(
-    "splatFacesViewer", this->CurrentInput->GetPointData()->GetNormals() ? 0 : 1);
   if (this->ColorByNormalDirection)
   {
     program->SetUniform3f("splatOutwardColor", this->OutwardColor);
@@ -766,9 +728,7 @@ void vtkSurfaceSplatMapper::SetMapperShaderParameters(
   }
   if (program->IsUniformUsed("clipPlanes"))
   {
-    float planes[6][4] = {};
-    this->GetShiftedClippingPlanes(actor, planes);
-    program->SetUniform4fv("clipPlanes", 6, planes);
+    program->SetUniform4fv("clipPlanes", 6, drawing.ClippingPlanes);
   }
 }
 

@@ -241,9 +241,6 @@ private:
   vtkDataArray* GetCellColors(vtkPolyData* input);
   bool HasTranslucentCells(vtkPolyData* input);
   std::vector<unsigned char> MappedColors(vtkUnsignedCharArray* colors, int source);
-  bool IsDrawnTwice(vtkRenderer* renderer, vtkActor* actor);
-  int GetDrawnKind(vtkRenderer* renderer, vtkActor* actor);
-  int GetHiddenSide(vtkRenderer* renderer, vtkActor* actor);
   bool UploadLookupCoordinates(vtkRenderer* renderer);
   bool UploadMappedColors(vtkRenderer* renderer, vtkActor* actor, std::vector<unsigned char> rgba,
     vtkDataArray* cellColors);
@@ -255,7 +252,7 @@ private:
   void DrawResolved(int primitive, int tiles, vtkRenderer* renderer, vtkActor* actor);
   void ForgetShaders();
   void DrawPrimitives(vtkRenderer* renderer, vtkActor* actor);
-  void DescribeDrawing(vtkRenderer* renderer, vtkActor* actor, vtkSurfaceSplatDrawing& drawing);
+  vtkSurfaceSplatDrawing DescribeDrawing(vtkRenderer* renderer, vtkActor* actor);
   vtkSurfaceSplatShaders DescribeShaders(vtkActor* actor) const;
   int GetShiftedClippingPlanes(vtkActor* actor, float planes[6][4]);
 

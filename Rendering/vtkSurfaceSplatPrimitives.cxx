@@ -13,7 +13,6 @@
 #include "vtkSurfaceSplatFragment.h"
 #include "vtkSurfaceSplatPassVS.h"
 #include "vtkSurfaceSplatRay.h"
-#include "vtkSurfaceSplatView.h"
 
 #include <algorithm>
 #include <cmath>
@@ -126,20 +125,13 @@ vtkShaderProgram* vtkSurfaceSplatPrimitives::Use(
   {
     return nullptr;
   }
-  drawing.Buffers->SetSamplers(program);
-  drawing.View->SetUniforms(program);
-  program->SetUniformf("splatRadiusScale", static_cast<float>(drawing.RadiusScale));
+  drawing.SetUniforms(program);
   const double rim = Rim();
   const float falloff[3] = { static_cast<float>(drawing.Sharpness),
     static_cast<float>(std::exp(-drawing.Sharpness)), static_cast<float>(rim * rim) };
   program->SetUniform3f("splatFalloff", falloff);
   program->SetUniformf("splatPush", static_cast<float>(style.Push));
   program->SetUniformf("splatReach", static_cast<float>(style.OnlyInside ? rim : 1.));
-  program->SetUniformf("splatHiddenSide", static_cast<float>(drawing.HiddenSide));
-  program->SetUniformi("splatFacesViewer", drawing.FacesViewer ? 1 : 0);
-  program->SetUniformi("splatStride", drawing.Stride);
-  program->SetUniformi("splatKind", drawing.Kind);
-  program->SetUniformi("splatSheet", drawing.Sheet);
   program->SetUniform4fv("splatClippingPlane", 6, drawing.ClippingPlanes);
   return program;
 }
@@ -147,8 +139,7 @@ vtkShaderProgram* vtkSurfaceSplatPrimitives::Use(
 //------------------------------------------------------------------------------
 void vtkSurfaceSplatPrimitives::Draw(const vtkSurfaceSplatDrawing& drawing)
 {
-  const vtkIdType count =
-    (drawing.Buffers->GetNumberOfParticles() + drawing.Stride - 1) / drawing.Stride;
+  const vtkIdType count = drawing.GetNumberOfDrawnParticles();
   const bool points = drawing.DrawsPoints();
   const int corners = points ? 1 : 3;
   const bool software = IsDrawnInSoftware();

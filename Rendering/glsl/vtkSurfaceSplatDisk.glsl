@@ -12,19 +12,20 @@ uniform samplerBuffer splatNormal;
 // 3 texels a particle: xyz: unit normal of a plane (MC), w: distance; the same of another; xy: overlaps, see
 // splatOverlaps(); zw: curvatures (1 / MC) of the edges, along the surface, towards the planes' normals
 uniform samplerBuffer splatClip;
-uniform int splatHasClip;        // 0: there are no such planes
+uniform int splatHasClip; // 0: there are no such planes
 uniform float splatRadiusScale;
-uniform int splatFacesViewer; // 1: the particles have no normals, their disks face the eye
-uniform int splatStride;      // every how-manieth particle is drawn
-uniform int splatKind;        // particles drawn: 0: the opaque ones; 1: the translucent ones; 2: all
-uniform int splatSheet;       // of these, the ones of this sheet; -1: of all
-uniform vec4 splatEyeMC;      // position of the eye, or, with w = 0, the direction to it
+uniform int splatFacesViewer;  // 1: the particles have no normals, their disks face the eye
+uniform int splatStride;       // every how-manieth particle is drawn
+uniform int splatKind;         // particles drawn, see vtkSurfaceSplatKind: 2 stands for all
+uniform int splatSheet;        // of these, the ones of this sheet; less than 0: of all
+uniform float splatHiddenSide; // of these, those not seen from this side, see vtkSurfaceSplatHiddenSide
+uniform vec4 splatEyeMC;       // position of the eye, or, with w = 0, the direction to it
 
 struct SplatDisk
 {
   vec3 centreMC;
   vec3 normalMC;    // outward
-  vec3 tangentMC;   // as long as the radius, as is the next
+  vec3 tangentMC;   // as long as the radius, as is the next; 0 if there is nothing to draw
   vec3 bitangentMC;
   float seenFrom;   // 1: from outward (the normal points at the eye), -1: from inward
   int sheet;
@@ -49,7 +50,8 @@ SplatDisk splatDiskOf(int particle)
   disk.seenFrom = dot(disk.normalMC, toEyeMC) < 0.0 ? -1.0 : 1.0;
   int tag = int(normal.w);
   disk.sheet = tag / 2;
-  bool drawn = (splatKind == 2 || tag % 2 == splatKind) && (splatSheet < 0 || disk.sheet == splatSheet);
+  bool drawn = (splatKind == 2 || tag % 2 == splatKind) &&
+    (splatSheet < 0 || disk.sheet == splatSheet) && disk.seenFrom != splatHiddenSide;
   float radius = drawn ? centreRadius.w * splatRadiusScale : 0.0;
   disk.tangentMC = radius * splatTangent(disk.normalMC);
   disk.bitangentMC = cross(disk.normalMC, disk.tangentMC);

@@ -16,7 +16,6 @@ uniform float splatPixel; // size of a pixel (VC) at distance 1, or everywhere i
 uniform float splatPush;  // by how many radii the disk is moved along the view ray, away from the eye
 uniform float splatReach; // how far a splat reaches, in radii
 uniform vec4 splatViewport; // left, bottom, width, height in pixels
-uniform float splatHiddenSide; // 1 or -1: splats seen from that side are left out; 0: none
 
 #if SPLAT_POINTS
 flat out vec4 splatPixelToDisk; // matrix, by columns, from offsets in pixels to disk coordinates
@@ -101,7 +100,7 @@ void main()
   vec3 tangentVC = rotateScale * disk.tangentMC;
   vec3 bitangentVC = rotateScale * disk.bitangentMC;
   float radiusVC = sqrt(max(dot(tangentVC, tangentVC), dot(bitangentVC, bitangentVC)));
-  bool nothing = radiusVC == 0.0 || splatSeenFromSide == splatHiddenSide;
+  bool nothing = radiusVC == 0.0;
 
   // A splat covers at least SPLAT_LEAST_PIXELS from its middle to its rim: smaller ones would fall
   // between the pixels, and of those that do not only one or two would make a pixel.

@@ -7,7 +7,6 @@
 //Splat::Disk::Dec
 
 uniform mat3 normalMatrix;
-uniform float splatHiddenSide; // 1 or -1: disks seen from that side are left out; 0: none
 
 out vec2 splatDiskCoord;          // inside the unit circle = inside the disk
 flat out vec4 splatClipLines[2];  // see splatClipLine()
@@ -73,7 +72,7 @@ void main()
 
   //VTK::CustomEnd::Impl
 
-  if (disk.tangentMC == vec3(0.0) || disk.seenFrom == splatHiddenSide)
+  if (disk.tangentMC == vec3(0.0))
   {
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0); // nothing to draw
   }
