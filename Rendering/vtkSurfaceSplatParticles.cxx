@@ -170,6 +170,7 @@ float vtkSurfaceSplatParticles::OverlapAt(double degrees)
 {
   constexpr double smooth = 10.;
   constexpr double atKink = 0.15;
+  static_assert(atKink < LeastSmoothOverlap && LeastSmoothOverlap < SmoothOverlap);
   const double cosine = std::cos(vtkMath::RadiansFromDegrees(degrees));
   return degrees < smooth ? SmoothOverlap : cosine > 0. ? static_cast<float>(atKink * cosine) : 0.f;
 }

@@ -85,8 +85,11 @@ struct vtkSurfaceSplatParticles
    */
   static double EstimateDistance(const double bounds[6], vtkIdType count);
 
-  /** OverlapAt() planes at which the surface is almost smooth: at others it is less than half as much. */
+  /** OverlapAt() planes at which the surface is almost smooth. */
   static constexpr float SmoothOverlap = 0.35f;
+
+  /** Planes with at least this overlap are such, for shaders too: far from all that OverlapAt() gives. */
+  static constexpr float LeastSmoothOverlap = 0.25f;
 
   /**
    * How far, in radii, a splat fills gaps beyond a plane at which the surface turns by so many degrees.

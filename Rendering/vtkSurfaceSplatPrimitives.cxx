@@ -7,6 +7,7 @@
 #include "vtkOpenGLVertexArrayObject.h"
 #include "vtkShaderProgram.h"
 #include "vtkSurfaceSplatBuffers.h"
+#include "vtkSurfaceSplatDefine.h"
 #include "vtkSurfaceSplatDisk.h"
 #include "vtkSurfaceSplatDrawing.h"
 #include "vtkSurfaceSplatEdge.h"
@@ -76,22 +77,17 @@ double Rim()
   return std::sqrt(-std::log(weight * (1. - atEnd) + atEnd) / sharpness);
 }
 
-std::string Define(const std::string& name, const std::string& value)
-{
-  return "#define " + name + " " + value + "\n";
-}
-
 std::string Definitions(
   const vtkSurfaceSplatDrawing& drawing, const vtkSurfaceSplatPrimitives::Style& style)
 {
-  return Define("SPLAT_POINTS", std::to_string(drawing.DrawsPoints())) +
-    Define("SPLAT_LEAST_PIXELS", std::to_string(LeastPixels)) +
-    Define("SPLAT_HAS_CLIP", std::to_string(drawing.Buffers->GetHasClip())) +
-    Define("SPLAT_GAP_SHARE", std::to_string(vtkSurfaceSplatPrimitives::GapShare)) +
-    Define("SPLAT_CURVED", std::to_string(drawing.DrawsCurved())) +
-    Define("SPLAT_SKIPS_HIDDEN", std::to_string(style.SkipsHidden && drawing.DrawsPoints())) +
-    Define("SPLAT_APART", std::to_string(drawing.TellsSheetsApart())) +
-    Define("SPLAT_CLIPPING_PLANES", std::to_string(drawing.NumberOfClippingPlanes));
+  return vtkSurfaceSplatDefine("SPLAT_POINTS", drawing.DrawsPoints()) +
+    vtkSurfaceSplatDefine("SPLAT_LEAST_PIXELS", LeastPixels) +
+    vtkSurfaceSplatDefine("SPLAT_HAS_CLIP", drawing.Buffers->GetHasClip()) +
+    vtkSurfaceSplatDefine("SPLAT_GAP_SHARE", vtkSurfaceSplatPrimitives::GapShare) +
+    vtkSurfaceSplatDefine("SPLAT_CURVED", drawing.DrawsCurved()) +
+    vtkSurfaceSplatDefine("SPLAT_SKIPS_HIDDEN", style.SkipsHidden && drawing.DrawsPoints()) +
+    vtkSurfaceSplatDefine("SPLAT_APART", drawing.TellsSheetsApart()) +
+    vtkSurfaceSplatDefine("SPLAT_CLIPPING_PLANES", drawing.NumberOfClippingPlanes);
 }
 }
 

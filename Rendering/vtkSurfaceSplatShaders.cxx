@@ -2,9 +2,11 @@
 
 #include "vtkHardwareSelector.h"
 #include "vtkShaderProgram.h"
+#include "vtkSurfaceSplatDefine.h"
 #include "vtkSurfaceSplatDisk.h"
 #include "vtkSurfaceSplatEdge.h"
 #include "vtkSurfaceSplatOutline.h"
+#include "vtkSurfaceSplatParticles.h"
 #include "vtkSurfaceSplatRay.h"
 #include "vtkSurfaceSplatResolve.h"
 #include "vtkSurfaceSplatResolveVS.h"
@@ -41,11 +43,6 @@ void Replace(vtkShader* shader, const std::string& what, const std::string& code
   vtkShaderProgram::Substitute(source, what, code);
   shader->SetSource(source);
 }
-
-std::string Define(const std::string& name, bool value)
-{
-  return "#define " + name + " " + std::to_string(value) + "\n";
-}
 }
 
 //------------------------------------------------------------------------------
@@ -62,7 +59,8 @@ void vtkSurfaceSplatShaders::SetVertexStage(vtkShader* vertex) const
   Replace(vertex, "SPLAT_TILE_SIZE", std::to_string(vtkSurfaceSplatTiles::Size));
   Replace(vertex, "SPLAT_FOLDS", std::to_string(this->Drawn == Part::Folds));
   Replace(vertex, "//Splat::Disk::Dec",
-    std::string(vtkSurfaceSplatDisk) +
+    vtkSurfaceSplatDefine("SPLAT_SMOOTH_OVERLAP", vtkSurfaceSplatParticles::LeastSmoothOverlap) +
+      vtkSurfaceSplatDisk +
       "const int splatVerticesAParticle = " + (this->DrawsPoints ? "1" : "3") + ";\n");
 }
 
@@ -164,8 +162,10 @@ void vtkSurfaceSplatShaders::ReplacePosition(vtkShader* fragment) const
   }
   const bool folds = this->Drawn == Part::Folds;
   Replace(fragment, "//VTK::PositionVC::Dec",
-    Define("SPLAT_OUTLINE", folds || this->Drawn == Part::Outline) + Define("SPLAT_FOLDS", folds) +
-      Define("SPLAT_BACK_LAYER", this->Drawn == Part::BackLayer) + vtkSurfaceSplatResolve);
+    vtkSurfaceSplatDefine("SPLAT_OUTLINE", folds || this->Drawn == Part::Outline) +
+      vtkSurfaceSplatDefine("SPLAT_FOLDS", folds) +
+      vtkSurfaceSplatDefine("SPLAT_BACK_LAYER", this->Drawn == Part::BackLayer) +
+      vtkSurfaceSplatResolve);
   Replace(fragment, "//Splat::Ray::Dec", vtkSurfaceSplatRay);
   Replace(fragment, "//Splat::Outline::Dec", vtkSurfaceSplatOutline);
   std::string code = "SplatSurface splat = splatResolve();\n"

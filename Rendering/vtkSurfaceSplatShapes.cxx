@@ -101,7 +101,7 @@ double ShareOf(
   {
     const vtkIdType first = 12 * particle + 4 * plane;
     const bool isSmooth =
-      clip[12 * particle + 8 + plane] >= vtkSurfaceSplatParticles::SmoothOverlap;
+      clip[12 * particle + 8 + plane] >= vtkSurfaceSplatParticles::LeastSmoothOverlap;
     const double across = VectorAt(clip, first).Dot(offset);
     const double bend = 0.5 * clip[12 * particle + 10 + plane];
     const double edge = clip[first + 3] + bend * (offset.SquaredNorm() - across * across);

@@ -74,9 +74,6 @@ vec4 splatClipLine(int particle, int plane, SplatDisk disk)
   return vec4(direction, clip.w, bend);
 }
 
-// At planes with larger overlaps the surface is almost smooth.
-const float splatKinkOverlap = 0.2;
-
 // How many radii beyond its clip planes a particle fills gaps that others leave.
 vec2 splatOverlaps(int particle)
 {

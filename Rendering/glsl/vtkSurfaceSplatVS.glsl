@@ -2,7 +2,8 @@
 
 // Vertex stage of the modes 'Disks' and 'Points', inside VTK's template for polygonal data: the
 // replacements below are VTK's own, and they find the names they expect (vertexMC, MCDCMatrix ...).
-// splatVerticesAParticle is 3 for disks and 1 for points.
+// splatVerticesAParticle is 3 for disks and 1 for points; at planes with overlaps from SPLAT_SMOOTH_OVERLAP on the
+// surface is almost smooth.
 
 //Splat::Disk::Dec
 
@@ -45,8 +46,8 @@ void main()
       splatDiskCoord.y * disk.bitangentMC, 1.0);
   // Disks are not mixed: they go on over planes where the surface is almost smooth, and end at others.
   vec2 overlaps = splatOverlaps(splatParticle);
-  splatClipLines[0] = overlaps.x > splatKinkOverlap ? vec4(0.0) : splatClipLine(splatParticle, 0, disk);
-  splatClipLines[1] = overlaps.y > splatKinkOverlap ? vec4(0.0) : splatClipLine(splatParticle, 1, disk);
+  splatClipLines[0] = overlaps.x >= SPLAT_SMOOTH_OVERLAP ? vec4(0.0) : splatClipLine(splatParticle, 0, disk);
+  splatClipLines[1] = overlaps.y >= SPLAT_SMOOTH_OVERLAP ? vec4(0.0) : splatClipLine(splatParticle, 1, disk);
   splatSeenFromSide = disk.seenFrom;
   splatNormalVC = disk.seenFrom * (normalMatrix * disk.normalMC);
 

@@ -1,0 +1,18 @@
+#include "vtkSurfaceSplatDefine.h"
+
+#include <locale>
+#include <sstream>
+
+//------------------------------------------------------------------------------
+std::string vtkSurfaceSplatDefine(const std::string& name, int value)
+{
+  return "#define " + name + " " + std::to_string(value) + "\n";
+}
+
+std::string vtkSurfaceSplatDefine(const std::string& name, double value)
+{
+  std::ostringstream line;
+  line.imbue(std::locale::classic());
+  line << "#define " << name << " " << std::fixed << value << "\n";
+  return line.str();
+}
