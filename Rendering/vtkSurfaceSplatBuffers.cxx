@@ -133,41 +133,39 @@ void vtkSurfaceSplatBuffers::MeasureRadii(const std::vector<float>& centreRadius
 }
 
 //------------------------------------------------------------------------------
-void vtkSurfaceSplatBuffers::Activate()
+std::vector<vtkSurfaceSplatTexels*> vtkSurfaceSplatBuffers::GetFilled()
 {
-  this->CentreRadius.Activate();
-  this->Normal.Activate();
-  this->PointIds.Activate();
+  std::vector<vtkSurfaceSplatTexels*> filled = { &this->CentreRadius, &this->Normal,
+    &this->PointIds };
   if (this->HasClip)
   {
-    this->Clip.Activate();
+    filled.push_back(&this->Clip);
   }
   if (this->HasShape)
   {
-    this->Shape.Activate();
+    filled.push_back(&this->Shape);
   }
   if (this->HasColor)
   {
-    this->Color.Activate();
+    filled.push_back(&this->Color);
+  }
+  return filled;
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatBuffers::Activate()
+{
+  for (vtkSurfaceSplatTexels* texels : this->GetFilled())
+  {
+    texels->Activate();
   }
 }
 
 void vtkSurfaceSplatBuffers::Deactivate()
 {
-  this->CentreRadius.Deactivate();
-  this->Normal.Deactivate();
-  this->PointIds.Deactivate();
-  if (this->HasClip)
+  for (vtkSurfaceSplatTexels* texels : this->GetFilled())
   {
-    this->Clip.Deactivate();
-  }
-  if (this->HasShape)
-  {
-    this->Shape.Deactivate();
-  }
-  if (this->HasColor)
-  {
-    this->Color.Deactivate();
+    texels->Deactivate();
   }
 }
 

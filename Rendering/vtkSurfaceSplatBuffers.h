@@ -92,23 +92,23 @@ public:
   void ReleaseGraphicsResources(vtkWindow* window);
 
 private:
+  void MeasureRadii(const std::vector<float>& centreRadius);
+  std::vector<vtkSurfaceSplatTexels*> GetFilled();
+
   vtkIdType NumberOfParticles = 0;
   int NumberOfSheets = 1;
   double MeanRadius = 0.;
   double LargestRadius = 0.;
-
-  void MeasureRadii(const std::vector<float>& centreRadius);
-
   std::array<double, 3> Origin = { 0., 0., 0. };
   vtkSurfaceSplatTexels CentreRadius;
   vtkSurfaceSplatTexels Normal;
   vtkSurfaceSplatTexels Clip;  // three a particle; stays empty without clip planes
   vtkSurfaceSplatTexels Shape; // two a particle; stays empty where the surface is nearly flat
   vtkSurfaceSplatTexels Color;
+  vtkSurfaceSplatTexels PointIds; // four bytes, as the selection passes write them
   bool HasClip = false;
   bool HasShape = false;
   bool HasColor = false;
-  vtkSurfaceSplatTexels PointIds; // four bytes, as the selection passes write them
 };
 
 #endif
