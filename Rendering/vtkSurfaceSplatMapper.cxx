@@ -48,15 +48,22 @@ constexpr int Extra = vtkOpenGLPolyDataMapper::PrimitiveTriStrips;
 // Outlines in front of the surface itself. Lines are lit where there are normals.
 constexpr int Folds = vtkOpenGLPolyDataMapper::PrimitiveLines;
 
-constexpr const char* ClipNormalName = "Clip_Normal";
-constexpr const char* ShapeOperatorName = "Shape_Operator";
-constexpr const char* ClipDistanceName = "Clip_Distance";
-constexpr const char* ClipAngleName = "Clip_Angle";
-constexpr const char* ClipCurvatureName = "Clip_Curvature";
-constexpr const char* SheetName = "Isovalue";
-
 // More are too slow to be drawn one after the other.
 constexpr int MaximumNumberOfLayeredSheets = 8;
+
+vtkOpenGLRenderWindow* WindowOf(vtkRenderer* renderer)
+{
+  return vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+}
+
+// Of those points that are finite.
+void GetFiniteBounds(vtkPolyData* input, double bounds[6])
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    input->GetPoints()->GetData()->GetFiniteRange(bounds + 2 * axis, axis);
+  }
+}
 }
 
 struct vtkSurfaceSplatMapper::Internals
@@ -148,10 +155,7 @@ double vtkSurfaceSplatMapper::GetFallbackRadius(vtkPolyData* input)
     return this->Radius;
   }
   double bounds[6];
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    input->GetPoints()->GetData()->GetFiniteRange(bounds + 2 * axis, axis);
-  }
+  GetFiniteBounds(input, bounds);
   const double distance =
     vtkSurfaceSplatParticles::EstimateDistance(bounds, input->GetNumberOfPoints());
   // Hexagons are covered from 0.577 of their distance on; three quarters leave some room for unevenness.
@@ -185,12 +189,11 @@ void vtkSurfaceSplatMapper::GetDiskBounds(vtkPolyData* input, double bounds[6])
     radii->GetFiniteRange(range, 0);
   }
   const double margin = this->GetDrawnRadiusScale() * std::max(range[1], 0.);
+  GetFiniteBounds(input, bounds);
   for (int axis = 0; axis < 3; ++axis)
   {
-    double extent[2];
-    input->GetPoints()->GetData()->GetFiniteRange(extent, axis);
-    bounds[2 * axis] = extent[0] - margin;
-    bounds[2 * axis + 1] = extent[1] + margin;
+    bounds[2 * axis] -= margin;
+    bounds[2 * axis + 1] += margin;
   }
 }
 
@@ -258,20 +261,12 @@ void vtkSurfaceSplatMapper::UploadParticles(vtkRenderer* renderer, vtkPolyData* 
   {
     return;
   }
-  vtkPointData* data = input->GetPointData();
-  vtkSurfaceSplatArrays arrays;
+  auto arrays = vtkSurfaceSplatArrays::FromPointData(input->GetPointData());
   arrays.Radii = this->GetRadiusArray(input);
   arrays.FallbackRadius = this->GetFallbackRadius(input);
-  arrays.Normals = data->GetNormals();
-  arrays.ClipNormals = data->GetArray(ClipNormalName);
-  arrays.ClipDistances = data->GetArray(ClipDistanceName);
-  arrays.ClipAngles = data->GetArray(ClipAngleName);
-  arrays.ClipCurvatures = data->GetArray(ClipCurvatureName);
-  arrays.ShapeOperators = data->GetArray(ShapeOperatorName);
-  arrays.Sheets = data->GetArray(SheetName);
   arrays.CellColors = this->GetCellColors(input);
   vtkSurfaceSplatParticles particles = vtkSurfaceSplatParticles::FromPolyData(input, arrays);
-  gpu.Buffers.Upload(vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()), particles);
+  gpu.Buffers.Upload(WindowOf(renderer), particles);
   if (gpu.Buffers.GetNumberOfParticles() < particles.GetNumberOfParticles())
   {
     vtkWarningMacro("This graphics driver addresses only the first "
@@ -387,8 +382,7 @@ bool vtkSurfaceSplatMapper::UploadMappedColors(
   {
     return false;
   }
-  internal.Buffers.UploadColors(
-    vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()), rgba);
+  internal.Buffers.UploadColors(WindowOf(renderer), rgba);
   return true;
 }
 
@@ -403,8 +397,7 @@ bool vtkSurfaceSplatMapper::UploadLookupCoordinates(vtkRenderer* renderer)
     return false;
   }
   this->Internal->Buffers.UploadColors(
-    vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()),
-    vtkSurfaceSplatLookupTexels(coordinates, this->Internal->PointIds, count));
+    WindowOf(renderer), vtkSurfaceSplatLookupTexels(coordinates, this->Internal->PointIds, count));
 
   // The base class binds this texture, of one colour a column, whenever there is a ColorTextureMap.
   if (!this->InternalColorTexture)
@@ -430,9 +423,7 @@ void vtkSurfaceSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* act
   {
     // For points the base class draws without depth, on top of the surface they belong to; splats
     // are that surface, and the nearest one must win.
-    vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow())
-      ->GetState()
-      ->vtkglDepthMask(GL_TRUE);
+    WindowOf(renderer)->GetState()->vtkglDepthMask(GL_TRUE);
   }
   double bounds[6];
   this->GetDiskBounds(this->CurrentInput, bounds);
@@ -515,7 +506,7 @@ vtkSurfaceSplatDrawing vtkSurfaceSplatMapper::DescribeDrawing(
   vtkSurfaceSplatDrawing drawing;
   const Source source = this->Internal->Coloring.From;
   drawing.ChooseParticles(renderer, actor, this->HasTranslucentCells(this->CurrentInput));
-  drawing.Window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  drawing.Window = WindowOf(renderer);
   drawing.Buffers = &this->Internal->Buffers;
   drawing.View = &this->Internal->View;
   drawing.RadiusScale = this->GetDrawnRadiusScale();
@@ -565,8 +556,7 @@ void vtkSurfaceSplatMapper::DrawFolds(vtkRenderer* renderer, vtkActor* actor)
   {
     return; // VTK would not light them
   }
-  vtkOpenGLState* state =
-    vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow())->GetState();
+  vtkOpenGLState* state = WindowOf(renderer)->GetState();
   vtkOpenGLState::ScopedglDepthMask depthMask(state);
   state->vtkglDepthMask(GL_FALSE);
   this->DrawResolved(Folds, vtkSurfaceSplatTiles::Folds, renderer, actor);
@@ -596,8 +586,7 @@ void vtkSurfaceSplatMapper::DrawPrimitives(vtkRenderer* renderer, vtkActor* acto
   {
     primitives.VAO->Bind(); // see DrawResolved()
     // Sides are those of normals, which the vertex stage knows; mirrored triangles turn theirs.
-    vtkOpenGLState* state =
-      vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow())->GetState();
+    vtkOpenGLState* state = WindowOf(renderer)->GetState();
     vtkOpenGLState::ScopedglEnableDisable cullFace(state, GL_CULL_FACE);
     state->vtkglDisable(GL_CULL_FACE);
     const vtkIdType count = this->Internal->Drawing->GetNumberOfDrawnParticles();

@@ -3,6 +3,7 @@
 #include "vtkCellArray.h"
 #include "vtkDataArray.h"
 #include "vtkMath.h"
+#include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSMPTools.h"
@@ -142,6 +143,25 @@ void ReadClipPlanes(const vtkSurfaceSplatArrays& arrays, vtkIdType id, float pla
   }
 }
 
+// What the fourth number of a particle's normal says: see vtkSurfaceSplatParticles::Normal.
+float TagOf(const vtkSurfaceSplatArrays& arrays, const vtkSurfaceSplatParticles& particles,
+  const std::vector<double>& sheets, vtkIdType particle)
+{
+  float tag = 0.f;
+  if (arrays.CellColors && !particles.CellIds.empty() &&
+    arrays.CellColors->GetComponent(particles.CellIds[particle], 3) < 1.)
+  {
+    tag += 1.f;
+  }
+  if (!sheets.empty())
+  {
+    const double value = arrays.Sheets->GetComponent(particles.PointIds[particle], 0);
+    const auto sheet = std::lower_bound(sheets.begin(), sheets.end(), value);
+    tag += 2.f * static_cast<float>(sheet - sheets.begin());
+  }
+  return tag;
+}
+
 // The different values that particles have in an array, in order of appearance; none if they are too many.
 std::vector<double> FindSheets(vtkDataArray* values, const std::vector<vtkIdType>& ids)
 {
@@ -163,6 +183,20 @@ std::vector<double> FindSheets(vtkDataArray* values, const std::vector<vtkIdType
   std::sort(found.begin(), found.end());
   return found;
 }
+}
+
+//------------------------------------------------------------------------------
+vtkSurfaceSplatArrays vtkSurfaceSplatArrays::FromPointData(vtkPointData* data)
+{
+  vtkSurfaceSplatArrays arrays;
+  arrays.Normals = data->GetNormals();
+  arrays.ClipNormals = data->GetArray("Clip_Normal");
+  arrays.ClipDistances = data->GetArray("Clip_Distance");
+  arrays.ClipAngles = data->GetArray("Clip_Angle");
+  arrays.ClipCurvatures = data->GetArray("Clip_Curvature");
+  arrays.ShapeOperators = data->GetArray("Shape_Operator");
+  arrays.Sheets = data->GetArray("Isovalue");
+  return arrays;
 }
 
 //------------------------------------------------------------------------------
@@ -202,7 +236,6 @@ vtkSurfaceSplatParticles vtkSurfaceSplatParticles::FromPolyData(
   particles.Origin = MiddleOfFinitePoints(input->GetPoints());
 
   const vtkIdType count = particles.GetNumberOfParticles();
-  const bool colored = arrays.CellColors && !particles.CellIds.empty();
   const bool clipped = arrays.ClipNormals && arrays.ClipDistances;
   particles.CentreRadius.assign(4 * count, 0.f);
   particles.Normal.assign(4 * count, 0.f);
@@ -227,16 +260,7 @@ vtkSurfaceSplatParticles vtkSurfaceSplatParticles::FromPolyData(
           particles.Normal[4 * i + 2] = 1.f; // any direction: shaders need not mind a zero one
           ++skipped;
         }
-        if (colored && arrays.CellColors->GetComponent(particles.CellIds[i], 3) < 1.)
-        {
-          particles.Normal[4 * i + 3] = 1.f;
-        }
-        if (!sheets.empty())
-        {
-          const auto sheet =
-            std::lower_bound(sheets.begin(), sheets.end(), arrays.Sheets->GetComponent(id, 0));
-          particles.Normal[4 * i + 3] += 2.f * static_cast<float>(sheet - sheets.begin());
-        }
+        particles.Normal[4 * i + 3] = TagOf(arrays, particles, sheets, i);
         if (shaped)
         {
           ReadShape(arrays.ShapeOperators, id, &particles.Shape[8 * i]);

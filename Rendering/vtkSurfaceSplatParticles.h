@@ -19,6 +19,7 @@
 #include <vector>
 
 class vtkDataArray;
+class vtkPointData;
 class vtkPolyData;
 
 /** The point arrays that particles are made of; those that are nullptr are missing. */
@@ -48,6 +49,9 @@ struct vtkSurfaceSplatArrays
   vtkDataArray* ShapeOperators = nullptr; ///< dn/dx, 6 components: xx, yy, zz, xy, yz, xz
   vtkDataArray* Sheets = nullptr;         ///< one value a point that tells nested surfaces apart
   vtkDataArray* CellColors = nullptr;     ///< see vtkSurfaceSplatMapper::SetCellColorArrayName()
+
+  /** Those with the names that vtkSurfaceSplatMapper lists, without radii and colours. */
+  static vtkSurfaceSplatArrays FromPointData(vtkPointData* data);
 };
 
 struct vtkSurfaceSplatParticles

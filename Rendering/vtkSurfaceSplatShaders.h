@@ -2,8 +2,8 @@
  * @struct vtkSurfaceSplatShaders
  * @brief  what the programs of particles have in VTK's shader template, tag by tag
  *
- * Their text depends on the members and on nothing else. Where a function says so, VTK's own text is to be
- * inserted between it and the next one.
+ * Our text depends on the members and on nothing else. VTK inserts its own at the same tags: functions say whether
+ * they come before or after that.
  */
 
 #ifndef vtkSurfaceSplatShaders_h
@@ -54,25 +54,25 @@ struct vtkSurfaceSplatShaders
   /** The vertex stage as a whole, with VTK's tags. */
   void SetVertexStage(vtkShader* vertex) const;
 
-  /** Colours and opacities; to be called before VTK's own are inserted. */
+  /** Colours and opacities; before VTK's own. */
   void InsertColor(vtkShader* fragment) const;
 
-  /** Which side VTK's own colours take for the front; to be called after those are inserted. */
+  /** Which side VTK's own colours take for the front; after those. */
   void ReplaceSide(vtkShader* fragment) const;
 
   /** Instead of VTK's own. */
   void ReplaceNormal(vtkShader* fragment) const;
 
-  /** Where the surface is; to be called before VTK's own places are inserted. */
+  /** Where the surface is; before VTK's own. */
   void ReplacePosition(vtkShader* fragment) const;
 
-  /** What is no part of the surface; to be called before VTK's own clipping is inserted. */
+  /** What is no part of the surface; before VTK's own. */
   void InsertClip(vtkShader* fragment) const;
 
-  /** What is selected; to be called before VTK's own is inserted. */
+  /** What is selected; before VTK's own. */
   void ReplacePicking(const std::map<vtkShader::Type, vtkShader*>& shaders) const;
 
-  /** Which depth is meant by all that asks for it; to be called at last. */
+  /** Which depth all that asks for one means; after everything else. */
   void ReplaceDepth(vtkShader* fragment) const;
 
 private:
