@@ -95,7 +95,11 @@ void vtkSurfaceSplatBuffers::Upload(
   const GLint texels = this->HasClip ? 3 : this->HasShape ? 2 : 1; // a particle, at most
   const vtkIdType count = std::min<vtkIdType>(particles.GetNumberOfParticles(), limit / texels);
   this->NumberOfParticles = count;
-  this->NumberOfSheets = particles.NumberOfSheets;
+  this->SheetRanges = particles.SheetRanges;
+  for (std::array<vtkIdType, 2>& range : this->SheetRanges)
+  {
+    range = { std::min(range[0], count), std::min(range[1], count) };
+  }
   this->Origin = particles.Origin;
   this->MeasureRadii(particles.CentreRadius);
   if (count == 0)

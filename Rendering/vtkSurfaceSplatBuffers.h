@@ -68,7 +68,13 @@ public:
   vtkIdType GetNumberOfParticles() const { return this->NumberOfParticles; }
 
   /** How many sheets the particles tell apart. */
-  int GetNumberOfSheets() const { return this->NumberOfSheets; }
+  int GetNumberOfSheets() const { return static_cast<int>(this->SheetRanges.size()); }
+
+  /** See vtkSurfaceSplatParticles::SheetRanges. */
+  const std::array<vtkIdType, 2>& GetSheetRange(int sheet) const
+  {
+    return this->SheetRanges[sheet];
+  }
 
   /** Whether particles carry clip planes. */
   bool GetHasClip() const { return this->HasClip; }
@@ -96,7 +102,7 @@ private:
   std::vector<vtkSurfaceSplatTexels*> GetFilled();
 
   vtkIdType NumberOfParticles = 0;
-  int NumberOfSheets = 1;
+  std::vector<std::array<vtkIdType, 2>> SheetRanges;
   double MeanRadius = 0.;
   double LargestRadius = 0.;
   std::array<double, 3> Origin = { 0., 0., 0. };

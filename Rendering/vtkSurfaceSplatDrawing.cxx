@@ -62,9 +62,11 @@ void vtkSurfaceSplatDrawing::SetUniforms(vtkShaderProgram* program) const
   program->SetUniformi("splatSheet", this->Sheet.value_or(AllSheets));
 }
 
-vtkIdType vtkSurfaceSplatDrawing::GetNumberOfDrawnParticles() const
+std::array<vtkIdType, 2> vtkSurfaceSplatDrawing::GetDrawnRange() const
 {
-  return (this->Buffers->GetNumberOfParticles() + this->Stride - 1) / this->Stride;
+  const std::array<vtkIdType, 2> all{ 0, this->Buffers->GetNumberOfParticles() };
+  const auto [first, end] = this->Sheet ? this->Buffers->GetSheetRange(*this->Sheet) : all;
+  return { first / this->Stride, (end + this->Stride - 1) / this->Stride };
 }
 
 //------------------------------------------------------------------------------

@@ -8,6 +8,7 @@
 
 #include "vtkType.h"
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -58,7 +59,8 @@ struct vtkSurfaceSplatDrawing
   /** Those uniforms of glsl/vtkSurfaceSplatDisk.glsl that a program uses, and where it finds the particles. */
   void SetUniforms(vtkShaderProgram* program) const;
 
-  vtkIdType GetNumberOfDrawnParticles() const;
+  /** Of every Stride-th particle, those from the first to before the second are drawn. */
+  std::array<vtkIdType, 2> GetDrawnRange() const;
 
   /** All that the picture depends on. */
   std::vector<double> GetWholeKey() const;

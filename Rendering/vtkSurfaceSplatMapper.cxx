@@ -66,14 +66,27 @@ void GetFiniteBounds(vtkPolyData* input, double bounds[6])
 }
 }
 
+// What is seen of one sheet.
+struct vtkSurfaceSplatMapper::SheetLayers
+{
+  vtkSurfaceSplatLayer Front{ vtkSurfaceSplatSide::Front };
+  vtkSurfaceSplatLayer Back{ vtkSurfaceSplatSide::Back }; // of translucent surfaces
+
+  void ReleaseGraphicsResources(vtkWindow* window)
+  {
+    this->Front.ReleaseGraphicsResources(window);
+    this->Back.ReleaseGraphicsResources(window);
+  }
+};
+
 struct vtkSurfaceSplatMapper::Internals
 {
   vtkSurfaceSplatBuffers Buffers;
   vtkSurfaceSplatView View;
-  vtkSurfaceSplatLayer FrontLayer{ vtkSurfaceSplatSide::Front };
-  vtkSurfaceSplatLayer BackLayer{ vtkSurfaceSplatSide::Back };
-  const vtkSurfaceSplatDrawing* Drawing = nullptr; // while it goes on, as is the next
+  std::vector<std::unique_ptr<SheetLayers>> Layers;
+  const vtkSurfaceSplatDrawing* Drawing = nullptr; // while it goes on, as are the next two
   vtkSurfaceSplatLayer* DrawnLayer = nullptr;
+  const vtkSurfaceSplatLayer* FrontLayer = nullptr; // of the same sheet
   int DrawnTiles = 0;
   bool Translucent = false;
   vtkSurfaceSplatColoring Coloring;
@@ -89,6 +102,30 @@ struct vtkSurfaceSplatMapper::Internals
 
   bool SaidNoNormals = false;
   bool SaidNoRadius = false;
+
+  // Those of a sheet. All have their own as far as memory goes, so that each pass of depth peeling finds them drawn.
+  SheetLayers& LayersOf(int sheet)
+  {
+    constexpr double mostBytes = 1024. * 1024. * 1024.;
+    constexpr double bytesPerPixel = 128.; // of both layers, about
+    const double bytes = bytesPerPixel * this->View.GetWidth() * this->View.GetHeight();
+    const auto index =
+      static_cast<std::size_t>(std::min<double>(sheet, std::max(1., mostBytes / bytes) - 1.));
+    while (this->Layers.size() <= index)
+    {
+      this->Layers.push_back(std::make_unique<SheetLayers>());
+    }
+    return *this->Layers[index];
+  }
+
+  // Leaves so many of them.
+  void ReleaseLayers(std::size_t left, vtkWindow* window)
+  {
+    for (; this->Layers.size() > left; this->Layers.pop_back())
+    {
+      this->Layers.back()->ReleaseGraphicsResources(window);
+    }
+  }
 };
 
 vtkStandardNewMacro(vtkSurfaceSplatMapper);
@@ -116,8 +153,7 @@ void vtkSurfaceSplatMapper::ReleaseGraphicsResources(vtkWindow* window)
   // buffers are released in the inner call; after that there is nothing left to release.
   this->Superclass::ReleaseGraphicsResources(window);
   this->Internal->Buffers.ReleaseGraphicsResources(window);
-  this->Internal->FrontLayer.ReleaseGraphicsResources(window);
-  this->Internal->BackLayer.ReleaseGraphicsResources(window);
+  this->Internal->ReleaseLayers(0, window);
   this->Internal->Uploaded = {};
   this->Internal->CannotSplat = false; // another window may have another driver
 }
@@ -458,20 +494,17 @@ bool vtkSurfaceSplatMapper::DrawsSplats() const
 //------------------------------------------------------------------------------
 bool vtkSurfaceSplatMapper::DrawSplats(vtkRenderer* renderer, vtkActor* actor)
 {
-  // Far to near, for blending without depth peeling.
-  std::vector<vtkSurfaceSplatLayer*> layers = { &this->Internal->FrontLayer };
   const bool translucent = actor->IsRenderingTranslucentPolygonalGeometry() != 0;
-  if (translucent)
-  {
-    layers.insert(layers.begin(), &this->Internal->BackLayer);
-  }
   if (translucent != this->Internal->Translucent)
   {
     this->Internal->Translucent = translucent;
     this->ForgetShaders();
   }
-  // Nested sheets shine through each other: each has layers of its own, one after the other in the same
-  // textures.
+  if (!actor->HasTranslucentPolygonalGeometry())
+  {
+    this->Internal->ReleaseLayers(1, renderer->GetRenderWindow());
+  }
+  // Nested sheets shine through each other: each has layers of its own.
   const int allSheets = this->Internal->Buffers.GetNumberOfSheets();
   const int sheets = translucent && allSheets <= MaximumNumberOfLayeredSheets ? allSheets : 1;
   for (int sheet = 0; sheet < sheets; ++sheet)
@@ -481,8 +514,8 @@ bool vtkSurfaceSplatMapper::DrawSplats(vtkRenderer* renderer, vtkActor* actor)
     {
       drawing.Sheet = sheet;
     }
-    if (!std::all_of(layers.begin(), layers.end(),
-          [&](vtkSurfaceSplatLayer* layer) { return layer->Update(drawing); }))
+    SheetLayers& layers = this->Internal->LayersOf(sheet);
+    if ((translucent && !layers.Back.Update(drawing)) || !layers.Front.Update(drawing))
     {
       vtkWarningMacro("This graphics driver cannot draw into floating-point textures: the "
                       "particles are drawn as disks.");
@@ -491,10 +524,12 @@ bool vtkSurfaceSplatMapper::DrawSplats(vtkRenderer* renderer, vtkActor* actor)
       this->ForgetShaders();
       return false;
     }
-    for (vtkSurfaceSplatLayer* layer : layers)
+    // Far to near, for blending without depth peeling.
+    if (translucent)
     {
-      this->DrawLayer(*layer, renderer, actor);
+      this->DrawLayer(layers.Back, layers.Front, renderer, actor);
     }
+    this->DrawLayer(layers.Front, layers.Front, renderer, actor);
   }
   return true;
 }
@@ -521,17 +556,18 @@ vtkSurfaceSplatDrawing vtkSurfaceSplatMapper::DescribeDrawing(
 }
 
 //------------------------------------------------------------------------------
-void vtkSurfaceSplatMapper::DrawLayer(
-  vtkSurfaceSplatLayer& layer, vtkRenderer* renderer, vtkActor* actor)
+void vtkSurfaceSplatMapper::DrawLayer(vtkSurfaceSplatLayer& layer, vtkSurfaceSplatLayer& frontLayer,
+  vtkRenderer* renderer, vtkActor* actor)
 {
   Internals& internal = *this->Internal;
-  const bool front = &layer == &internal.FrontLayer;
-  internal.FrontLayer.Activate();
+  const bool front = &layer == &frontLayer;
+  frontLayer.Activate();
   if (!front)
   {
     layer.Activate();
   }
   internal.DrawnLayer = &layer;
+  internal.FrontLayer = &frontLayer;
   // Outlines are mixed with what was drawn before, which makes sense for pictures of opaque things.
   if (renderer->GetSelector() || internal.Translucent)
   {
@@ -545,8 +581,9 @@ void vtkSurfaceSplatMapper::DrawLayer(
     this->DrawFolds(renderer, actor);
   }
   internal.DrawnLayer = nullptr;
+  internal.FrontLayer = nullptr;
   layer.Deactivate();
-  internal.FrontLayer.Deactivate();
+  frontLayer.Deactivate();
 }
 
 //------------------------------------------------------------------------------
@@ -589,7 +626,8 @@ void vtkSurfaceSplatMapper::DrawPrimitives(vtkRenderer* renderer, vtkActor* acto
     vtkOpenGLState* state = WindowOf(renderer)->GetState();
     vtkOpenGLState::ScopedglEnableDisable cullFace(state, GL_CULL_FACE);
     state->vtkglDisable(GL_CULL_FACE);
-    const vtkIdType count = this->Internal->Drawing->GetNumberOfDrawnParticles();
+    const auto [first, end] = this->Internal->Drawing->GetDrawnRange();
+    const vtkIdType count = end - first;
     const bool points = this->Mode == Points;
     glDrawArrays(
       points ? GL_POINTS : GL_TRIANGLES, 0, static_cast<GLsizei>(points ? count : 3 * count));
@@ -702,7 +740,7 @@ void vtkSurfaceSplatMapper::SetMapperShaderParameters(
   {
     const double diameter = 2. * drawing.RadiusScale * this->Internal->Buffers.GetMeanRadius() *
       this->Internal->View.GetScale();
-    layer->SetSamplers(program, this->Internal->FrontLayer);
+    layer->SetSamplers(program, *this->Internal->FrontLayer);
     // Pixels with surface have at least twice this summed weight, others none (see the visibility pass).
     program->SetUniformf("splatLeastWeight",
       static_cast<float>(0.5 * vtkSurfaceSplatPrimitives::GetLeastWeight(this->Sharpness)));

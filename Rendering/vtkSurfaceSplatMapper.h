@@ -247,7 +247,8 @@ private:
 
   bool DrawsSplats() const;
   bool DrawSplats(vtkRenderer* renderer, vtkActor* actor);
-  void DrawLayer(vtkSurfaceSplatLayer& layer, vtkRenderer* renderer, vtkActor* actor);
+  void DrawLayer(vtkSurfaceSplatLayer& layer, vtkSurfaceSplatLayer& frontLayer,
+    vtkRenderer* renderer, vtkActor* actor);
   void DrawFolds(vtkRenderer* renderer, vtkActor* actor);
   void DrawResolved(int primitive, int tiles, vtkRenderer* renderer, vtkActor* actor);
   void ForgetShaders();
@@ -256,6 +257,7 @@ private:
   vtkSurfaceSplatShaders DescribeShaders(vtkActor* actor) const;
   int GetShiftedClippingPlanes(vtkActor* actor, float planes[6][4]);
 
+  struct SheetLayers;
   struct Internals; // what lives on the GPU
   std::unique_ptr<Internals> Internal;
 };

@@ -162,6 +162,25 @@ float TagOf(const vtkSurfaceSplatArrays& arrays, const vtkSurfaceSplatParticles&
   return tag;
 }
 
+// See vtkSurfaceSplatParticles::SheetRanges.
+std::vector<std::array<vtkIdType, 2>> RangesOf(
+  const vtkSurfaceSplatParticles& particles, std::size_t sheets)
+{
+  const vtkIdType count = particles.GetNumberOfParticles();
+  if (sheets == 1)
+  {
+    return { { 0, count } };
+  }
+  std::vector<std::array<vtkIdType, 2>> ranges(sheets, { count, 0 });
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    auto& [first, end] = ranges[static_cast<int>(particles.Normal[4 * i + 3]) / 2];
+    first = std::min(first, i);
+    end = i + 1;
+  }
+  return ranges;
+}
+
 // The different values that particles have in an array, in order of appearance; none if they are too many.
 std::vector<double> FindSheets(vtkDataArray* values, const std::vector<vtkIdType>& ids)
 {
@@ -244,7 +263,6 @@ vtkSurfaceSplatParticles vtkSurfaceSplatParticles::FromPolyData(
   particles.Shape.assign(shaped ? 8 * count : 0, 0.f);
   particles.Clip.assign(clipped ? 12 * count : 0, 0.f);
   const std::vector<double> sheets = FindSheets(arrays.Sheets, particles.PointIds);
-  particles.NumberOfSheets = std::max(1, static_cast<int>(sheets.size()));
   std::atomic<vtkIdType> skipped(0);
   vtkSMPTools::For(0, count,
     [&](vtkIdType begin, vtkIdType end)
@@ -272,6 +290,7 @@ vtkSurfaceSplatParticles vtkSurfaceSplatParticles::FromPolyData(
       }
     });
   particles.Skipped = skipped;
+  particles.SheetRanges = RangesOf(particles, std::max<std::size_t>(1, sheets.size()));
   if (shaped && IsStronglyBent(particles))
   {
     vtkSurfaceSplatFitShapes(particles);

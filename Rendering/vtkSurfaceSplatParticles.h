@@ -75,8 +75,12 @@ struct vtkSurfaceSplatParticles
   std::vector<float> Shape;
   std::vector<vtkIdType> PointIds; ///< 1 a particle: the point it was made from
   std::vector<vtkIdType> CellIds;  ///< 1 a particle: its vertex cell; empty without vertex cells
-  int NumberOfSheets = 1;          ///< told apart by vtkSurfaceSplatArrays::Sheets
-  vtkIdType Skipped = 0;           ///< particles that cannot be drawn
+  /**
+   * One for each sheet that vtkSurfaceSplatArrays::Sheets tells apart, at least one: all its particles are from
+   * the first to before the second. Those of others may be among them.
+   */
+  std::vector<std::array<vtkIdType, 2>> SheetRanges;
+  vtkIdType Skipped = 0; ///< particles that cannot be drawn
 
   /** More values than these, of which pixels hold the number in 7 bits, tell no sheets apart. */
   static constexpr int MaximumNumberOfSheets = 128;

@@ -135,19 +135,19 @@ vtkShaderProgram* vtkSurfaceSplatPrimitives::Use(
 //------------------------------------------------------------------------------
 void vtkSurfaceSplatPrimitives::Draw(const vtkSurfaceSplatDrawing& drawing)
 {
-  const vtkIdType count = drawing.GetNumberOfDrawnParticles();
+  const auto [begin, end] = drawing.GetDrawnRange();
   const bool points = drawing.DrawsPoints();
   const int corners = points ? 1 : 3;
   const bool software = IsDrawnInSoftware();
-  const vtkIdType piece = software ? SoftwarePiece : count;
+  const vtkIdType piece = software ? SoftwarePiece : std::max<vtkIdType>(end - begin, 1);
   SoftwareFlushes flushes;
   this->VertexArray->Bind(); // empty, but OpenGL wants one
-  for (vtkIdType first = 0; first < count; first += piece)
+  for (vtkIdType first = begin; first < end; first += piece)
   {
-    const vtkIdType size = std::min(piece, count - first);
+    const vtkIdType size = std::min(piece, end - first);
     glDrawArrays(points ? GL_POINTS : GL_TRIANGLES, static_cast<GLint>(corners * first),
       static_cast<GLsizei>(corners * size));
-    if (software && (first / piece + 1) % PiecesAFlush == 0)
+    if (software && ((first - begin) / piece + 1) % PiecesAFlush == 0)
     {
       flushes.Flush();
     }
