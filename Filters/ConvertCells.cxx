@@ -29,21 +29,22 @@ void addToRows(std::vector<double>& values, double factor, const std::vector<dou
 
 /// Coefficients that cannot be told from an isovalue take it: where the surface lies in a face of the element
 /// it would cross that to and fro by rounding errors.
-/// \param amplification of the nodal values' rounding errors
-void snapToIsovalues(std::vector<hop::Coefficient>& coefficients,
-  const std::vector<double>& isovalues, double amplification)
+/// \param amplification of the nodal values' rounding errors, as they were before the origin was subtracted
+void snapToIsovalues(
+  std::vector<hop::Coefficient>& coefficients, const FieldRange& range, double amplification)
 {
   const auto [lowest, highest] = std::minmax_element(coefficients.begin(), coefficients.end(),
     [](const hop::Coefficient& a, const hop::Coefficient& b) { return a.w < b.w; });
   constexpr double mostOfRange = 1e-8;
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * amplification *
-    std::max(std::abs(lowest->w), std::abs(highest->w));
+    std::max(std::abs(lowest->w + range.origin), std::abs(highest->w + range.origin));
   const double slack = std::min(rounding, mostOfRange * (highest->w - lowest->w));
   for (hop::Coefficient& c : coefficients)
   {
-    for (const double isovalue : isovalues)
+    for (const double isovalue : range.isovalues)
     {
-      c.w = std::abs(c.w - isovalue) <= slack ? isovalue : c.w;
+      const double value = isovalue - range.origin;
+      c.w = std::abs(c.w - value) <= slack ? value : c.w;
     }
   }
 }
@@ -118,12 +119,15 @@ hop::JacobianSign jacobianSign(const CellBasis& cell, const hop::BernsteinForm& 
 }
 
 /// Writes the coefficients of one element.
-hop::JacobianSign convert(const InputBlocks& blocks, const CellBasis& cell,
-  const std::vector<double>& isovalues, const hop::Element& element, hop::ElementMesh& mesh,
-  CellValues& values)
+hop::JacobianSign convert(const InputBlocks& blocks, const CellBasis& cell, const FieldRange& range,
+  const hop::Element& element, hop::ElementMesh& mesh, CellValues& values)
 {
   const BlockCell where = blocks.locate(element.cell);
   readCell(blocks, where, cell, values);
+  for (double& value : values.field)
+  {
+    value -= range.origin;
+  }
   const int width = 3 + values.components;
   const std::vector<double> control =
     controlRows(cell, nodalRows(blocks[where.block].grid, cell.basis.nodeCount(), values), width);
@@ -142,7 +146,7 @@ hop::JacobianSign convert(const InputBlocks& blocks, const CellBasis& cell,
   {
     if (!element.rational)
     {
-      snapToIsovalues(plain, isovalues, cell.basis.conversionNorm());
+      snapToIsovalues(plain, range, cell.basis.conversionNorm());
     }
     std::copy(plain.begin(), plain.end(), coefficients);
   }
@@ -156,8 +160,8 @@ hop::JacobianSign convert(const InputBlocks& blocks, const CellBasis& cell,
 } // namespace
 
 std::vector<hop::JacobianSign> convertCells(const InputBlocks& blocks,
-  const std::vector<const CellBasis*>& bases, const std::vector<double>& isovalues,
-  hop::ElementMesh& mesh, const hop::ParallelFor& parallelFor)
+  const std::vector<const CellBasis*>& bases, const FieldRange& range, hop::ElementMesh& mesh,
+  const hop::ParallelFor& parallelFor)
 {
   std::vector<hop::JacobianSign> signs(mesh.elements.size());
   hop::runParallel(parallelFor, static_cast<std::ptrdiff_t>(signs.size()),
@@ -166,7 +170,7 @@ std::vector<hop::JacobianSign> convertCells(const InputBlocks& blocks,
       CellValues values;
       for (std::ptrdiff_t e = begin; e < end; ++e)
       {
-        signs[e] = convert(blocks, *bases[e], isovalues, mesh.elements[e], mesh, values);
+        signs[e] = convert(blocks, *bases[e], range, mesh.elements[e], mesh, values);
       }
     });
   return signs;

@@ -6,7 +6,11 @@
 #include "JudgeCells.h"
 #include "KeepMarked.h"
 
+#include "vtkDataArray.h"
+
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <set>
 
 namespace
@@ -26,6 +30,23 @@ struct Room
     this->anyRational = this->anyRational || other.anyRational;
   }
 };
+
+/// See GridElements::origin: the middle of all values where they differ little, whatever the isovalues.
+double originOf(const InputBlocks& blocks)
+{
+  constexpr double little = 1e-3;
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -lowest;
+  for (std::size_t b = 0; b < blocks.size() && !blocks.isMagnitude(); ++b)
+  {
+    double range[2];
+    blocks[b].scalars->GetFiniteRange(range, blocks.component());
+    lowest = std::min(lowest, range[0]);
+    highest = std::max(highest, range[1]);
+  }
+  const double middle = 0.5 * lowest + 0.5 * highest;
+  return lowest <= highest && highest - lowest < little * std::abs(middle) ? middle : 0.0;
+}
 
 using Corners = decltype(hop::Element::corners);
 
@@ -48,6 +69,7 @@ public:
     , Reached(reached)
   {
     this->Result.squared = blocks.isMagnitude();
+    this->Result.origin = originOf(blocks);
     this->Result.kinds = std::make_unique<CellBases>(spacing);
     this->Result.census.resize(blocks.size());
   }
@@ -76,8 +98,8 @@ GridElements Builder::build()
   this->makeElements(
     judgeCells(this->Blocks, this->Isovalues, *this->Result.kinds, this->Parallel));
   this->Reached(0.2);
-  const std::vector<hop::JacobianSign> signs =
-    convertCells(this->Blocks, this->Result.bases, this->Isovalues, mesh, this->Parallel);
+  const std::vector<hop::JacobianSign> signs = convertCells(this->Blocks, this->Result.bases,
+    { this->Isovalues, this->Result.origin }, mesh, this->Parallel);
   this->Reached(0.3);
   this->dropCollapsed(signs);
   std::vector<double> tolerances = hop::cornerTolerances(mesh, this->Parallel);

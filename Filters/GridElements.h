@@ -23,6 +23,8 @@ struct GridElements
   /// Whether the mesh's field is the square of the chosen scalar: the magnitude of a vector is no
   /// polynomial, its square is, and |v| = c where |v|^2 = c^2.
   bool squared = false;
+  /// What is subtracted from the chosen scalar where it is large and changes little, as rounding would hide that.
+  double origin = 0.0;
   /// One a block.
   std::vector<CellCensus> census;
 
@@ -33,7 +35,7 @@ struct GridElements
   /// \pre canBe(isovalue)
   double fieldIsovalue(double isovalue) const
   {
-    return this->squared ? isovalue * isovalue : isovalue;
+    return this->squared ? isovalue * isovalue : isovalue - this->origin;
   }
 };
 

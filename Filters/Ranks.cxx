@@ -149,6 +149,11 @@ vtkBoundingBox overAllRanks(const vtkBoundingBox& local)
     globalLower[0], globalUpper[0], globalLower[1], globalUpper[1], globalLower[2], globalUpper[2]);
 }
 
+bool isOneOfRanks()
+{
+  return controllerOfRanks() != nullptr;
+}
+
 std::size_t largestOfRanks(std::size_t local)
 {
   const std::vector<double> all = gather({ static_cast<double>(local) })[0];
@@ -164,17 +169,14 @@ std::vector<RankShare> shareOutToRanks(
   std::int64_t number, std::size_t surfaces, double firstSpacing, const WantedAt& wanted)
 {
   vtkMultiProcessController* controller = controllerOfRanks();
-  if (!controller)
-  {
-    return std::vector<RankShare>(surfaces, { number, 0.0 });
-  }
   const std::vector<CommonSpacing> found = findSpacings(number, surfaces, firstSpacing, wanted);
   std::vector<RankShare> shares;
   for (const CommonSpacing& surface : found)
   {
     const double all = sum(surface.ofRanks);
     const double perWanted = all > 0.0 ? static_cast<double>(number) / all : 0.0;
-    const std::int64_t owned = split(number, surface.ofRanks)[controller->GetLocalProcessId()];
+    const std::int64_t owned =
+      split(number, surface.ofRanks)[controller ? controller->GetLocalProcessId() : 0];
     shares.push_back({ owned + std::llround(perWanted * surface.here.ghosts), surface.spacing });
   }
   return shares;

@@ -33,10 +33,12 @@ struct RankShare
 {
   /// With those in ghost cells.
   std::int64_t count = 0;
-  /// The same on all ranks: at this spacing they want as many together as are asked for; 0 where there is but
-  /// one rank.
+  /// The same on all ranks: at this spacing they want as many together as are asked for; 0 if it is not known.
   double spacing = 0.0;
 };
+
+/// Whether there are other ranks.
+bool isOneOfRanks();
 
 /// Shares out a number of particles of each of some isosurfaces so that they stand as dense on all ranks:
 /// to each rank the part that it wants of what all want at the same spacing, rounded by largest remainders, so

@@ -55,12 +55,13 @@ std::string describeError(const hop::DistributionReport& report, std::int64_t nu
 std::string describeUnresolved(const InputBlocks& blocks, const hop::DistributionReport& report)
 {
   std::ostringstream text;
-  text << "in " << report.unresolvedCells.size()
-       << " cells (first: " << blocks.describe(report.unresolvedCells.front())
-       << "; all: field data 'UnresolvedCellIds') " << report.boxesUnresolved
-       << " small parts are not proven to hold at most one sheet of the "
-       << "surface; what lies between the particles there may be missing. Singular points found on "
-       << "the surface: " << report.singularPoints << ".";
+  text
+    << "in " << report.unresolvedCells.size()
+    << " cells (first: " << blocks.describe(report.unresolvedCells.front())
+    << "; all: field data 'UnresolvedCellIds') " << report.boxesUnresolved
+    << " parts are not proven to hold at most one sheet of the surface; of the surface there some "
+    << "may be missing, or all where sheets of it nearly coincide. Singular points found on it: "
+    << report.singularPoints << ".";
   return text.str();
 }
 

@@ -439,14 +439,19 @@ void vtkHighOrderParticleIsosurface::UnlessAborted(const InputBlocks& blocks, co
   }
 }
 
-/// How many particles of each isovalue this rank is to give, if their number is given.
+/// How many particles of each isovalue this rank is to give, if their number is given; those in ghost cells, which
+/// are not kept, are more.
 std::vector<RankShare> vtkHighOrderParticleIsosurface::ShareOut(
   const InputBlocks& blocks, const GridElements& elements, const Scale& scale, const Work& work)
 {
   const std::vector<double> isovalues = this->DistinctIsovalues();
   std::vector<RankShare> shares(isovalues.size(), { this->NumberOfParticles, 0.0 });
+  const auto isGhost = [&](const hop::Element& element)
+  { return blocks.isGhost(blocks.locate(element.cell)); };
+  const std::vector<hop::Element>& all = elements.mesh.elements;
+  const bool isShared = isOneOfRanks() || std::any_of(all.begin(), all.end(), isGhost);
   // More than all ranks hold is refused by each of them when it is asked for.
-  if (this->NumberOfParticles > 0 &&
+  if (isShared && this->NumberOfParticles > 0 &&
     static_cast<double>(this->NumberOfParticles) <=
       sumOfRanks(static_cast<double>(particlesThatFit())))
   {

@@ -260,7 +260,10 @@ std::optional<LocatedPlace> FaceLocator::locateIn(
     const double aside = length(rest - (across / slope) * inward);
     const double miss = std::max(length(rest), std::max(0.0, faceMargin(face, u)) / slope);
     const double slack = rounding * to.bounds.diagonal();
-    const bool behind = miss <= tolerance + slack && aside <= std::abs(across) + slack;
+    // What is nearer to the far side of a thin element is beyond that: its faces may look away from each other.
+    const bool isNearFace = faceMargin(face, u) <= 0.5;
+    const bool behind =
+      isNearFace && miss <= tolerance + slack && aside <= std::abs(across) + slack;
     return behind ? std::optional<LocatedPlace>({ { to.element, u }, to.face, miss })
                   : std::nullopt;
   }

@@ -61,7 +61,8 @@ bool Finish::settle(int i, const Location& place, const Jet& jet)
   const FieldPoint point = fieldPoint(jet, surface.isovalue);
   const double slope = length(point.gradient);
   const double residual = std::abs(point.value) / slope;
-  if (point.map.singular || !(residual <= surface.tolerance) || !isNearInReference(point))
+  if (point.map.singular || !std::isfinite(residual) ||
+    !surface.holds(point, this->Moving.patches()[i].spacing) || !isNearInReference(point))
   {
     return false;
   }

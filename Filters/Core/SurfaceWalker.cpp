@@ -238,11 +238,6 @@ bool SurfaceWalker::project(
   const Location& start, double maximumTravel, Evaluated& result, bool keepWall)
 {
   Evaluated at = this->evaluate(start);
-  // What rounding leaves of F - c, however small the tolerance; nothing is on a surface for it where
-  // the gradient itself is rounding.
-  const double noise =
-    16.0 * std::numeric_limits<double>::epsilon() * std::abs(this->Surface.isovalue);
-  constexpr double farFromNoise = 1e-6;
   double travel = 0.0;
   bool alongWall = keepWall;
   for (int step = 0; step < MaximumNewtonSteps; ++step)
@@ -252,9 +247,7 @@ bool SurfaceWalker::project(
     {
       return false;
     }
-    const double floor = noise < farFromNoise * maximumTravel * slope ? noise : 0.0;
-    if (std::abs(at.point.value) <= std::max(this->Surface.tolerance * slope, floor) &&
-      isNearInReference(at.point))
+    if (this->Surface.holds(at.point, maximumTravel) && isNearInReference(at.point))
     {
       result = at;
       return true;

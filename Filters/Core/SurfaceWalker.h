@@ -25,6 +25,18 @@ struct Isosurface
   /// As if the surface ended at every face at which it might.
   bool walled = false;
 
+  /// Whether a place lies on the surface: to the tolerance, or to what rounding leaves of F - c, however small the
+  /// tolerance. Nothing is on a surface for rounding where the gradient itself is no more.
+  /// \param reach world length that rounding has to be small beside
+  bool holds(const FieldPoint& point, double reach) const
+  {
+    constexpr double farFromNoise = 1e-4;
+    const double noise = 16.0 * std::numeric_limits<double>::epsilon() * std::abs(this->isovalue);
+    const double slope = length(point.gradient);
+    const double floor = noise < farFromNoise * reach * slope ? noise : 0.0;
+    return std::abs(point.value) <= std::max(this->tolerance * slope, floor);
+  }
+
   Isosurface withWalls() const
   {
     Isosurface result = *this;

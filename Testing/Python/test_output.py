@@ -447,6 +447,15 @@ def test_ghost_cells_own_no_particles(data):
     assert "vtkGhostType" not in support.array_names(half.GetPointData()) | support.array_names(half.GetCellData())
 
 
+@pytest.mark.parametrize("method", ["Fast", "Classic"])
+def test_a_given_number_is_that_of_particles_outside_ghost_cells(data, method):
+    grid = support.output_of(support.read(data("mfem_amr_hanging_hex_p3.vtu")))
+    ghost = support.middles_of(grid)[:, 0] > 0.1
+    support.add_cell_array(grid, "vtkGhostType", ghost.astype(np.uint8))
+    particles = support.run_quietly(grid, "u", 0.0, NumberOfParticles=1000, AngularDensity=0, Method=method)
+    assert abs(particles.GetNumberOfPoints() - 1000) < 40
+
+
 @pytest.mark.parametrize("kind, owned", [(2, True), (4, True), (8, False), (16, True), (32, False)])
 def test_of_all_that_ghost_types_say_only_some_make_ghosts(data, kind, owned):
     """High and low connectivity, refined, exterior and hidden cells."""
