@@ -9,10 +9,13 @@
 #include "SplatScene.h"
 
 #include "vtkActor.h"
+#include "vtkAppendPolyData.h"
 #include "vtkDataObject.h"
+#include "vtkDoubleArray.h"
 #include "vtkHardwareSelector.h"
 #include "vtkIdTypeArray.h"
 #include "vtkPlaneSource.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
@@ -172,6 +175,45 @@ int CountDifferent(const SplatScene& a, const SplatScene& b)
 }
 
 // From picture to picture the surface fills less of the window, or another part of it.
+// Depth peeling draws an actor several times a picture.
+TEST(SplatState, TranslucentIsosurfacesAreSplattedOnceAPicture)
+{
+  constexpr int count = 20000;
+  constexpr int sheets = 3;
+  vtkNew<vtkAppendPolyData> all;
+  for (int sheet = 1; sheet <= sheets; ++sheet)
+  {
+    const double radius = sheet / static_cast<double>(sheets);
+    const auto sphere = FibonacciSphere(count, radius, radius * Spacing);
+    vtkNew<vtkDoubleArray> isovalues;
+    isovalues->SetName("Isovalue");
+    isovalues->SetNumberOfTuples(count);
+    isovalues->Fill(radius);
+    sphere->GetPointData()->AddArray(isovalues);
+    all->AddInputData(sphere);
+  }
+  all->Update();
+  SplatScene scene(all->GetOutput());
+  scene.Mapper->SetModeToSplats();
+  scene.Actor->GetProperty()->SetOpacity(0.3);
+  scene.Renderer->SetUseDepthPeeling(true);
+  scene.Renderer->SetMaximumNumberOfPeels(8);
+  scene.Render();
+
+  scene.LookFrom({ 1., 2., 3. }, false);
+  GLuint query = 0;
+  GLuint primitives = 0;
+  glGenQueries(1, &query);
+  glBeginQuery(GL_PRIMITIVES_GENERATED, query);
+  scene.Window->Render();
+  glEndQuery(GL_PRIMITIVES_GENERATED);
+  glGetQueryObjectuiv(query, GL_QUERY_RESULT, &primitives);
+  glDeleteQueries(1, &query);
+  // Two passes for each of two layers, and tiles of the picture each time.
+  EXPECT_GE(primitives, GLuint{ 4 * sheets * count });
+  EXPECT_LT(primitives, GLuint{ 5 * sheets * count });
+}
+
 TEST(SplatState, NothingIsLeftOfThePictureBefore)
 {
   const auto look = [](SplatScene& scene, int picture)
