@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <map>
 #include <mutex>
@@ -28,7 +27,7 @@ namespace
 /// Blocks in ascending order.
 using Members = std::vector<std::size_t>;
 
-/// Where a cell of a block is: the sum of its first points, which are its corners. Copies of a grid
+/// Where a cell of a block is: the mean of its first points, which are its corners. Copies of a grid
 /// agree in it to the last bit, and no two cells of one sound grid do.
 struct PlacedCell
 {
@@ -78,7 +77,8 @@ public:
 
 private:
   std::vector<PlacedCell> placeCells() const;
-  void addPlaced(const BlockCell& where, vtkIdList* room, std::vector<PlacedCell>& cells) const;
+  std::array<double, 3> middleOf(const BlockCell& where, vtkIdList* room) const;
+  bool othersReach(std::size_t block, const std::array<double, 3>& place) const;
 
   const InputBlocks& Blocks;
   const hop::ParallelFor& Parallel;
@@ -108,9 +108,8 @@ SharedCells::SharedCells(const InputBlocks& blocks, const hop::ParallelFor& para
   }
 }
 
-/// Adds a cell if its points are there and others may have it: if its middle is where they are.
-void SharedCells::addPlaced(
-  const BlockCell& where, vtkIdList* room, std::vector<PlacedCell>& cells) const
+/// The mean of a cell's corners; no number where there are none or one is missing.
+std::array<double, 3> SharedCells::middleOf(const BlockCell& where, vtkIdList* room) const
 {
   constexpr vtkIdType mostCorners = 8;
   vtkUnstructuredGrid* grid = this->Blocks[where.block].grid;
@@ -118,30 +117,32 @@ void SharedCells::addPlaced(
   const vtkIdType* ids = nullptr;
   cellPoints(grid->GetCells(), where.cell, count, ids, room);
   count = std::min(count, mostCorners);
-  PlacedCell cell{ {}, where.block };
+  constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
+  std::array<double, 3> middle;
+  middle.fill(count > 0 ? 0.0 : nowhere);
   for (vtkIdType i = 0; i < count; ++i)
   {
     double x[3];
-    std::fill_n(x, 3, std::numeric_limits<double>::quiet_NaN());
+    std::fill_n(x, 3, nowhere);
     if (ids[i] >= 0 && ids[i] < grid->GetNumberOfPoints())
     {
       grid->GetPoint(ids[i], x);
     }
-    std::transform(cell.place.begin(), cell.place.end(), x, cell.place.begin(), std::plus<>());
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      middle[axis] += x[axis] / static_cast<double>(count);
+    }
   }
-  std::array<double, 3> middle = cell.place;
-  for (double& x : middle)
-  {
-    x /= static_cast<double>(count);
-  }
-  const std::vector<vtkBoundingBox>& others = this->Others[where.block];
-  const auto holdsMiddle = [&](const vtkBoundingBox& box)
-  { return box.ContainsPoint(middle.data()) != 0; };
-  if (std::all_of(middle.begin(), middle.end(), [](double x) { return std::isfinite(x); }) &&
-    std::any_of(others.begin(), others.end(), holdsMiddle))
-  {
-    cells.push_back(cell);
-  }
+  return middle;
+}
+
+/// Whether other blocks are where a cell of one of them is.
+bool SharedCells::othersReach(std::size_t block, const std::array<double, 3>& place) const
+{
+  const std::vector<vtkBoundingBox>& others = this->Others[block];
+  return std::all_of(place.begin(), place.end(), [](double x) { return std::isfinite(x); }) &&
+    std::any_of(others.begin(), others.end(),
+      [&](const vtkBoundingBox& box) { return box.ContainsPoint(place.data()) != 0; });
 }
 
 /// Cells with a volume that their block owns, in any order.
@@ -162,7 +163,11 @@ std::vector<PlacedCell> SharedCells::placeCells() const
           !isGhostCell(this->Ghosts[where.block], where.cell) &&
           solid.contains(this->Blocks[where.block].grid->GetCellType(where.cell)))
         {
-          this->addPlaced(where, room, found);
+          const PlacedCell cell{ this->middleOf(where, room), where.block };
+          if (this->othersReach(cell.block, cell.place))
+          {
+            found.push_back(cell);
+          }
         }
       }
       const std::lock_guard<std::mutex> lock(access);

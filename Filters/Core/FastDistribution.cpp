@@ -18,8 +18,6 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
-#include <iterator>
-#include <numeric>
 #include <utility>
 
 namespace hop

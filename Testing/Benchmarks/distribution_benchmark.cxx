@@ -200,6 +200,13 @@ std::vector<glm::dvec3> probesOf(const Stages& stages)
   return probes;
 }
 
+/// Whether the surface neither ends nor turns where its splat reaches.
+bool isAwayFromEdges(const hop::Particle& particle)
+{
+  return std::none_of(particle.clips.begin(), particle.clips.end(),
+    [](const hop::ClipPlane& plane) { return plane.exists(); });
+}
+
 void addQuality(const Request& request, const Stages& stages, Record& record)
 {
   const hop::Buffer<hop::Particle>& particles = stages.distribution.particles;
@@ -221,6 +228,9 @@ void addQuality(const Request& request, const Stages& stages, Record& record)
   record.add("mean_min_angle", evenness.meanMinAngle);
   record.add("worst_min_angle", evenness.worstMinAngle);
   record.add("open_stars", static_cast<double>(evenness.openStars));
+  const Evenness smooth = hop::testing::measureEvenness(particles, isAwayFromEdges);
+  record.add("min_spacing_smooth", smooth.minSpacing);
+  record.add("variation_smooth", smooth.variation);
   if (particles.size() <= mostParticlesWithProbes)
   {
     record.add("coverage", hop::testing::coverageRadius(particles, probesOf(stages)));

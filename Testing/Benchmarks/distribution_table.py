@@ -7,8 +7,9 @@ Every FOLDER (default: Testing/Data) is searched for the files of solvers named 
 said. Each measurement is a process of its own. Wall times on one and two threads, and processor time of
 the run on one thread, from the VTK grid to the VTK polydata, the best of the repetitions; on a machine
 that does other work the processor time is the one to compare. Stages are those of one run on two
-threads, in processor time; isolation (to boxes of six spacings) is part of the distribution. 'sampled' cuts
-every element that can hold surface into so many linear cells, and contours these in threads.
+threads, in processor time; isolation (to boxes of six spacings) is part of the distribution. 'smooth' are
+those particles alone whose splats reach no rim and no kink. 'sampled' cuts every element that can hold
+surface into so many linear cells, and contours these in threads.
 """
 
 import argparse
@@ -60,6 +61,8 @@ COST = (
 QUALITY = (
     ("min spacing", "{:.2f}", lambda r: r["min_spacing"]),
     ("variation", "{:.3f}", lambda r: r["variation"]),
+    ("min spacing, smooth", "{:.2f}", lambda r: r["min_spacing_smooth"]),
+    ("variation, smooth", "{:.3f}", lambda r: r["variation_smooth"]),
     ("coverage", "{:.2f}", lambda r: r["coverage"]),
     ("circumradius", "{:.2f}", lambda r: r["circumradius"]),
     ("six-valent", "{:.3f}", lambda r: r["six_valent"]),

@@ -34,6 +34,7 @@ struct Worst
   {
     this->Figures.IntersectionOverUnion = 1.;
     this->Figures.DepthShare = 1.;
+    this->Figures.OffsetShare = 1.;
     this->Figures.NormalShare = 1.;
     this->Figures.PeakSignalToNoise = std::numeric_limits<double>::infinity();
   }
@@ -44,6 +45,7 @@ struct Worst
     f.IntersectionOverUnion = std::min(f.IntersectionOverUnion, view.IntersectionOverUnion);
     f.DepthShare = std::min(f.DepthShare, view.DepthShare);
     f.Depth99 = std::max(f.Depth99, view.Depth99);
+    f.OffsetShare = std::min(f.OffsetShare, view.OffsetShare);
     f.NormalShare = std::min(f.NormalShare, view.NormalShare);
     f.Normal99 = std::max(f.Normal99, view.Normal99);
     f.PeakSignalToNoise = std::min(f.PeakSignalToNoise, view.PeakSignalToNoise);
@@ -53,9 +55,9 @@ struct Worst
 
 void Print(const std::string& name, const char* what, long long points, const PictureFigures& f)
 {
-  std::printf("| %s | %s | %lld | %.4f | %.2f%% | %.4f | %.2f%% | %.2f | %.1f | %d |\n",
+  std::printf("| %s | %s | %lld | %.4f | %.2f%% | %.4f | %.2f%% | %.2f%% | %.2f | %.1f | %d |\n",
     name.c_str(), what, points, f.IntersectionOverUnion, 100. * f.DepthShare, f.Depth99,
-    100. * f.NormalShare, f.Normal99, f.PeakSignalToNoise, f.Holes);
+    100. * f.OffsetShare, 100. * f.NormalShare, f.Normal99, f.PeakSignalToNoise, f.Holes);
   std::fflush(stdout);
 }
 
@@ -132,9 +134,10 @@ int main(int argc, char* argv[])
       names.push_back(argument);
     }
   }
-  std::printf(
-    "| case | drawn | points | silhouette IoU | depth <= 0.02 h | depth 99%% (h) | normal <= 2 "
-    "deg | normal 99%% (deg) | PSNR (dB) | holes |\n|---|---|---|---|---|---|---|---|---|---|\n");
+  std::printf("| case | drawn | points | silhouette IoU | depth <= 0.02 h | depth 99%% (h) | off "
+              "by <= 0.02 h | "
+              "normal <= 2 deg | normal 99%% (deg) | PSNR (dB) | holes "
+              "|\n|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const std::string& name : names.empty() ? SurfaceCaseNames() : names)
   {
     Measure(name, spacing, size, pictures);

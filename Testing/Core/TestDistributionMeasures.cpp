@@ -142,6 +142,23 @@ TEST(DistributionMeasures, MissingParticleLeavesAHole)
   EXPECT_NEAR(coverageRadius(particles, { middle.position.xyz }), 1.0, 1e-12);
 }
 
+TEST(DistributionMeasures, ParticlesThatDoNotCountAreNeighborsStill)
+{
+  // Two that are too near to each other, in the middle.
+  Buffer<Particle> particles = hexagonalLattice(6, 1.0, 1.0);
+  const glm::dvec3 middle = particles.front().position.xyz;
+  particles.push_back(
+    particleAt(0.3 * particles[1].position.xyz, particles.front().normal.xyz, 1.0));
+  const auto isOutOfTheMiddle = [&](const Particle& p)
+  { return glm::distance(p.position.xyz, middle) > 2.5; };
+  const Evenness outside = measureEvenness(particles, isOutOfTheMiddle);
+  EXPECT_NEAR(measureEvenness(particles).minSpacing, 0.3, 1e-12);
+  EXPECT_NEAR(outside.minSpacing, 1.0, 1e-12);
+  EXPECT_EQ(outside.sixValentShare, 1.0);
+  EXPECT_EQ(outside.openStars, 6u * 6u);
+  EXPECT_EQ(measureEvenness(particles, [](const Particle&) { return false; }).openStars, 0u);
+}
+
 TEST(DistributionMeasures, WideHoleOpensStars)
 {
   Buffer<Particle> particles = hexagonalLattice(6, 1.0, 1.0);

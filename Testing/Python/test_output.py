@@ -610,7 +610,8 @@ def test_cells_of_uneven_degrees_join_where_they_meet(kind):
 
 
 @pytest.mark.parametrize(
-    "cell_type", ["Tet", "Hex", "Wedge", "Quadratic Tet", "Lagrange Tetrahedron", "Lagrange Hexahedron", "Lagrange Wedge"]
+    "cell_type",
+    ["Tet", "Hex", "Wedge", "Quadratic Tet", "Lagrange Tetrahedron", "Lagrange Hexahedron", "Lagrange Wedge"],
 )
 def test_paraviews_own_source_of_cells(cell_type):
     """An independent maker of cells, many to a side; its field is roughly the distance to (2, 2, 2)."""

@@ -207,6 +207,7 @@ PictureFigures Compare(const SurfacePicture& drawn, const SurfacePicture& refere
 {
   PictureFigures figures;
   std::vector<double> depthErrors;
+  std::vector<double> offsets;
   std::vector<double> normalErrors;
   int either = 0;
   double squares = 0.;
@@ -219,6 +220,8 @@ PictureFigures Compare(const SurfacePicture& drawn, const SurfacePicture& refere
     if (a.covered() && b.covered())
     {
       depthErrors.push_back(std::abs(a.depth - b.depth) / spacing);
+      const glm::dvec3 ray = camera.ray(i % camera.size + 0.5, i / camera.size + 0.5).direction;
+      offsets.push_back(depthErrors.back() * std::abs(glm::dot(ray, b.normal)));
       normalErrors.push_back(
         glm::degrees(std::acos(std::clamp(glm::dot(a.normal, b.normal), -1., 1.))));
     }
@@ -228,6 +231,7 @@ PictureFigures Compare(const SurfacePicture& drawn, const SurfacePicture& refere
   figures.IntersectionOverUnion = either ? static_cast<double>(depthErrors.size()) / either : 1.;
   figures.DepthShare = ShareUpTo(depthErrors, DepthTarget);
   figures.Depth99 = Percentile99(depthErrors);
+  figures.OffsetShare = ShareUpTo(offsets, DepthTarget);
   figures.NormalShare = ShareUpTo(normalErrors, NormalTarget);
   figures.Normal99 = Percentile99(normalErrors);
   figures.PeakSignalToNoise = 10. * std::log10(camera.size * camera.size / squares);

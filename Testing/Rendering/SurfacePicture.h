@@ -33,6 +33,9 @@ struct PictureFigures
   // percentile in spacings.
   double DepthShare = 0.;
   double Depth99 = 0.;
+  // Share of them that lie at most 0.02 spacings off the surface, measured along its normal: depth grows without
+  // bounds where a surface is seen edge-on.
+  double OffsetShare = 0.;
   // Share with a normal error of at most 2 degrees, and the 99th percentile in degrees.
   double NormalShare = 0.;
   double Normal99 = 0.;

@@ -1,5 +1,6 @@
 #include "DistributionMeasures.h"
 
+#include "KeepMarked.h"
 #include "PointGrid.h"
 
 #include <algorithm>
@@ -262,17 +263,23 @@ std::vector<Star> delaunayStars(const Buffer<Particle>& particles)
   return stars;
 }
 
-Evenness measureEvenness(const Buffer<Particle>& particles)
+Evenness measureEvenness(
+  const Buffer<Particle>& particles, const std::function<bool(const Particle&)>& counts)
 {
-  if (particles.size() < 2)
+  std::vector<double> nearest = nearestSpacings(particles);
+  std::vector<Star> stars = delaunayStars(particles);
+  std::vector<char> kept(particles.size());
+  std::transform(particles.begin(), particles.end(), kept.begin(), counts);
+  keepMarked(nearest, kept);
+  keepMarked(stars, kept);
+  if (particles.size() < 2 || nearest.empty())
   {
     return {};
   }
   Evenness evenness;
-  const std::vector<double> nearest = nearestSpacings(particles);
   evenness.minSpacing = *std::min_element(nearest.begin(), nearest.end());
   evenness.variation = variationOf(nearest);
-  addStars(delaunayStars(particles), evenness);
+  addStars(stars, evenness);
   return evenness;
 }
 

@@ -4,6 +4,7 @@
 
 #include <glm/glm.hpp>
 
+#include <functional>
 #include <vector>
 
 namespace hop::testing
@@ -40,7 +41,7 @@ std::vector<Star> delaunayStars(const Buffer<Particle>& particles);
 /// How even particles stand. In parentheses: hexagonal packing.
 struct Evenness
 {
-  /// Over all particles: least distance to the nearest (nearestSpacings, 1), and the standard
+  /// Over all particles that count: least distance to the nearest (nearestSpacings, 1), and the standard
   /// deviation of that distance over its mean, lonely ones left out (0).
   double minSpacing = 0.0;
   double variation = 0.0;
@@ -55,7 +56,10 @@ struct Evenness
 };
 
 /// All zero for fewer than two particles.
-Evenness measureEvenness(const Buffer<Particle>& particles);
+/// \param counts which of them do; the others are neighbours only. Leave it out for all.
+Evenness measureEvenness(
+  const Buffer<Particle>& particles,
+  const std::function<bool(const Particle&)>& counts = [](const Particle&) { return true; });
 
 /// Largest distance from a probe on the surface to a particle, whichever way that one is turned, in units of
 /// the particle's spacing: of that to which it is least (1/sqrt(3) in hexagonal packing). Infinite without
