@@ -200,11 +200,13 @@ std::vector<glm::dvec3> probesOf(const Stages& stages)
   return probes;
 }
 
-/// Whether the surface neither ends nor turns where its splat reaches.
-bool isAwayFromEdges(const hop::Particle& particle)
+/// Whether the surface neither ends nor turns where its splat reaches, and bends little over one spacing.
+bool isOnSmoothSurface(const hop::Particle& particle)
 {
-  return std::none_of(particle.clips.begin(), particle.clips.end(),
-    [](const hop::ClipPlane& plane) { return plane.exists(); });
+  constexpr double mostRadians = 0.5;
+  return particle.curvature.magnitude * particle.spacing <= mostRadians &&
+    std::none_of(particle.clips.begin(), particle.clips.end(),
+      [](const hop::ClipPlane& plane) { return plane.exists(); });
 }
 
 void addQuality(const Request& request, const Stages& stages, Record& record)
@@ -228,7 +230,7 @@ void addQuality(const Request& request, const Stages& stages, Record& record)
   record.add("mean_min_angle", evenness.meanMinAngle);
   record.add("worst_min_angle", evenness.worstMinAngle);
   record.add("open_stars", static_cast<double>(evenness.openStars));
-  const Evenness smooth = hop::testing::measureEvenness(particles, isAwayFromEdges);
+  const Evenness smooth = hop::testing::measureEvenness(particles, isOnSmoothSurface);
   record.add("min_spacing_smooth", smooth.minSpacing);
   record.add("variation_smooth", smooth.variation);
   if (particles.size() <= mostParticlesWithProbes)

@@ -125,6 +125,9 @@ TEST(DistributionMeasures, VariationIsThatOfNearestDistances)
   EXPECT_NEAR(evenness.variation, 1.0 / 3.0, 1e-12);
   EXPECT_EQ(evenness.openStars, particles.size());
   EXPECT_EQ(evenness.sixValentShare, 0.0);
+  // One that stands alone does not count.
+  particles.push_back(particleAt({ -10.0, 0, 0 }, { 0, 0, 1 }, 1.0));
+  EXPECT_NEAR(measureEvenness(particles).variation, 1.0 / 3.0, 1e-12);
 }
 
 TEST(DistributionMeasures, MissingParticleLeavesAHole)

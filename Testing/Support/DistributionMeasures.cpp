@@ -178,13 +178,14 @@ Star starOf(const Buffer<Particle>& particles, const PointGrid& grid, std::size_
   return star;
 }
 
-/// Standard deviation over mean, of the finite ones.
-double variationOf(const std::vector<double>& values)
+/// Standard deviation over mean, without those of particles that stand alone.
+double variationOf(const std::vector<double>& nearest)
 {
+  constexpr double alone = 2.0;
   double count = 0.0, sum = 0.0, squares = 0.0;
-  for (const double value : values)
+  for (const double value : nearest)
   {
-    if (std::isfinite(value))
+    if (value <= alone)
     {
       count += 1.0;
       sum += value;

@@ -42,7 +42,7 @@ std::vector<Star> delaunayStars(const Buffer<Particle>& particles);
 struct Evenness
 {
   /// Over all particles that count: least distance to the nearest (nearestSpacings, 1), and the standard
-  /// deviation of that distance over its mean, lonely ones left out (0).
+  /// deviation of that distance over its mean (0); those that have none within two spacings left out.
   double minSpacing = 0.0;
   double variation = 0.0;
   /// Over the closed stars: share of those with six neighbours (1), largest circumradius (0.577), mean
