@@ -119,6 +119,7 @@ bool ClassicSystem::settleOnce(bool fixedNumber)
       }
       this->Particles.renewNeighbors();
     }
+    this->Work.ask();
     const double energy = sweepOnce(this->Particles, this->Parallel);
     ++this->Report.iterations;
     if ((n + 1) % sweepsPerNeighborList == 0)

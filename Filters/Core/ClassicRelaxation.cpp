@@ -86,12 +86,12 @@ double sweepOnce(ClassicParticles& particles, const ParallelFor& parallelFor)
   double energy = 0.0;
   for (std::size_t i = 0; i < particles.movers.size(); ++i)
   {
-    if (i % particlesAtOnce == 0)
+    relax(particles, i);
+    energy += particles.movers[i].energy;
+    if ((i + 1) % particlesAtOnce == 0)
     {
       askCaller(parallelFor);
     }
-    relax(particles, i);
-    energy += particles.movers[i].energy;
   }
   return energy;
 }
