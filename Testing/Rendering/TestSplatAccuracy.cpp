@@ -23,6 +23,15 @@ struct Bounds
 class SplatAccuracyOf : public testing::TestWithParam<Bounds>
 {
 };
+
+PictureFigures FiguresOf(const SurfaceCase& surface, const hop::testing::PictureCamera& camera)
+{
+  vtkNew<vtkSurfaceSplatMapper> mapper;
+  mapper->SetInputData(surface.Particles);
+  mapper->ScalarVisibilityOff();
+  return Compare(
+    DrawSurface(mapper, camera), CastSurface(surface, camera), camera, surface.Spacing);
+}
 }
 
 TEST_P(SplatAccuracyOf, IsWithinItsBounds)
@@ -31,13 +40,7 @@ TEST_P(SplatAccuracyOf, IsWithinItsBounds)
   const SurfaceCase surface = MakeSurfaceCase(bounds.Name);
   for (bool parallel : { false, true })
   {
-    const hop::testing::PictureCamera camera = CamerasAround(surface, parallel, 256)[2];
-    vtkNew<vtkSurfaceSplatMapper> mapper;
-    mapper->SetInputData(surface.Particles);
-    mapper->ScalarVisibilityOff();
-    const SurfacePicture reference = CastSurface(surface, camera);
-    const PictureFigures figures =
-      Compare(DrawSurface(mapper, camera), reference, camera, surface.Spacing);
+    const PictureFigures figures = FiguresOf(surface, CamerasAround(surface, parallel, 256)[2]);
     EXPECT_GT(figures.IntersectionOverUnion, bounds.IntersectionOverUnion);
     EXPECT_GT(figures.DepthShare, bounds.DepthShare);
     EXPECT_GT(figures.NormalShare, bounds.NormalShare);
@@ -52,12 +55,7 @@ TEST(SplatAccuracy, SurfaceSeenEdgeOnIsAsNearAsElsewhere)
   const SurfaceCase surface = MakeSurfaceCase("cylinder");
   for (bool parallel : { false, true })
   {
-    const hop::testing::PictureCamera camera = CamerasAround(surface, parallel, 256)[0];
-    vtkNew<vtkSurfaceSplatMapper> mapper;
-    mapper->SetInputData(surface.Particles);
-    mapper->ScalarVisibilityOff();
-    const PictureFigures figures =
-      Compare(DrawSurface(mapper, camera), CastSurface(surface, camera), camera, surface.Spacing);
+    const PictureFigures figures = FiguresOf(surface, CamerasAround(surface, parallel, 256)[0]);
     EXPECT_GT(figures.IntersectionOverUnion, 0.99);
     EXPECT_GT(figures.OffsetShare, 0.99);
     EXPECT_GT(figures.NormalShare, 0.99);

@@ -174,7 +174,6 @@ int CountDifferent(const SplatScene& a, const SplatScene& b)
 }
 }
 
-// From picture to picture the surface fills less of the window, or another part of it.
 // Depth peeling draws an actor several times a picture.
 TEST(SplatState, TranslucentIsosurfacesAreSplattedOnceAPicture)
 {
@@ -214,6 +213,7 @@ TEST(SplatState, TranslucentIsosurfacesAreSplattedOnceAPicture)
   EXPECT_LT(primitives, GLuint{ 5 * sheets * count });
 }
 
+// From picture to picture the surface fills less of the window, or another part of it.
 TEST(SplatState, NothingIsLeftOfThePictureBefore)
 {
   const auto look = [](SplatScene& scene, int picture)
