@@ -365,7 +365,7 @@ void FastSystem::relaxAll(int sweeps, bool isLast, const Section& section)
     balance.missing = this->wantedCount() - size;
   }
   this->Moving->relax(
-    sweeps, balance, [&](double share) { this->Work.raiseFraction(section.at(share)); });
+    { sweeps }, balance, [&](double share) { this->Work.raiseFraction(section.at(share)); });
   this->dropNearRims(Squeezed);
 }
 

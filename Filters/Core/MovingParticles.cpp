@@ -140,7 +140,7 @@ void MovingParticles::join(const MovingParticles& others)
     others.Patches.begin(), others.Patches.begin() + count);
   this->Anchors.insert(this->Anchors.end(), others.Anchors.begin(), others.Anchors.end());
   this->Evaluations += others.Evaluations;
-  this->Sweeps += others.Sweeps;
+  this->SweepCount += others.SweepCount;
 }
 
 void MovingParticles::draw(std::int64_t count, std::uint64_t randomSeed)
@@ -302,7 +302,7 @@ std::vector<char> MovingParticles::step(
 }
 
 void MovingParticles::relax(
-  int sweeps, const Balance& balance, const std::function<void(double share)>& reached)
+  const Sweeps& sweeps, const Balance& balance, const std::function<void(double share)>& reached)
 {
   Relaxed relaxed = relaxOnPatches(this->Patches, sweeps, balance, this->Parallel, reached);
   relaxed.displacements.resize(this->count());
@@ -320,7 +320,7 @@ void MovingParticles::relax(
   // Holes that cannot be filled lie beyond the end of the surface.
   const bool fills = balance.extent == Balance::Defects;
   this->commit(relaxed.displacements, std::move(relaxed.kept), fills ? relaxed.splits.size() : 0);
-  this->Sweeps += sweeps;
+  this->SweepCount += sweeps.count;
 }
 
 void MovingParticles::commit(

@@ -30,7 +30,7 @@ public:
   const Isosurface& surface() const { return this->Surface; }
   const SurfaceProxy& proxy() const { return this->Proxy; }
   std::int64_t evaluations() const { return this->Evaluations; }
-  std::int64_t sweeps() const { return this->Sweeps; }
+  std::int64_t sweeps() const { return this->SweepCount; }
 
   /// Adds a particle for each place from which one Newton step leads to the surface; one evaluation each.
   void add(const std::vector<Location>& places);
@@ -53,8 +53,8 @@ public:
 
   /// Sweeps, what they tell about the number of particles, and one evaluation each.
   /// \param reached told now and then which share of the sweeps is done
-  void relax(
-    int sweeps, const Balance& balance, const std::function<void(double share)>& reached = {});
+  void relax(const Sweeps& sweeps, const Balance& balance,
+    const std::function<void(double share)>& reached = {});
 
   /// Takes particles to where relaxation wants them, and to the surface; one evaluation each gives them
   /// new patches there, more where half a step has to do. Afterwards they are sorted by element.
@@ -99,7 +99,7 @@ private:
   Buffer<Anchor> SpareAnchors;
   Buffer<Patch> SparePatches;
   std::atomic<std::int64_t> Evaluations{ 0 };
-  std::int64_t Sweeps = 0;
+  std::int64_t SweepCount = 0;
 };
 
 } // namespace hop

@@ -18,6 +18,8 @@ constexpr int repairSweeps = 8;
 /// fields jump there is much that cannot be.
 constexpr int furtherRepairs = 2;
 constexpr double fewDefects = 0.005;
+/// Of the last steps.
+constexpr float shortWay = 0.2f;
 
 /// Those that move and stand too near to another one.
 Buffer<Patch> findCrowded(const MovingParticles& particles, const ParallelFor& parallelFor)
@@ -30,7 +32,7 @@ Buffer<Patch> findCrowded(const MovingParticles& particles, const ParallelFor& p
 } // namespace
 
 Buffer<Patch> relaxAround(const Buffer<Patch>& places, Balance::Extent extent,
-  MovingParticles& moving, const ParallelFor& parallelFor)
+  MovingParticles& moving, const ParallelFor& parallelFor, float farthest)
 {
   const Buffer<Patch>& patches = moving.patches();
   const std::size_t count = moving.count();
@@ -53,7 +55,7 @@ Buffer<Patch> relaxAround(const Buffer<Patch>& places, Balance::Extent extent,
   balance.extent = extent;
   for (int n = 0; n < repairRounds; ++n)
   {
-    part.relax(repairSweeps, balance);
+    part.relax({ repairSweeps, farthest }, balance);
   }
   moving.keep(staying);
   moving.join(part);
@@ -71,6 +73,10 @@ void repairPacking(MovingParticles& moving, const ParallelFor& parallelFor)
       break;
     }
     crowded = relaxAround(crowded, Balance::Crowded, moving, parallelFor);
+  }
+  if (!crowded.empty())
+  {
+    relaxAround(crowded, Balance::None, moving, parallelFor, shortWay);
   }
 }
 

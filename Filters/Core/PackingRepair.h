@@ -7,12 +7,14 @@ namespace hop
 {
 
 /// Relaxes particles around some places further, alone; those farther off stay.
+/// \param farthest as of Sweeps
 /// \return those of them that stand too near to others afterwards
 Buffer<Patch> relaxAround(const Buffer<Patch>& places, Balance::Extent extent,
-  MovingParticles& moving, const ParallelFor& parallelFor);
+  MovingParticles& moving, const ParallelFor& parallelFor, float farthest = Sweeps{}.farthest);
 
 /// Mends places where particles stand too near to each other, and what is left of them as long as that may
-/// be mended.
+/// be mended; in the end in short steps, as at sharp kinks long ones lead back and forth between patches of
+/// the two sides.
 void repairPacking(MovingParticles& moving, const ParallelFor& parallelFor);
 
 } // namespace hop

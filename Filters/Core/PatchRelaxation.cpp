@@ -37,8 +37,7 @@ constexpr double farApart = 1e5;
 constexpr float flatRelaxation = 1.5f;
 constexpr float bentRelaxation = 0.7f;
 constexpr float flatUpTo = 0.3f;
-/// Largest displacement, in units of h and of 1/D.
-constexpr float farthestPerSpacing = 0.5f;
+/// Largest displacement, in units of 1/D.
 constexpr float farthestPerRadius = 0.5f;
 
 /// The lowest colour that none of those a particle sees has, as far as they are in [first, last); some 20 are
@@ -143,8 +142,9 @@ std::vector<int> colorTiles(
 class SweepSystem
 {
 public:
-  SweepSystem(const Buffer<Patch>& patches, const ParallelFor& parallelFor)
+  SweepSystem(const Buffer<Patch>& patches, float farthest, const ParallelFor& parallelFor)
     : Patches(patches)
+    , Farthest(farthest)
     , Parallel(parallelFor)
     , Points(patches, parallelFor)
     , Lists(Points.positions, Points.spacings,
@@ -198,6 +198,7 @@ private:
   void runStages(int first, int last);
 
   const Buffer<Patch>& Patches;
+  float Farthest;
   const ParallelFor& Parallel;
   SpacedPoints Points;
   SeenLists Lists;
@@ -438,7 +439,7 @@ void SweepSystem::fillLane(int particle, SweepBlock& block, int lane)
   block.relaxation[lane] =
     std::max(bentRelaxation, flatRelaxation - std::max(0.0f, bend * patch.spacing - flatUpTo));
   block.farthest[lane] =
-    std::min(farthestPerSpacing * patch.spacing, farthestPerRadius / std::max(bend, 1e-30f));
+    std::min(this->Farthest * patch.spacing, farthestPerRadius / std::max(bend, 1e-30f));
   std::int32_t* neighbor = this->Neighbors.data() + block.firstNeighbor + lane;
   for (const int* j = this->Lists.begin(particle); j != this->Lists.end(particle); ++j)
   {
@@ -466,15 +467,15 @@ SpacedPoints::SpacedPoints(const Buffer<Patch>& patches, const ParallelFor& para
     });
 }
 
-Relaxed relaxOnPatches(const Buffer<Patch>& patches, int sweeps, const Balance& balance,
+Relaxed relaxOnPatches(const Buffer<Patch>& patches, const Sweeps& sweeps, const Balance& balance,
   const ParallelFor& parallelFor, const std::function<void(double share)>& reached)
 {
   if (patches.empty())
   {
     return {};
   }
-  SweepSystem system(patches, parallelFor);
-  system.sweep(sweeps, reached);
+  SweepSystem system(patches, sweeps.farthest, parallelFor);
+  system.sweep(sweeps.count, reached);
   return system.result(balance);
 }
 

@@ -245,6 +245,30 @@ TEST_P(FastQualityAtRims, IsAsPromised)
   EXPECT_LE(evenness.openStars, onRim);
 }
 
+/// A roof that turns by so many degrees at its ridge.
+class FastQualityAtKinks : public ::testing::TestWithParam<double>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(
+  FastDistribution, FastQualityAtKinks, ::testing::Values(15.0, 30.0, 45.0, 60.0));
+
+TEST_P(FastQualityAtKinks, IsAlmostAsPromised)
+{
+  const double slope = std::tan(glm::radians(0.5 * this->GetParam()));
+  MeshRecipe recipe;
+  recipe.field = [=](const glm::dvec3& x)
+  { return x.z - 0.1 + slope * (std::abs(x.x) + 0.3 * x.y); };
+  const ElementMesh mesh = makeMesh(recipe);
+  DistributionParameters parameters;
+  parameters.law.spacing = 0.03;
+  const Distribution result = distributeFast({ &mesh, 0.0, tolerance }, parameters, {}, {});
+  const Evenness evenness = measureEvenness(result.particles);
+  // From 60 degrees on particles of the two sides see each other less and less.
+  EXPECT_GE(evenness.minSpacing, 0.75);
+  EXPECT_LE(evenness.variation, 0.035);
+}
+
 TEST_P(FastQuality, DoesNotDependOnThreads)
 {
   const auto& [which, domain] = this->GetParam();

@@ -56,14 +56,14 @@ double unevenness(const Buffer<Patch>& patches, const std::vector<glm::vec2>& di
 TEST(PatchRelaxation, EvensOutManyInTilesWhateverTheThreads)
 {
   const Buffer<Patch> patches = unevenLattice();
-  const Relaxed first = relaxOnPatches(patches, 6, {}, {});
+  const Relaxed first = relaxOnPatches(patches, { 6 }, {}, {});
   const double before =
     unevenness(patches, std::vector<glm::vec2>(patches.size(), glm::vec2(0.0f)));
   EXPECT_LT(unevenness(patches, first.displacements), 0.3 * before);
   for (const int threads : { 2, 3, 8 })
   {
     EXPECT_EQ(
-      relaxOnPatches(patches, 6, {}, threadedFor(threads)).displacements, first.displacements);
+      relaxOnPatches(patches, { 6 }, {}, threadedFor(threads)).displacements, first.displacements);
   }
 }
 

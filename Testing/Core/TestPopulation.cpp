@@ -55,7 +55,7 @@ struct Lattice
 Relaxed relax(const Lattice& lattice, Balance::Extent extent,
   const std::optional<double>& missing = {}, int sweeps = 3)
 {
-  return relaxOnPatches(lattice.patches, sweeps, { extent, missing }, {});
+  return relaxOnPatches(lattice.patches, { sweeps }, { extent, missing }, {});
 }
 
 std::ptrdiff_t removedOf(const Relaxed& relaxed)
