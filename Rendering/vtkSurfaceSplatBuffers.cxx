@@ -42,6 +42,26 @@ void vtkSurfaceSplatTexels::Upload(
 }
 
 //------------------------------------------------------------------------------
+const float* vtkSurfaceSplatTexels::Map()
+{
+  return this->Buffer->Bind()
+    ? static_cast<const float*>(glMapBuffer(GL_TEXTURE_BUFFER, GL_READ_ONLY))
+    : nullptr;
+}
+
+void vtkSurfaceSplatTexels::Unmap()
+{
+  this->Buffer->Bind();
+  GLint mapped = GL_FALSE;
+  glGetBufferParameteriv(GL_TEXTURE_BUFFER, GL_BUFFER_MAPPED, &mapped);
+  if (mapped)
+  {
+    glUnmapBuffer(GL_TEXTURE_BUFFER);
+  }
+  this->Buffer->Release();
+}
+
+//------------------------------------------------------------------------------
 void vtkSurfaceSplatTexels::Activate()
 {
   this->Texture->Activate();
@@ -185,6 +205,26 @@ void vtkSurfaceSplatBuffers::SetSamplers(vtkShaderProgram* program)
   program->SetUniformi("splatHasClip", this->HasClip ? 1 : 0);
 }
 
+//------------------------------------------------------------------------------
+bool vtkSurfaceSplatBuffers::Read(const std::function<void(const Mapped&)>& use)
+{
+  const Mapped mapped = { this->CentreRadius.Map(), this->Normal.Map(),
+    this->HasClip ? this->Clip.Map() : nullptr };
+  const bool readable = mapped.CentreRadius && mapped.Normal && (mapped.Clip || !this->HasClip);
+  if (readable)
+  {
+    use(mapped);
+  }
+  this->CentreRadius.Unmap();
+  this->Normal.Unmap();
+  if (this->HasClip)
+  {
+    this->Clip.Unmap();
+  }
+  return readable;
+}
+
+//------------------------------------------------------------------------------
 void vtkSurfaceSplatBuffers::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->CentreRadius.ReleaseGraphicsResources(window);

@@ -12,6 +12,7 @@
 #include "vtkType.h"
 
 #include <array>
+#include <functional>
 #include <vector>
 
 class vtkOpenGLBufferObject;
@@ -32,6 +33,11 @@ public:
   /** Replaces the content; there are four numbers a texel. */
   void Upload(vtkOpenGLRenderWindow* window, const float* rgba, vtkIdType texels);
   void Upload(vtkOpenGLRenderWindow* window, const unsigned char* rgba, vtkIdType texels);
+  ///@}
+  ///@{
+  /** Between these two, what was uploaded as floats can be read; nullptr if the driver cannot do that. */
+  const float* Map();
+  void Unmap();
   ///@}
   void Activate();
   void Deactivate();
@@ -90,6 +96,16 @@ public:
 
   /** What was subtracted from the model coordinates. */
   const std::array<double, 3>& GetOrigin() const { return this->Origin; }
+
+  /** The particles as they are on the GPU, in arrays like those of vtkSurfaceSplatParticles. */
+  struct Mapped
+  {
+    const float* CentreRadius = nullptr;
+    const float* Normal = nullptr;
+    const float* Clip = nullptr; ///< without planes it stays that
+  };
+  /** Calls with them; false, and nothing else, if the driver cannot do that. */
+  bool Read(const std::function<void(const Mapped&)>& use);
 
   void Activate();
   void Deactivate();

@@ -99,6 +99,13 @@ bool vtkSurfaceSplatDrawing::TellsSheetsApart() const
   return !this->Sheet && this->Buffers->GetNumberOfSheets() > 1;
 }
 
+bool vtkSurfaceSplatDrawing::DrawsAllAsPoints() const
+{
+  return this->DrawsPoints() && this->Kind == vtkSurfaceSplatKind::All && !this->Sheet &&
+    this->Buffers->GetNumberOfSheets() == 1 &&
+    this->HiddenSide == vtkSurfaceSplatHiddenSide::None && this->NumberOfClippingPlanes == 0;
+}
+
 bool vtkSurfaceSplatDrawing::DrawsCurved() const
 {
   return this->Buffers->GetHasShape() && !this->FacesViewer && !this->DrawsPoints();

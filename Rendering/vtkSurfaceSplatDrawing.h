@@ -74,6 +74,9 @@ struct vtkSurfaceSplatDrawing
    */
   bool TellsSheetsApart() const;
 
+  /** Whether all particles of the stride are drawn, as points, and none of them is cut by clipping planes. */
+  bool DrawsAllAsPoints() const;
+
   /** Whether splats are bent. */
   bool DrawsCurved() const;
 };

@@ -2,11 +2,13 @@
 
 #include "vtkSurfaceSplatPrimitives.h"
 
+#include "vtkOpenGLBufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLShaderCache.h"
 #include "vtkOpenGLVertexArrayObject.h"
 #include "vtkShaderProgram.h"
 #include "vtkSurfaceSplatBuffers.h"
+#include "vtkSurfaceSplatCulling.h"
 #include "vtkSurfaceSplatDefine.h"
 #include "vtkSurfaceSplatDisk.h"
 #include "vtkSurfaceSplatDrawing.h"
@@ -14,10 +16,13 @@
 #include "vtkSurfaceSplatFragment.h"
 #include "vtkSurfaceSplatPassVS.h"
 #include "vtkSurfaceSplatRay.h"
+#include "vtkSurfaceSplatView.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <vector>
 
 namespace
 {
@@ -133,20 +138,67 @@ vtkShaderProgram* vtkSurfaceSplatPrimitives::Use(
 }
 
 //------------------------------------------------------------------------------
-void vtkSurfaceSplatPrimitives::Draw(const vtkSurfaceSplatDrawing& drawing)
+void vtkSurfaceSplatPrimitives::Cull(const vtkSurfaceSplatDrawing& drawing, double push)
 {
-  const auto [begin, end] = drawing.GetDrawnRange();
+  this->NumberOfVisible.reset();
+  const vtkSurfaceSplatCulling::Camera camera = drawing.View->GetCamera();
+  if (!IsDrawnInSoftware() || !drawing.DrawsAllAsPoints() || drawing.FacesViewer ||
+    !vtkSurfaceSplatCulling::IsSimilarity(camera.MCVC))
+  {
+    return;
+  }
+  std::vector<unsigned int> visible;
+  const bool found = drawing.Buffers->Read(
+    [&](const vtkSurfaceSplatBuffers::Mapped& particles)
+    {
+      const auto [first, end] = drawing.GetDrawnRange();
+      visible = vtkSurfaceSplatCulling::FindVisible(camera,
+        { particles.CentreRadius, particles.Normal, particles.Clip, drawing.Stride,
+          static_cast<float>(drawing.RadiusScale), static_cast<float>(LeastPixels),
+          static_cast<float>(push), static_cast<float>(Rim()) },
+        first, end);
+    });
+  if (!found)
+  {
+    return;
+  }
+  this->NumberOfVisible = static_cast<vtkIdType>(visible.size());
+  if (!visible.empty())
+  {
+    this->VertexArray->Bind();
+    this->Visible->Upload(visible, vtkOpenGLBufferObject::ElementArrayBuffer);
+    this->VertexArray->Release();
+  }
+}
+
+void vtkSurfaceSplatPrimitives::DrawPiece(
+  const vtkSurfaceSplatDrawing& drawing, vtkIdType first, vtkIdType size) const
+{
+  const auto start = static_cast<std::size_t>(first);
+  if (this->NumberOfVisible)
+  {
+    glDrawElements(GL_POINTS, static_cast<GLsizei>(size), GL_UNSIGNED_INT,
+      reinterpret_cast<const void*>(start * sizeof(GLuint)));
+    return;
+  }
   const bool points = drawing.DrawsPoints();
   const int corners = points ? 1 : 3;
+  glDrawArrays(points ? GL_POINTS : GL_TRIANGLES, static_cast<GLint>(corners * first),
+    static_cast<GLsizei>(corners * size));
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatPrimitives::Draw(const vtkSurfaceSplatDrawing& drawing)
+{
+  const std::array<vtkIdType, 2> visible{ 0, this->NumberOfVisible.value_or(0) };
+  const auto [begin, end] = this->NumberOfVisible ? visible : drawing.GetDrawnRange();
   const bool software = IsDrawnInSoftware();
   const vtkIdType piece = software ? SoftwarePiece : std::max<vtkIdType>(end - begin, 1);
   SoftwareFlushes flushes;
-  this->VertexArray->Bind(); // empty, but OpenGL wants one
+  this->VertexArray->Bind(); // without attributes, but OpenGL wants one
   for (vtkIdType first = begin; first < end; first += piece)
   {
-    const vtkIdType size = std::min(piece, end - first);
-    glDrawArrays(points ? GL_POINTS : GL_TRIANGLES, static_cast<GLint>(corners * first),
-      static_cast<GLsizei>(corners * size));
+    this->DrawPiece(drawing, first, std::min(piece, end - first));
     if (software && ((first - begin) / piece + 1) % PiecesAFlush == 0)
     {
       flushes.Flush();
@@ -158,4 +210,6 @@ void vtkSurfaceSplatPrimitives::Draw(const vtkSurfaceSplatDrawing& drawing)
 void vtkSurfaceSplatPrimitives::ReleaseGraphicsResources()
 {
   this->VertexArray->ReleaseGraphicsResources();
+  this->Visible->ReleaseGraphicsResources();
+  this->NumberOfVisible.reset();
 }

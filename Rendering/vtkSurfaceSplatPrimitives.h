@@ -7,9 +7,12 @@
 #define vtkSurfaceSplatPrimitives_h
 
 #include "vtkNew.h"
+#include "vtkType.h"
 
+#include <optional>
 #include <string>
 
+class vtkOpenGLBufferObject;
 class vtkOpenGLVertexArrayObject;
 class vtkShaderProgram;
 struct vtkSurfaceSplatDrawing;
@@ -41,6 +44,12 @@ public:
    */
   vtkShaderProgram* Use(const vtkSurfaceSplatDrawing& drawing, const Style& style);
 
+  /**
+   * Leaves out, until it is called again, those splats that are behind others for certain, if that is worth it.
+   * @param push as of the pass that finds what is hidden
+   */
+  void Cull(const vtkSurfaceSplatDrawing& drawing, double push);
+
   /** Draws, with the program in use. */
   void Draw(const vtkSurfaceSplatDrawing& drawing);
 
@@ -50,7 +59,12 @@ private:
   vtkSurfaceSplatPrimitives(const vtkSurfaceSplatPrimitives&) = delete;
   void operator=(const vtkSurfaceSplatPrimitives&) = delete;
 
+  void DrawPiece(const vtkSurfaceSplatDrawing& drawing, vtkIdType first, vtkIdType size) const;
+
   vtkNew<vtkOpenGLVertexArrayObject> VertexArray;
+  vtkNew<vtkOpenGLBufferObject>
+    Visible; // numbers of the splats that are drawn, if some are left out
+  std::optional<vtkIdType> NumberOfVisible;
 };
 
 #endif

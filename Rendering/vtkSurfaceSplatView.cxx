@@ -7,6 +7,8 @@
 #include "vtkRenderer.h"
 #include "vtkShaderProgram.h"
 
+#include <glm/gtc/type_ptr.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -154,6 +156,14 @@ void vtkSurfaceSplatView::SetUniforms(vtkShaderProgram* program) const
   program->SetUniformi("splatParallel", this->Parallel ? 1 : 0);
   program->SetUniformf("splatPixel", static_cast<float>(this->GetPixelSize()));
   program->SetUniform4f("splatViewport", viewport);
+}
+
+//------------------------------------------------------------------------------
+vtkSurfaceSplatCulling::Camera vtkSurfaceSplatView::GetCamera() const
+{
+  return { glm::mat4(glm::make_mat4(this->MCVC->GetData())),
+    glm::mat4(glm::make_mat4(this->VCDC->GetData())), this->Parallel, this->GetWidth(),
+    this->GetHeight() };
 }
 
 //------------------------------------------------------------------------------

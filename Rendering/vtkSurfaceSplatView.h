@@ -11,6 +11,7 @@
 #include "vtkMatrix3x3.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
+#include "vtkSurfaceSplatCulling.h"
 
 #include <array>
 #include <vector>
@@ -42,6 +43,9 @@ public:
    * Infinite if the bounds reach behind the eye.
    */
   double GetLargestPixels(double length) const;
+
+  /** The same as SetUniforms(). */
+  vtkSurfaceSplatCulling::Camera GetCamera() const;
 
   /** Left, bottom, width and height, within the viewport, of the pixels that splats can reach. */
   const std::array<int, 4>& GetRectangle() const { return this->Rectangle; }

@@ -97,6 +97,10 @@ void vtkSurfaceSplatVisibilityPass::Draw(
   style.Fragment = vtkSurfaceSplatVisibilityFS;
   style.Push = drawing.TellsSheetsApart() ? 0. : this->GetThickness();
   style.OnlyInside = true;
+  if (this->IsFront())
+  {
+    primitives.Cull(drawing, style.Push);
+  }
   if (primitives.Use(drawing, style))
   {
     primitives.Draw(drawing);
