@@ -10,9 +10,10 @@
 #include <glm/vector_relational.hpp>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
-#include <memory>
+#include <limits>
 
 namespace
 {
@@ -21,29 +22,20 @@ using vtkSurfaceSplatCulling::Splats;
 
 // Against rounding: as if splats that hide others were so much smaller,
 constexpr float Shrink = 0.95f;
-// ended so many pixels before the end of the squares that are drawn,
+// and all ended so many pixels before the end, or after the end, of where they are drawn.
 constexpr float Margin = 0.1f;
-// and lay so much before those that they hide (device coordinates, -1 to 1).
-constexpr float Before = 1e-5f;
 
 // A splat in the picture.
 struct Footprint
 {
   vtkIdType Particle = 0;
   glm::vec3 CentreVC;
-  float RadiusVC = 0.f;
+  float RadiusVC = 0.f; // 0: nothing is drawn
   glm::vec2 Middle;     // pixels
-  float HalfSize = 0.f; // of the square that is drawn, pixels; 0: nothing is
-  glm::vec3 Device;
-};
-
-// A splat that hides others: where it does, and from which depth on.
-struct Screen
-{
-  glm::vec3 NormalVC;
-  glm::vec3 RayVC; // along which places have one pixel
-  float PerSlant;  // how far along the ray, for every length along the normal
-  float Depth;
+  float HalfSize =
+    0.f; // of a square around a disk that faces the picture, pixels; infinite near the eye
+  float Wider = 1.f;   // than that it may be
+  float Nearest = 0.f; // depth, device coordinates
 };
 
 class Projector
@@ -59,23 +51,25 @@ public:
   {
   }
 
-  // Of a pixel at a depth, view coordinates.
-  glm::vec2 PixelAt(const Footprint& splat) const
-  {
-    return this->View.Parallel ? this->Pixel : std::abs(splat.CentreVC.z) * this->Pixel;
-  }
-
   Footprint FootprintOf(vtkIdType number) const;
   bool HidesOthers(const Footprint& splat) const;
-  Screen ScreenOf(const Footprint& splat) const;
+  float FarthestOf(const Footprint& splat) const;
+  glm::vec3 NormalOf(const Footprint& splat) const;
+  glm::vec3 OnDisk(const Footprint& splat, const glm::vec3& normalVC, glm::vec2 offset) const;
 
 private:
+  float DepthAt(float z) const
+  {
+    const glm::mat4& projection = this->View.VCDC;
+    return (projection[2][2] * z + projection[3][2]) / (projection[2][3] * z + projection[3][3]);
+  }
+
   const Camera& View;
   const Splats& All;
   const glm::mat3 Turn;
   const float Scale;
   const glm::vec2 Size;
-  const glm::vec2 Pixel; // at distance 1, or everywhere if parallel
+  const glm::vec2 Pixel; // view coordinates, at distance 1, or everywhere if parallel
 };
 
 Footprint Projector::FootprintOf(vtkIdType number) const
@@ -85,81 +79,126 @@ Footprint Projector::FootprintOf(vtkIdType number) const
   const float* centreRadius = this->All.CentreRadius + 4 * splat.Particle;
   const glm::vec3 centreMC(centreRadius[0], centreRadius[1], centreRadius[2]);
   splat.CentreVC = this->Turn * centreMC + glm::vec3(this->View.MCVC[3]);
-  const glm::vec4 clip = this->View.VCDC * glm::vec4(splat.CentreVC, 1.f);
   const float radius = centreRadius[3] * this->All.RadiusScale * this->Scale;
-  if (radius > 0.f && clip.w > 0.f)
+  const float distance = -splat.CentreVC.z;
+  if (!(radius > 0.f))
   {
-    const float pixel = this->PixelAt(splat).y;
-    splat.RadiusVC = std::max(radius, this->All.LeastPixels * pixel);
-    splat.HalfSize = std::max(splat.RadiusVC / pixel, 0.5f);
-    splat.Device = glm::vec3(clip) / clip.w;
-    splat.Middle = (0.5f * glm::vec2(splat.Device) + 0.5f) * this->Size;
+    return splat;
   }
+  const float pixel = this->Pixel.y * (this->View.Parallel ? 1.f : std::abs(distance));
+  splat.RadiusVC = std::max(radius, this->All.LeastPixels * pixel);
+  splat.Nearest = this->DepthAt(splat.RadiusVC - distance);
+  if (!this->View.Parallel && distance <= 2.f * splat.RadiusVC)
+  {
+    splat.HalfSize = std::numeric_limits<float>::infinity();
+    return splat;
+  }
+  const glm::vec4 clip = this->View.VCDC * glm::vec4(splat.CentreVC, 1.f);
+  splat.Middle = (0.5f * glm::vec2(clip) / clip.w + 0.5f) * this->Size;
+  splat.HalfSize = splat.RadiusVC / pixel;
+  splat.Wider = this->View.Parallel
+    ? 1.f
+    : glm::length(splat.CentreVC) / (distance - splat.RadiusVC); // as a ball in perspective
   return splat;
 }
 
-// Not those with clip planes, nor those whose middle is out of the view, which not all drivers draw.
+// Not those with clip planes, nor those that may not be drawn whole.
 bool Projector::HidesOthers(const Footprint& splat) const
 {
   const auto isPlane = [](const float* normal)
   { return normal[0] != 0.f || normal[1] != 0.f || normal[2] != 0.f; };
   const float* planes = this->All.Clip ? this->All.Clip + 12 * splat.Particle : nullptr;
-  return splat.HalfSize > 0.f && glm::all(glm::lessThan(glm::abs(splat.Device), glm::vec3(1.f))) &&
+  return splat.RadiusVC > 0.f && std::isfinite(splat.HalfSize) && splat.Nearest > -1.f &&
+    glm::all(glm::greaterThan(splat.Middle, glm::vec2(0.f))) &&
+    glm::all(glm::lessThan(splat.Middle, this->Size)) &&
     !(planes && (isPlane(planes) || isPlane(planes + 4)));
 }
 
-Screen Projector::ScreenOf(const Footprint& splat) const
+// The depth that the passes give it at most.
+float Projector::FarthestOf(const Footprint& splat) const
 {
-  constexpr float mostSlanted = 0.2f; // in the eyes of the shader
-  const float* normal = this->All.Normal + 4 * splat.Particle;
-  const glm::vec3 ray =
-    this->View.Parallel ? glm::vec3(0.f, 0.f, -1.f) : splat.CentreVC / std::abs(splat.CentreVC.z);
-  Screen screen;
-  screen.NormalVC = this->Turn * glm::vec3(normal[0], normal[1], normal[2]);
-  screen.RayVC = ray;
-  screen.PerSlant = 1.f / glm::dot(screen.NormalVC, ray);
-  const float push = this->All.Push * splat.RadiusVC / mostSlanted;
-  const glm::vec4 pushed = this->View.VCDC * glm::vec4(splat.CentreVC + push * ray, 1.f);
-  screen.Depth = pushed.z / pushed.w;
-  return screen;
+  return this->DepthAt(splat.CentreVC.z - (1.f + this->All.Push) * splat.RadiusVC);
 }
 
-// Of every pixel, from which depth on nothing is seen.
+glm::vec3 Projector::NormalOf(const Footprint& splat) const
+{
+  const float* normal = this->All.Normal + 4 * splat.Particle;
+  return this->Turn * glm::vec3(normal[0], normal[1], normal[2]);
+}
+
+// From the middle of a disk to where it is seen so many pixels beside it.
+glm::vec3 Projector::OnDisk(
+  const Footprint& splat, const glm::vec3& normalVC, glm::vec2 offset) const
+{
+  const glm::vec3 across(offset * this->Pixel, 0.f);
+  if (this->View.Parallel)
+  {
+    return across - glm::vec3(0.f, 0.f, glm::dot(normalVC, across) / normalVC.z);
+  }
+  const glm::vec3 ray = across - splat.CentreVC / splat.CentreVC.z;
+  const float along = glm::dot(normalVC, splat.CentreVC) / glm::dot(normalVC, ray);
+  return along * ray - splat.CentreVC;
+}
+
+// For square cells of the picture, from which depth on nothing is seen.
 class HidingDepths
 {
 public:
-  HidingDepths(const Camera& camera, float solid)
-    : Size(camera.Width, camera.Height)
-    , Solid(solid)
-    , Depths(new std::atomic<float>[static_cast<std::size_t>(camera.Width) * camera.Height])
+  HidingDepths(const Camera& camera, int cellSize)
+    : CellSize(cellSize)
+    , Size(camera.Width, camera.Height)
+    , Cells((this->Size + cellSize - 1) / cellSize)
+    , Depths(static_cast<std::size_t>(this->Cells.x) * this->Cells.y)
   {
-    std::for_each(this->Depths.get(),
-      this->Depths.get() + static_cast<std::size_t>(camera.Width) * camera.Height,
-      [](std::atomic<float>& depth) { depth.store(Nothing, std::memory_order_relaxed); });
+    for (std::atomic<float>& depth : this->Depths)
+    {
+      depth.store(Nothing, std::memory_order_relaxed);
+    }
   }
 
-  void Add(const Footprint& splat, const Screen& screen, glm::vec2 pixel)
+  // A splat that is nowhere deeper than a depth: isSolid() tells whether it covers the pixel at an offset from
+  // its middle.
+  template <typename IsSolid>
+  void Add(glm::vec2 middle, float halfSize, float depth, const IsSolid& isSolid)
   {
-    const float reach = Shrink * this->Solid * splat.RadiusVC;
-    this->VisitPixels(splat, this->Solid * splat.HalfSize - Margin,
-      [&](std::atomic<float>& depth, glm::vec2 offset)
+    const auto [firstPixel, endPixel] = this->PixelsIn(middle, halfSize);
+    const glm::ivec2 end = endPixel / this->CellSize;
+    const glm::ivec2 first = (firstPixel + this->CellSize - 1) / this->CellSize;
+    for (int y = first.y; y < end.y; ++y)
+    {
+      for (int x = first.x; x < end.x; ++x)
       {
-        const glm::vec3 across(offset * pixel, 0.f);
-        const float along = glm::dot(screen.NormalVC, across) * screen.PerSlant;
-        const glm::vec3 onDisk = across - along * screen.RayVC;
-        if (glm::dot(onDisk, onDisk) < reach * reach)
+        const glm::vec2 low(this->CellSize * glm::ivec2(x, y));
+        const glm::vec2 from = low + 0.5f - middle;
+        const glm::vec2 to = from + static_cast<float>(this->CellSize - 1);
+        if (isSolid(from) &&
+          (this->CellSize == 1 ||
+            (isSolid(to) && isSolid({ from.x, to.y }) && isSolid({ to.x, from.y }))))
         {
-          Lower(depth, screen.Depth);
+          Lower(this->Depths[static_cast<std::size_t>(y) * this->Cells.x + x], depth);
         }
-        return true;
-      });
+      }
+    }
   }
 
-  bool Hide(const Footprint& splat) const
+  // Whether it does that, by splats before this depth, with all that is in a square.
+  bool Hide(glm::vec2 middle, float halfSize, float depth) const
   {
-    return this->VisitPixels(splat, splat.HalfSize + Margin,
-      [&](const std::atomic<float>& depth, glm::vec2)
-      { return depth.load(std::memory_order_relaxed) < splat.Device.z - Before; });
+    const auto [firstPixel, endPixel] = this->PixelsIn(middle, halfSize);
+    const glm::ivec2 end = (endPixel + this->CellSize - 1) / this->CellSize;
+    const glm::ivec2 first = firstPixel / this->CellSize;
+    for (int y = first.y; y < end.y; ++y)
+    {
+      const std::atomic<float>* row = &this->Depths[static_cast<std::size_t>(y) * this->Cells.x];
+      const bool hidden = std::all_of(row + first.x, row + std::max(first.x, end.x),
+        [&](const std::atomic<float>& nearest)
+        { return nearest.load(std::memory_order_relaxed) < depth; });
+      if (!hidden)
+      {
+        return false;
+      }
+    }
+    return true;
   }
 
 private:
@@ -173,32 +212,19 @@ private:
     }
   }
 
-  // Calls with those whose centres lie in a square around the splat's middle, and with their offsets from it, as
-  // long as it gets true; returns whether it always did.
-  template <typename Visit>
-  bool VisitPixels(const Footprint& splat, float reach, const Visit& visit) const
+  // The first of those whose centres lie in a square, and the one after the last.
+  std::array<glm::ivec2, 2> PixelsIn(glm::vec2 middle, float halfSize) const
   {
-    const glm::vec2 size(this->Size);
-    const glm::ivec2 first(glm::clamp(splat.Middle - reach + 0.5f, glm::vec2(0.f), size));
-    const glm::ivec2 end(glm::clamp(splat.Middle + reach + 0.5f, glm::vec2(0.f), size));
-    for (int y = first.y; y < end.y; ++y)
-    {
-      for (int x = first.x; x < end.x; ++x)
-      {
-        const glm::vec2 centre(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-        if (!visit(
-              this->Depths[static_cast<std::size_t>(y) * this->Size.x + x], centre - splat.Middle))
-        {
-          return false;
-        }
-      }
-    }
-    return true;
+    const glm::vec2 none(0.f);
+    const glm::vec2 all(this->Size);
+    return { glm::ivec2(glm::clamp(middle - halfSize + 0.5f, none, all)),
+      glm::ivec2(glm::clamp(middle + halfSize + 0.5f, none, all)) };
   }
 
-  glm::ivec2 Size;
-  float Solid; // radii
-  std::unique_ptr<std::atomic<float>[]> Depths;
+  int CellSize;
+  glm::ivec2 Size; // pixels
+  glm::ivec2 Cells;
+  std::vector<std::atomic<float>> Depths;
 };
 }
 
@@ -223,7 +249,18 @@ std::vector<unsigned int> vtkSurfaceSplatCulling::FindVisible(
   const Camera& camera, const Splats& splats, vtkIdType first, vtkIdType end)
 {
   const Projector projector(camera, splats);
-  HidingDepths depths(camera, splats.Solid);
+  HidingDepths depths(camera, splats.CellSize);
+  const auto add = [&](const Footprint& splat)
+  {
+    const float solid = splats.Solid * splat.RadiusVC;
+    const glm::vec3 normal = projector.NormalOf(splat);
+    depths.Add(splat.Middle, splats.Solid * splat.HalfSize - Margin, projector.FarthestOf(splat),
+      [&](glm::vec2 offset)
+      {
+        const glm::vec3 place = projector.OnDisk(splat, normal, offset);
+        return glm::dot(place, place) < Shrink * Shrink * solid * solid;
+      });
+  };
   std::vector<char> seen(end - first);
   withThreads(
     [&](const hop::ParallelFor& parallelFor)
@@ -236,7 +273,7 @@ std::vector<unsigned int> vtkSurfaceSplatCulling::FindVisible(
             const Footprint splat = projector.FootprintOf(first + n);
             if (projector.HidesOthers(splat))
             {
-              depths.Add(splat, projector.ScreenOf(splat), projector.PixelAt(splat));
+              add(splat);
             }
           }
         });
@@ -246,7 +283,9 @@ std::vector<unsigned int> vtkSurfaceSplatCulling::FindVisible(
           for (std::ptrdiff_t n = begin; n < stop; ++n)
           {
             const Footprint splat = projector.FootprintOf(first + n);
-            seen[n] = splat.HalfSize > 0.f && !depths.Hide(splat);
+            const float halfSize = splat.Wider * splat.HalfSize + Margin;
+            seen[n] = splat.RadiusVC > 0.f &&
+              !(std::isfinite(halfSize) && depths.Hide(splat.Middle, halfSize, splat.Nearest));
           }
         });
     });

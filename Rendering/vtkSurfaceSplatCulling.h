@@ -1,10 +1,11 @@
 /**
  * @namespace vtkSurfaceSplatCulling
- * @brief which splats are hidden for certain, of those that are drawn as points
+ * @brief which flat splats are hidden for certain
  *
- * Mesa's software renderers take vertices one after the other, most of what many small splats cost. Splats
- * that lie behind others everywhere are found here on all cores, and left out. No pixel changes by that: the
- * coordinates are those of glsl/vtkSurfaceSplatPassVS.glsl, and where rounding may decide a splat is drawn.
+ * Mesa's software renderers take vertices one after the other, most of what many small splats cost, and have no
+ * processors to spare for pixels that are seen nowhere. Splats that lie behind others everywhere are found here
+ * on all cores, and left out. No pixel changes by that: the coordinates are those of
+ * glsl/vtkSurfaceSplatPassVS.glsl, and where rounding or the way in which a splat is drawn may decide, it is drawn.
  */
 
 #ifndef vtkSurfaceSplatCulling_h
@@ -36,8 +37,9 @@ struct Splats
   int Stride;
   float RadiusScale;
   float LeastPixels; ///< from middle to rim, all cover at least so many
-  float Push;        ///< radii by which splats are moved away from the eye before they hide others
-  float Solid;       ///< radii from the middle to where they hide others
+  float Push; ///< radii by which splats are moved away from the eye at most before they hide others
+  float Solid;  ///< radii from the middle to where they hide others
+  int CellSize; ///< pixels; of the squares that have to be covered by one splat to hide others
 };
 
 /** Whether a matrix scales all axes alike and keeps right angles. */

@@ -99,9 +99,9 @@ bool vtkSurfaceSplatDrawing::TellsSheetsApart() const
   return !this->Sheet && this->Buffers->GetNumberOfSheets() > 1;
 }
 
-bool vtkSurfaceSplatDrawing::DrawsAllAsPoints() const
+bool vtkSurfaceSplatDrawing::DrawsAll() const
 {
-  return this->DrawsPoints() && this->Kind == vtkSurfaceSplatKind::All && !this->Sheet &&
+  return this->Kind == vtkSurfaceSplatKind::All && !this->Sheet &&
     this->Buffers->GetNumberOfSheets() == 1 &&
     this->HiddenSide == vtkSurfaceSplatHiddenSide::None && this->NumberOfClippingPlanes == 0;
 }

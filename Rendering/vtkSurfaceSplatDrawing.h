@@ -74,8 +74,8 @@ struct vtkSurfaceSplatDrawing
    */
   bool TellsSheetsApart() const;
 
-  /** Whether all particles of the stride are drawn, as points, and none of them is cut by clipping planes. */
-  bool DrawsAllAsPoints() const;
+  /** Whether all particles of the stride are drawn, and none of them is cut by clipping planes. */
+  bool DrawsAll() const;
 
   /** Whether splats are bent. */
   bool DrawsCurved() const;

@@ -29,6 +29,9 @@ namespace
 // From middle to rim, splats cover at least that many pixels.
 constexpr double LeastPixels = 0.75;
 
+// Points are pushed the more, the more slanted the splat is seen, down to this cosine.
+constexpr double LeastCosine = 0.2;
+
 // Of draw calls in which some points are left out, Mesa goes through all vertices again for every 4 KB of those
 // that it passes on.
 constexpr vtkIdType SoftwarePiece = 512;
@@ -36,6 +39,28 @@ constexpr vtkIdType SoftwarePiece = 512;
 // Mesa's rasterizers in software keep what they have set up of each primitive until they are flushed: what that
 // many pieces need fits into the processor's cache.
 constexpr int PiecesAFlush = 8;
+
+// Of the size of splats, that of cells in which it is found what hides what: smaller ones find little more.
+constexpr double CellShare = 0.33;
+
+int CornersOf(const vtkSurfaceSplatDrawing& drawing)
+{
+  return drawing.DrawsPoints() ? 1 : 3;
+}
+
+std::vector<unsigned int> VerticesOf(const std::vector<unsigned int>& splats, unsigned int corners)
+{
+  std::vector<unsigned int> vertices;
+  vertices.reserve(corners * splats.size());
+  for (const unsigned int splat : splats)
+  {
+    for (unsigned int corner = 0; corner < corners; ++corner)
+    {
+      vertices.push_back(corners * splat + corner);
+    }
+  }
+  return vertices;
+}
 
 bool IsDrawnInSoftware()
 {
@@ -87,6 +112,7 @@ std::string Definitions(
 {
   return vtkSurfaceSplatDefine("SPLAT_POINTS", drawing.DrawsPoints()) +
     vtkSurfaceSplatDefine("SPLAT_LEAST_PIXELS", LeastPixels) +
+    vtkSurfaceSplatDefine("SPLAT_LEAST_COSINE", LeastCosine) +
     vtkSurfaceSplatDefine("SPLAT_HAS_CLIP", drawing.Buffers->GetHasClip()) +
     vtkSurfaceSplatDefine("SPLAT_GAP_SHARE", vtkSurfaceSplatPrimitives::GapShare) +
     vtkSurfaceSplatDefine("SPLAT_CURVED", drawing.DrawsCurved()) +
@@ -142,11 +168,16 @@ void vtkSurfaceSplatPrimitives::Cull(const vtkSurfaceSplatDrawing& drawing, doub
 {
   this->NumberOfVisible.reset();
   const vtkSurfaceSplatCulling::Camera camera = drawing.View->GetCamera();
-  if (!IsDrawnInSoftware() || !drawing.DrawsAllAsPoints() || drawing.FacesViewer ||
-    !vtkSurfaceSplatCulling::IsSimilarity(camera.MCVC))
+  const double pixels =
+    drawing.View->GetLargestPixels(drawing.RadiusScale * drawing.Buffers->GetMeanRadius());
+  if (!IsDrawnInSoftware() || !drawing.DrawsAll() || drawing.DrawsCurved() || drawing.FacesViewer ||
+    !std::isfinite(pixels) || !vtkSurfaceSplatCulling::IsSimilarity(camera.MCVC))
   {
     return;
   }
+  const int corners = CornersOf(drawing);
+  const double mostPush = corners == 1 ? push / LeastCosine : push;
+  const int cellSize = corners == 1 ? 1 : static_cast<int>(std::clamp(CellShare * pixels, 1., 64.));
   std::vector<unsigned int> visible;
   const bool found = drawing.Buffers->Read(
     [&](const vtkSurfaceSplatBuffers::Mapped& particles)
@@ -155,7 +186,7 @@ void vtkSurfaceSplatPrimitives::Cull(const vtkSurfaceSplatDrawing& drawing, doub
       visible = vtkSurfaceSplatCulling::FindVisible(camera,
         { particles.CentreRadius, particles.Normal, particles.Clip, drawing.Stride,
           static_cast<float>(drawing.RadiusScale), static_cast<float>(LeastPixels),
-          static_cast<float>(push), static_cast<float>(Rim()) },
+          static_cast<float>(mostPush), static_cast<float>(Rim()), cellSize },
         first, end);
     });
   if (!found)
@@ -166,7 +197,7 @@ void vtkSurfaceSplatPrimitives::Cull(const vtkSurfaceSplatDrawing& drawing, doub
   if (!visible.empty())
   {
     this->VertexArray->Bind();
-    this->Visible->Upload(visible, vtkOpenGLBufferObject::ElementArrayBuffer);
+    this->Visible->Upload(VerticesOf(visible, corners), vtkOpenGLBufferObject::ElementArrayBuffer);
     this->VertexArray->Release();
   }
 }
@@ -174,17 +205,18 @@ void vtkSurfaceSplatPrimitives::Cull(const vtkSurfaceSplatDrawing& drawing, doub
 void vtkSurfaceSplatPrimitives::DrawPiece(
   const vtkSurfaceSplatDrawing& drawing, vtkIdType first, vtkIdType size) const
 {
-  const auto start = static_cast<std::size_t>(first);
+  const int corners = CornersOf(drawing);
+  const GLenum mode = corners == 1 ? GL_POINTS : GL_TRIANGLES;
+  const auto count = static_cast<GLsizei>(corners * size);
   if (this->NumberOfVisible)
   {
-    glDrawElements(GL_POINTS, static_cast<GLsizei>(size), GL_UNSIGNED_INT,
-      reinterpret_cast<const void*>(start * sizeof(GLuint)));
-    return;
+    glDrawElements(mode, count, GL_UNSIGNED_INT,
+      reinterpret_cast<const void*>(corners * first * sizeof(GLuint)));
   }
-  const bool points = drawing.DrawsPoints();
-  const int corners = points ? 1 : 3;
-  glDrawArrays(points ? GL_POINTS : GL_TRIANGLES, static_cast<GLint>(corners * first),
-    static_cast<GLsizei>(corners * size));
+  else
+  {
+    glDrawArrays(mode, static_cast<GLint>(corners * first), count);
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -1,10 +1,10 @@
 //VTK::System::Dec
 
 // Vertex stage of the splat passes (visibility, accumulation, strongest), behind definitions of
-// SPLAT_POINTS, SPLAT_LEAST_PIXELS and SPLAT_APART (sheets are told apart: 0 or 1). A splat is a triangle in
-// the plane of its disk, so that depth and disk coordinates are interpolated by the rasterizer, right for every
-// projection, and the near plane clips it. Where all splats cover a few pixels only (SPLAT_POINTS 1), each is
-// a point instead, of the depth of its middle: a third of the vertices.
+// SPLAT_POINTS, SPLAT_LEAST_PIXELS, SPLAT_LEAST_COSINE and SPLAT_APART (sheets are told apart: 0 or 1). A splat
+// is a triangle in the plane of its disk, so that depth and disk coordinates are interpolated by the rasterizer,
+// right for every projection, and the near plane clips it. Where all splats cover a few pixels only (SPLAT_POINTS
+// 1), each is a point instead, of the depth of its middle: a third of the vertices.
 
 //Splat::Disk::Dec
 
@@ -124,7 +124,7 @@ void main()
   vec3 vertexVC = centreVC;
   // The depths of middles differ by as much more than those of neighbouring planes as they tilt.
   vec3 toEye = splatParallel == 1 ? vec3(0.0, 0.0, 1.0) : normalize(-centreVC);
-  radiusVC /= max(abs(dot(splatNormalVC, toEye)), 0.2);
+  radiusVC /= max(abs(dot(splatNormalVC, toEye)), SPLAT_LEAST_COSINE);
 #else
   vec2 place = splatReach * splatCorner[gl_VertexID % 3];
   vec3 offsetVC = place.x * tangentVC + place.y * bitangentVC;

@@ -60,7 +60,8 @@ struct Sphere
 
   Splats AsSplats() const
   {
-    return { this->CentreRadius.data(), this->Normal.data(), nullptr, 1, 1.f, 0.75f, 1.f, 0.93f };
+    return { this->CentreRadius.data(), this->Normal.data(), nullptr, 1, 1.f, 0.75f, 1.f, 0.93f,
+      1 };
   }
 
   int GetCount() const { return static_cast<int>(this->Normal.size() / 4); }
@@ -202,7 +203,7 @@ void ExpectTheSameWithAllSplats(
 }
 }
 
-TEST(SplatCulling, ChangesNoPixel)
+TEST(SplatCulling, ChangesNoPixelOfPoints)
 {
   constexpr double cameras[][2] = { { 12., 0.9 }, { 12., 2. }, { 2.5, 2. } };
   for (const SplatView& view : SphereViews)
@@ -212,6 +213,21 @@ TEST(SplatCulling, ChangesNoPixel)
       ExpectTheSameWithAllSplats(FibonacciSphere(150000, 1., 0.009), view, distance, halfHeight);
       ExpectTheSameWithAllSplats(Cloud(200000, 0.0115), view, distance, halfHeight);
       ExpectTheSameWithAllSplats(Cloud(40000, 0.0115), view, distance, halfHeight);
+    }
+  }
+}
+
+TEST(SplatCulling, ChangesNoPixelOfTriangles)
+{
+  // The eye of the last one is among the splats.
+  constexpr double cameras[][2] = { { 12., 0.9 }, { 2.5, 2. }, { 0.8, 0.6 } };
+  for (const SplatView& view : SphereViews)
+  {
+    for (const auto& [distance, halfHeight] : cameras)
+    {
+      ExpectTheSameWithAllSplats(FibonacciSphere(6800, 1., 0.0462), view, distance, halfHeight);
+      ExpectTheSameWithAllSplats(Cloud(50000, 0.03), view, distance, halfHeight);
+      ExpectTheSameWithAllSplats(Cloud(5000, 0.06), view, distance, halfHeight);
     }
   }
 }
