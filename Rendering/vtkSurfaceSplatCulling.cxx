@@ -32,10 +32,9 @@ struct Footprint
   glm::vec3 CentreVC;
   float RadiusVC = 0.f; // 0: nothing is drawn
   glm::vec2 Middle;     // pixels
-  float HalfSize =
-    0.f; // of a square around a disk that faces the picture, pixels; infinite near the eye
-  float Wider = 1.f;   // than that it may be
-  float Nearest = 0.f; // depth, device coordinates
+  float HalfSize = 0.f; // pixels, of a square around a disk facing the eye; infinite near it
+  float Wider = 1.f;    // than that it may be
+  float Nearest = 0.f;  // depth, device coordinates
 };
 
 class Projector
