@@ -243,58 +243,84 @@ bool vtkSurfaceSplatCulling::IsSimilarity(const glm::mat4& matrix)
   return largest < 1e-4f * square;
 }
 
+namespace
+{
+// From so many splats on it is worth starting threads for.
+constexpr vtkIdType WorthThreads = 20000;
+
+void Add(HidingDepths& depths, const Splats& splats, const Projector& projector, vtkIdType number)
+{
+  const Footprint splat = projector.FootprintOf(number);
+  if (!projector.HidesOthers(splat))
+  {
+    return;
+  }
+  const float solid = Shrink * splats.Solid * splat.RadiusVC;
+  const glm::vec3 normal = projector.NormalOf(splat);
+  depths.Add(splat.Middle, splats.Solid * splat.HalfSize - Margin, projector.FarthestOf(splat),
+    [&](glm::vec2 offset)
+    {
+      const glm::vec3 place = projector.OnDisk(splat, normal, offset);
+      return glm::dot(place, place) < solid * solid;
+    });
+}
+
+bool MayBeSeen(const HidingDepths& depths, const Footprint& splat)
+{
+  const float halfSize = splat.Wider * splat.HalfSize + Margin;
+  return splat.RadiusVC > 0.f &&
+    !(std::isfinite(halfSize) && depths.Hide(splat.Middle, halfSize, splat.Nearest));
+}
+
+// Which of them may be.
+std::vector<char> FindSeen(const Camera& camera, const Splats& splats, vtkIdType first,
+  vtkIdType end, const hop::ParallelFor& parallelFor)
+{
+  const Projector projector(camera, splats);
+  HidingDepths depths(camera, splats.CellSize);
+  parallelFor(end - first,
+    [&](std::ptrdiff_t begin, std::ptrdiff_t stop)
+    {
+      for (std::ptrdiff_t n = begin; n < stop; ++n)
+      {
+        Add(depths, splats, projector, first + n);
+      }
+    });
+  std::vector<char> seen(end - first);
+  parallelFor(end - first,
+    [&](std::ptrdiff_t begin, std::ptrdiff_t stop)
+    {
+      for (std::ptrdiff_t n = begin; n < stop; ++n)
+      {
+        seen[n] = MayBeSeen(depths, projector.FootprintOf(first + n));
+      }
+    });
+  return seen;
+}
+}
+
 //------------------------------------------------------------------------------
 std::vector<unsigned int> vtkSurfaceSplatCulling::FindVisible(
   const Camera& camera, const Splats& splats, vtkIdType first, vtkIdType end)
 {
-  const Projector projector(camera, splats);
-  HidingDepths depths(camera, splats.CellSize);
-  const auto add = [&](const Footprint& splat)
+  std::vector<char> seen;
+  const auto find = [&](const hop::ParallelFor& parallelFor)
+  { seen = FindSeen(camera, splats, first, end, parallelFor); };
+  if (end - first < WorthThreads)
   {
-    const float solid = splats.Solid * splat.RadiusVC;
-    const glm::vec3 normal = projector.NormalOf(splat);
-    depths.Add(splat.Middle, splats.Solid * splat.HalfSize - Margin, projector.FarthestOf(splat),
-      [&](glm::vec2 offset)
-      {
-        const glm::vec3 place = projector.OnDisk(splat, normal, offset);
-        return glm::dot(place, place) < Shrink * Shrink * solid * solid;
-      });
-  };
-  std::vector<char> seen(end - first);
-  withThreads(
-    [&](const hop::ParallelFor& parallelFor)
-    {
-      parallelFor(end - first,
-        [&](std::ptrdiff_t begin, std::ptrdiff_t stop)
-        {
-          for (std::ptrdiff_t n = begin; n < stop; ++n)
-          {
-            const Footprint splat = projector.FootprintOf(first + n);
-            if (projector.HidesOthers(splat))
-            {
-              add(splat);
-            }
-          }
-        });
-      parallelFor(end - first,
-        [&](std::ptrdiff_t begin, std::ptrdiff_t stop)
-        {
-          for (std::ptrdiff_t n = begin; n < stop; ++n)
-          {
-            const Footprint splat = projector.FootprintOf(first + n);
-            const float halfSize = splat.Wider * splat.HalfSize + Margin;
-            seen[n] = splat.RadiusVC > 0.f &&
-              !(std::isfinite(halfSize) && depths.Hide(splat.Middle, halfSize, splat.Nearest));
-          }
-        });
-    });
+    find([](std::ptrdiff_t count, const hop::LoopBody& body) { body(0, count); });
+  }
+  else
+  {
+    withThreads(find);
+  }
   std::vector<unsigned int> visible;
   visible.reserve(std::count(seen.begin(), seen.end(), 1));
-  for (vtkIdType number = first; number < end; ++number)
+  for (std::size_t n = 0; n < seen.size(); ++n)
   {
-    if (seen[number - first])
+    if (seen[n])
     {
-      visible.push_back(static_cast<unsigned int>(number));
+      visible.push_back(static_cast<unsigned int>(first + static_cast<vtkIdType>(n)));
     }
   }
   return visible;
