@@ -64,8 +64,6 @@ struct Sphere
       1 };
   }
 
-  int GetCount() const { return static_cast<int>(this->Normal.size() / 4); }
-
   std::vector<float> CentreRadius;
   std::vector<float> Normal;
 };
@@ -201,35 +199,42 @@ void ExpectTheSameWithAllSplats(
   EXPECT_TRUE(culled.Positions == whole.Positions) << view << ", " << halfHeight;
   EXPECT_GT(scene.CountDrawnPixels(), 5000);
 }
+
+struct Lens
+{
+  double Distance;
+  double HalfHeight;
+};
+
+void ExpectTheSameFromAllSides(
+  const std::vector<vtkSmartPointer<vtkPolyData>>& clouds, const std::vector<Lens>& lenses)
+{
+  for (const vtkSmartPointer<vtkPolyData>& particles : clouds)
+  {
+    for (const SplatView& view : SphereViews)
+    {
+      for (const Lens& lens : lenses)
+      {
+        ExpectTheSameWithAllSplats(particles, view, lens.Distance, lens.HalfHeight);
+      }
+    }
+  }
+}
 }
 
 TEST(SplatCulling, ChangesNoPixelOfPoints)
 {
-  constexpr double cameras[][2] = { { 12., 0.9 }, { 12., 2. }, { 2.5, 2. } };
-  for (const SplatView& view : SphereViews)
-  {
-    for (const auto& [distance, halfHeight] : cameras)
-    {
-      ExpectTheSameWithAllSplats(FibonacciSphere(150000, 1., 0.009), view, distance, halfHeight);
-      ExpectTheSameWithAllSplats(Cloud(200000, 0.0115), view, distance, halfHeight);
-      ExpectTheSameWithAllSplats(Cloud(40000, 0.0115), view, distance, halfHeight);
-    }
-  }
+  ExpectTheSameFromAllSides(
+    { FibonacciSphere(150000, 1., 0.009), Cloud(200000, 0.0115), Cloud(40000, 0.0115) },
+    { { 12., 0.9 }, { 12., 2. }, { 2.5, 2. } });
 }
 
 TEST(SplatCulling, ChangesNoPixelOfTriangles)
 {
   // The eye of the last one is among the splats.
-  constexpr double cameras[][2] = { { 12., 0.9 }, { 2.5, 2. }, { 0.8, 0.6 } };
-  for (const SplatView& view : SphereViews)
-  {
-    for (const auto& [distance, halfHeight] : cameras)
-    {
-      ExpectTheSameWithAllSplats(FibonacciSphere(6800, 1., 0.0462), view, distance, halfHeight);
-      ExpectTheSameWithAllSplats(Cloud(50000, 0.03), view, distance, halfHeight);
-      ExpectTheSameWithAllSplats(Cloud(5000, 0.06), view, distance, halfHeight);
-    }
-  }
+  ExpectTheSameFromAllSides(
+    { FibonacciSphere(6800, 1., 0.0462), Cloud(50000, 0.03), Cloud(5000, 0.06) },
+    { { 12., 0.9 }, { 2.5, 2. }, { 0.8, 0.6 } });
 }
 
 TEST(SplatCulling, LeavesNothingBesideTheView)
