@@ -8,18 +8,18 @@ namespace hop
 namespace
 {
 
-/// Pairs nearer than this, in units of their spacing, are defects of the packing. Particles within some
-/// spacings of them are relaxed further.
+/// Pairs nearer than this, in units of their spacing, are defects of the packing.
 constexpr double smallestSpacing = 0.82;
-constexpr double repairReach = 3.0;
+/// So far, in units of the spacing, those that are relaxed look at others.
+constexpr double sight = 3.0;
 constexpr int repairRounds = 2;
 constexpr int repairSweeps = 8;
 /// What is left is repaired again, so often at most, if it is no more than that share of all particles: where
 /// fields jump there is much that cannot be.
 constexpr int furtherRepairs = 2;
 constexpr double fewDefects = 0.005;
-/// Of the last steps.
-constexpr float shortWay = 0.2f;
+/// In the end.
+constexpr Nearby lastSteps{ 1.5, 0.2f };
 
 /// Those that move and stand too near to another one.
 Buffer<Patch> findCrowded(const MovingParticles& particles, const ParallelFor& parallelFor)
@@ -32,13 +32,13 @@ Buffer<Patch> findCrowded(const MovingParticles& particles, const ParallelFor& p
 } // namespace
 
 Buffer<Patch> relaxAround(const Buffer<Patch>& places, Balance::Extent extent,
-  MovingParticles& moving, const ParallelFor& parallelFor, float farthest)
+  MovingParticles& moving, const ParallelFor& parallelFor, const Nearby& nearby)
 {
   const Buffer<Patch>& patches = moving.patches();
   const std::size_t count = moving.count();
-  const std::vector<char> staying = areFarFrom(patches, count, places, repairReach, parallelFor);
+  const std::vector<char> staying = areFarFrom(patches, count, places, nearby.reach, parallelFor);
   const std::vector<char> outOfSight =
-    areFarFrom(patches, patches.size(), places, 2.0 * repairReach, parallelFor);
+    areFarFrom(patches, patches.size(), places, nearby.reach + sight, parallelFor);
   Buffer<Patch> around;
   for (std::size_t i = 0; i < patches.size(); ++i)
   {
@@ -55,7 +55,7 @@ Buffer<Patch> relaxAround(const Buffer<Patch>& places, Balance::Extent extent,
   balance.extent = extent;
   for (int n = 0; n < repairRounds; ++n)
   {
-    part.relax({ repairSweeps, farthest }, balance);
+    part.relax({ repairSweeps, nearby.farthest }, balance);
   }
   moving.keep(staying);
   moving.join(part);
@@ -76,7 +76,7 @@ void repairPacking(MovingParticles& moving, const ParallelFor& parallelFor)
   }
   if (!crowded.empty())
   {
-    relaxAround(crowded, Balance::None, moving, parallelFor, shortWay);
+    relaxAround(crowded, Balance::None, moving, parallelFor, lastSteps);
   }
 }
 

@@ -6,11 +6,19 @@
 namespace hop
 {
 
+/// Which particles are relaxed further, and how.
+struct Nearby
+{
+  /// Those not farther than this from a place, in units of the spacing.
+  double reach = 3.0;
+  /// As of Sweeps.
+  float farthest = Sweeps{}.farthest;
+};
+
 /// Relaxes particles around some places further, alone; those farther off stay.
-/// \param farthest as of Sweeps
 /// \return those of them that stand too near to others afterwards
 Buffer<Patch> relaxAround(const Buffer<Patch>& places, Balance::Extent extent,
-  MovingParticles& moving, const ParallelFor& parallelFor, float farthest = Sweeps{}.farthest);
+  MovingParticles& moving, const ParallelFor& parallelFor, const Nearby& nearby = {});
 
 /// Mends places where particles stand too near to each other, and what is left of them as long as that may
 /// be mended; in the end in short steps, as at sharp kinks long ones lead back and forth between patches of
