@@ -1,18 +1,18 @@
 #include "vtkHighOrderParticleIsosurface.h"
 
-#include "BlockGroups.h"
-#include "ClassicDistribution.h"
-#include "FastDistribution.h"
-#include "GatherBlocks.h"
-#include "GridElements.h"
-#include "InputChecks.h"
-#include "Interruptible.h"
-#include "ParticlePacker.h"
-#include "PreviousRun.h"
-#include "Ranks.h"
-#include "RunMessages.h"
-#include "Threads.h"
-#include "VtkCompatibility.h"
+#include "Classic/ClassicDistribution.h"
+#include "Common/VtkThreads.h"
+#include "Conversion/GridElements.h"
+#include "Fast/FastDistribution.h"
+#include "Input/BlockGroups.h"
+#include "Input/GatherBlocks.h"
+#include "Input/InputChecks.h"
+#include "Input/VtkCompatibility.h"
+#include "Output/ParticlePacker.h"
+#include "Run/PreviousRun.h"
+#include "Run/Ranks.h"
+#include "Run/RunMessages.h"
+#include "Support/Interruptible.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkCellArray.h"
@@ -354,7 +354,7 @@ RunOrigin vtkHighOrderParticleIsosurface::OriginOf(
 {
   RunOrigin origin = originOf(blocks);
   origin.nodeSpacing = this->NodeSpacing;
-  origin.parameters.law = { scale.Spacing, this->AngularDensity };
+  origin.parameters.sizing = { scale.Spacing, this->AngularDensity };
   origin.parameters.quality = static_cast<hop::Quality>(this->Quality);
   origin.parameters.seed = static_cast<std::uint64_t>(this->Seed);
   origin.parameters.particleCount = this->NumberOfParticles;

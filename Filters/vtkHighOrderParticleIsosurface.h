@@ -31,12 +31,12 @@
  * along the surface, a symmetric tensor: xx, yy, zz, xy, yz, xz; 1 / world units), `Residual` (|F - c|/|grad F|,
  * world units), `Clip_Normal`, `Clip_Distance`, `Clip_Angle` and `Clip_Curvature` (from method FAST: unit
  * normals and distances, in world units, of up to two planes near the particle at which the surface ends or
- * turns: rims, or faces between elements; normal zero: none; the largest angle seen there between the
- * normals of both sides, in degrees: 180 at rims, else 1.5 at least, where a step of the surface counts as an
- * angle of step / spacing, below 10; and the curvature of the rim or kink, 1 / world units, positive
+ * turns: boundary curves, or faces between elements; normal zero: none; the largest angle seen there between the
+ * normals of both sides, in degrees: 180 at boundary curves, else 1.5 at least, where a step of the surface counts as an
+ * angle of step / spacing, below 10; and the curvature of the boundary curve or crease, 1 / world units, positive
  * where it bends towards the normal: the plane touches it where it is nearest; 0 below 10 degrees; splats
- * are to be cut at rims and kinks, and to give way to those of the other side where the angle is below 10;
- * where kinks meet, a plane is moved outwards if nothing else would cover what it cuts off), `Jump` (on rims
+ * are to be cut at boundary curves and creases, and to give way to those of the other side where the angle is below 10;
+ * where creases meet, a plane is moved outwards if nothing else would cover what it cuts off), `Jump` (on boundary curves
  * where the field jumps from element to element: F - c on the other side; else 0), `Isovalue`,
  * `vtkOriginalCellIds`, `ParametricCoordinates` (of VTK's cell), and every numeric point array of the input
  * evaluated by the element's own polynomials, in double precision (the contoured one holds the isovalue).

@@ -1,6 +1,6 @@
 #include "vtkSurfaceSplatCulling.h"
 
-#include "Threads.h"
+#include "Common/VtkThreads.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,6 +1,6 @@
 #include "SubdividedGrid.h"
 
-#include "BatchEvaluator.h"
+#include "Elements/BatchEvaluator.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellType.h>

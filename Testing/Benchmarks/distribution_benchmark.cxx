@@ -17,16 +17,16 @@
 //     repetitions= the fastest one counts (default 3)
 
 #include "BenchmarkGrids.h"
-#include "ClassicDistribution.h"
+#include "Classic/ClassicDistribution.h"
+#include "Common/VtkThreads.h"
+#include "Conversion/GridElements.h"
 #include "DistributionMeasures.h"
-#include "FastDistribution.h"
-#include "GridElements.h"
+#include "Fast/FastDistribution.h"
 #include "Measurement.h"
-#include "ParticlePacker.h"
+#include "Output/ParticlePacker.h"
 #include "PointGrid.h"
 #include "SubdividedGrid.h"
 #include "SurfaceSeeds.h"
-#include "Threads.h"
 #include "vtkHighOrderParticleIsosurface.h"
 
 #include <vtkBoundingBox.h>
@@ -126,7 +126,7 @@ struct Stages
 hop::DistributionParameters parametersOf(const Request& request)
 {
   hop::DistributionParameters parameters;
-  parameters.law = { request.spacing, request.density };
+  parameters.sizing = { request.spacing, request.density };
   return parameters;
 }
 

@@ -4,8 +4,8 @@
 // (EvaluateLocation, Derivatives) for position and gradient alone.
 //   kernel_benchmark --benchmark_repetitions=5 --benchmark_out=kernel.json
 //   python3 kernel_table.py kernel.json
-#include "BatchEvaluator.h"
-#include "InstructionSet.h"
+#include "Elements/BatchEvaluator.h"
+#include "Kernel/InstructionSet.h"
 
 #include "ElementCases.h"
 #include "VtkCells.h"

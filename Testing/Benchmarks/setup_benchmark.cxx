@@ -6,9 +6,9 @@
 // wedges of degree 3, of which 953 can hold the surface: 12 ms on one thread (0.47 million cells a
 // second), 8.2 ms on two; stock Contour takes 106 ms in all.
 
-#include "GridElements.h"
-#include "SurfaceBoxes.h"
-#include "Threads.h"
+#include "Common/VtkThreads.h"
+#include "Conversion/GridElements.h"
+#include "Isolation/SurfaceBoxes.h"
 
 #include "vtkContourFilter.h"
 #include "vtkDataArray.h"

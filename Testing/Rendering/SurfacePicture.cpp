@@ -1,8 +1,8 @@
 #include "SurfacePicture.h"
 
-#include "GridElements.h"
+#include "Common/VtkThreads.h"
+#include "Conversion/GridElements.h"
 #include "SurfaceCases.h"
-#include "Threads.h"
 
 #include "vtkActor.h"
 #include "vtkCamera.h"

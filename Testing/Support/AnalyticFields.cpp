@@ -1,6 +1,6 @@
 #include "AnalyticFields.h"
 
-#include "Energy.h"
+#include "Surface/Energy.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "SurfaceGeometry.h"
+#include "Surface/SurfaceGeometry.h"
 #include "TestMeshes.h"
 
 namespace hop::testing

@@ -1,7 +1,7 @@
 #include "DistributionMeasures.h"
 
-#include "KeepMarked.h"
 #include "PointGrid.h"
+#include "Support/KeepMarked.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Particles.h"
+#include "Surface/Particles.h"
 
 #include <glm/glm.hpp>
 
@@ -24,7 +24,7 @@ struct Star
 {
   /// Number of these neighbours.
   int valence = 0;
-  /// Whether they surround the particle. They do not on the rim of a surface, nor beside a hole more
+  /// Whether they surround the particle. They do not on the boundary curve of a surface, nor beside a hole more
   /// than OpenRadius spacings away.
   bool closed = false;
   /// Of the triangles, in space: the largest circumradius over the particle's spacing (1/sqrt(3) in

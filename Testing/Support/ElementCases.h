@@ -1,7 +1,7 @@
 #pragma once
 
-#include "Bernstein.h"
-#include "Random.h"
+#include "Elements/Bernstein.h"
+#include "Support/Random.h"
 
 #include <iosfwd>
 

@@ -1,8 +1,8 @@
 #include "RayCaster.h"
 
-#include "ActiveFaces.h"
-#include "SurfaceBoxes.h"
-#include "SurfaceGeometry.h"
+#include "Isolation/SurfaceBoxes.h"
+#include "Surface/ActiveFaces.h"
+#include "Surface/SurfaceGeometry.h"
 
 #include <algorithm>
 #include <cmath>

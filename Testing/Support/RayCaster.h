@@ -1,7 +1,7 @@
 #pragma once
 
-#include "ElementMesh.h"
-#include "Monitor.h"
+#include "Common/Monitor.h"
+#include "Elements/ElementMesh.h"
 
 #include <vector>
 

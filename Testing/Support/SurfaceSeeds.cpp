@@ -1,6 +1,6 @@
 #include "SurfaceSeeds.h"
 
-#include "SurfaceWalker.h"
+#include "Surface/SurfaceWalker.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "SurfaceBoxes.h"
+#include "Isolation/SurfaceBoxes.h"
 
 namespace hop::testing
 {

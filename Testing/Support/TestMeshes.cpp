@@ -1,7 +1,7 @@
 #include "TestMeshes.h"
 
-#include "ActiveFaces.h"
-#include "NodalBasis.h"
+#include "Elements/NodalBasis.h"
+#include "Surface/ActiveFaces.h"
 
 #include <algorithm>
 #include <cmath>

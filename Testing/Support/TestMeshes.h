@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ElementMesh.h"
+#include "Elements/ElementMesh.h"
 
 #include <functional>
 

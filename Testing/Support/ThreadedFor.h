@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Monitor.h"
+#include "Common/Monitor.h"
 
 namespace hop::testing
 {

@@ -1,4 +1,4 @@
-#include "MakeKernels.h"
+#include "Kernel/MakeKernels.h"
 
 // Compiled with AVX2 and FMA switched on; only called where the processor has them.
 namespace hop::kernel

@@ -1,4 +1,4 @@
-#include "MakeKernels.h"
+#include "Kernel/MakeKernels.h"
 
 // Compiled with AVX-512 switched on; only called where the processor has it.
 namespace hop::kernel

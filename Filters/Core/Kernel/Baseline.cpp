@@ -1,4 +1,4 @@
-#include "MakeKernels.h"
+#include "Kernel/MakeKernels.h"
 
 namespace hop::kernel
 {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "SimplexNet.h"
-#include "TensorBasis.h"
+#include "Kernel/SimplexNet.h"
+#include "Kernel/TensorBasis.h"
 
 // Jets of an element at one vector of points. `Degree` > 0: all degrees of the element are this,
 // known to the compiler; 0: they are read from the element.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Kernels.h"
+#include "Kernel/Kernels.h"
 
 namespace hop::kernel
 {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "Jets.h"
-#include "Near.h"
-#include "Sweep.h"
+#include "Kernel/Jets.h"
+#include "Kernel/Near.h"
+#include "Kernel/Sweep.h"
 
 #include <utility>
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "Lanes.h"
+#include "Kernel/Lanes.h"
 
-#include "Kernels.h"
+#include "Kernel/Kernels.h"
 
 // Local to the file that includes it, like Lanes.h.
 namespace hop::kernel

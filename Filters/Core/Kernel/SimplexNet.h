@@ -1,6 +1,6 @@
 #pragma once
 
-#include "LineBasis.h"
+#include "Kernel/LineBasis.h"
 
 // Simplices are evaluated in two steps. Blossoming all but the last `Order` levels of de Casteljau's
 // algorithm leaves a control net of degree `Order` with the value and all derivatives up to that

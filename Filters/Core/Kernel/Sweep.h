@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Kernels.h"
+#include "Kernel/Kernels.h"
 
 #include <cstring>
 #include <limits>

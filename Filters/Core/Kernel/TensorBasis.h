@@ -1,7 +1,7 @@
 #pragma once
 
-#include "Lanes.h"
-#include "LineBasis.h"
+#include "Kernel/Lanes.h"
+#include "Kernel/LineBasis.h"
 
 namespace hop::kernel
 {

@@ -1,0 +1,324 @@
+#include "Conversion/CellBases.h"
+
+#include "Elements/Bernstein.h"
+#include "Support/Random.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCellType.h"
+#include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkGenericCell.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+
+namespace
+{
+
+constexpr hop::Degrees degreesFromCount{ 0, 0, 0 };
+
+bool isBezier(int cellType)
+{
+  return cellType == VTK_BEZIER_HEXAHEDRON || cellType == VTK_BEZIER_TETRAHEDRON ||
+    cellType == VTK_BEZIER_WEDGE;
+}
+
+bool isLagrange(int cellType)
+{
+  return cellType == VTK_LAGRANGE_HEXAHEDRON || cellType == VTK_LAGRANGE_TETRAHEDRON ||
+    cellType == VTK_LAGRANGE_WEDGE;
+}
+
+/// The domain on which cells of a type are polynomial.
+std::optional<hop::Domain> domainOf(int cellType)
+{
+  switch (cellType)
+  {
+    case VTK_HEXAHEDRON:
+    case VTK_VOXEL:
+    case VTK_QUADRATIC_HEXAHEDRON:
+    case VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON:
+    case VTK_TRIQUADRATIC_HEXAHEDRON:
+    case VTK_LAGRANGE_HEXAHEDRON:
+    case VTK_BEZIER_HEXAHEDRON:
+    case VTK_PYRAMID:
+    case VTK_QUADRATIC_PYRAMID:
+    case VTK_TRIQUADRATIC_PYRAMID:
+      return hop::Domain::Hexahedron;
+    case VTK_TETRA:
+    case VTK_QUADRATIC_TETRA:
+    case VTK_LAGRANGE_TETRAHEDRON:
+    case VTK_BEZIER_TETRAHEDRON:
+      return hop::Domain::Tetrahedron;
+    case VTK_WEDGE:
+    case VTK_QUADRATIC_WEDGE:
+    case VTK_QUADRATIC_LINEAR_WEDGE:
+    case VTK_BIQUADRATIC_QUADRATIC_WEDGE:
+    case VTK_LAGRANGE_WEDGE:
+    case VTK_BEZIER_WEDGE:
+      return hop::Domain::Wedge;
+    default:
+      return {};
+  }
+}
+
+/// Lagrange cells whose points do not fill a lattice, but which VTK knows all the same.
+bool isEnriched(int cellType, vtkIdType points)
+{
+  return (cellType == VTK_LAGRANGE_TETRAHEDRON && points == 15) ||
+    (cellType == VTK_LAGRANGE_WEDGE && points == 21);
+}
+
+/// The degrees that the file gives for this cell; zeros if it leaves them to the number of points.
+hop::Degrees explicitDegrees(vtkUnstructuredGrid* grid, vtkIdType cell)
+{
+  const int type = grid->GetCellType(cell);
+  vtkDataArray* given =
+    isLagrange(type) || isBezier(type) ? grid->GetCellData()->GetHigherOrderDegrees() : nullptr;
+  if (!given || given->GetNumberOfComponents() != 3)
+  {
+    return degreesFromCount;
+  }
+  double tuple[3];
+  given->GetTuple(cell, tuple);
+  const auto degree = [](double value)
+  { return value >= 0.0 && value <= hop::MaximumInputDegree ? static_cast<int>(value) : -1; };
+  return { degree(tuple[0]), degree(tuple[1]), degree(tuple[2]) };
+}
+
+/// The degree at which the domain has that many nodes, or the given degrees if they have.
+std::optional<hop::Degrees> fittingDegrees(
+  hop::Domain domain, const hop::Degrees& given, vtkIdType nodes)
+{
+  if (given != degreesFromCount)
+  {
+    const auto [lowest, highest] = std::minmax_element(given.begin(), given.end());
+    return *lowest >= 1 && *highest <= hop::maximumInputDegree(domain) &&
+        hop::coefficientCount(domain, given) == nodes
+      ? std::optional<hop::Degrees>(given)
+      : std::nullopt;
+  }
+  for (int p = 1; p <= hop::maximumInputDegree(domain); ++p)
+  {
+    if (hop::coefficientCount(domain, { p, p, p }) == nodes)
+    {
+      return hop::Degrees{ p, p, p };
+    }
+  }
+  return {};
+}
+
+/// Number of points of a cell type that has but one.
+/// \pre VTK has a class for it, as for all types that have a domain
+vtkIdType usualPointCount(int cellType)
+{
+  return vtk::TakeSmartPointer(vtkGenericCell::InstantiateCell(cellType))->GetNumberOfPoints();
+}
+
+/// A cell of that kind, alone and with all points at the origin. VTK can be asked about its nodes
+/// whatever is wrong with the cells of the input.
+/// \param degrees of a cell that fills its lattice
+vtkSmartPointer<vtkUnstructuredGrid> gridOfOneCell(
+  int cellType, vtkIdType nodes, const std::optional<hop::Degrees>& degrees)
+{
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  vtkNew<vtkPoints> points;
+  points->SetNumberOfPoints(nodes);
+  points->GetData()->Fill(0.0);
+  grid->SetPoints(points);
+  std::vector<vtkIdType> ids(nodes);
+  std::iota(ids.begin(), ids.end(), 0);
+  grid->InsertNextCell(cellType, nodes, ids.data());
+  if (degrees)
+  {
+    vtkNew<vtkDoubleArray> array;
+    array->SetNumberOfComponents(3);
+    array->InsertNextTuple3((*degrees)[0], (*degrees)[1], (*degrees)[2]);
+    grid->GetCellData()->SetHigherOrderDegrees(array);
+  }
+  return grid;
+}
+
+std::vector<double> shapeFunctions(vtkCell* cell, const hop::ReferencePoint& u)
+{
+  // VTK's cells write as many values as they have points, some a few more.
+  std::vector<double> weights(cell->GetNumberOfPoints() + 32);
+  const hop::ReferencePoint parametric = parametricCoordinates(cell->GetCellType(), u);
+  cell->InterpolateFunctions(&parametric.xyz.x, weights.data());
+  weights.resize(cell->GetNumberOfPoints());
+  return weights;
+}
+
+/// Whether a basis gives back VTK's shape functions away from the points where it was sampled.
+bool reproduces(vtkCell* cell, const hop::NodalBasis& basis)
+{
+  constexpr int trials = 20;
+  constexpr double tolerance = 1e-9;
+  const int nodes = basis.nodeCount();
+  std::vector<double> unit(static_cast<std::size_t>(nodes) * nodes, 0.0);
+  for (int node = 0; node < nodes; ++node)
+  {
+    unit[node * nodes + node] = 1.0;
+  }
+  std::vector<double> coefficients(static_cast<std::size_t>(basis.coefficientCount()) * nodes);
+  basis.toBernstein(unit.data(), nodes, coefficients.data());
+  std::vector<double> bernstein(basis.coefficientCount());
+  hop::Random random(1);
+  for (int trial = 0; trial < trials; ++trial)
+  {
+    // In every domain, simplices included.
+    const hop::ReferencePoint u{ glm::dvec3(
+      random.uniform() / 3.0, random.uniform() / 3.0, random.uniform() / 3.0) };
+    hop::evaluateBasis(basis.domain(), basis.degrees(), u, bernstein.data());
+    const std::vector<double> expected = shapeFunctions(cell, u);
+    for (int node = 0; node < nodes; ++node)
+    {
+      double value = 0.0;
+      for (int i = 0; i < basis.coefficientCount(); ++i)
+      {
+        value += bernstein[i] * coefficients[i * nodes + node];
+      }
+      if (!(std::abs(value - expected[node]) < tolerance))
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// VTK's own shape functions in the Bernstein basis of the lowest degree that holds them.
+std::unique_ptr<const CellBasis> sampleBasis(vtkCell* cell, hop::Domain domain)
+{
+  constexpr hop::Degrees candidates[] = { { 1, 1, 1 }, { 2, 2, 1 }, { 2, 2, 2 }, { 3, 3, 3 },
+    { 4, 4, 4 } };
+  for (const hop::Degrees& degrees : candidates)
+  {
+    if (domain == hop::Domain::Tetrahedron && degrees[0] != degrees[2])
+    {
+      continue;
+    }
+    std::vector<double> samples;
+    for (const hop::LatticePoint& point : hop::latticePoints(domain, degrees))
+    {
+      const std::vector<double> values = shapeFunctions(cell, hop::latticePosition(degrees, point));
+      samples.insert(samples.end(), values.begin(), values.end());
+    }
+    const hop::NodalBasis basis = hop::NodalBasis::sampled(domain, degrees, samples);
+    if (reproduces(cell, basis))
+    {
+      return std::make_unique<const CellBasis>(CellBasis(basis, false));
+    }
+  }
+  return nullptr;
+}
+
+} // namespace
+
+CellBases::CellBases(hop::NodeSpacing spacing)
+  : Spacing(spacing)
+{
+}
+
+const CellBasis* CellBases::basisOf(const CellKind& kind)
+{
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  const auto [known, isNew] = this->Known.try_emplace(kind);
+  if (isNew)
+  {
+    known->second = this->makeBasis(kind);
+  }
+  return known->second.get();
+}
+
+std::unique_ptr<const CellBasis> CellBases::makeBasis(const CellKind& kind) const
+{
+  const auto& [type, points, given] = kind;
+  const std::optional<hop::Domain> domain = domainOf(type);
+  // There are types of which VTK can make no cell.
+  if (!domain)
+  {
+    return nullptr;
+  }
+  const bool onLattice = (isLagrange(type) || isBezier(type)) && !isEnriched(type, points);
+  std::optional<hop::Degrees> degrees;
+  if (onLattice)
+  {
+    degrees = fittingDegrees(*domain, given, points);
+  }
+  // VTK's cells do not survive a wrong number of points.
+  const bool fits =
+    onLattice ? degrees.has_value() : isEnriched(type, points) || points == usualPointCount(type);
+  if (!fits)
+  {
+    return nullptr;
+  }
+  vtkNew<vtkGenericCell> vtk;
+  gridOfOneCell(type, points, degrees)->GetCell(0, vtk);
+  try
+  {
+    return onLattice ? this->makeLatticeBasis(vtk, *domain, *degrees) : sampleBasis(vtk, *domain);
+  }
+  catch (const std::invalid_argument&)
+  {
+    return nullptr;
+  }
+}
+
+std::unique_ptr<const CellBasis> CellBases::makeLatticeBasis(
+  vtkCell* vtk, hop::Domain domain, const hop::Degrees& degrees) const
+{
+  const double* parametric = vtk->GetParametricCoords();
+  std::vector<hop::LatticePoint> order;
+  for (vtkIdType node = 0; parametric && node < vtk->GetNumberOfPoints(); ++node)
+  {
+    const auto onLattice = [&](int axis)
+    { return static_cast<int>(std::lround(parametric[3 * node + axis] * degrees[axis])); };
+    order.push_back({ onLattice(0), onLattice(1), onLattice(2) });
+  }
+  return std::make_unique<const CellBasis>(isBezier(vtk->GetCellType())
+      ? CellBasis(hop::NodalBasis::bezier(domain, degrees, order), true)
+      : CellBasis(hop::NodalBasis::lagrange(domain, degrees, order, this->Spacing), false));
+}
+
+BasisLookup::BasisLookup(CellBases& bases)
+  : Bases(bases)
+  , Latest(Known.end())
+{
+}
+
+const CellBasis* BasisLookup::basisOf(vtkUnstructuredGrid* grid, vtkIdType cell)
+{
+  const CellKind kind{ grid->GetCellType(cell), grid->GetCells()->GetCellSize(cell),
+    explicitDegrees(grid, cell) };
+  // Cells of a kind mostly follow one another.
+  if (this->Latest == this->Known.end() || this->Latest->first != kind)
+  {
+    bool isNew = false;
+    std::tie(this->Latest, isNew) = this->Known.try_emplace(kind);
+    if (isNew)
+    {
+      this->Latest->second = this->Bases.basisOf(kind);
+    }
+  }
+  return this->Latest->second;
+}
+
+hop::ReferencePoint parametricCoordinates(int cellType, const hop::ReferencePoint& u)
+{
+  if (cellType != VTK_TRIQUADRATIC_PYRAMID)
+  {
+    return u;
+  }
+  // Base at height 1/2, apex above its middle at height 1.
+  const glm::dvec2 shrunk = (1.0 - u.xyz.z) * glm::dvec2(u.xyz) + u.xyz.z * glm::dvec2(0.5, 0.5);
+  return { { shrunk.x, shrunk.y, 0.5 + 0.5 * u.xyz.z } };
+}

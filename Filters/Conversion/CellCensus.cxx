@@ -1,0 +1,106 @@
+#include "Conversion/CellCensus.h"
+
+#include "Elements/Domain.h"
+#include "Input/VtkCompatibility.h"
+
+#include "vtkGenericCell.h"
+#include "vtkSmartPointer.h"
+
+#include <sstream>
+
+namespace
+{
+
+/// VTK's table of names has Lagrange and Bezier triangles and quadrilaterals the wrong way round, but
+/// it also knows the types of which no cell can be made.
+std::string nameOfCellType(int type)
+{
+  const auto cell = vtk::TakeSmartPointer(vtkGenericCell::InstantiateCell(type));
+  return cell ? cell->GetClassName() : CellTypeNames::GetClassNameFromTypeId(type);
+}
+
+void describeCells(std::ostream& text, const SkippedCells& cells, const std::string& reason)
+{
+  if (cells.count > 0)
+  {
+    text << "\n  " << cells.count << (cells.count == 1 ? " cell " : " cells ") << reason
+         << " (first: cell " << cells.first << ")";
+  }
+}
+
+} // namespace
+
+void CellCensus::count(Verdict verdict, vtkIdType cell, int cellType)
+{
+  switch (verdict)
+  {
+    case Verdict::Drop:
+      ++this->dropped;
+      break;
+    case Verdict::Unsupported:
+      this->unsupported[cellType].add(cell);
+      break;
+    case Verdict::BrokenConnectivity:
+      this->brokenConnectivity.add(cell);
+      break;
+    case Verdict::NotFinite:
+      this->notFinite.add(cell);
+      break;
+    case Verdict::BadWeights:
+      this->badWeights.add(cell);
+      break;
+    case Verdict::Level:
+      this->level.add(cell);
+      break;
+    default:
+      break;
+  }
+}
+
+void CellCensus::add(const CellCensus& others)
+{
+  this->dropped += others.dropped;
+  for (const auto& [type, cells] : others.unsupported)
+  {
+    this->unsupported[type].add(cells);
+  }
+  this->brokenConnectivity.add(others.brokenConnectivity);
+  this->notFinite.add(others.notFinite);
+  this->badWeights.add(others.badWeights);
+  this->level.add(others.level);
+  this->collapsed.add(others.collapsed);
+  this->folded.add(others.folded);
+}
+
+vtkIdType CellCensus::skipped() const
+{
+  vtkIdType sum = this->brokenConnectivity.count + this->notFinite.count + this->badWeights.count +
+    this->level.count + this->collapsed.count;
+  for (const auto& [type, cells] : this->unsupported)
+  {
+    sum += cells.count;
+  }
+  return sum;
+}
+
+std::string CellCensus::describe() const
+{
+  std::ostringstream text;
+  for (const auto& [type, cells] : this->unsupported)
+  {
+    describeCells(text, cells,
+      "of type " + nameOfCellType(type) +
+        " skipped: not a supported 3-D cell, or its number of points fits no degree up to " +
+        std::to_string(hop::maximumInputDegree(hop::Domain::Tetrahedron)) +
+        " (hexahedra: " + std::to_string(hop::maximumInputDegree(hop::Domain::Hexahedron)) + ")");
+  }
+  describeCells(text, this->brokenConnectivity, "skipped: point ids outside the grid");
+  describeCells(text, this->notFinite,
+    "skipped: coordinates or values that are NaN or infinite, or values beyond 1e75");
+  describeCells(text, this->badWeights, "skipped: RationalWeights that are not positive");
+  describeCells(
+    text, this->level, "skipped: the field is the isovalue throughout, which is no surface");
+  describeCells(text, this->collapsed, "skipped: without volume");
+  describeCells(text, this->folded, "kept, but partly inverted: the Jacobian changes its sign");
+  return text.str();
+}

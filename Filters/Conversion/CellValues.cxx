@@ -1,0 +1,81 @@
+#include "Conversion/CellValues.h"
+
+#include "Conversion/GatherValues.h"
+#include "Input/VtkCompatibility.h"
+
+#include "vtkCellArray.h"
+#include "vtkDataArray.h"
+#include "vtkPointData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace
+{
+
+/// Whether gradients can be squared, of magnitudes too, whose squares are contoured.
+bool isUsable(double value)
+{
+  constexpr double largest = 1e75;
+  return std::abs(value) <= largest;
+}
+
+bool isGoodWeight(double weight)
+{
+  return weight > 0.0 && std::isfinite(weight);
+}
+
+bool readIds(vtkUnstructuredGrid* grid, vtkIdType cell, CellValues& values)
+{
+  cellPoints(grid->GetCells(), cell, values.count, values.ids, values.copiedIds);
+  const vtkIdType points = grid->GetNumberOfPoints();
+  return std::all_of(values.ids, values.ids + values.count,
+    [points](vtkIdType id) { return id >= 0 && id < points; });
+}
+
+bool readField(const InputBlocks& blocks, vtkDataArray* scalars, CellValues& values)
+{
+  const bool all = blocks.isMagnitude();
+  values.components = all ? scalars->GetNumberOfComponents() : 1;
+  values.field.resize(values.count * values.components);
+  for (int c = 0; c < values.components; ++c)
+  {
+    gatherComponent(scalars, values.ids, values.count, all ? c : blocks.component(),
+      values.field.data() + c, values.components);
+  }
+  return std::all_of(values.field.begin(), values.field.end(), isUsable);
+}
+
+bool readWeights(vtkDataArray* weights, CellValues& values)
+{
+  values.weights.clear();
+  if (weights)
+  {
+    values.weights.resize(values.count);
+    gatherComponent(weights, values.ids, values.count, 0, values.weights.data());
+  }
+  return std::all_of(values.weights.begin(), values.weights.end(), isGoodWeight);
+}
+
+} // namespace
+
+vtkDataArray* rationalWeights(const InputBlock& block, const CellBasis& cell)
+{
+  return cell.bezier ? block.grid->GetPointData()->GetRationalWeights() : nullptr;
+}
+
+Verdict readCell(
+  const InputBlocks& blocks, const BlockCell& where, const CellBasis& cell, CellValues& values)
+{
+  const InputBlock& block = blocks[where.block];
+  if (!readIds(block.grid, where.cell, values))
+  {
+    return Verdict::BrokenConnectivity;
+  }
+  if (!readField(blocks, block.scalars, values))
+  {
+    return Verdict::NotFinite;
+  }
+  return readWeights(rationalWeights(block, cell), values) ? Verdict::Keep : Verdict::BadWeights;
+}

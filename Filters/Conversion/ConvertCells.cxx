@@ -1,0 +1,177 @@
+#include "Conversion/ConvertCells.h"
+
+#include "Conversion/CellValues.h"
+#include "Conversion/GatherValues.h"
+#include "Elements/BernsteinProduct.h"
+
+#include "vtkPoints.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace
+{
+
+/// Adds a row, times a factor, to all rows of values.
+void addToRows(std::vector<double>& values, double factor, const std::vector<double>& row)
+{
+  for (std::size_t start = 0; start < values.size(); start += row.size())
+  {
+    for (std::size_t c = 0; c < row.size(); ++c)
+    {
+      values[start + c] += factor * row[c];
+    }
+  }
+}
+
+/// Coefficients that cannot be told from an isovalue take it: where the surface lies in a face of the element
+/// it would cross that to and fro by rounding errors.
+/// \param amplification of the nodal values' rounding errors, as they were before the origin was subtracted
+void snapToIsovalues(
+  std::vector<hop::Coefficient>& coefficients, const FieldRange& range, double amplification)
+{
+  const auto [lowest, highest] = std::minmax_element(coefficients.begin(), coefficients.end(),
+    [](const hop::Coefficient& a, const hop::Coefficient& b) { return a.w < b.w; });
+  constexpr double mostOfRange = 1e-8;
+  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * amplification *
+    std::max(std::abs(lowest->w + range.origin), std::abs(highest->w + range.origin));
+  const double slack = std::min(rounding, mostOfRange * (highest->w - lowest->w));
+  for (hop::Coefficient& c : coefficients)
+  {
+    for (const double isovalue : range.isovalues)
+    {
+      const double value = isovalue - range.origin;
+      c.w = std::abs(c.w - value) <= slack ? value : c.w;
+    }
+  }
+}
+
+/// Rows of x, y, z and the field's components, one a node, times the weight if there is one.
+std::vector<double> nodalRows(vtkUnstructuredGrid* grid, int nodes, const CellValues& values)
+{
+  const int width = 3 + values.components;
+  std::vector<double> nodal(static_cast<std::size_t>(nodes) * width);
+  for (int c = 0; c < 3; ++c)
+  {
+    gatherComponent(grid->GetPoints()->GetData(), values.ids, nodes, c, nodal.data() + c, width);
+  }
+  for (int node = 0; node < nodes; ++node)
+  {
+    double* row = &nodal[static_cast<std::size_t>(node) * width];
+    std::copy_n(&values.field[static_cast<std::size_t>(node) * values.components],
+      values.components, row + 3);
+    for (int c = 0; c < width && !values.weights.empty(); ++c)
+    {
+      row[c] *= values.weights[node];
+    }
+  }
+  return nodal;
+}
+
+/// The Bernstein coefficients of those.
+std::vector<double> controlRows(const CellBasis& cell, std::vector<double> nodal, int width)
+{
+  // The conversion enlarges rounding errors, so it is given differences from the first node.
+  std::vector<double> origin(width, 0.0);
+  if (cell.basis.conversionNorm() > 1.0)
+  {
+    std::copy_n(nodal.begin(), width, origin.begin());
+  }
+  addToRows(nodal, -1.0, origin);
+  std::vector<double> control(static_cast<std::size_t>(cell.basis.coefficientCount()) * width);
+  cell.basis.toBernstein(nodal.data(), width, control.data());
+  addToRows(control, 1.0, origin);
+  return control;
+}
+
+/// Ones where the cell is not rational.
+std::vector<double> controlWeights(const CellBasis& cell, const CellValues& values)
+{
+  std::vector<double> weights(cell.basis.coefficientCount(), 1.0);
+  if (!values.weights.empty())
+  {
+    cell.basis.toBernstein(values.weights.data(), 1, weights.data());
+  }
+  return weights;
+}
+
+/// Control rows with one number for the field; a vector's sum only says whether it is finite.
+std::vector<hop::Coefficient> coefficientsOf(const std::vector<double>& control, int width)
+{
+  std::vector<hop::Coefficient> coefficients(control.size() / width);
+  const double* row = control.data();
+  for (hop::Coefficient& c : coefficients)
+  {
+    c = { row[0], row[1], row[2], std::accumulate(row + 3, row + width, 0.0) };
+    row += width;
+  }
+  return coefficients;
+}
+
+hop::JacobianSign jacobianSign(const CellBasis& cell, const hop::BernsteinForm& form)
+{
+  // At the highest degrees the bound is far above what coordinates suffer that vary smoothly.
+  constexpr double largestRounding = 1e-6;
+  return cell.jacobian.sign(form, std::min(cell.basis.conversionError(), largestRounding));
+}
+
+/// Writes the coefficients of one element.
+hop::JacobianSign convert(const InputBlocks& blocks, const CellBasis& cell, const FieldRange& range,
+  const hop::Element& element, hop::ElementMesh& mesh, CellValues& values)
+{
+  const BlockCell where = blocks.locate(element.cell);
+  readCell(blocks, where, cell, values);
+  for (double& value : values.field)
+  {
+    value -= range.origin;
+  }
+  const int width = 3 + values.components;
+  const std::vector<double> control =
+    controlRows(cell, nodalRows(blocks[where.block].grid, cell.basis.nodeCount(), values), width);
+  std::vector<double> weights = controlWeights(cell, values);
+  std::vector<hop::Coefficient> plain = coefficientsOf(control, width);
+  const hop::BernsteinForm form{ cell.basis.domain(), cell.basis.degrees(), plain.data(),
+    element.rational ? weights.data() : nullptr };
+  const hop::JacobianSign sign = jacobianSign(cell, form);
+
+  hop::Coefficient* coefficients = &mesh.coefficients[element.firstCoefficient];
+  if (blocks.isMagnitude())
+  {
+    weights = hop::squareField(form.domain, form.degrees, width, control, weights, coefficients);
+  }
+  else
+  {
+    if (!element.rational)
+    {
+      snapToIsovalues(plain, range, cell.basis.conversionNorm());
+    }
+    std::copy(plain.begin(), plain.end(), coefficients);
+  }
+  if (element.rational)
+  {
+    std::copy(weights.begin(), weights.end(), &mesh.weights[element.firstCoefficient]);
+  }
+  return sign;
+}
+
+} // namespace
+
+std::vector<hop::JacobianSign> convertCells(const InputBlocks& blocks,
+  const std::vector<const CellBasis*>& bases, const FieldRange& range, hop::ElementMesh& mesh,
+  const hop::ParallelFor& parallelFor)
+{
+  std::vector<hop::JacobianSign> signs(mesh.elements.size());
+  hop::runParallel(parallelFor, static_cast<std::ptrdiff_t>(signs.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      CellValues values;
+      for (std::ptrdiff_t e = begin; e < end; ++e)
+      {
+        signs[e] = convert(blocks, *bases[e], range, mesh.elements[e], mesh, values);
+      }
+    });
+  return signs;
+}

@@ -1,0 +1,247 @@
+#include "Conversion/GridElements.h"
+
+#include "Conversion/CellValues.h"
+#include "Conversion/ConvertCells.h"
+#include "Conversion/JudgeCells.h"
+#include "Elements/CornerNumbers.h"
+#include "Support/KeepMarked.h"
+
+#include "vtkDataArray.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace
+{
+
+/// Room in a mesh.
+struct Room
+{
+  std::size_t elements = 0;
+  std::size_t coefficients = 0;
+  bool anyRational = false;
+
+  void add(const Room& other)
+  {
+    this->elements += other.elements;
+    this->coefficients += other.coefficients;
+    this->anyRational = this->anyRational || other.anyRational;
+  }
+};
+
+/// See GridElements::origin: the middle of all values where they differ little, whatever the isovalues.
+double originOf(const InputBlocks& blocks)
+{
+  constexpr double little = 1e-3;
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -lowest;
+  for (std::size_t b = 0; b < blocks.size() && !blocks.isMagnitude(); ++b)
+  {
+    double range[2];
+    blocks[b].scalars->GetFiniteRange(range, blocks.component());
+    lowest = std::min(lowest, range[0]);
+    highest = std::max(highest, range[1]);
+  }
+  const double middle = 0.5 * lowest + 0.5 * highest;
+  return lowest <= highest && highest - lowest < little * std::abs(middle) ? middle : 0.0;
+}
+
+using Corners = decltype(hop::Element::corners);
+
+/// For comparisons: copies of a cell may list them in other orders.
+Corners sortedCorners(const hop::Element& element)
+{
+  Corners corners = element.corners;
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+class Builder
+{
+public:
+  Builder(const InputBlocks& blocks, hop::NodeSpacing spacing, const std::vector<double>& isovalues,
+    const hop::ParallelFor& parallelFor, const std::function<void(double)>& reached)
+    : Blocks(blocks)
+    , Isovalues(isovalues)
+    , Parallel(parallelFor)
+    , Reached(reached)
+  {
+    this->Result.squared = blocks.isMagnitude();
+    this->Result.origin = originOf(blocks);
+    this->Result.kinds = std::make_unique<CellBases>(spacing);
+    this->Result.census.resize(blocks.size());
+  }
+
+  GridElements build();
+
+private:
+  void makeElements(const std::vector<JudgedCells>& ranges);
+  Room roomFor(const JudgedCells& range) const;
+  void makeElements(const JudgedCells& range, const Room& before);
+  hop::Degrees elementDegrees(const CellBasis& cell) const;
+  void dropCollapsed(const std::vector<hop::JacobianSign>& signs);
+  void dropDoubledGhosts(std::vector<double>& tolerances);
+  void keep(const std::vector<char>& marks);
+
+  const InputBlocks& Blocks;
+  const std::vector<double>& Isovalues;
+  const hop::ParallelFor& Parallel;
+  const std::function<void(double)>& Reached;
+  GridElements Result;
+};
+
+GridElements Builder::build()
+{
+  hop::ElementMesh& mesh = this->Result.mesh;
+  this->makeElements(
+    judgeCells(this->Blocks, this->Isovalues, *this->Result.kinds, this->Parallel));
+  this->Reached(0.2);
+  const std::vector<hop::JacobianSign> signs = convertCells(this->Blocks, this->Result.bases,
+    { this->Isovalues, this->Result.origin }, mesh, this->Parallel);
+  this->Reached(0.3);
+  this->dropCollapsed(signs);
+  std::vector<double> tolerances = hop::cornerTolerances(mesh, this->Parallel);
+  this->Reached(0.5);
+  hop::numberCorners(mesh, tolerances, this->Parallel);
+  this->Reached(0.9);
+  this->dropDoubledGhosts(tolerances);
+  hop::findFaceNeighbors(mesh, tolerances, this->Parallel);
+  return std::move(this->Result);
+}
+
+/// Elements of the cells to keep, with room for their coefficients.
+void Builder::makeElements(const std::vector<JudgedCells>& ranges)
+{
+  std::vector<Room> before(ranges.size());
+  hop::forAll(
+    this->Parallel, ranges.size(), [&](std::size_t r) { before[r] = this->roomFor(ranges[r]); });
+  Room all;
+  for (std::size_t r = 0; r < ranges.size(); ++r)
+  {
+    const Room start = all;
+    all.add(before[r]);
+    before[r] = start;
+    this->Result.census[ranges[r].block].add(ranges[r].census);
+  }
+  hop::ElementMesh& mesh = this->Result.mesh;
+  mesh.elements.resize(all.elements);
+  this->Result.bases.resize(all.elements);
+  mesh.coefficients.resize(all.coefficients);
+  mesh.weights.resize(all.anyRational ? all.coefficients : 0);
+  hop::forAll(this->Parallel, ranges.size(),
+    [&](std::size_t r) { this->makeElements(ranges[r], before[r]); });
+}
+
+Room Builder::roomFor(const JudgedCells& range) const
+{
+  Room room;
+  room.elements = range.kept.size();
+  for (const KeptCell& kept : range.kept)
+  {
+    room.coefficients +=
+      hop::coefficientCount(kept.basis->basis.domain(), this->elementDegrees(*kept.basis));
+    room.anyRational =
+      room.anyRational || rationalWeights(this->Blocks[range.block], *kept.basis) != nullptr;
+  }
+  return room;
+}
+
+void Builder::makeElements(const JudgedCells& range, const Room& before)
+{
+  std::size_t coefficient = before.coefficients;
+  for (std::size_t i = 0; i < range.kept.size(); ++i)
+  {
+    const auto& [cell, basis] = range.kept[i];
+    hop::Element& element = this->Result.mesh.elements[before.elements + i];
+    element.domain = basis->basis.domain();
+    element.degrees = this->elementDegrees(*basis);
+    element.firstCoefficient = coefficient;
+    element.rational = rationalWeights(this->Blocks[range.block], *basis) != nullptr;
+    element.cell = this->Blocks.firstCell(range.block) + cell;
+    this->Result.bases[before.elements + i] = basis;
+    coefficient += hop::coefficientCount(element.domain, element.degrees);
+  }
+}
+
+/// Squares have twice the degree.
+hop::Degrees Builder::elementDegrees(const CellBasis& cell) const
+{
+  const hop::Degrees& d = cell.basis.degrees();
+  return this->Result.squared ? hop::Degrees{ 2 * d[0], 2 * d[1], 2 * d[2] } : d;
+}
+
+/// Takes out elements without volume and those whose coordinates are not finite.
+void Builder::dropCollapsed(const std::vector<hop::JacobianSign>& signs)
+{
+  std::vector<char> marks(signs.size(), 1);
+  for (std::size_t e = 0; e < signs.size(); ++e)
+  {
+    const auto [block, cell] = this->Blocks.locate(this->Result.mesh.elements[e].cell);
+    CellCensus& census = this->Result.census[block];
+    switch (signs[e])
+    {
+      case hop::JacobianSign::NotFinite:
+        census.notFinite.add(cell);
+        marks[e] = 0;
+        break;
+      case hop::JacobianSign::Zero:
+        census.collapsed.add(cell);
+        marks[e] = 0;
+        break;
+      case hop::JacobianSign::Mixed:
+        census.folded.add(cell);
+        break;
+      default:
+        break;
+    }
+  }
+  this->keep(marks);
+}
+
+/// A ghost whose original, or another copy, is here too would claim the faces of its neighbours a
+/// second time: readers of files in pieces bring both together.
+void Builder::dropDoubledGhosts(std::vector<double>& tolerances)
+{
+  const std::vector<hop::Element>& elements = this->Result.mesh.elements;
+  std::vector<char> marks;
+  for (const hop::Element& element : elements)
+  {
+    marks.push_back(!this->Blocks.isGhost(this->Blocks.locate(element.cell)));
+  }
+  if (std::find(marks.begin(), marks.end(), 0) == marks.end())
+  {
+    return;
+  }
+  std::set<Corners> present;
+  for (std::size_t e = 0; e < elements.size(); ++e)
+  {
+    if (marks[e])
+    {
+      present.insert(sortedCorners(elements[e]));
+    }
+  }
+  for (std::size_t e = 0; e < elements.size(); ++e)
+  {
+    marks[e] = marks[e] || present.insert(sortedCorners(elements[e])).second;
+  }
+  this->keep(marks);
+  hop::keepMarked(tolerances, marks);
+}
+
+/// Takes out elements without a mark.
+void Builder::keep(const std::vector<char>& marks)
+{
+  hop::keepMarked(this->Result.mesh.elements, marks);
+  hop::keepMarked(this->Result.bases, marks);
+}
+
+} // namespace
+
+GridElements buildGridElements(const InputBlocks& blocks, hop::NodeSpacing spacing,
+  const std::vector<double>& isovalues, const hop::ParallelFor& parallelFor,
+  const std::function<void(double)>& reached)
+{
+  return Builder(blocks, spacing, isovalues, parallelFor, reached).build();
+}

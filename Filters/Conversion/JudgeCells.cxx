@@ -1,0 +1,175 @@
+#include "Conversion/JudgeCells.h"
+
+#include "Conversion/CellValues.h"
+
+#include "vtkDataSetAttributes.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace
+{
+
+/// All cells, in order, not yet looked at.
+std::vector<JudgedCells> rangesOfCells(const InputBlocks& blocks)
+{
+  constexpr vtkIdType wantedRanges = 1024;
+  constexpr vtkIdType mostCells = 4096;
+  const vtkIdType cellsAtOnce =
+    std::clamp<vtkIdType>(blocks.cellCount() / wantedRanges, 1, mostCells);
+  std::vector<JudgedCells> ranges;
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+  {
+    const vtkIdType count = blocks[b].grid->GetNumberOfCells();
+    for (vtkIdType begin = 0; begin < count; begin += cellsAtOnce)
+    {
+      ranges.push_back({ b, begin, std::min(count, begin + cellsAtOnce), {}, {} });
+    }
+  }
+  return ranges;
+}
+
+/// Whether all nodes have the same values.
+bool isConstant(const CellValues& values)
+{
+  return std::equal(
+    values.field.begin() + values.components, values.field.end(), values.field.begin());
+}
+
+/// \param vectors of so many components each
+double longestOf(const std::vector<double>& vectors, int components)
+{
+  double longest2 = 0.0;
+  for (std::size_t i = 0; i < vectors.size(); i += components)
+  {
+    longest2 = std::max(
+      longest2, std::inner_product(&vectors[i], &vectors[i] + components, &vectors[i], 0.0));
+  }
+  return std::sqrt(longest2);
+}
+
+/// For all threads together.
+class Judge
+{
+public:
+  Judge(const InputBlocks& blocks, const std::vector<double>& isovalues)
+    : Blocks(blocks)
+    , Isovalues(isovalues)
+  {
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+    {
+      this->Ghosts.push_back(blocks[b].grid->GetCellGhostArray());
+    }
+  }
+
+  void judge(JudgedCells& range, BasisLookup& bases, CellValues& values) const;
+
+private:
+  Verdict judge(const BlockCell& where, const CellBasis* cell, CellValues& values) const;
+  bool canHoldSurface(const CellBasis& cell, const CellValues& values) const;
+  bool straddles(double lower, double upper) const;
+
+  const InputBlocks& Blocks;
+  const std::vector<double>& Isovalues;
+  /// One a block, or nullptr; grids look theirs up when first asked, which is nothing for threads.
+  std::vector<vtkUnsignedCharArray*> Ghosts;
+};
+
+void Judge::judge(JudgedCells& range, BasisLookup& bases, CellValues& values) const
+{
+  vtkUnstructuredGrid* grid = this->Blocks[range.block].grid;
+  for (vtkIdType cell = range.begin; cell < range.end; ++cell)
+  {
+    const CellBasis* basis = bases.basisOf(grid, cell);
+    const Verdict verdict = this->judge({ range.block, cell }, basis, values);
+    if (verdict == Verdict::Keep)
+    {
+      range.kept.push_back({ cell, basis });
+    }
+    else
+    {
+      range.census.count(verdict, cell, grid->GetCellType(cell));
+    }
+  }
+}
+
+/// \param cell its basis, or nullptr
+Verdict Judge::judge(const BlockCell& where, const CellBasis* cell, CellValues& values) const
+{
+  vtkUnsignedCharArray* ghosts = this->Ghosts[where.block];
+  if (ghosts && (ghosts->GetValue(where.cell) & vtkDataSetAttributes::HIDDENCELL))
+  {
+    return Verdict::Hidden;
+  }
+  if (!cell)
+  {
+    return Verdict::Unsupported;
+  }
+  const Verdict verdict = readCell(this->Blocks, where, *cell, values);
+  if (verdict != Verdict::Keep)
+  {
+    return verdict;
+  }
+  if (!this->canHoldSurface(*cell, values))
+  {
+    return Verdict::Drop;
+  }
+  return isConstant(values) ? Verdict::Level : Verdict::Keep;
+}
+
+/// Nodal values on both sides of an isovalue decide at once; else the convex hull of the Bernstein
+/// coefficients does, widened by the rounding errors of the conversion. A magnitude is no larger
+/// than the longest control vector, and no smaller either where the vector is constant. Positive weights
+/// change no hull.
+bool Judge::canHoldSurface(const CellBasis& cell, const CellValues& values) const
+{
+  const auto [lowest, highest] = std::minmax_element(values.field.begin(), values.field.end());
+  if (!this->Blocks.isMagnitude() && this->straddles(*lowest, *highest))
+  {
+    return true;
+  }
+  std::vector<double> control(
+    static_cast<std::size_t>(cell.basis.coefficientCount()) * values.components);
+  cell.basis.toBernstein(values.field.data(), values.components, control.data());
+  const auto [lower, upper] = std::minmax_element(control.begin(), control.end());
+  const double slack =
+    2.0 * cell.basis.conversionError() * std::max(std::abs(*lowest), std::abs(*highest)) +
+    4.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(*lower), std::abs(*upper));
+  if (!this->Blocks.isMagnitude())
+  {
+    return this->straddles(*lower - slack, *upper + slack);
+  }
+  const double longest = longestOf(control, values.components);
+  const double margin = values.components * slack;
+  return this->straddles(isConstant(values) ? longest - margin : 0.0, longest + margin);
+}
+
+bool Judge::straddles(double lower, double upper) const
+{
+  return std::any_of(this->Isovalues.begin(), this->Isovalues.end(),
+    [&](double c) { return lower <= c && c <= upper; });
+}
+
+} // namespace
+
+std::vector<JudgedCells> judgeCells(const InputBlocks& blocks, const std::vector<double>& isovalues,
+  CellBases& kinds, const hop::ParallelFor& parallelFor)
+{
+  std::vector<JudgedCells> ranges = rangesOfCells(blocks);
+  const Judge judge(blocks, isovalues);
+  hop::runParallel(parallelFor, static_cast<std::ptrdiff_t>(ranges.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      CellValues values;
+      BasisLookup bases(kinds);
+      for (std::ptrdiff_t r = begin; r < end; ++r)
+      {
+        judge.judge(ranges[r], bases, values);
+      }
+    });
+  return ranges;
+}

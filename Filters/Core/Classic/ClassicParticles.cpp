@@ -1,0 +1,181 @@
+#include "Classic/ClassicParticles.h"
+
+#include "Support/KeepMarked.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace hop
+{
+namespace
+{
+
+constexpr double listSlack = 1.25;
+/// While particles move they lie on the surface to this fraction of their spacing, or to the
+/// tolerance asked for if that is larger.
+constexpr double movingTolerance = 1e-4;
+
+Isosurface whileMoving(Isosurface surface, const SizingFunction& sizing)
+{
+  surface.tolerance =
+    std::max(surface.tolerance, movingTolerance * sizing.spacing / (1.0 + sizing.angularDensity));
+  return surface;
+}
+
+/// Neighbours that hexagonal packing can have around a particle on that many boundary faces.
+double idealEnergyOnBoundary(int boundaryFaces)
+{
+  constexpr double neighbors[] = { 6.0, 4.0, 2.0, 1.0 };
+  return neighbors[std::min(boundaryFaces, 3)] * pairEnergy(HexagonalDistance);
+}
+
+} // namespace
+
+glm::dvec3 orthogonalTo(const glm::dvec3& n)
+{
+  const glm::dvec3 other = std::abs(n.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+  return glm::normalize(glm::cross(n, other));
+}
+
+ClassicParticles::ClassicParticles(
+  const Isosurface& surface, const SizingFunction& sizingFunction, ParallelFor parallelFor)
+  : sizing(sizingFunction)
+  , Parallel(std::move(parallelFor))
+  , Surface(whileMoving(surface, sizingFunction))
+  , Walker(this->Surface)
+{
+}
+
+/// Puts a place on the surface and notes what the distribution needs to know there.
+bool ClassicParticles::place(
+  const Location& start, double maximumTravel, SurfaceWalker& walker, ClassicParticle& mover) const
+{
+  if (!walker.project(start, maximumTravel, mover.at))
+  {
+    return false;
+  }
+  mover.normal = surfaceNormal(mover.at.point.gradient);
+  mover.ideal = idealEnergyOnBoundary(walker.endCount(mover.at.location));
+  mover.curvature = 0.0;
+  if (this->sizing.angularDensity > 0.0)
+  {
+    const Evaluated curved = walker.evaluateCurved(mover.at.location);
+    mover.curvature = curvature(curved.point.gradient, curved.hessian).magnitude;
+  }
+  return true;
+}
+
+bool ClassicParticles::displace(
+  const ClassicParticle& from, const WorldVector& step, double farthest, ClassicParticle& to)
+{
+  const Location reached = this->Walker.move(from.at, step);
+  return this->place(reached, farthest, this->Walker, to) &&
+    length(to.position() - from.position()) <= farthest && dot(to.normal, from.normal) > 0.0;
+}
+
+/// By Newton's method from the middle of the box, or, should that lead away from it, on the line
+/// between two of its corners.
+bool ClassicParticles::seed(
+  const SurfaceBox& box, SurfaceWalker& walker, ClassicParticle& mover, std::int64_t& cost) const
+{
+  const bool found = this->place(box.middle, 2.0 * box.size, walker, mover);
+  if ((found && isAtBox(box, mover.at.location)) || !box.straddles)
+  {
+    return found;
+  }
+  return this->place(findBetweenEnds(*this->Surface.mesh, this->Surface.isovalue, box, cost),
+    box.size, walker, mover);
+}
+
+std::vector<ClassicParticle> ClassicParticles::seedsOf(const std::vector<SurfaceBox>& boxes)
+{
+  std::vector<ClassicParticle> seeds(boxes.size());
+  std::vector<char> found(boxes.size(), 0);
+  std::vector<std::int64_t> cost(boxes.size(), 0);
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(boxes.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      for (std::ptrdiff_t b = begin; b < end; ++b)
+      {
+        SurfaceWalker walker(this->Surface);
+        found[b] = this->seed(boxes[b], walker, seeds[b], cost[b]);
+        cost[b] += walker.evaluations();
+      }
+    });
+  this->SeedCost = std::accumulate(cost.begin(), cost.end(), this->SeedCost);
+  keepMarked(seeds, found);
+  return seeds;
+}
+
+void ClassicParticles::addUncovered(const std::vector<ClassicParticle>& seeds)
+{
+  GrowingBins bins(this->sizing.spacing);
+  for (std::size_t i = 0; i < this->movers.size(); ++i)
+  {
+    bins.insert(static_cast<int>(i), this->movers[i].position().xyz);
+  }
+  for (const ClassicParticle& seed : seeds)
+  {
+    const double h = this->sizing.at(seed.curvature);
+    bool covered = false;
+    bins.visit(seed.position().xyz,
+      [&](int j)
+      {
+        const ClassicParticle& other = this->movers[j];
+        covered = covered ||
+          (length(seed.position() - other.position()) < h && dot(seed.normal, other.normal) > 0.0);
+      });
+    if (!covered)
+    {
+      bins.insert(static_cast<int>(this->movers.size()), seed.position().xyz);
+      this->movers.push_back(seed);
+    }
+  }
+}
+
+bool ClassicParticles::addBeside(const ClassicParticle& parent, double distance, double angle)
+{
+  const glm::dvec3 e1 = orthogonalTo(parent.normal.xyz);
+  const glm::dvec3 e2 = glm::cross(parent.normal.xyz, e1);
+  const WorldVector step{ distance * (std::cos(angle) * e1 + std::sin(angle) * e2) };
+  ClassicParticle child = parent;
+  if (!this->displace(parent, step, 2.0 * distance, child))
+  {
+    ++this->Rejected;
+    return false;
+  }
+  child.lambda = ClassicParticle::InitialLambda;
+  this->movers.push_back(child);
+  return true;
+}
+
+void ClassicParticles::renewNeighbors()
+{
+  std::vector<glm::dvec3> points;
+  std::vector<double> radii;
+  points.reserve(this->movers.size());
+  radii.reserve(this->movers.size());
+  for (const ClassicParticle& m : this->movers)
+  {
+    points.push_back(m.position().xyz);
+    // The neighbour's curvature may be as low as zero.
+    radii.push_back(listSlack * this->sizing.range(0.5 * m.curvature));
+  }
+  this->neighbors = findNeighbors(points, radii, this->Parallel);
+}
+
+double ClassicParticles::scaledDistance(const ClassicParticle& a, const ClassicParticle& b) const
+{
+  return length(a.position() - b.position()) /
+    this->sizing.range(0.5 * (a.curvature + b.curvature));
+}
+
+double ClassicParticles::bendAt(const ClassicParticle& mover)
+{
+  const Evaluated at = this->Walker.evaluateCurved(mover.at.location);
+  return curvature(at.point.gradient, at.hessian).magnitude;
+}
+
+} // namespace hop

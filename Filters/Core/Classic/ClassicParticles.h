@@ -1,0 +1,90 @@
+#pragma once
+
+#include "Isolation/SurfaceBox.h"
+#include "Support/PointBins.h"
+#include "Surface/SizingFunction.h"
+#include "Surface/SurfaceWalker.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace hop
+{
+
+/// A particle of the paper's scheme on its way.
+struct ClassicParticle
+{
+  /// Step lengths in units of h^2; the paper divides and multiplies lambda by ten. In hexagonal packing
+  /// the second derivative of the energy along the surface is about 4.5/h^2: a Newton step is 0.22.
+  static constexpr double InitialLambda = 0.2;
+  static constexpr double LargestLambda = 0.2;
+  static constexpr double SmallestLambda = 1e-4;
+
+  Evaluated at;
+  WorldVector normal;
+  double curvature = 0.0;
+  double lambda = InitialLambda;
+  /// Energy of hexagonal packing around it; less on a boundary curve.
+  double ideal = 0.0;
+  double energy = 0.0;
+
+  const WorldPoint& position() const { return this->at.point.map.position; }
+};
+
+/// The particles of the paper's scheme: they stay on the surface, nearly, while they move.
+class ClassicParticles
+{
+public:
+  ClassicParticles(
+    const Isosurface& surface, const SizingFunction& sizing, ParallelFor parallelFor);
+
+  /// The spacing wanted now.
+  SizingFunction sizing;
+  std::vector<ClassicParticle> movers;
+  /// Those near each particle, as of the last renewNeighbors().
+  NeighborLists neighbors;
+
+  /// A particle for every box from which Newton's method finds the surface.
+  std::vector<ClassicParticle> seedsOf(const std::vector<SurfaceBox>& boxes);
+
+  /// Adds the seeds around which, within their own spacing, no particle lies on the same sheet.
+  void addUncovered(const std::vector<ClassicParticle>& seeds);
+
+  /// Adds a particle at a distance from another, in a direction (radians) of its tangent plane.
+  /// \return false if it could not be put on the surface
+  bool addBeside(const ClassicParticle& parent, double distance, double angle);
+
+  /// The same particle after a step in world space; false if it could not be put on the surface within
+  /// `farthest` of where it was, or turned over to another sheet.
+  bool displace(
+    const ClassicParticle& from, const WorldVector& step, double farthest, ClassicParticle& to);
+
+  void renewNeighbors();
+
+  /// r of eq. (6).
+  double scaledDistance(const ClassicParticle& a, const ClassicParticle& b) const;
+
+  /// Curvature magnitude, whether or not the spacing follows it.
+  double bendAt(const ClassicParticle& mover);
+
+  std::int64_t evaluations() const { return this->SeedCost + this->Walker.evaluations(); }
+  /// Given up because they could not be put on the surface.
+  std::int64_t rejected() const { return this->Rejected; }
+
+private:
+  bool place(const Location& start, double maximumTravel, SurfaceWalker& walker,
+    ClassicParticle& mover) const;
+  bool seed(
+    const SurfaceBox& box, SurfaceWalker& walker, ClassicParticle& mover, std::int64_t& cost) const;
+
+  ParallelFor Parallel;
+  Isosurface Surface;
+  SurfaceWalker Walker;
+  std::int64_t SeedCost = 0;
+  std::int64_t Rejected = 0;
+};
+
+/// A unit vector at right angles to another.
+glm::dvec3 orthogonalTo(const glm::dvec3& n);
+
+} // namespace hop

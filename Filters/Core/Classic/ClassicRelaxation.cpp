@@ -1,0 +1,99 @@
+#include "Classic/ClassicRelaxation.h"
+
+#include <algorithm>
+
+namespace hop
+{
+namespace
+{
+
+/// Particles moved before the caller may end the work.
+constexpr std::size_t particlesAtOnce = 1024;
+/// Forces along the surface, in units of 1/h, that move nothing.
+constexpr double leastForce = 1e-6;
+
+struct EnergyAndForce
+{
+  double energy = 0.0;
+  WorldVector force;
+};
+
+/// Energy of particle i, were it where `trial` is, and the force -dE/dx on it (eq. 3).
+EnergyAndForce interact(
+  const ClassicParticles& particles, std::size_t i, const ClassicParticle& trial)
+{
+  const NeighborLists& lists = particles.neighbors;
+  EnergyAndForce sum;
+  for (std::size_t n = lists.start[i]; n < lists.start[i + 1]; ++n)
+  {
+    const ClassicParticle& other = particles.movers[lists.neighbor[n]];
+    const double r = particles.scaledDistance(trial, other);
+    if (r >= 1.0 || dot(trial.normal, other.normal) <= 0.0)
+    {
+      continue;
+    }
+    sum.energy += pairEnergy(r);
+    WorldVector apart = trial.position() - other.position();
+    if (!(length(apart) > 0.0))
+    {
+      // Any direction will do, if the two do not choose the same.
+      const double way = i < static_cast<std::size_t>(lists.neighbor[n]) ? 1.0 : -1.0;
+      apart = { way * orthogonalTo(trial.normal.xyz) };
+    }
+    const double distance = length(apart);
+    const double range = particles.sizing.range(0.5 * (trial.curvature + other.curvature));
+    sum.force = sum.force + (-pairEnergyDerivative(r) / (range * distance)) * apart;
+  }
+  return sum;
+}
+
+void relax(ClassicParticles& particles, std::size_t i)
+{
+  const ClassicParticle start = particles.movers[i];
+  const EnergyAndForce here = interact(particles, i, start);
+  particles.movers[i].energy = here.energy;
+  const double h = particles.sizing.at(start.curvature);
+  const WorldVector tangential = here.force - dot(here.force, start.normal) * start.normal;
+  if (length(tangential) * h < leastForce)
+  {
+    return;
+  }
+  for (double lambda = start.lambda; lambda >= ClassicParticle::SmallestLambda; lambda *= 0.1)
+  {
+    WorldVector step = (lambda * h * h) * tangential;
+    step = std::min(1.0, h / length(step)) * step;
+    ClassicParticle trial = start;
+    if (!particles.displace(start, step, h, trial))
+    {
+      continue;
+    }
+    const double energy = interact(particles, i, trial).energy;
+    if (energy < here.energy)
+    {
+      trial.energy = energy;
+      trial.lambda = std::min(ClassicParticle::LargestLambda, 10.0 * lambda);
+      particles.movers[i] = trial;
+      return;
+    }
+  }
+  particles.movers[i].lambda = ClassicParticle::SmallestLambda;
+}
+
+} // namespace
+
+double sweepOnce(ClassicParticles& particles, const ParallelFor& parallelFor)
+{
+  double energy = 0.0;
+  for (std::size_t i = 0; i < particles.movers.size(); ++i)
+  {
+    relax(particles, i);
+    energy += particles.movers[i].energy;
+    if ((i + 1) % particlesAtOnce == 0)
+    {
+      askCaller(parallelFor);
+    }
+  }
+  return energy;
+}
+
+} // namespace hop

@@ -1,0 +1,89 @@
+#pragma once
+
+#include "Elements/Domain.h"
+
+#include <glm/vec4.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hop
+{
+
+/// One Bernstein coefficient of an element: the control point (x, y, z) and the field's f.
+using Coefficient = glm::dvec4;
+
+/// Value and derivatives of (x, y, z, f) with respect to the reference coordinates at one point.
+struct Jet
+{
+  Coefficient value{ 0.0 };
+  /// d/du, d/dv, d/dw
+  std::array<Coefficient, 3> first{};
+  /// uu, uv, uw, vv, vw, ww
+  std::array<Coefficient, 6> second{};
+};
+
+/// First derivatives of f.
+inline glm::dvec3 gradientOf(const Jet& jet)
+{
+  return { jet.first[0].w, jet.first[1].w, jet.first[2].w };
+}
+
+/// Second derivatives of f, or of another one of (x, y, z, f), as a matrix.
+/// \param second of a Jet
+inline glm::dmat3 hessianOf(const std::array<Coefficient, 6>& second, int component = 3)
+{
+  const auto entry = [&](int i) { return second[i][component]; };
+  return { entry(0), entry(1), entry(2), entry(1), entry(3), entry(4), entry(2), entry(4),
+    entry(5) };
+}
+
+/// A non-owning view of an element in Bernstein form. Where `weights` is given the element is
+/// rational: its coefficients are homogeneous, w (x, y, z, f), and what it stands for is
+/// sum_i B_i coefficients_i / sum_i B_i w_i.
+struct BernsteinForm
+{
+  Domain domain = Domain::Hexahedron;
+  Degrees degrees{ 1, 1, 1 };
+  /// coefficientCount(domain, degrees) of them, in the order of coefficientIndex.
+  const Coefficient* coefficients = nullptr;
+  /// As many, all > 0, or nullptr.
+  const double* weights = nullptr;
+};
+
+/// Control point i: (x, y, z, f), whether the element is rational or not.
+inline Coefficient controlPoint(const BernsteinForm& form, int i)
+{
+  return form.weights ? form.coefficients[i] / form.weights[i] : form.coefficients[i];
+}
+
+/// Value and first derivatives; `second` is left zero.
+Jet evaluateGradient(const BernsteinForm& form, const ReferencePoint& u);
+
+/// Value, first and second derivatives.
+Jet evaluateHessian(const BernsteinForm& form, const ReferencePoint& u);
+
+/// Values of all Bernstein basis functions at u.
+/// \param basis room for coefficientCount(domain, degrees) values; they sum to one.
+void evaluateBasis(Domain domain, const Degrees& degrees, const ReferencePoint& u, double* basis);
+
+/// Of values.
+struct Range
+{
+  double lower = 0.0;
+  double upper = 0.0;
+
+  void include(double value)
+  {
+    this->lower = std::min(this->lower, value);
+    this->upper = std::max(this->upper, value);
+  }
+  /// The largest absolute value.
+  double magnitude() const { return std::max(std::abs(this->lower), std::abs(this->upper)); }
+};
+
+/// Smallest and largest value that the convex hull property allows f on the element, rational ones
+/// included: their weights are positive.
+Range fieldRange(const BernsteinForm& form);
+
+} // namespace hop

@@ -1,0 +1,157 @@
+#include "Fast/FinishParticles.h"
+
+#include "Edges/FacePlanes.h"
+
+#include <atomic>
+#include <cmath>
+#include <numeric>
+
+namespace hop
+{
+namespace
+{
+
+class Finish
+{
+public:
+  Finish(MovingParticles& moving, const FaceJumps& jumps, const SizingFunction& sizing,
+    const ParallelFor& parallelFor)
+    : Moving(moving)
+    , Jumps(jumps)
+    , Sizing(sizing)
+    , Parallel(parallelFor)
+    , Pending(moving.count())
+  {
+    this->Result.particles.reserve(moving.size());
+    this->Result.particles.resize(moving.count());
+    this->Result.settled.resize(moving.count(), 0);
+    std::iota(this->Pending.begin(), this->Pending.end(), 0);
+  }
+
+  FinishedParticles run()
+  {
+    constexpr int passes = 3;
+    for (int pass = 0; pass < passes; ++pass)
+    {
+      this->pass();
+    }
+    this->persist();
+    this->Result.evaluations = this->Evaluations;
+    return std::move(this->Result);
+  }
+
+private:
+  void pass();
+  void persist();
+  bool settle(int i, const Location& place, const Jet& jet);
+
+  MovingParticles& Moving;
+  const FaceJumps& Jumps;
+  const SizingFunction& Sizing;
+  const ParallelFor& Parallel;
+  std::vector<int> Pending;
+  std::atomic<std::int64_t> Evaluations{ 0 };
+  FinishedParticles Result;
+};
+
+/// What there is to say about particle i, if that place lies on the surface to the tolerance.
+bool Finish::settle(int i, const Location& place, const Jet& jet)
+{
+  const Isosurface& surface = this->Moving.surface();
+  const FieldPoint point = fieldPoint(jet, surface.isovalue);
+  const double slope = length(point.gradient);
+  const double residual = std::abs(point.value) / slope;
+  if (point.map.singular || !std::isfinite(residual) ||
+    !surface.holds(point, this->Moving.patches()[i].spacing) || !isNearInReference(point))
+  {
+    return false;
+  }
+  const double spacing =
+    this->Sizing.angularDensity == 0.0 ? this->Sizing.spacing : this->Moving.patches()[i].spacing;
+  this->Result.particles[i] = { place, point.map.position, surfaceNormal(point.gradient),
+    curvature(point.gradient, worldHessian(jet, point)), residual, spacing, {}, 0.0 };
+  offerFaces(surface, this->Jumps, jet, point, this->Result.particles[i]);
+  this->Result.settled[i] = 1;
+  this->Moving.settle(i, place, point);
+  return true;
+}
+
+/// Evaluates the pending particles where Newton's method takes them. Those on the surface to the
+/// tolerance are finished, the others stay pending.
+void Finish::pass()
+{
+  const ElementMesh& mesh = *this->Moving.surface().mesh;
+  std::vector<int>& pending = this->Pending;
+  std::vector<Location> places(pending.size());
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(pending.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      std::int64_t cost = 0;
+      for (std::ptrdiff_t n = begin; n < end; ++n)
+      {
+        places[n] = this->Moving.onSurface(pending[n], cost);
+      }
+      this->Evaluations += cost;
+    });
+  const std::vector<int> order = orderByElement(places, mesh.elements.size(), this->Parallel);
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(pending.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      evaluateInOrder(mesh, places, order, begin, end,
+        [&](int n, const Jet& jet)
+        {
+          if (!this->settle(pending[n], places[n], jet))
+          {
+            this->Moving.renew(pending[n], places[n], jet);
+          }
+        });
+      this->Evaluations += end - begin;
+    });
+  pending.erase(std::remove_if(pending.begin(), pending.end(),
+                  [this](int i) { return this->Result.settled[i]; }),
+    pending.end());
+}
+
+/// Follows those that are still pending, each on its own. Where the field jumps through the isovalue, each
+/// side of a face sends Newton's method to the other: those go to where the surface of their element ends.
+void Finish::persist()
+{
+  if (this->Pending.empty())
+  {
+    return;
+  }
+  const Isosurface& surface = this->Moving.surface();
+  const std::vector<float> noGaps(faceSlot(surface.mesh->elements.size(), 0), 0.0f);
+  Isosurface sealed = surface.withWalls();
+  sealed.jumpTolerances = &noGaps;
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(this->Pending.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      SurfaceWalker across(surface);
+      SurfaceWalker inside(sealed);
+      for (std::ptrdiff_t n = begin; n < end; ++n)
+      {
+        const int i = this->Pending[n];
+        const Location& start = this->Moving.anchors()[i].place;
+        const double reach = this->Moving.patches()[i].spacing;
+        Evaluated at;
+        if (across.project(start, reach, at) || inside.project(start, reach, at))
+        {
+          const BernsteinForm form = surface.mesh->form(at.location.element);
+          this->settle(i, at.location, evaluateHessian(form, at.location.u));
+          ++this->Evaluations;
+        }
+      }
+      this->Evaluations += across.evaluations() + inside.evaluations();
+    });
+}
+
+} // namespace
+
+FinishedParticles finishParticles(MovingParticles& moving, const FaceJumps& jumps,
+  const SizingFunction& sizing, const ParallelFor& parallelFor)
+{
+  return Finish(moving, jumps, sizing, parallelFor).run();
+}
+
+} // namespace hop

@@ -1,0 +1,245 @@
+#include "Fast/PatchDistances.h"
+
+#include "Support/KeepMarked.h"
+#include "Support/SpacingGrid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hop
+{
+namespace
+{
+
+/// A patch runs through a box if it passes its sample nearer than this, in units of its spacing.
+constexpr float coverOffset = 0.1f;
+
+/// Cells that suit visits around single points, and where most visits find nothing.
+constexpr double cellsPerReach = 0.3;
+constexpr double cellsPerReachOfFew = 0.25;
+
+bool isNear(const Patch& a, const Patch& b, double distance)
+{
+  return glm::distance(a.position, b.position) < distance && glm::dot(a.normal, b.normal) > 0.0f;
+}
+
+/// Whether the surface around a patch runs through a sample.
+bool covers(const Patch& patch, const Patch& sample)
+{
+  const auto distance = static_cast<float>(glm::distance(patch.position, sample.position));
+  if (distance > patch.spacing || glm::dot(patch.normal, sample.normal) <= 0.0f)
+  {
+    return false;
+  }
+  const float bend = patch.curvatureMagnitude() * distance;
+  return std::abs(patch.heightOf(sample.position)) <= (coverOffset + bend * bend) * patch.spacing;
+}
+
+/// test(i) for every i in [0, count), in threads.
+template <class Test>
+std::vector<char> testAll(std::size_t count, const ParallelFor& parallelFor, const Test& test)
+{
+  std::vector<char> results(count);
+  forAll(parallelFor, count, [&](std::size_t i) { results[i] = test(i); });
+  return results;
+}
+
+/// Patches that look for others nearer than a distance, in units of the smaller of their spacings.
+class Crowd
+{
+public:
+  Crowd(const Buffer<Patch>& patches, double distance, const ParallelFor& parallelFor)
+    : Patches(patches)
+    , Distance(distance)
+    , Points(spacedPoints(patches, parallelFor))
+    , Grid(Points.positions, Points.spacings, distance, cellsPerReach, parallelFor)
+  {
+  }
+
+  template <class Use>
+  void visitNear(std::size_t i, const Use& use) const
+  {
+    const Buffer<glm::dvec3>& positions = this->Points.positions;
+    const Buffer<float>& spacings = this->Points.spacings;
+    this->Grid.visit(positions[i], spacings[i],
+      [&](int j)
+      {
+        const double nearest = this->Distance * std::min(spacings[i], spacings[j]);
+        const glm::dvec3 apart = positions[j] - positions[i];
+        // Few come that far: patches are large.
+        if (glm::dot(apart, apart) < nearest * nearest && static_cast<std::size_t>(j) != i &&
+          glm::dot(this->Patches[i].normal, this->Patches[j].normal) > 0.0f)
+        {
+          use(j);
+        }
+      });
+  }
+
+  bool isAlone(std::size_t i) const
+  {
+    bool alone = true;
+    this->visitNear(i, [&](int) { alone = false; });
+    return alone;
+  }
+
+private:
+  const Buffer<Patch>& Patches;
+  double Distance;
+  SpacedPoints Points;
+  SpacingGrid Grid;
+};
+
+} // namespace
+
+std::vector<char> areFarFrom(const Buffer<Patch>& patches, std::size_t count,
+  const Buffer<Patch>& others, double distance, const ParallelFor& parallelFor)
+{
+  const SpacedPoints points = spacedPoints(others, parallelFor);
+  const SpacingGrid grid(
+    points.positions, points.spacings, distance, cellsPerReachOfFew, parallelFor);
+  return testAll(count, parallelFor,
+    [&](std::size_t i)
+    {
+      const Patch& patch = patches[i];
+      bool far = true;
+      grid.visit(patch.position, patch.spacing,
+        [&](int j) { far = far && !isNear(patch, others[j], distance * patch.spacing); });
+      return far;
+    });
+}
+
+std::vector<char> areAlone(
+  const Buffer<Patch>& patches, std::size_t count, double distance, const ParallelFor& parallelFor)
+{
+  const Crowd crowd(patches, distance, parallelFor);
+  return testAll(count, parallelFor, [&](std::size_t i) { return crowd.isAlone(i); });
+}
+
+std::vector<char> thinOut(const Buffer<Patch>& patches, const std::vector<char>& wanted,
+  double distance, const ParallelFor& parallelFor)
+{
+  const std::size_t count = wanted.size();
+  const Crowd crowd(patches, distance, parallelFor);
+  std::vector<char> kept =
+    testAll(count, parallelFor, [&](std::size_t i) { return wanted[i] && crowd.isAlone(i); });
+  kept.resize(patches.size(), 1);
+  // The few that have a neighbour too near, one by one.
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (wanted[i] && !kept[i])
+    {
+      bool alone = true;
+      crowd.visitNear(i, [&](int j) { alone = alone && !kept[j]; });
+      kept[i] = alone;
+    }
+  }
+  kept.resize(count);
+  return kept;
+}
+
+std::vector<double> clearances(const Buffer<Patch>& patches, std::size_t count,
+  const Buffer<Patch>& others, double most, const ParallelFor& parallelFor)
+{
+  const SpacedPoints points = spacedPoints(others, parallelFor);
+  const SpacingGrid grid(points.positions, points.spacings, most, cellsPerReach, parallelFor);
+  const bool areTheSame = &patches == &others;
+  std::vector<double> result(count, most);
+  forAll(parallelFor, count,
+    [&](std::size_t i)
+    {
+      const Patch& patch = patches[i];
+      grid.visit(patch.position, patch.spacing,
+        [&](int j)
+        {
+          const bool isOther = !areTheSame || static_cast<std::size_t>(j) != i;
+          if (isOther && isNear(patch, others[j], result[i] * patch.spacing))
+          {
+            result[i] = glm::distance(patch.position, others[j].position) / patch.spacing;
+          }
+        });
+    });
+  return result;
+}
+
+std::vector<int> chooseApart(const Buffer<Patch>& patches, const std::vector<int>& order,
+  std::size_t count, double distance, const ParallelFor& parallelFor)
+{
+  Buffer<Patch> inOrder;
+  for (const int i : order)
+  {
+    inOrder.push_back(patches[i]);
+  }
+  const std::vector<char> apart =
+    thinOut(inOrder, std::vector<char>(order.size(), 1), distance, parallelFor);
+  std::vector<int> chosen;
+  for (const char wanted : { 1, 0 })
+  {
+    for (std::size_t n = 0; n < order.size() && chosen.size() < count; ++n)
+    {
+      if (apart[n] == wanted)
+      {
+        chosen.push_back(order[n]);
+      }
+    }
+  }
+  return chosen;
+}
+
+std::vector<char> findLonely(const std::vector<SurfaceProxy::Sample>& samples,
+  const Buffer<Patch>& patches, const ParallelFor& parallelFor)
+{
+  const SpacedPoints points = spacedPoints(patches, parallelFor);
+  const SpacingGrid grid(points.positions, points.spacings, 1.0, cellsPerReach, parallelFor);
+  return testAll(samples.size(), parallelFor,
+    [&](std::size_t b)
+    {
+      const Patch& sample = samples[b].patch;
+      bool covered = !samples[b].found;
+      grid.visit(sample.position, sample.spacing,
+        [&](int j) { covered = covered || covers(patches[j], sample); });
+      return !covered;
+    });
+}
+
+std::vector<int> chooseUncovered(const std::vector<SurfaceProxy::Sample>& samples,
+  const std::vector<char>& marks, const ParallelFor& parallelFor)
+{
+  constexpr double coverDistance = 0.7;
+  Buffer<Patch> patches;
+  const std::vector<int> marked = markedIndices(marks, samples.size());
+  for (const int b : marked)
+  {
+    patches.push_back(samples[b].patch);
+  }
+  const SpacedPoints points = spacedPoints(patches, parallelFor);
+  // So far because of the harmonic mean: the other may want half as much. Where many are marked they stand
+  // close together: in small cells.
+  const SpacingGrid grid(points.positions, points.spacings, 1.0, 1.0, parallelFor);
+  std::vector<char> isChosen(marked.size(), 0);
+  std::vector<int> chosen;
+  constexpr std::size_t some = 4096;
+  for (std::size_t i = 0; i < marked.size(); ++i)
+  {
+    if (i % some == 0)
+    {
+      askCaller(parallelFor);
+    }
+    bool covered = false;
+    const auto cover = [&](int j)
+    {
+      const double distance = glm::distance(points.positions[i], points.positions[j]);
+      covered = covered ||
+        (isChosen[j] && distance <= coverDistance * points.spacings[j] &&
+          glm::dot(patches[i].normal, patches[j].normal) > 0.0f);
+    };
+    grid.visit(points.positions[i], points.spacings[i], cover);
+    if (!covered)
+    {
+      isChosen[i] = 1;
+      chosen.push_back(marked[i]);
+    }
+  }
+  return chosen;
+}
+
+} // namespace hop

@@ -1,0 +1,250 @@
+#include "Isolation/ElementPieces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hop
+{
+namespace
+{
+
+constexpr Degrees cornerDegrees{ 1, 1, 1 };
+
+std::vector<std::vector<int>> edgeLines(
+  Domain domain, const Degrees& degrees, const LatticePoint& direction)
+{
+  std::vector<std::vector<int>> lines;
+  for (const auto& [first, last] : edgesAlong(domain, direction))
+  {
+    std::vector<int>& line = lines.emplace_back();
+    for (LatticePoint p = cornerLatticePoint(domain, degrees, first); inLattice(domain, degrees, p);
+         p = { p.i + direction.i, p.j + direction.j, p.k + direction.k })
+    {
+      line.push_back(coefficientIndex(domain, degrees, p));
+    }
+  }
+  return lines;
+}
+
+std::vector<int> cornerIndices(Domain domain, const Degrees& degrees)
+{
+  std::vector<int> indices;
+  for (int c = 0; c < static_cast<int>(facts(domain).corners.size()); ++c)
+  {
+    indices.push_back(coefficientIndex(domain, degrees, cornerLatticePoint(domain, degrees, c)));
+  }
+  return indices;
+}
+
+/// Square of the length of an edge along its control points, as if all steps between them were of one length.
+double squaredLength(const BernsteinForm& form, const std::vector<int>& edge)
+{
+  double sum = 0.0;
+  for (std::size_t n = 1; n < edge.size(); ++n)
+  {
+    const glm::dvec3 step(controlPoint(form, edge[n]) - controlPoint(form, edge[n - 1]));
+    sum += glm::dot(step, step);
+  }
+  return sum * static_cast<double>(edge.size() - 1);
+}
+
+/// The direction whose edges are longest in world space, along their control points: the ends of an edge that
+/// closes on itself are in one place.
+const PieceKind::Direction& longestDirection(const Piece& piece)
+{
+  const BernsteinForm form = piece.form();
+  const PieceKind::Direction* longest = &piece.kind->directions.front();
+  double longestSquared = -1.0;
+  for (const PieceKind::Direction& direction : piece.kind->directions)
+  {
+    for (const std::vector<int>& edge : direction.edges)
+    {
+      const double squared = squaredLength(form, edge);
+      if (squared > longestSquared)
+      {
+        longest = &direction;
+        longestSquared = squared;
+      }
+    }
+  }
+  return *longest;
+}
+
+} // namespace
+
+PieceKind::PieceKind(Domain itsDomain, const Degrees& itsDegrees)
+  : domain(itsDomain)
+  , degrees(itsDegrees)
+  , cornerPlaces(cornerIndices(itsDomain, itsDegrees))
+  , cornerOrder(cornerIndices(itsDomain, cornerDegrees))
+{
+  for (const LatticePoint& direction : facts(this->domain).edgeDirections)
+  {
+    this->directions.push_back(
+      { { this->domain, this->degrees, direction }, { this->domain, cornerDegrees, direction },
+        edgeLines(this->domain, this->degrees, direction) });
+  }
+}
+
+BernsteinForm Piece::form() const
+{
+  return { this->kind->domain, this->kind->degrees, this->coefficients.data(),
+    this->weights.empty() ? nullptr : this->weights.data() };
+}
+
+bool Piece::isFinite() const
+{
+  return std::all_of(this->coefficients.begin(), this->coefficients.end(),
+    [](const Coefficient& c) { return std::isfinite(c.x + c.y + c.z + c.w); });
+}
+
+std::vector<double> Piece::values() const
+{
+  std::vector<double> values;
+  values.reserve(this->coefficients.size());
+  for (const Coefficient& c : this->coefficients)
+  {
+    values.push_back(c.w);
+  }
+  return values;
+}
+
+Range Piece::range() const
+{
+  const auto [lowest, highest] = std::minmax_element(this->coefficients.begin(),
+    this->coefficients.end(), [](const Coefficient& a, const Coefficient& b) { return a.w < b.w; });
+  return { lowest->w, highest->w };
+}
+
+Range Piece::cornerRange() const
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Range range{ infinity, -infinity };
+  for (const int place : this->kind->cornerPlaces)
+  {
+    range.include(this->coefficients[place].w);
+  }
+  return range;
+}
+
+std::array<double, MaximumCorners> Piece::cornerValues() const
+{
+  std::array<double, MaximumCorners> values{};
+  for (std::size_t c = 0; c < this->kind->cornerPlaces.size(); ++c)
+  {
+    values[c] = controlPoint(this->form(), this->kind->cornerPlaces[c]).w;
+  }
+  return values;
+}
+
+ReferencePoint Piece::middle() const
+{
+  glm::dvec3 sum(0.0);
+  for (const glm::dvec3& corner : this->corners)
+  {
+    sum += corner;
+  }
+  return { sum / static_cast<double>(this->corners.size()) };
+}
+
+ReferencePoint Piece::inElement(const glm::dvec3& u) const
+{
+  const auto cornerAt = [&](const LatticePoint& point)
+  { return this->corners[coefficientIndex(this->kind->domain, cornerDegrees, point)]; };
+  const glm::dvec3 origin = cornerAt({ 0, 0, 0 });
+  return { origin + u.x * (cornerAt({ 1, 0, 0 }) - origin) +
+    u.y * (cornerAt({ 0, 1, 0 }) - origin) + u.z * (cornerAt({ 0, 0, 1 }) - origin) };
+}
+
+bool Piece::isOnBoundary() const
+{
+  constexpr double rounding = 1e-12;
+  const auto& faces = facts(this->kind->domain).faces;
+  return std::any_of(faces.begin(), faces.end(),
+    [&](const Face& face)
+    {
+      return std::count_if(this->corners.begin(), this->corners.end(),
+               [&](const glm::dvec3& u) { return faceMargin(face, { u }) < rounding; }) >= 3;
+    });
+}
+
+double Piece::worldSize() const
+{
+  const BernsteinForm form = this->form();
+  glm::dvec3 lower(controlPoint(form, 0));
+  glm::dvec3 upper = lower;
+  for (int i = 1; i < static_cast<int>(this->coefficients.size()); ++i)
+  {
+    const glm::dvec3 x(controlPoint(form, i));
+    lower = glm::min(lower, x);
+    upper = glm::max(upper, x);
+  }
+  return glm::distance(lower, upper);
+}
+
+Piece wholeElement(const ElementMesh& mesh, int element, double isovalue, const PieceKind& kind)
+{
+  const BernsteinForm form = mesh.form(element);
+  Piece piece;
+  piece.kind = &kind;
+  piece.element = element;
+  const int count = coefficientCount(form.domain, form.degrees);
+  piece.coefficients.assign(form.coefficients, form.coefficients + count);
+  if (form.weights)
+  {
+    piece.weights.assign(form.weights, form.weights + count);
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    piece.coefficients[i].w -= isovalue * (form.weights ? piece.weights[i] : 1.0);
+  }
+  for (const LatticePoint& point : latticePoints(form.domain, cornerDegrees))
+  {
+    piece.corners.push_back(latticePosition(cornerDegrees, point).xyz);
+  }
+  return piece;
+}
+
+Piece halve(Piece& piece)
+{
+  const PieceKind::Direction& direction = longestDirection(piece);
+  Piece second;
+  second.kind = piece.kind;
+  second.element = piece.element;
+  direction.coefficients.bisect(piece.coefficients, second.coefficients);
+  if (!piece.weights.empty())
+  {
+    direction.coefficients.bisect(piece.weights, second.weights);
+  }
+  direction.corners.bisect(piece.corners, second.corners);
+  second.bisections = ++piece.bisections;
+  second.part = piece.part;
+  second.sheet = piece.sheet;
+  if (piece.bisections <= PartBisections)
+  {
+    piece.part = 2 * piece.part;
+    second.part = 2 * second.part + 1;
+  }
+  return second;
+}
+
+Piece partOf(Piece whole, int part)
+{
+  int bits = 0;
+  while (part >> (bits + 1) != 0)
+  {
+    ++bits;
+  }
+  while (bits-- > 0)
+  {
+    Piece second = halve(whole);
+    if ((part >> bits) & 1)
+    {
+      whole = std::move(second);
+    }
+  }
+  return whole;
+}
+
+} // namespace hop

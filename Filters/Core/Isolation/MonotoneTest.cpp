@@ -1,0 +1,147 @@
+#include "Isolation/MonotoneTest.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hop
+{
+namespace
+{
+
+/// The axes of the simplex factor to which an axis belongs.
+std::vector<int> factorAxes(Domain domain, int axis)
+{
+  switch (domain)
+  {
+    case Domain::Tetrahedron:
+      return { 0, 1, 2 };
+    case Domain::Wedge:
+      return axis == 2 ? std::vector<int>{ 2 } : std::vector<int>{ 0, 1 };
+    default:
+      return { axis };
+  }
+}
+
+LatticePoint shifted(const LatticePoint& point, int axis, int by)
+{
+  return { point.i + (axis == 0 ? by : 0), point.j + (axis == 1 ? by : 0),
+    point.k + (axis == 2 ? by : 0) };
+}
+
+int along(const LatticePoint& point, int axis)
+{
+  return axis == 0 ? point.i : axis == 1 ? point.j : point.k;
+}
+
+} // namespace
+
+MonotoneTest::MonotoneTest(Domain domain, const Degrees& degrees)
+{
+  const auto index = [&](const LatticePoint& p) { return coefficientIndex(domain, degrees, p); };
+  for (const LatticePoint& point : latticePoints(domain, degrees))
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->Begin.push_back(static_cast<int>(this->Differences.size()));
+      int rest = degrees[axis]; // alpha_0
+      for (const int m : factorAxes(domain, axis))
+      {
+        const int alpha = along(point, m);
+        rest -= alpha;
+        if (alpha > 0)
+        {
+          const LatticePoint lower = shifted(point, m, -1);
+          this->Differences.push_back(
+            { index(shifted(lower, axis, 1)), index(lower), static_cast<double>(alpha) });
+        }
+      }
+      if (rest > 0)
+      {
+        this->Differences.push_back(
+          { index(shifted(point, axis, 1)), index(point), static_cast<double>(rest) });
+      }
+    }
+  }
+  this->Begin.push_back(static_cast<int>(this->Differences.size()));
+  this->Mean.resize(latticePoints(domain, degrees).size(), glm::dvec3(0.0));
+  for (std::size_t n = 0; n + 1 < this->Begin.size(); ++n)
+  {
+    const int axis = static_cast<int>(n % 3);
+    for (int d = this->Begin[n]; d < this->Begin[n + 1]; ++d)
+    {
+      const Difference& difference = this->Differences[d];
+      this->Mean[difference.plus][axis] += difference.weight;
+      this->Mean[difference.minus][axis] -= difference.weight;
+    }
+  }
+}
+
+Monotony MonotoneTest::monotony(const std::vector<double>& values) const
+{
+  glm::dvec3 mean(0.0);
+  double largest = 0.0;
+  for (std::size_t point = 0; point < values.size(); ++point)
+  {
+    mean += values[point] * this->Mean[point];
+    largest = std::max(largest, std::abs(values[point]));
+  }
+  const double length = glm::length(mean);
+  if (!(length > 0.0))
+  {
+    return Monotony::None;
+  }
+  // Differences of values carry the values' rounding errors, times the degree.
+  const double rounding = 1e-13 * largest * MaximumDegree * length;
+  const double smallest = 1e-6 * largest;
+  const double slow = 1e-3 * length * length / static_cast<double>(values.size());
+  bool rises = false;
+  bool isSlow = false;
+  bool standsStillBelow = false;
+  bool standsStillAbove = false;
+  for (std::size_t point = 0; point < values.size(); ++point)
+  {
+    const double rise = glm::dot(this->gradient(values, point), mean);
+    if (rise > rounding)
+    {
+      rises = true;
+      isSlow = isSlow || rise < slow;
+      continue;
+    }
+    standsStillBelow = standsStillBelow || values[point] < 0.0;
+    standsStillAbove = standsStillAbove || values[point] > 0.0;
+    if (!(rise >= -rounding) || !(std::abs(values[point]) > smallest) ||
+      (standsStillBelow && standsStillAbove))
+    {
+      return Monotony::None;
+    }
+  }
+  const bool isWeak = isSlow || standsStillBelow || standsStillAbove;
+  return !rises ? Monotony::None : isWeak ? Monotony::Weak : Monotony::Strict;
+}
+
+std::vector<double> MonotoneTest::derivative(
+  const std::vector<double>& values, const glm::dvec3& direction) const
+{
+  std::vector<double> result(values.size());
+  for (std::size_t point = 0; point < values.size(); ++point)
+  {
+    result[point] = glm::dot(this->gradient(values, point), direction);
+  }
+  return result;
+}
+
+glm::dvec3 MonotoneTest::gradient(const std::vector<double>& values, std::size_t point) const
+{
+  glm::dvec3 result(0.0);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (int d = this->Begin[3 * point + axis]; d < this->Begin[3 * point + axis + 1]; ++d)
+    {
+      const Difference& difference = this->Differences[d];
+      result[axis] += difference.weight * (values[difference.plus] - values[difference.minus]);
+    }
+  }
+  return result;
+}
+
+} // namespace hop

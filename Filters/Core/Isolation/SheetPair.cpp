@@ -1,0 +1,209 @@
+#include "Isolation/SheetPair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hop
+{
+namespace
+{
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The eigenvector of a symmetric matrix whose eigenvalue is largest, of either sign, by squaring; if there are
+/// two that large, something between theirs.
+glm::dvec3 dominantDirection(glm::dmat3 matrix)
+{
+  constexpr int squarings = 6;
+  for (int n = 0; n < squarings; ++n)
+  {
+    const double size = std::sqrt(glm::dot(matrix[0], matrix[0]) + glm::dot(matrix[1], matrix[1]) +
+      glm::dot(matrix[2], matrix[2]));
+    if (!(size > 0.0))
+    {
+      return glm::dvec3(0.0);
+    }
+    matrix = matrix * matrix / (size * size);
+  }
+  const auto shorter = [](const glm::dvec3& a, const glm::dvec3& b)
+  { return glm::dot(a, a) < glm::dot(b, b); };
+  const glm::dvec3 column = std::max({ matrix[0], matrix[1], matrix[2] }, shorter);
+  const double length = glm::length(column);
+  return length > 0.0 ? column / length : glm::dvec3(0.0);
+}
+
+/// A field on lines along one direction.
+class FieldOnLines
+{
+public:
+  FieldOnLines(const BernsteinForm& form, const glm::dvec3& direction)
+    : Form(form)
+    , Direction(direction)
+  {
+  }
+
+  struct Expansion
+  {
+    double value = 0.0;
+    double slope = 0.0;
+    double bend = 0.0;
+  };
+
+  Expansion at(const glm::dvec3& u) const
+  {
+    const Jet jet = evaluateHessian(this->Form, { u });
+    return { jet.value.w, glm::dot(gradientOf(jet), this->Direction),
+      glm::dot(this->Direction, hessianOf(jet.second) * this->Direction) };
+  }
+
+  /// A line through a place, and where the field stands still on it.
+  struct Line
+  {
+    double valueHere = 0.0;
+    /// From the standstill to the place.
+    double distance = 0.0;
+    double valueThere = 0.0;
+    /// From the standstill to the two zeros, to second order.
+    double reach = 0.0;
+  };
+
+  /// By two of Newton's steps.
+  Line through(const glm::dvec3& u) const
+  {
+    Expansion there = this->at(u);
+    Line line{ there.value, 0.0, 0.0, 0.0 };
+    for (int step = 0; step < 2; ++step)
+    {
+      line.distance += there.slope / there.bend;
+      there = this->at(u - line.distance * this->Direction);
+    }
+    line.valueThere = there.value;
+    line.reach = std::sqrt(std::max(0.0, -2.0 * there.value / there.bend));
+    return line;
+  }
+
+  /// The zero on the line near a place, by some of Newton's steps.
+  glm::dvec3 zeroNear(glm::dvec3 u) const
+  {
+    for (int step = 0; step < 4; ++step)
+    {
+      const Expansion here = this->at(u);
+      u -= here.value / here.slope * this->Direction;
+    }
+    return u;
+  }
+
+private:
+  BernsteinForm Form;
+  glm::dvec3 Direction;
+};
+
+/// Whether the second derivative along a direction has that sign everywhere.
+bool bendsOneWay(
+  const BernsteinForm& form, const MonotoneTest& test, const glm::dvec3& direction, double sign)
+{
+  std::vector<double> values;
+  const int count = coefficientCount(form.domain, form.degrees);
+  double largest = 0.0;
+  for (int i = 0; i < count; ++i)
+  {
+    values.push_back(form.coefficients[i].w);
+    largest = std::max(largest, std::abs(values.back()));
+  }
+  const double rounding = 1e-12 * largest;
+  const std::vector<double> second = test.derivative(test.derivative(values, direction), direction);
+  return std::all_of(
+    second.begin(), second.end(), [&](double bend) { return sign * bend > rounding; });
+}
+
+/// A sheet as seen from the corners.
+/// \param place on it
+/// \param reach of the line on which it is
+/// \param lines through the corners
+/// \param side 1 for the sheet ahead along the direction, -1 for the other one
+/// \return nothing where it is far from the other one, or not as good as a plane, or comes so near to the domain
+///   without parting its corners that it may be in it
+std::optional<SheetPair::Sheet> sheetFrom(const BernsteinForm& form, const glm::dvec3& place,
+  const glm::dvec3& direction, double reach, const std::vector<FieldOnLines::Line>& lines,
+  double side)
+{
+  constexpr double flat = 0.1;    // in units of the domain's thickness
+  constexpr double atSheet = 0.1; // in units of the distance from the standstill
+  const auto& corners = facts(form.domain).corners;
+  const glm::dvec3 gradient = gradientOf(evaluateGradient(form, { place }));
+  const double rise = glm::dot(gradient, direction);
+  SheetPair::Sheet sheet;
+  sheet.place = place;
+  Range heights{ infinity, -infinity };
+  Range distances = heights;
+  double error = 0.0;
+  for (std::size_t c = 0; c < corners.size(); ++c)
+  {
+    const double distance = lines[c].distance - side * lines[c].reach;
+    const double fromPlane = glm::dot(gradient, corners[c].xyz - place) / rise;
+    error = std::max(error, std::abs(distance - fromPlane));
+    heights.include(glm::dot(direction, corners[c].xyz));
+    distances.include(distance);
+    const bool isAtSheet = std::abs(distance) < atSheet * lines[c].reach;
+    sheet.values[c] = isAtSheet ? lines[c].valueHere : rise * distance;
+  }
+  const bool passesBy = distances.lower > 2.0 * error || distances.upper < -2.0 * error;
+  const bool parts = distances.lower <= 0.0 && distances.upper >= 0.0;
+  sheet.reach = std::abs(rise) * reach;
+  sheet.isFlat = error <= reach;
+  const double thickness = heights.upper - heights.lower;
+  const bool isNear = 2.0 * reach <= thickness;
+  const bool isNearlyFlat = error <= flat * thickness;
+  return isNear && isNearlyFlat && (parts || passesBy) ? std::optional(sheet) : std::nullopt;
+}
+
+} // namespace
+
+std::optional<SheetPair> findSheetPair(
+  const BernsteinForm& form, const MonotoneTest& test, double slack)
+{
+  constexpr double steady = 0.5;
+  const BernsteinForm field{ form.domain, form.degrees, form.coefficients, nullptr };
+  const auto& corners = facts(form.domain).corners;
+  const glm::dvec3 middle = middleOf(facts(form.domain)).xyz;
+  const glm::dvec3 direction =
+    dominantDirection(hessianOf(evaluateHessian(field, { middle }).second));
+  const FieldOnLines along(field, direction);
+  SheetPair pair;
+  pair.outside = along.at(middle).bend > 0.0 ? 1.0 : -1.0;
+  if (direction == glm::dvec3(0.0) || !bendsOneWay(field, test, direction, pair.outside))
+  {
+    return std::nullopt;
+  }
+  const FieldOnLines::Line middleLine = along.through(middle);
+  const auto isParted = [&](const FieldOnLines::Line& line)
+  {
+    return pair.outside * line.valueThere < -slack && line.reach > steady * middleLine.reach &&
+      middleLine.reach > steady * line.reach;
+  };
+  std::vector<FieldOnLines::Line> lines;
+  for (const ReferencePoint& corner : corners)
+  {
+    lines.push_back(along.through(corner.xyz));
+  }
+  if (!isParted(middleLine) || !std::all_of(lines.begin(), lines.end(), isParted))
+  {
+    return std::nullopt;
+  }
+  pair.between = middle - middleLine.distance * direction;
+  for (const int n : { 0, 1 })
+  {
+    const double side = n == 0 ? -1.0 : 1.0;
+    const glm::dvec3 place = along.zeroNear(pair.between + side * middleLine.reach * direction);
+    const auto sheet = sheetFrom(field, place, direction, middleLine.reach, lines, side);
+    if (!sheet)
+    {
+      return std::nullopt;
+    }
+    pair.sheets[n] = *sheet;
+  }
+  return pair;
+}
+
+} // namespace hop

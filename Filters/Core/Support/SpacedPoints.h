@@ -1,0 +1,33 @@
+#pragma once
+
+#include "Common/Monitor.h"
+#include "Support/Buffer.h"
+
+#include <glm/glm.hpp>
+
+namespace hop
+{
+
+/// Points and the distance that each wants to its neighbours, in world units, as SpacingGrid takes them.
+struct SpacedPoints
+{
+  /// \param positionOf positionOf(i), \param spacingOf spacingOf(i), of point i in [0, count)
+  template <class PositionOf, class SpacingOf>
+  SpacedPoints(std::size_t count, const PositionOf& positionOf, const SpacingOf& spacingOf,
+    const ParallelFor& parallelFor)
+    : positions(count)
+    , spacings(count)
+  {
+    forAll(parallelFor, count,
+      [&](std::size_t i)
+      {
+        this->positions[i] = positionOf(i);
+        this->spacings[i] = static_cast<float>(spacingOf(i));
+      });
+  }
+
+  Buffer<glm::dvec3> positions;
+  Buffer<float> spacings;
+};
+
+} // namespace hop

@@ -1,0 +1,275 @@
+#include "Support/SpacingGrid.h"
+
+#include "Kernel/InstructionSet.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace hop
+{
+namespace
+{
+
+constexpr std::int64_t cellsPerAxis = std::int64_t{ 1 } << SpacingGrid::BitsPerAxis;
+/// Levels have four bits of a key.
+constexpr int maximumLevels = 15;
+
+} // namespace
+
+SpacingGrid::SpacingGrid(Span<glm::dvec3> positions, Span<float> spacings, double reach,
+  double cellsPerReach, const ParallelFor& parallelFor)
+  : Positions(positions)
+  , Spacings(spacings)
+  , Reach(reach)
+{
+  if (!positions.empty())
+  {
+    this->chooseCellSizes(cellsPerReach, parallelFor);
+    this->fillSlots(parallelFor);
+    this->sortPoints();
+  }
+}
+
+void SpacingGrid::chooseCellSizes(double cellsPerReach, const ParallelFor& parallelFor)
+{
+  const auto [smallest, largest] =
+    std::minmax_element(this->Spacings.begin(), this->Spacings.end());
+  this->SmallestSpacing = *smallest;
+  const double largestSpacing = *largest;
+  this->LevelCount = maximumLevels;
+  this->LevelCount = this->levelOf(largestSpacing) + 1;
+  const Bounds bounds = boundsOf(this->Positions, parallelFor);
+  this->Origin = bounds.lower;
+  const glm::dvec3 extent = bounds.upper - bounds.lower;
+  constexpr double tiniest = std::numeric_limits<double>::min();
+  const double smallestCell = std::max({ extent.x, extent.y, extent.z }) / (cellsPerAxis - 4);
+  for (int level = 0; level < this->LevelCount; ++level)
+  {
+    const double spacing =
+      this->LevelCount == 1 ? largestSpacing : std::ldexp(this->SmallestSpacing, level + 1);
+    this->LargestSpacings.push_back(spacing);
+    this->CellsPerLength.push_back(
+      1.0 / std::max({ this->Reach * spacing / cellsPerReach, smallestCell, tiniest }));
+  }
+}
+
+/// Gives each point's cell a slot. No slot has points yet.
+void SpacingGrid::fillSlots(const ParallelFor& parallelFor)
+{
+  this->SlotCount = 64;
+  while (2 * this->SlotCount < 3 * this->Positions.size())
+  {
+    this->SlotCount *= 2;
+  }
+  this->Keys.reset(new std::atomic<std::uint64_t>[this->SlotCount]);
+  this->SlotStart = Buffer<int>(this->SlotCount + 1);
+  this->SlotStart.back() = 0;
+  forAll(parallelFor, this->SlotCount,
+    [this](std::size_t slot)
+    {
+      this->Keys[slot].store(0, std::memory_order_relaxed);
+      this->SlotStart[slot] = 0;
+    });
+  this->SlotOfPoint = Buffer<int>(this->Positions.size());
+  runParallel(parallelFor, static_cast<std::ptrdiff_t>(this->Positions.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      std::uint64_t previous = 0;
+      for (std::ptrdiff_t i = begin; i < end; ++i)
+      {
+        const int level = this->levelOf(this->Spacings[i]);
+        const std::uint64_t key = keyOf(this->cellOf(this->Positions[i], level), level);
+        // Neighbours in memory often share a cell.
+        this->SlotOfPoint[i] =
+          key == previous ? this->SlotOfPoint[i - 1] : static_cast<int>(this->findOrAdd(key));
+        previous = key;
+      }
+    });
+}
+
+/// Counting sort by slot, from the last point to the first: slots start where they ended before.
+void SpacingGrid::sortPoints()
+{
+  for (const int slot : this->SlotOfPoint)
+  {
+    ++this->SlotStart[slot];
+  }
+  std::partial_sum(this->SlotStart.begin(), this->SlotStart.end(), this->SlotStart.begin());
+  this->Order = Buffer<int>(this->Positions.size());
+  for (std::size_t i = this->Positions.size(); i-- > 0;)
+  {
+    this->Order[--this->SlotStart[this->SlotOfPoint[i]]] = static_cast<int>(i);
+  }
+}
+
+int SpacingGrid::levelOf(double spacing) const
+{
+  const int level =
+    spacing > this->SmallestSpacing ? std::ilogb(spacing / this->SmallestSpacing) : 0;
+  return std::min(level, std::max(0, this->LevelCount - 1));
+}
+
+float SpacingGrid::withGradation(const glm::dvec3& position, float spacing, double slope) const
+{
+  double least = spacing;
+  for (int level = 0; level < this->LevelCount && level <= this->levelOf(least); ++level)
+  {
+    const double smallest = std::ldexp(this->SmallestSpacing, level);
+    const double radius =
+      std::min(this->Reach * this->LargestSpacings[level], (least - smallest) / slope);
+    this->visitLevel(level, position - radius, position + radius,
+      [&](int j)
+      {
+        const glm::dvec3 apart = position - this->Positions[j];
+        const double room = (least - this->Spacings[j]) / slope;
+        if (room > 0.0 && glm::dot(apart, apart) < room * room)
+        {
+          least = this->Spacings[j] + slope * glm::length(apart);
+        }
+      });
+  }
+  return static_cast<float>(least);
+}
+
+SpacingGrid::Cell SpacingGrid::cellOf(const glm::dvec3& position, int level) const
+{
+  // Cell 0, just outside, exists for queries. Truncation is floor for what is not negative.
+  const glm::dvec3 cell = (position - this->Origin) * this->CellsPerLength[level] + 1.0;
+  return Cell(glm::min(glm::max(cell, 0.0), static_cast<double>(cellsPerAxis - 1)));
+}
+
+std::uint64_t SpacingGrid::keyOf(const Cell& cell, int level)
+{
+  const glm::u64vec3 c(cell);
+  return (static_cast<std::uint64_t>(level) << (3 * BitsPerAxis)) | (c.z << (2 * BitsPerAxis)) |
+    (c.y << BitsPerAxis) | c.x;
+}
+
+std::size_t SpacingGrid::findOrAdd(std::uint64_t key)
+{
+  for (std::size_t slot = this->firstSlotOf(key);; slot = this->nextSlot(slot))
+  {
+    std::uint64_t found = this->Keys[slot].load(std::memory_order_relaxed);
+    const bool taken =
+      found == 0 && this->Keys[slot].compare_exchange_strong(found, key, std::memory_order_relaxed);
+    if (taken || found == key)
+    {
+      return slot;
+    }
+  }
+}
+
+namespace
+{
+
+/// Points to choose neighbours from, as the kernel wants them. To be reused: memory only grows.
+class CandidateRows
+{
+public:
+  void clear() { this->Count = 0; }
+
+  void add(const glm::dvec3& position, double inverseSpacing, int index)
+  {
+    if (this->Count + kernel::MaximumLanes > this->Index.size())
+    {
+      this->grow();
+    }
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->Rows[axis][this->Count] = position[axis];
+    }
+    this->Rows[3][this->Count] = inverseSpacing;
+    this->Index[this->Count++] = index;
+  }
+
+  kernel::Candidates filledUp()
+  {
+    constexpr double outOfReach = 1e150;
+    const std::size_t count = this->Count;
+    while (this->Count % kernel::MaximumLanes != 0)
+    {
+      this->add(glm::dvec3(outOfReach), 1.0, 0);
+    }
+    const kernel::Candidates result{ this->Rows[0].data(), this->Rows[1].data(),
+      this->Rows[2].data(), this->Rows[3].data(), this->Index.data(),
+      static_cast<std::ptrdiff_t>(this->Count) };
+    this->Count = count;
+    return result;
+  }
+
+private:
+  void grow()
+  {
+    const std::size_t size = 2 * this->Index.size() + 64;
+    for (auto& row : this->Rows)
+    {
+      row.resize(size);
+    }
+    this->Index.resize(size);
+  }
+
+  std::array<std::vector<double>, 4> Rows;
+  std::vector<std::int32_t> Index;
+  std::size_t Count = 0;
+};
+
+} // namespace
+
+SeenLists::SeenLists(
+  Span<glm::dvec3> positions, Span<float> spacings, double reach, const ParallelFor& parallelFor)
+{
+  const SpacingGrid grid(positions, spacings, reach, 1.0, parallelFor);
+  constexpr std::size_t pointsPerChunk = 256;
+  this->Places.resize(positions.size());
+  this->Chunks.resize((positions.size() + pointsPerChunk - 1) / pointsPerChunk);
+
+  Buffer<double> inverse(positions.size());
+  forAll(parallelFor, inverse.size(), [&](std::size_t i) { inverse[i] = 1.0 / spacings[i]; });
+  // Two points see each other if d <= 2 reach/(1/h_i + 1/h_j).
+  const double limit = 4.0 * reach * reach;
+  const auto findNear = kernel::current().near;
+  const auto fillChunk = [&](std::size_t chunk, CandidateRows& candidates)
+  {
+    std::vector<int>& lists = this->Chunks[chunk];
+    std::size_t used = 0;
+    const std::size_t end = std::min(positions.size(), (chunk + 1) * pointsPerChunk);
+    for (std::size_t first = chunk * pointsPerChunk; first < end; ++first)
+    {
+      // A cell is looked at when its first point comes.
+      const SpacingGrid::Points points = grid.cellMates(static_cast<int>(first));
+      if (*points.begin() != static_cast<int>(first))
+      {
+        continue;
+      }
+      candidates.clear();
+      grid.visitAround(points, [&](int j) { candidates.add(positions[j], inverse[j], j); });
+      const kernel::Candidates rows = candidates.filledUp();
+      for (const int i : points)
+      {
+        lists.resize(std::max(lists.size(), used + rows.count));
+        const glm::dvec3& x = positions[i];
+        int* list = lists.data() + used;
+        int* listEnd = findNear(rows, { x.x, x.y, x.z }, inverse[i], limit, list);
+        listEnd = std::remove(list, listEnd, i);
+        this->Places[i] = { static_cast<int>(chunk), static_cast<int>(used),
+          static_cast<int>(listEnd - list) };
+        used += listEnd - list;
+      }
+    }
+    lists.resize(used);
+  };
+  runParallel(parallelFor, static_cast<std::ptrdiff_t>(this->Chunks.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      CandidateRows candidates;
+      for (std::ptrdiff_t chunk = begin; chunk < end; ++chunk)
+      {
+        fillChunk(chunk, candidates);
+      }
+    });
+}
+
+} // namespace hop

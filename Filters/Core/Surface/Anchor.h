@@ -1,0 +1,72 @@
+#pragma once
+
+#include "Elements/BatchEvaluator.h"
+#include "Support/Buffer.h"
+#include "Surface/Patch.h"
+#include "Surface/SurfaceWalker.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace hop
+{
+
+/// Ties a patch of the surface to the mesh: the place at which its element was evaluated.
+struct Anchor
+{
+  Location place;
+  /// K = J^-1 there, in single precision: it turns steps of the size of a spacing into reference
+  /// coordinates, and what it misses the next evaluation sees.
+  glm::mat3 pull{ 0.0f };
+  /// Distance from the place to the surface along the patch's normal, to second order in the field.
+  float offset = 0.0f;
+};
+
+/// The patch and the anchor that belong to an evaluation; the patch's spacing is left as it is.
+/// \return false, and nothing changed, where the element is singular, the gradient vanishes or
+///   anything is not finite
+bool anchorPatch(
+  const Location& place, const Jet& jet, double isovalue, Anchor& anchor, Patch& patch);
+/// \param at with its Hessian
+bool anchorPatch(const Evaluated& at, Anchor& anchor, Patch& patch);
+
+/// What a patch says about another place of its element: the patch and the anchor there, by the map and the
+/// surface around the first, both to the order in which they are known. Costs no evaluation.
+void continuePatch(const Anchor& knownAnchor, const Patch& known, const Location& place,
+  Anchor& anchor, Patch& patch);
+
+/// Indices of places, or of anchors, sorted by element, stably.
+std::vector<int> orderByElement(
+  const std::vector<Location>& places, std::size_t elementCount, const ParallelFor& parallelFor);
+std::vector<int> orderByElement(
+  const Buffer<Anchor>& anchors, std::size_t elementCount, const ParallelFor& parallelFor);
+
+/// Calls use(i, jet) with the value and derivatives to second order at places[i], i = order[n] for n
+/// in [begin, end). Places next to each other in the order that share an element are evaluated
+/// together.
+template <class Use>
+void evaluateInOrder(const ElementMesh& mesh, const std::vector<Location>& places,
+  const std::vector<int>& order, std::ptrdiff_t begin, std::ptrdiff_t end, const Use& use)
+{
+  constexpr std::ptrdiff_t batchSize = 64;
+  std::array<ReferencePoint, batchSize> points;
+  JetBatch jets;
+  for (std::ptrdiff_t first = begin; first < end;)
+  {
+    const int element = places[order[first]].element;
+    std::ptrdiff_t last = first;
+    for (; last < std::min(end, first + batchSize) && places[order[last]].element == element;
+         ++last)
+    {
+      points[last - first] = places[order[last]].u;
+    }
+    evaluateHessians(mesh.form(element), points.data(), static_cast<int>(last - first), jets);
+    for (std::ptrdiff_t n = first; n < last; ++n)
+    {
+      use(order[n], jets.jet(static_cast<int>(n - first)));
+    }
+    first = last;
+  }
+}
+
+} // namespace hop

@@ -1,0 +1,271 @@
+#include "Surface/FaceLocator.h"
+
+#include "Surface/ActiveFaces.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace hop
+{
+namespace
+{
+
+/// What single precision leaves of coordinates and values, in units of their size.
+constexpr double rounding = 1e-6;
+/// Cosine between the outward normals of faces that look at each other, at most.
+constexpr double facing = -0.2;
+
+struct FaceHull
+{
+  Bounds bounds;
+  Range range;
+};
+
+/// Bounds of the control points on a face, and of their values.
+FaceHull hullOf(
+  const BernsteinForm& form, const std::vector<LatticePoint>& lattice, const Face& face)
+{
+  FaceHull hull;
+  bool first = true;
+  for (std::size_t i = 0; i < lattice.size(); ++i)
+  {
+    if (faceMargin(face, latticePosition(form.degrees, lattice[i])) > 1e-9)
+    {
+      continue;
+    }
+    const Coefficient c = controlPoint(form, static_cast<int>(i));
+    const Bounds point{ glm::dvec3(c), glm::dvec3(c) };
+    if (first)
+    {
+      hull = { point, { c.w, c.w } };
+      first = false;
+    }
+    hull.bounds.include(point);
+    hull.range.include(c.w);
+  }
+  return hull;
+}
+
+bool straddles(const Range& range, double isovalue)
+{
+  const double slack = rounding * range.magnitude();
+  return range.lower - slack <= isovalue && isovalue <= range.upper + slack;
+}
+
+LocalMap mapAt(const BernsteinForm& form, const ReferencePoint& u)
+{
+  return fieldPoint(evaluateGradient(form, u), 0.0).map;
+}
+
+/// Direction in world space into the element, as long as the half-space value grows.
+WorldVector inwardOf(const LocalMap& map, const Face& face)
+{
+  return { glm::transpose(map.inverse) * face.inward.xyz };
+}
+
+/// Takes u towards the target as the map has it here, along the element's faces where it would leave.
+/// \param rest from u to the target; what is left of it afterwards
+/// \return length of the way in reference space
+double stepInside(Domain domain, const LocalMap& map, ReferencePoint& u, WorldVector& rest)
+{
+  ActiveFaces active;
+  double way = 0.0;
+  for (;;)
+  {
+    const ReferenceVector du = pullAlong(domain, active, map, rest);
+    const Exit exit = findExit(domain, u, du, active);
+    const ReferenceVector step = exit.fraction * du;
+    u = u + step;
+    rest = rest - map.push(step);
+    way += length(step);
+    if (exit.face < 0 || active.count == 2)
+    {
+      return way;
+    }
+    active.add(exit.face);
+  }
+}
+
+} // namespace
+
+FaceLocator::FaceLocator(const ElementMesh& mesh, double isovalue, const ParallelFor& parallelFor)
+  : Mesh(mesh)
+{
+  std::vector<std::vector<OpenFace>> ofElement(mesh.elements.size());
+  runParallel(parallelFor, static_cast<std::ptrdiff_t>(ofElement.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      for (std::ptrdiff_t e = begin; e < end; ++e)
+      {
+        ofElement[e] = this->openFacesOf(static_cast<int>(e), isovalue);
+      }
+    });
+  for (const std::vector<OpenFace>& faces : ofElement)
+  {
+    this->Faces.insert(this->Faces.end(), faces.begin(), faces.end());
+  }
+  this->Evaluations = static_cast<std::int64_t>(this->Faces.size());
+  this->findOpposites(parallelFor);
+}
+
+std::vector<FaceLocator::OpenFace> FaceLocator::openFacesOf(int element, double isovalue) const
+{
+  const BernsteinForm form = this->Mesh.form(element);
+  const DomainFacts& domain = facts(form.domain);
+  std::vector<OpenFace> result;
+  std::vector<LatticePoint> lattice;
+  for (int f = 0; f < static_cast<int>(domain.faces.size()); ++f)
+  {
+    if (this->Mesh.neighbor(element, f).element >= 0)
+    {
+      continue;
+    }
+    if (lattice.empty())
+    {
+      lattice = latticePoints(form.domain, form.degrees);
+    }
+    const FaceHull hull = hullOf(form, lattice, domain.faces[f]);
+    if (straddles(hull.range, isovalue))
+    {
+      const WorldVector inward =
+        inwardOf(mapAt(form, middleOf(domain, domain.faces[f])), domain.faces[f]);
+      const double size = length(inward);
+      result.push_back(
+        { element, f, hull.bounds, size > 0.0 ? (-1.0 / size) * inward : WorldVector{}, {} });
+    }
+  }
+  return result;
+}
+
+/// Finds the pairs that may touch, and forgets the faces that are in none.
+void FaceLocator::findOpposites(const ParallelFor& parallelFor)
+{
+  std::vector<Bounds> boxes;
+  for (const OpenFace& face : this->Faces)
+  {
+    boxes.push_back(face.bounds.widened(face.reach()));
+  }
+  const BoxTree tree(boxes);
+  std::vector<std::vector<int>> opposites(this->Faces.size());
+  runParallel(parallelFor, static_cast<std::ptrdiff_t>(this->Faces.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      for (std::ptrdiff_t i = begin; i < end; ++i)
+      {
+        const OpenFace& face = this->Faces[i];
+        for (const int j : tree.overlapping(boxes[i]))
+        {
+          const OpenFace& other = this->Faces[j];
+          const bool known = length(face.outward) > 0.0 && length(other.outward) > 0.0;
+          if (other.element != face.element &&
+            (!known || dot(face.outward, other.outward) < facing))
+          {
+            opposites[i].push_back(j);
+          }
+        }
+      }
+    });
+  std::vector<int> rank(this->Faces.size(), -1);
+  int next = 0;
+  for (std::size_t i = 0; i < opposites.size(); ++i)
+  {
+    rank[i] = opposites[i].empty() ? -1 : next++;
+  }
+  std::vector<OpenFace> kept;
+  for (std::size_t i = 0; i < opposites.size(); ++i)
+  {
+    if (rank[i] >= 0)
+    {
+      kept.push_back(this->Faces[i]);
+      // A face is opposite to those opposite to it, so all of them are kept.
+      std::transform(opposites[i].begin(), opposites[i].end(),
+        std::back_inserter(kept.back().opposite), [&](int j) { return rank[j]; });
+    }
+  }
+  this->Faces = std::move(kept);
+}
+
+const FaceLocator::OpenFace* FaceLocator::find(int element, int face) const
+{
+  const auto at = std::lower_bound(this->Faces.begin(), this->Faces.end(), std::pair(element, face),
+    [](const OpenFace& open, const std::pair<int, int>& wanted)
+    { return std::pair(open.element, open.face) < wanted; });
+  const bool found = at != this->Faces.end() && at->element == element && at->face == face;
+  return found ? &*at : nullptr;
+}
+
+bool FaceLocator::mayGoOnIn(int element, int face, int other) const
+{
+  const OpenFace* from = this->find(element, face);
+  return from &&
+    std::any_of(from->opposite.begin(), from->opposite.end(),
+      [&](int j) { return this->Faces[j].element == other; });
+}
+
+std::optional<LocatedPlace> FaceLocator::locate(
+  const WorldPoint& point, int element, int face, double tolerance, std::int64_t& evaluations) const
+{
+  const OpenFace* from = this->find(element, face);
+  std::optional<LocatedPlace> nearest;
+  for (std::size_t n = 0; from && n < from->opposite.size(); ++n)
+  {
+    const OpenFace& to = this->Faces[from->opposite[n]];
+    const double reach = std::min({ tolerance, from->reach(), to.reach() });
+    const auto found = this->locateIn(to, point, reach, evaluations);
+    if (found && (!nearest || found->gap < nearest->gap))
+    {
+      nearest = found;
+    }
+    if (nearest && nearest->gap <= rounding * to.bounds.diagonal())
+    {
+      break;
+    }
+  }
+  return nearest;
+}
+
+/// Newton's method for T(u) = x, or for the u next to x where the element does not hold it. Beside an
+/// element, rather than in front of it, is not behind the face: the miss points across the face for
+/// the most part.
+std::optional<LocatedPlace> FaceLocator::locateIn(
+  const OpenFace& to, const WorldPoint& point, double tolerance, std::int64_t& evaluations) const
+{
+  constexpr int maximumSteps = 20;
+  constexpr double converged = 1e-9;
+  if (!to.bounds.widened(tolerance + rounding * to.bounds.diagonal())
+         .overlaps({ point.xyz, point.xyz }))
+  {
+    return std::nullopt;
+  }
+  const BernsteinForm form = this->Mesh.form(to.element);
+  const DomainFacts& domain = facts(form.domain);
+  const Face& face = domain.faces[to.face];
+  ReferencePoint u = middleOf(domain, face);
+  for (int n = 0; n < maximumSteps; ++n)
+  {
+    const LocalMap map = mapAt(form, u);
+    ++evaluations;
+    if (map.singular)
+    {
+      return std::nullopt;
+    }
+    WorldVector rest = point - map.position;
+    if (stepInside(form.domain, map, u, rest) > converged)
+    {
+      continue;
+    }
+    const WorldVector inward = inwardOf(map, face);
+    const double slope = length(inward);
+    const double across = dot(rest, inward) / slope;
+    const double aside = length(rest - (across / slope) * inward);
+    const double gap = std::max(length(rest), std::max(0.0, faceMargin(face, u)) / slope);
+    const double slack = rounding * to.bounds.diagonal();
+    // What is nearer to the far side of a thin element is beyond that: its faces may look away from each other.
+    const bool isNearFace = faceMargin(face, u) <= 0.5;
+    const bool behind = isNearFace && gap <= tolerance + slack && aside <= std::abs(across) + slack;
+    return behind ? std::optional<LocatedPlace>({ { to.element, u }, to.face, gap }) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+} // namespace hop

@@ -1,0 +1,74 @@
+#include "Input/GatherBlocks.h"
+
+#include "vtkCompositeDataSet.h"
+#include "vtkDataObjectTree.h"
+#include "vtkDataObjectTreeIterator.h"
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkNew.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnstructuredGrid.h"
+
+namespace
+{
+
+std::string nameOf(vtkDataObjectTreeIterator* node)
+{
+  const char* name = node->HasCurrentMetaData()
+    ? node->GetCurrentMetaData()->Get(vtkCompositeDataSet::NAME())
+    : nullptr;
+  return name ? name : "";
+}
+
+GatheredBlocks gatherLeaves(vtkDataObjectTree* input, vtkDataObjectTree* output)
+{
+  GatheredBlocks result;
+  // The leaves of a collection are pieces of what has a name.
+  const bool isCollection = vtkPartitionedDataSetCollection::SafeDownCast(input) != nullptr;
+  std::string nameOfPieces;
+  const auto node = vtk::TakeSmartPointer(input->NewTreeIterator());
+  node->VisitOnlyLeavesOff();
+  for (node->InitTraversal(); !node->IsDoneWithTraversal(); node->GoToNextItem())
+  {
+    vtkDataObject* data = node->GetCurrentDataObject();
+    std::string name = nameOf(node);
+    if (vtkCompositeDataSet::SafeDownCast(data))
+    {
+      nameOfPieces = isCollection ? name : "";
+      continue;
+    }
+    name = name.empty() ? nameOfPieces : name;
+    name = "block " + std::to_string(node->GetCurrentFlatIndex()) +
+      (name.empty() ? "" : " '" + name + "'");
+    if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data))
+    {
+      const vtkNew<vtkPolyData> particles;
+      output->SetDataSet(node, particles);
+      result.blocks.push_back({ grid, nullptr, particles, name });
+    }
+    else
+    {
+      result.others.push_back(name);
+    }
+  }
+  return result;
+}
+
+} // namespace
+
+GatheredBlocks gatherBlocks(vtkDataObject* input, vtkDataObject* output)
+{
+  auto* tree = vtkDataObjectTree::SafeDownCast(input);
+  if (!tree)
+  {
+    return { { { vtkUnstructuredGrid::SafeDownCast(input), nullptr,
+               vtkPolyData::SafeDownCast(output), "" } },
+      {} };
+  }
+  auto* outputTree = vtkDataObjectTree::SafeDownCast(output);
+  outputTree->CopyStructure(tree);
+  outputTree->GetFieldData()->PassData(tree->GetFieldData());
+  return gatherLeaves(tree, outputTree);
+}

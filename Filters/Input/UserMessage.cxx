@@ -1,0 +1,15 @@
+#include "Input/UserMessage.h"
+
+#include <algorithm>
+
+std::string listOf(const std::vector<std::string>& names)
+{
+  constexpr std::size_t most = 10;
+  std::string list;
+  for (std::size_t n = 0; n < std::min(names.size(), most); ++n)
+  {
+    list += (n == 0 ? "" : ", ") + names[n];
+  }
+  const std::size_t more = names.size() - std::min(names.size(), most);
+  return names.empty() ? "none" : list + (more > 0 ? " and " + std::to_string(more) + " more" : "");
+}

@@ -1,0 +1,177 @@
+#include "Output/PointArrays.h"
+
+#include "Conversion/GatherValues.h"
+#include "Elements/BatchEvaluator.h"
+#include "Input/VtkCompatibility.h"
+
+#include "vtkCellArray.h"
+#include "vtkDataArray.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+
+namespace
+{
+
+/// The evaluators take so many components at once: elsewhere they are x, y, z and f.
+constexpr int groupSize = 4;
+
+/// Where a component of some array goes.
+struct Target
+{
+  double* values = nullptr;
+  int stride = 0;
+};
+
+/// One a thread.
+class ArrayEvaluator
+{
+public:
+  ArrayEvaluator(const InputBlocks& blocks, const GridElements& elements,
+    const std::vector<EvaluatedArray>& arrays, const std::vector<ParticleRow>& rows)
+    : Blocks(blocks)
+    , Elements(elements)
+    , Arrays(arrays)
+    , Rows(rows)
+  {
+    for (const EvaluatedArray& array : arrays)
+    {
+      const int components = array.source->GetNumberOfComponents();
+      for (int c = 0; c < components; ++c)
+      {
+        this->Targets.push_back({ array.target + c, components });
+      }
+    }
+  }
+
+  /// Rows begin to end - 1.
+  void evaluate(std::ptrdiff_t begin, std::ptrdiff_t end)
+  {
+    while (begin < end)
+    {
+      const int element = this->elementOf(begin);
+      this->convert(element);
+      for (; begin < end && this->elementOf(begin) == element; begin = this->BatchEnd)
+      {
+        this->collectPoints(begin, end);
+        for (int first = 0; first < this->width(); first += groupSize)
+        {
+          this->evaluateGroup(element, first, begin);
+        }
+      }
+    }
+  }
+
+private:
+  int width() const { return static_cast<int>(this->Targets.size()); }
+  int elementOf(std::ptrdiff_t row) const { return this->Rows[row].particle->location.element; }
+
+  /// Bernstein coefficients of all arrays, one row of components a coefficient.
+  void convert(int element)
+  {
+    const hop::Element& e = this->Elements.mesh.elements[element];
+    const hop::NodalBasis& basis = this->Elements.bases[element]->basis;
+    const int nodes = basis.nodeCount();
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    const auto [block, cell] = this->Blocks.locate(e.cell);
+    vtkUnstructuredGrid* grid = this->Blocks[block].grid;
+    cellPoints(grid->GetCells(), cell, count, ids, this->CopiedIds);
+    this->Nodal.resize(static_cast<std::size_t>(nodes) * this->width());
+    double* column = this->Nodal.data();
+    for (const EvaluatedArray& array : this->Arrays)
+    {
+      for (int c = 0; c < array.source->GetNumberOfComponents(); ++c)
+      {
+        gatherComponent(array.source, ids, nodes, c, column++, this->width());
+      }
+    }
+    this->Coefficients.resize(static_cast<std::size_t>(basis.coefficientCount()) * this->width());
+    basis.toBernstein(this->Nodal.data(), this->width(), this->Coefficients.data());
+    this->Weights.clear();
+    if (e.rational)
+    {
+      this->Nodal.resize(nodes);
+      gatherComponent(
+        grid->GetPointData()->GetRationalWeights(), ids, nodes, 0, this->Nodal.data());
+      this->Weights.resize(basis.coefficientCount());
+      basis.toBernstein(this->Nodal.data(), 1, this->Weights.data());
+    }
+  }
+
+  /// Places of the next rows that share an element, as many as are evaluated at once.
+  void collectPoints(std::ptrdiff_t begin, std::ptrdiff_t end)
+  {
+    constexpr std::ptrdiff_t batchSize = 64;
+    const int element = this->elementOf(begin);
+    this->Points.clear();
+    this->BatchEnd = begin;
+    for (; this->BatchEnd < std::min(end, begin + batchSize) &&
+         this->elementOf(this->BatchEnd) == element;
+         ++this->BatchEnd)
+    {
+      this->Points.push_back(this->Rows[this->BatchEnd].particle->location.u);
+    }
+  }
+
+  /// Components first, first + 1, ... at the points collected, for the rows from `begin` on.
+  void evaluateGroup(int element, int first, std::ptrdiff_t begin)
+  {
+    const hop::NodalBasis& basis = this->Elements.bases[element]->basis;
+    const int components = std::min(groupSize, this->width() - first);
+    this->Group.assign(basis.coefficientCount(), hop::Coefficient(0.0));
+    for (std::size_t i = 0; i < this->Group.size(); ++i)
+    {
+      const double weight = this->Weights.empty() ? 1.0 : this->Weights[i];
+      for (int c = 0; c < components; ++c)
+      {
+        this->Group[i][c] = weight * this->Coefficients[i * this->width() + first + c];
+      }
+    }
+    hop::evaluateGradients({ basis.domain(), basis.degrees(), this->Group.data(),
+                             this->Weights.empty() ? nullptr : this->Weights.data() },
+      this->Points.data(), static_cast<int>(this->Points.size()), this->Jets);
+    for (int c = 0; c < components; ++c)
+    {
+      const Target& target = this->Targets[first + c];
+      const double* values = this->Jets.row(hop::quantity::value, c);
+      for (int n = 0; n < this->Jets.size(); ++n)
+      {
+        target.values[(begin + n) * target.stride] = values[n];
+      }
+    }
+  }
+
+  const InputBlocks& Blocks;
+  const GridElements& Elements;
+  const std::vector<EvaluatedArray>& Arrays;
+  const std::vector<ParticleRow>& Rows;
+  /// One a component of all arrays.
+  std::vector<Target> Targets;
+  vtkNew<vtkIdList> CopiedIds;
+  std::vector<double> Nodal;
+  std::vector<double> Coefficients;
+  std::vector<double> Weights;
+  std::vector<hop::ReferencePoint> Points;
+  std::ptrdiff_t BatchEnd = 0;
+  std::vector<hop::Coefficient> Group;
+  hop::JetBatch Jets;
+};
+
+} // namespace
+
+void evaluatePointArrays(const InputBlocks& blocks, const GridElements& elements,
+  const std::vector<EvaluatedArray>& arrays, const std::vector<ParticleRow>& rows,
+  const hop::ParallelFor& parallelFor)
+{
+  if (arrays.empty())
+  {
+    return;
+  }
+  hop::runParallel(parallelFor, static_cast<std::ptrdiff_t>(rows.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    { ArrayEvaluator(blocks, elements, arrays, rows).evaluate(begin, end); });
+}

@@ -1,0 +1,125 @@
+#include "Fast/FastDistribution.h"
+
+#include "AnalyticFields.h"
+#include "TestMeshes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hop::testing
+{
+namespace
+{
+
+constexpr double spacing = 0.1;
+constexpr double tolerance = 1e-6 * spacing;
+const glm::dvec3 middle(0.1, -0.13, 0.07);
+constexpr double radius = 1.3;
+/// Of a second sphere, which the field of one half of a mesh belongs to.
+constexpr double otherRadius = radius + 2.0 * spacing;
+
+Buffer<Particle> distribute(const ElementMesh& mesh)
+{
+  DistributionParameters parameters;
+  parameters.sizing = { spacing, 0.0 };
+  return distributeFast({ &mesh, 0.0, 1e-9 }, parameters, {}, {}).particles;
+}
+
+double distanceTo(const Buffer<Particle>& particles, const glm::dvec3& place)
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (const Particle& p : particles)
+  {
+    least = std::min(least, glm::distance(p.position.xyz, place));
+  }
+  return least;
+}
+
+/// Where a sphere around the middle crosses a line along an axis, within [-1, 1].
+std::vector<glm::dvec3> crossings(glm::dvec3 place, int axis, double r)
+{
+  place[axis] = middle[axis];
+  const glm::dvec3 apart = place - middle;
+  const double half = std::sqrt(std::max(0.0, r * r - glm::dot(apart, apart)));
+  std::vector<glm::dvec3> found;
+  for (const double end : { middle[axis] - half, middle[axis] + half })
+  {
+    if (half > 0.0 && std::abs(end) < 1.0)
+    {
+      place[axis] = end;
+      found.push_back(place);
+    }
+  }
+  return found;
+}
+
+class BoundaryCorners : public ::testing::TestWithParam<Domain>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(BoundaryCurves, BoundaryCorners, ::testing::ValuesIn(allDomains),
+  [](const auto& which) { return ::testing::PrintToString(which.param); });
+
+TEST_P(BoundaryCorners, HoldParticlesAtTheEdgesOfTheDomain)
+{
+  MeshRecipe recipe;
+  recipe.domain = this->GetParam();
+  recipe.field = sphere(middle, radius).field;
+  const Buffer<Particle> particles = distribute(makeMesh(recipe));
+  int corners = 0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (const double a : { -1.0, 1.0 })
+    {
+      for (const double b : { -1.0, 1.0 })
+      {
+        glm::dvec3 place(0.0);
+        place[(axis + 1) % 3] = a;
+        place[(axis + 2) % 3] = b;
+        for (const glm::dvec3& corner : crossings(place, axis, radius))
+        {
+          ++corners;
+          EXPECT_LE(distanceTo(particles, corner), tolerance);
+        }
+      }
+    }
+  }
+  EXPECT_GE(corners, 6);
+}
+
+TEST_P(BoundaryCorners, HoldParticlesWhereAJumpMeetsTheBoundary)
+{
+  MeshRecipe recipe;
+  recipe.domain = this->GetParam();
+  ElementMesh mesh;
+  recipe.field = sphere(middle, radius).field;
+  appendBox(mesh, recipe, { -1, -1, -1 }, { 0, 1, 1 });
+  recipe.field = sphere(middle, otherRadius).field;
+  appendBox(mesh, recipe, { 0, -1, -1 }, { 1, 1, 1 });
+  findFaceNeighbors(mesh, 1e-9);
+  const Buffer<Particle> particles = distribute(mesh);
+  int corners = 0;
+  for (const double r : { radius, otherRadius })
+  {
+    for (const int axis : { 1, 2 })
+    {
+      for (const double side : { -1.0, 1.0 })
+      {
+        glm::dvec3 place(0.0);
+        place[3 - axis] = side;
+        for (const glm::dvec3& corner : crossings(place, axis, r))
+        {
+          ++corners;
+          EXPECT_LE(distanceTo(particles, corner), tolerance) << r;
+        }
+      }
+    }
+  }
+  EXPECT_GE(corners, 8);
+}
+
+} // namespace
+} // namespace hop::testing

@@ -1,0 +1,137 @@
+#include "Elements/Domain.h"
+
+#include "ElementCases.h"
+#include "TestMeshes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace hop::testing
+{
+namespace
+{
+
+TEST(Domain, LatticePointsComeInStorageOrderEachOnce)
+{
+  for (const auto& [domain, degrees] : allElementCases())
+  {
+    SCOPED_TRACE(::testing::PrintToString(ElementCase{ domain, degrees }));
+    const std::vector<LatticePoint> points = latticePoints(domain, degrees);
+    ASSERT_EQ(static_cast<int>(points.size()), coefficientCount(domain, degrees));
+    for (int index = 0; index < static_cast<int>(points.size()); ++index)
+    {
+      EXPECT_EQ(coefficientIndex(domain, degrees, points[index]), index);
+    }
+  }
+}
+
+TEST(Domain, CoefficientCounts)
+{
+  EXPECT_EQ(coefficientCount(Domain::Hexahedron, { 4, 2, 3 }), 60);
+  EXPECT_EQ(coefficientCount(Domain::Hexahedron, { 10, 10, 10 }), 1331);
+  EXPECT_EQ(coefficientCount(Domain::Tetrahedron, { 2, 2, 2 }), 10);
+  EXPECT_EQ(coefficientCount(Domain::Tetrahedron, { 10, 10, 10 }), 286);
+  EXPECT_EQ(coefficientCount(Domain::Wedge, { 2, 2, 2 }), 18);
+  EXPECT_EQ(coefficientCount(Domain::Wedge, { 3, 3, 1 }), 20);
+}
+
+TEST(Domain, LatticeLiesInTheDomainAndNothingBesideItDoes)
+{
+  for (const auto& [domain, degrees] : allElementCases())
+  {
+    SCOPED_TRACE(::testing::PrintToString(ElementCase{ domain, degrees }));
+    const auto [p, q, r] = degrees;
+    for (int k = -1; k <= r + 1; ++k)
+    {
+      for (int j = -1; j <= q + 1; ++j)
+      {
+        for (int i = -1; i <= p + 1; ++i)
+        {
+          const LatticePoint point{ i, j, k };
+          const bool inside = insideMargin(domain, latticePosition(degrees, point)) > -1e-12;
+          EXPECT_EQ(inLattice(domain, degrees, point), inside) << i << ' ' << j << ' ' << k;
+        }
+      }
+    }
+  }
+}
+
+TEST(Domain, CornersStandAtTheirLatticePoints)
+{
+  for (const auto& [domain, degrees] : allElementCases())
+  {
+    const auto& corners = facts(domain).corners;
+    for (int c = 0; c < static_cast<int>(corners.size()); ++c)
+    {
+      const LatticePoint point = cornerLatticePoint(domain, degrees, c);
+      EXPECT_EQ(latticePosition(degrees, point).xyz, corners[c].xyz);
+    }
+  }
+}
+
+TEST(Domain, HasAsManyFacesAndCornersAsItShould)
+{
+  EXPECT_EQ(facts(Domain::Hexahedron).faces.size(), 6u);
+  EXPECT_EQ(facts(Domain::Hexahedron).corners.size(), 8u);
+  EXPECT_EQ(facts(Domain::Tetrahedron).faces.size(), 4u);
+  EXPECT_EQ(facts(Domain::Tetrahedron).corners.size(), 4u);
+  EXPECT_EQ(facts(Domain::Wedge).faces.size(), 5u);
+  EXPECT_EQ(facts(Domain::Wedge).corners.size(), 6u);
+}
+
+TEST(Domain, FaceHalfSpacesHoldTheDomainAndVanishOnTheFace)
+{
+  for (const Domain domain : allDomains)
+  {
+    SCOPED_TRACE(::testing::PrintToString(domain));
+    const auto& corners = facts(domain).corners;
+    for (const Face& face : facts(domain).faces)
+    {
+      double farthest = 0.0;
+      int onFace = 0;
+      for (const ReferencePoint& corner : corners)
+      {
+        const double value = glm::dot(face.inward.xyz, corner.xyz) + face.offset;
+        EXPECT_GE(value, 0.0);
+        farthest = std::max(farthest, value);
+        onFace += value == 0.0;
+      }
+      EXPECT_EQ(onFace, face.cornerCount);
+      EXPECT_DOUBLE_EQ(farthest, 1.0);
+      for (int c = 0; c < face.cornerCount; ++c)
+      {
+        EXPECT_EQ(glm::dot(face.inward.xyz, corners[face.corners[c]].xyz) + face.offset, 0.0);
+      }
+    }
+  }
+}
+
+TEST(Domain, FaceCornersRunAroundTheFace)
+{
+  for (const Domain domain : allDomains)
+  {
+    for (const Face& face : facts(domain).faces)
+    {
+      if (face.cornerCount == 4)
+      {
+        const auto at = [&](int c) { return facts(domain).corners[face.corners[c]].xyz; };
+        // In every reference domain a quadrilateral face is a parallelogram.
+        EXPECT_EQ(at(0) + at(2), at(1) + at(3)) << domain;
+      }
+    }
+  }
+}
+
+TEST(Domain, InsideMarginIsTheSmallestHalfSpace)
+{
+  EXPECT_DOUBLE_EQ(insideMargin(Domain::Hexahedron, { { 0.5, 0.4, 0.8 } }), 0.2);
+  EXPECT_DOUBLE_EQ(insideMargin(Domain::Hexahedron, { { 0.5, 1.25, 0.8 } }), -0.25);
+  EXPECT_DOUBLE_EQ(insideMargin(Domain::Tetrahedron, { { 0.25, 0.25, 0.25 } }), 0.25);
+  EXPECT_DOUBLE_EQ(insideMargin(Domain::Tetrahedron, { { 0.5, 0.5, 0.5 } }), -0.5);
+  EXPECT_DOUBLE_EQ(insideMargin(Domain::Wedge, { { 0.25, 0.25, 0.75 } }), 0.25);
+  EXPECT_DOUBLE_EQ(insideMargin(Domain::Wedge, { { 0.75, 0.75, 0.5 } }), -0.5);
+}
+
+} // namespace
+} // namespace hop::testing

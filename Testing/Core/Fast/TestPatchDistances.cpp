@@ -1,0 +1,118 @@
+#include "Fast/PatchDistances.h"
+
+#include "Support/Random.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace hop::testing
+{
+namespace
+{
+
+Buffer<Patch> inARow(const std::vector<double>& places)
+{
+  Buffer<Patch> patches;
+  for (const double x : places)
+  {
+    Patch patch;
+    patch.position = { x, 0.0, 0.0 };
+    patch.normal = { 0, 0, 1 };
+    patches.push_back(patch);
+  }
+  return patches;
+}
+
+using Marks = std::vector<char>;
+
+TEST(PatchDistances, TheFirstOfTwoStays)
+{
+  const Buffer<Patch> row = inARow({ 0.0, 0.5, 1.0, 2.0 });
+  EXPECT_EQ(thinOut(row, { 1, 1, 1, 1 }, 0.6, {}), (Marks{ 1, 0, 1, 1 }));
+}
+
+TEST(PatchDistances, ThoseThatAreNotWantedPushNoneAside)
+{
+  const Buffer<Patch> row = inARow({ 0.0, 0.5, 1.0, 2.0 });
+  EXPECT_EQ(thinOut(row, { 0, 1, 1, 1 }, 0.6, {}), (Marks{ 0, 1, 0, 1 }));
+  EXPECT_EQ(thinOut(row, { 0, 1, 0, 1 }, 0.6, {}), (Marks{ 0, 1, 0, 1 }));
+}
+
+TEST(PatchDistances, ThoseBehindStayWhoeverIsNear)
+{
+  const Buffer<Patch> row = inARow({ 0.0, 2.0, 0.5 });
+  EXPECT_EQ(thinOut(row, { 1, 1 }, 0.6, {}), (Marks{ 0, 1 }));
+}
+
+TEST(PatchDistances, SheetsThatAreTurnedAwayAreOthers)
+{
+  Buffer<Patch> row = inARow({ 0.0, 0.1 });
+  row[1].normal = { 0, 0, -1 };
+  EXPECT_EQ(thinOut(row, { 1, 1 }, 0.6, {}), (Marks{ 1, 1 }));
+}
+
+/// The n-th of samples in the plane, at random places of a square; a few face down. Spacings grow along x.
+SurfaceProxy::Sample randomSample(Random& random, double width)
+{
+  SurfaceProxy::Sample sample;
+  sample.found = true;
+  const double x = random.uniform();
+  sample.patch.position = { width * x, width * random.uniform(), 0.0 };
+  sample.patch.normal = { 0, 0, random.uniform() < 0.2 ? -1 : 1 };
+  sample.patch.spacing = static_cast<float>(1.0 + 0.05 * width * x);
+  return sample;
+}
+
+std::vector<SurfaceProxy::Sample> randomSamples(std::size_t count, double width)
+{
+  Random random(5);
+  std::vector<SurfaceProxy::Sample> samples;
+  for (std::size_t n = 0; n < count; ++n)
+  {
+    samples.push_back(randomSample(random, width));
+  }
+  return samples;
+}
+
+TEST(PatchDistances, ThoseChosenCoverTheOthers)
+{
+  constexpr std::size_t count = 1000;
+  const auto samples = randomSamples(count, 20.0);
+  std::vector<char> marks(count, 1);
+  std::fill_n(&marks[100], 100, 0);
+  std::vector<int> expected;
+  for (int b = 0; b < static_cast<int>(samples.size()); ++b)
+  {
+    const auto covers = [&](int other)
+    {
+      const Patch& patch = samples[other].patch;
+      return glm::distance(patch.position, samples[b].patch.position) <= 0.7 * patch.spacing &&
+        glm::dot(patch.normal, samples[b].patch.normal) > 0.0f;
+    };
+    if (marks[b] && std::none_of(expected.begin(), expected.end(), covers))
+    {
+      expected.push_back(b);
+    }
+  }
+  EXPECT_EQ(chooseUncovered(samples, marks, {}), expected);
+  EXPECT_GT(expected.size(), 100u);
+  EXPECT_LT(expected.size(), 800u);
+}
+
+/// Looking at all of those chosen before would take 10^11 steps.
+TEST(PatchDistances, ManyAreChosenInTime)
+{
+  constexpr std::size_t count = 500'000;
+  std::vector<SurfaceProxy::Sample> samples(count);
+  for (std::size_t n = 0; n < count; ++n)
+  {
+    samples[n].patch.position = { static_cast<double>(n), 0.0, 0.0 };
+    samples[n].patch.normal = { 0, 0, 1 };
+    samples[n].patch.spacing = 1.0f;
+  }
+  EXPECT_EQ(chooseUncovered(samples, std::vector<char>(count, 1), {}).size(), count);
+}
+
+} // namespace
+} // namespace hop::testing

@@ -1,0 +1,222 @@
+#include "Isolation/SurfaceProxy.h"
+
+#include "AnalyticFields.h"
+#include "Edges/SampleComparison.h"
+#include "ElementCases.h"
+#include "SurfaceSeeds.h"
+#include "TestMeshes.h"
+
+#include <gtest/gtest.h>
+
+namespace hop::testing
+{
+namespace
+{
+
+constexpr double spacing = 0.08;
+
+ElementMesh curvedMesh(Domain domain)
+{
+  MeshRecipe recipe;
+  recipe.domain = domain;
+  recipe.degrees = { 3, 3, 3 };
+  recipe.cells = 4;
+  recipe.map = wavyMap(0.1);
+  recipe.field = sphere({ 0, 0, 0 }, 0.7).field;
+  return makeMesh(recipe);
+}
+
+SurfaceProxy proxyOf(const ElementMesh& mesh, double boxesPerSpacing = 5.0)
+{
+  return { { &mesh, 0.0, 1e-9 }, { spacing, 0.0 },
+    findSurfaceBoxes(mesh, 0.0, boxesPerSpacing * spacing, {}), {} };
+}
+
+class Proxy : public ::testing::TestWithParam<Domain>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(SurfaceProxy, Proxy, ::testing::ValuesIn(allDomains),
+  [](const auto& which) { return ::testing::PrintToString(which.param); });
+
+TEST_P(Proxy, GuessesTheSurfaceAtSeeds)
+{
+  const ElementMesh mesh = curvedMesh(this->GetParam());
+  const SurfaceProxy proxy = proxyOf(mesh);
+  const auto seeds = proxy.seeds(std::llround(proxy.particleCount()), 0.5, {});
+  ASSERT_GT(seeds.size(), 500u);
+  std::size_t guessed = 0;
+  for (const SurfaceProxy::Seed& seed : seeds)
+  {
+    Anchor anchor;
+    Patch guess;
+    if (!proxy.guess(seed, anchor, guess))
+    {
+      continue;
+    }
+    ++guessed;
+    Anchor there;
+    Patch found;
+    ASSERT_TRUE(anchorPatch(
+      seed.place, evaluateHessian(mesh.form(seed.place.element), seed.place.u), 0.0, there, found));
+    EXPECT_LE(glm::distance(guess.position, found.position), 0.15 * spacing);
+    EXPECT_GE(glm::dot(guess.normal, found.normal), 0.98f);
+    EXPECT_EQ(guess.spacing, static_cast<float>(spacing));
+  }
+  // Most seeds are near enough to the sample of their box.
+  EXPECT_GE(static_cast<double>(guessed), 0.5 * static_cast<double>(seeds.size()));
+}
+
+TEST_P(Proxy, LocatesPlacesNearSamplesOnly)
+{
+  const ElementMesh mesh = curvedMesh(this->GetParam());
+  const SurfaceProxy proxy = proxyOf(mesh, 2.0);
+  int located = 0;
+  for (const SurfaceProxy::Sample& sample : proxy.samples())
+  {
+    ASSERT_TRUE(sample.found);
+    const auto tangents = tangentsOf(sample.patch.normal);
+    const int element = sample.anchor.place.element;
+    const glm::dvec3 near = sample.patch.position + 0.5 * spacing * glm::dvec3(tangents[0]);
+    if (const auto place = proxy.locate(near, element))
+    {
+      ++located;
+      EXPECT_EQ(place->element, element);
+      EXPECT_LE(glm::distance(positionAt(mesh, *place), near), 0.06 * spacing);
+    }
+    EXPECT_FALSE(proxy.locate(glm::dvec3(2.0), element));
+  }
+  EXPECT_GE(located, static_cast<int>(proxy.samples().size()) / 2);
+}
+
+TEST(SurfaceProxy, KnowsOfASmallSpacingHoweverLargeThoseAroundIt)
+{
+  MeshRecipe recipe;
+  recipe.cells = 4;
+  recipe.field = [](const glm::dvec3& x) { return x.z + 0.1; };
+  const ElementMesh mesh = makeMesh(recipe);
+  SurfaceProxy proxy(
+    { &mesh, 0.0, 1e-9 }, { spacing, 10.0 }, findSurfaceBoxes(mesh, 0.0, 6.0 * spacing, {}), {});
+  const double before = proxy.particleCount();
+  const glm::dvec3 first(0.13, 0.07, -0.1);
+  const glm::dvec3 second(-0.4, 0.3, -0.1);
+  constexpr float small = 0.1f * spacing;
+  proxy.limitSpacings({ { first, small } }, {});
+  proxy.limitSpacings({ { second, 2.0f * small } }, {});
+  EXPECT_GT(proxy.particleCount(), before);
+  for (double distance = 0.0; distance < 4.0 * small; distance += 0.1 * small)
+  {
+    const glm::dvec3 aside(distance, 0.0, 0.0);
+    const double withGradation = SurfaceProxy::GradationSlope * distance;
+    EXPECT_NEAR(proxy.spacingAt(first + aside, 0.0f), small + withGradation, 1e-6);
+    EXPECT_NEAR(proxy.spacingAt(second + aside, 0.0f), 2.0 * small + withGradation, 1e-6);
+  }
+}
+
+/// A dent in a plane, in elements far smaller than spacings: elsewhere these are 0.5.
+ElementMesh fineMesh()
+{
+  MeshRecipe recipe;
+  recipe.degrees = { 1, 1, 1 };
+  recipe.cells = 40;
+  recipe.field = [](const glm::dvec3& x)
+  { return x.z - 0.31 * std::exp(-8.0 * (x.x * x.x + x.y * x.y)); };
+  return makeMesh(recipe);
+}
+
+TEST(SurfaceProxy, OfSamplesCloserThanTheirSpacingsFewTellThem)
+{
+  const ElementMesh mesh = fineMesh();
+  const SurfaceProxy proxy(
+    { &mesh, 0.0, 1e-9 }, { 0.5, 15.0 }, findSurfaceBoxes(mesh, 0.0, 3.0, {}), {});
+  const auto& samples = proxy.samples();
+  ASSERT_GT(samples.size(), 1600u);
+  EXPECT_LT(proxy.spacingPlaces(), samples.size() / 3);
+  for (const SurfaceProxy::Sample& one : samples)
+  {
+    double limit = proxy.sizing().at(one.patch.curvatureMagnitude());
+    for (const SurfaceProxy::Sample& other : samples)
+    {
+      limit = std::min(limit,
+        other.patch.spacing +
+          SurfaceProxy::GradationSlope * glm::distance(one.patch.position, other.patch.position));
+    }
+    ASSERT_LE(one.patch.spacing, 1.1 * limit);
+    ASSERT_GE(one.patch.spacing, 0.999 * limit);
+  }
+}
+
+TEST(SurfaceProxy, WhatMayBeNoSurfaceDoesNotTellSpacings)
+{
+  const ElementMesh mesh = curvedMesh(Domain::Hexahedron);
+  std::vector<SurfaceBox> boxes = findSurfaceBoxes(mesh, 0.0, 5.0 * spacing, {});
+  const auto places = [&]() {
+    return SurfaceProxy({ &mesh, 0.0, 1e-9 }, { spacing, 10.0 }, boxes, {}).spacingPlaces();
+  };
+  const std::size_t all = places();
+  boxes[3].certified = false;
+  boxes[3].straddles = true;
+  EXPECT_EQ(places(), all);
+  boxes[3].straddles = false;
+  EXPECT_EQ(places(), all - 1);
+}
+
+/// A loop of no length ends work as a loop of some length does.
+TEST(SurfaceProxy, AsksForAnEarlyEndWhileItGradesSpacings)
+{
+  const ElementMesh mesh = fineMesh();
+  int askings = 0;
+  const ParallelFor counting = [&](std::ptrdiff_t count, const LoopBody& body)
+  {
+    askings += count == 0;
+    runInThreads({}, count, body);
+  };
+  const auto boxes = findSurfaceBoxes(mesh, 0.0, 3.0, {});
+  const auto askingsAt = [&](double wanted)
+  {
+    askings = 0;
+    const SurfaceProxy proxy({ &mesh, 0.0, 1e-9 }, { wanted, 15.0 }, boxes, counting);
+    return askings;
+  };
+  // All of the samples are graded where spacings are small.
+  EXPECT_GT(askingsAt(0.02), askingsAt(0.5));
+}
+
+TEST(SampleComparison, KnowsSmallJumpsFromLargeOnes)
+{
+  // z = 0 for x < 0; behind x = 0 the surface is that much higher.
+  for (const double jump : { 0.0, 0.02, 0.5 })
+  {
+    ElementMesh mesh;
+    MeshRecipe recipe;
+    recipe.cells = 2;
+    recipe.field = [](const glm::dvec3& x) { return x.z + 0.01; };
+    appendBox(mesh, recipe, { -1, -1, -1 }, { 0, 1, 1 });
+    recipe.field = [jump](const glm::dvec3& x) { return x.z + 0.01 - jump * spacing; };
+    appendBox(mesh, recipe, { 0, -1, -1 }, { 1, 1, 1 });
+    findFaceNeighbors(mesh, 1e-9);
+    const SurfaceProxy proxy = proxyOf(mesh, 4.0);
+    const SampleComparison comparison(mesh, proxy);
+    int meeting = 0;
+    int looked = 0;
+    for (std::size_t b = 0; b < proxy.boxes().size(); ++b)
+    {
+      const SurfaceBox& box = proxy.boxes()[b];
+      visitFaceCrossings(
+        mesh, box, [&](int face) { return mesh.neighbor(box.middle.element, face).element >= 0; },
+        [&](const FaceCrossing& crossing)
+        {
+          if (std::abs(positionAt(mesh, crossing.location).x) < 1e-9)
+          {
+            ++looked;
+            meeting += comparison.meet(crossing, proxy.samples()[b], 0.1);
+          }
+        });
+    }
+    ASSERT_GT(looked, 10);
+    EXPECT_EQ(meeting, jump < 0.1 ? looked : 0) << jump;
+  }
+}
+
+} // namespace
+} // namespace hop::testing

@@ -1,0 +1,297 @@
+#include "Surface/FaceLocator.h"
+
+#include "AnalyticFields.h"
+#include "ElementCases.h"
+#include "Surface/SurfaceWalker.h"
+#include "SurfaceSeeds.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace hop::testing
+{
+namespace
+{
+
+Bounds randomBox(Random& random, double size)
+{
+  const glm::dvec3 lower = randomVector(random);
+  return { lower, lower + size * glm::abs(randomVector(random)) };
+}
+
+TEST(BoxTree, FindsTheBoxesThatOverlapAndNoOthers)
+{
+  Random random(1);
+  for (const int count : { 0, 1, 4, 5, 300 })
+  {
+    std::vector<Bounds> boxes;
+    for (int n = 0; n < count; ++n)
+    {
+      // Some of them large, some in the same place.
+      boxes.push_back(n % 7 == 3 ? boxes.back() : randomBox(random, n % 5 == 0 ? 1.0 : 0.1));
+    }
+    const BoxTree tree(boxes);
+    std::size_t found = 0;
+    for (int n = 0; n < 100; ++n)
+    {
+      const Bounds wanted = randomBox(random, 0.3);
+      std::vector<int> expected;
+      for (int b = 0; b < count; ++b)
+      {
+        if (boxes[b].overlaps(wanted))
+        {
+          expected.push_back(b);
+        }
+      }
+      EXPECT_EQ(tree.overlapping(wanted), expected);
+      found += expected.size();
+    }
+    EXPECT_TRUE(count < 300 || found > 100u) << found;
+  }
+}
+
+/// Bends the cube so that elements of degree 2 and more hold it exactly, whichever their boxes are: what
+/// is one curved face on the left are four on the right.
+glm::dvec3 bend(const glm::dvec3& x)
+{
+  return x + glm::dvec3(0.15 * x.y * x.z, 0.1 * x.z * x.x, 0.12 * (x.x * x.x - x.y * x.y));
+}
+
+struct Meeting
+{
+  const char* name;
+  Domain left;
+  Domain right;
+  int leftDegree = 2;
+  int rightDegree = 2;
+  Map map = [](const glm::dvec3& x) { return x; };
+};
+
+std::ostream& operator<<(std::ostream& out, const Meeting& meeting)
+{
+  return out << meeting.name;
+}
+
+/// With a field that is zero: the surface is everywhere.
+ElementMesh meshOf(const Meeting& meeting)
+{
+  MeshRecipe left, right;
+  left.domain = meeting.left;
+  right.domain = meeting.right;
+  left.degrees = { meeting.leftDegree, meeting.leftDegree, meeting.leftDegree };
+  right.degrees = { meeting.rightDegree, meeting.rightDegree, meeting.rightDegree };
+  left.map = right.map = meeting.map;
+  left.field = right.field = [](const glm::dvec3&) { return 0.0; };
+  return hangingMesh(left, right);
+}
+
+class FacesThatDoNotMatch : public ::testing::TestWithParam<Meeting>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(FaceLocator, FacesThatDoNotMatch,
+  ::testing::Values(Meeting{ "Hexahedra", Domain::Hexahedron, Domain::Hexahedron },
+    Meeting{ "HexahedronAndTetrahedra", Domain::Hexahedron, Domain::Tetrahedron },
+    Meeting{ "TetrahedraAndWedges", Domain::Tetrahedron, Domain::Wedge, 2, 3 },
+    Meeting{ "OrderOneAndFour", Domain::Hexahedron, Domain::Hexahedron, 1, 4 },
+    Meeting{ "BentHexahedra", Domain::Hexahedron, Domain::Hexahedron, 2, 4, bend },
+    Meeting{ "BentTetrahedraAndHexahedra", Domain::Tetrahedron, Domain::Hexahedron, 3, 2, bend }),
+  [](const auto& which) { return std::string(which.param.name); });
+
+bool isAtTheInterface(const Meeting& meeting, const glm::dvec3& x)
+{
+  // y is not bent away from x = 0, and z by 0.12 y^2.
+  const double z = meeting.map({ 0, 1, 0 }).z < 0.0 ? x.z + 0.12 * x.y * x.y : x.z;
+  return glm::distance(meeting.map({ 0, x.y, z }), x) < 1e-12;
+}
+
+/// Random places on faces behind which there may be something, with what the locator says.
+template <class Use>
+void visitPlacesAtOpenFaces(const ElementMesh& mesh, const FaceLocator& locator, const Use& use)
+{
+  Random random(2);
+  for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
+  {
+    const Domain domain = mesh.elements[e].domain;
+    const auto& faces = facts(domain).faces;
+    for (int f = 0; f < static_cast<int>(faces.size()); ++f)
+    {
+      for (int n = 0; locator.mayGoOn(e, f) && n < 20; ++n)
+      {
+        ReferencePoint u = randomPoint(domain, random);
+        const double margin = glm::dot(faces[f].inward.xyz, u.xyz) + faces[f].offset;
+        u.xyz -= margin / glm::dot(faces[f].inward.xyz, faces[f].inward.xyz) * faces[f].inward.xyz;
+        if (insideMargin(domain, u) > -1e-12)
+        {
+          std::int64_t evaluations = 0;
+          const WorldPoint x{ glm::dvec3(evaluateGradient(mesh.form(e), u).value) };
+          use(e, x, locator.locate(x, e, f, 1e-6, evaluations), evaluations);
+        }
+      }
+    }
+  }
+}
+
+TEST_P(FacesThatDoNotMatch, TheSamePlaceIsFoundBehindThem)
+{
+  const ElementMesh mesh = meshOf(this->GetParam());
+  const FaceLocator locator(mesh, 0.0, {});
+  int places = 0;
+  std::int64_t cost = 0;
+  visitPlacesAtOpenFaces(mesh, locator,
+    [&](int element, const WorldPoint& x, const auto& found, std::int64_t evaluations)
+    {
+      ASSERT_EQ(found.has_value(), isAtTheInterface(this->GetParam(), x.xyz));
+      if (!found)
+      {
+        return;
+      }
+      EXPECT_NE(found->location.element, element);
+      const BernsteinForm form = mesh.form(found->location.element);
+      EXPECT_LE(
+        glm::distance(glm::dvec3(evaluateGradient(form, found->location.u).value), x.xyz), 1e-11);
+      EXPECT_GE(insideMargin(form.domain, found->location.u), -1e-12);
+      EXPECT_NEAR(found->gap, 0.0, 1e-11);
+      const Face& face = facts(form.domain).faces[found->face];
+      EXPECT_NEAR(glm::dot(face.inward.xyz, found->location.u.xyz) + face.offset, 0.0, 1e-11);
+      ++places;
+      cost += evaluations;
+    });
+  EXPECT_GT(places, 40);
+  EXPECT_LT(cost, 12 * places);
+}
+
+TEST_P(FacesThatDoNotMatch, WalksEndWhereTheWorldVectorSays)
+{
+  const ElementMesh mesh = meshOf(this->GetParam());
+  const FaceLocator locator(mesh, 0.0, {});
+  SurfaceWalker walker({ &mesh, 0.0, 0.0, &locator });
+  SurfaceWalker walled({ &mesh, 0.0, 0.0 });
+  Random random(3);
+  int stopped = 0;
+  for (int n = 0; n < 200; ++n)
+  {
+    const int element = static_cast<int>(random.uniform() * mesh.elements.size());
+    const Location start{ element, randomPoint(mesh.elements[element].domain, random) };
+    const glm::dvec3 target = this->GetParam().map(0.9 * randomVector(random));
+    // Steps are first order in bent elements: a few of them, each with what is left of the way.
+    const auto miss = [&](SurfaceWalker& which)
+    {
+      Evaluated at = which.evaluate(start);
+      for (int step = 0; step < 40; ++step)
+      {
+        at = which.evaluate(which.move(at, { target - at.point.map.position.xyz }));
+        EXPECT_GE(insideMargin(mesh.elements[at.location.element].domain, at.location.u), -1e-12);
+      }
+      return glm::distance(at.point.map.position.xyz, target);
+    };
+    ASSERT_LE(miss(walker), 1e-9) << "walk " << n;
+    stopped += miss(walled) > 1e-3;
+  }
+  EXPECT_GT(stopped, 50) << "without the locator";
+}
+
+TEST(FaceLocator, HasNothingToDoWhereAllFacesMatch)
+{
+  for (const Domain domain : allDomains)
+  {
+    MeshRecipe recipe;
+    recipe.domain = domain;
+    recipe.field = [](const glm::dvec3&) { return 0.0; };
+    const ElementMesh mesh = makeMesh(recipe);
+    const FaceLocator locator(mesh, 0.0, {});
+    for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
+    {
+      for (int f = 0; f < MaximumFaces; ++f)
+      {
+        EXPECT_FALSE(locator.mayGoOn(e, f)) << domain;
+      }
+    }
+  }
+}
+
+TEST(FaceLocator, LooksOnlyWhereTheSurfaceIs)
+{
+  // z = 0.5: on the right in the upper boxes only.
+  MeshRecipe recipe;
+  recipe.field = plane({ 0, 0, 1 }, 0.5).field;
+  const ElementMesh mesh = hangingMesh(recipe, recipe);
+  const FaceLocator locator(mesh, 0.0, {});
+  EXPECT_TRUE(locator.mayGoOn(0, 1));
+  for (int e = 1; e < 5; ++e)
+  {
+    const bool upper = positionAt(mesh, { e, { { 0.5, 0.5, 0.5 } } }).z > 0.0;
+    EXPECT_EQ(locator.mayGoOn(e, 0), upper);
+    EXPECT_EQ(locator.mayGoOnIn(0, 1, e), upper);
+  }
+}
+
+/// One box on the left, and on the right one before a quarter of its face, `gap` away from it.
+ElementMesh quarterCovered(double gap)
+{
+  MeshRecipe recipe;
+  recipe.field = [](const glm::dvec3&) { return 0.0; };
+  ElementMesh mesh;
+  appendBox(mesh, recipe, { -1, -1, -1 }, { 0, 1, 1 });
+  appendBox(mesh, recipe, { gap, 0, 0 }, { 1, 1, 1 });
+  findFaceNeighbors(mesh, 1e-9);
+  return mesh;
+}
+
+TEST(FaceLocator, FindsNothingBesideASmallerFace)
+{
+  const ElementMesh mesh = quarterCovered(0.0);
+  const FaceLocator locator(mesh, 0.0, {});
+  const auto found = [&](double y, double z)
+  {
+    std::int64_t evaluations = 0;
+    return locator.locate({ { 0, y, z } }, 0, 1, 0.05, evaluations).has_value();
+  };
+  EXPECT_TRUE(found(0.5, 0.5));
+  EXPECT_TRUE(found(1e-9, 0.5));
+  EXPECT_FALSE(found(-0.01, 0.5));
+  EXPECT_FALSE(found(0.5, -0.01));
+  EXPECT_FALSE(found(-0.5, -0.5));
+
+  SurfaceWalker walker({ &mesh, 0.0, 0.0, &locator });
+  EXPECT_FALSE(walker.endsAt(walker.evaluate({ 0, { { 1, 0.75, 0.75 } } }), 1));
+  EXPECT_TRUE(walker.endsAt(walker.evaluate({ 0, { { 1, 0.25, 0.75 } } }), 1));
+  EXPECT_EQ(walker.endCount({ 0, { { 1, 0.75, 0.75 } } }), 0);
+  EXPECT_EQ(walker.endCount({ 0, { { 1, 0.25, 1.0 } } }), 2);
+}
+
+TEST(FaceLocator, PassesNoGapWiderThanTolerated)
+{
+  constexpr double gap = 0.02;
+  const ElementMesh mesh = quarterCovered(gap);
+  const FaceLocator locator(mesh, 0.0, {});
+  std::int64_t evaluations = 0;
+  const auto near = locator.locate({ { 0, 0.3, 0.6 } }, 0, 1, 1.01 * gap, evaluations);
+  ASSERT_TRUE(near.has_value());
+  EXPECT_NEAR(near->gap, gap, 1e-9);
+  EXPECT_LE(glm::distance(positionAt(mesh, near->location), glm::dvec3(gap, 0.3, 0.6)), 1e-9);
+  EXPECT_FALSE(locator.locate({ { 0, 0.3, 0.6 } }, 0, 1, 0.99 * gap, evaluations).has_value());
+}
+
+TEST(FaceLocator, SurvivesSingularAndPoisonedElements)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double poison : { nan, std::numeric_limits<double>::infinity(), 0.0 })
+  {
+    ElementMesh mesh = quarterCovered(0.0);
+    for (int i = 0; i < 27; ++i)
+    {
+      mesh.coefficients[mesh.elements[1].firstCoefficient + i].x = poison;
+    }
+    const FaceLocator locator(mesh, 0.0, {});
+    std::int64_t evaluations = 0;
+    EXPECT_FALSE(locator.locate({ { 0, 0.3, 0.6 } }, 0, 1, 0.1, evaluations).has_value());
+    SurfaceWalker walker({ &mesh, 0.0, 0.0, &locator });
+    const Evaluated start = walker.evaluate({ 0, { { 0.9, 0.7, 0.7 } } });
+    EXPECT_EQ(walker.move(start, { { 0.5, 0, 0 } }).element, 0);
+  }
+}
+
+} // namespace
+} // namespace hop::testing
