@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Make the plugin ready to use from this checkout: install what is missing (Debian 12 to sid), build into build/.
 #   bash Utilities/setup.sh [CMAKE_OPTION ...]
+# With -DBUILD_TESTING=OFF what only tests need is not installed.
 # With HOP_WITH_PARAVIEW=OFF in the environment: filter and mapper for VTK alone, into build-vtk/.
 # Asks for nothing but bash and apt-get, and for root or sudo only where a package is missing.
 set -euo pipefail
-case "${1:-}" in -h | --help) sed -n 2,5p "${BASH_SOURCE[0]}" && exit ;; esac
+case "${1:-}" in -h | --help) sed -n 2,6p "${BASH_SOURCE[0]}" && exit ;; esac
 
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 with_paraview=${HOP_WITH_PARAVIEW:-ON}
@@ -13,11 +14,11 @@ build=$project/build
 
 packages=(
   g++ cmake ninja-build libglm-dev
-  xvfb                                  # pictures where there is no display
-  libgtest-dev libbenchmark-dev         # tests, benchmarks
+  xvfb # pictures where there is no display
 )
+testing=(libgtest-dev libbenchmark-dev)
 paraview=(
-  paraview paraview-dev python3-paraview python3-dev python3-pytest
+  paraview paraview-dev python3-paraview python3-dev
   # paraview-dev's CMake files look these up, but its package does not depend on them.
   libglew-dev liblz4-dev liblzma-dev libdouble-conversion-dev libutfcpp-dev libopenmpi-dev
   libboost-dev libpugixml-dev libjpeg-dev libpng-dev libtiff-dev libfreetype-dev libgl2ps-dev
@@ -30,8 +31,14 @@ case "$release" in
   forky | sid) paraview+=(libvtk9-dev qt6-base-dev qt6-tools-dev qt6-tools-dev-tools xsltproc qt6-svg-plugins xdotool) ;;
   *) paraview+=("${qt5[@]}" qt6-base-dev qt6-svg-plugins) ;; # trixie: its CMake files want 5, its GUI is 6
 esac
-[ "$release" != bookworm ] || packages+=(clang-format-14)
-if [ "$with_paraview" = ON ]; then packages+=("${paraview[@]}"); else packages+=(libvtk9-dev libglew-dev); fi
+[ "$release" != bookworm ] || testing+=(clang-format-14 clang-tidy-14)
+if [ "$with_paraview" = ON ]; then
+  packages+=("${paraview[@]}")
+  testing+=(python3-pytest)
+else
+  packages+=(libvtk9-dev libglew-dev)
+fi
+[[ " $* " = *" -DBUILD_TESTING=OFF "* ]] || packages+=("${testing[@]}")
 
 say() { printf '== %s\n' "$*"; }
 fail() { printf 'error: %s\n' "$*" >&2; exit 1; }
