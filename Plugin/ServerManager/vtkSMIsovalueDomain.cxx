@@ -8,6 +8,42 @@
 #include "vtkSMSourceProxy.h"
 #include "vtkSMUncheckedPropertyHelper.h"
 
+#include <cmath>
+
+namespace
+{
+
+/// The number nearest to a value that has no digits below the third one of a range: 0.293 for 0.2932038 and a range
+/// of 0.9. Division by a power of ten leaves the decimal that a user reads; multiplication by 0.001 would not.
+double roundedToRange(double value, double range)
+{
+  constexpr int digits = 3;
+  const double exponent = digits - 1 - std::floor(std::log10(range));
+  const double scale = std::pow(10.0, std::abs(exponent));
+  const double rounded =
+    exponent >= 0.0 ? std::round(value * scale) / scale : std::round(value / scale) * scale;
+  // Ranges next to the ends of what doubles hold have no such powers.
+  return std::isfinite(rounded) ? rounded + 0.0 : value;
+}
+
+/// A value that shows the field, by the quantiles next to the ends of the values: their middle. Fields that are
+/// symmetric about 0, such as xyz, often have a saddle there, where sheets of the isosurface cross: a twentieth of the
+/// range beside it there is none.
+double isovalueBetween(double low, double high)
+{
+  constexpr double aside = 0.05;
+  const double range = high - low;
+  const double middle = 0.5 * (low + high);
+  if (!(range > 0.0) || !std::isfinite(range))
+  {
+    return middle;
+  }
+  const double isovalue = roundedToRange(middle, range);
+  return isovalue == 0.0 && low < 0.0 ? roundedToRange(aside * range, range) : isovalue;
+}
+
+} // namespace
+
 vtkStandardNewMacro(vtkSMIsovalueDomain);
 
 vtkSMIsovalueDomain::vtkSMIsovalueDomain() = default;
@@ -22,7 +58,8 @@ int vtkSMIsovalueDomain::SetDefaultValues(vtkSMProperty* property, bool useUnche
   {
     return this->Superclass::SetDefaultValues(property, useUnchecked);
   }
-  const double isovalue = 0.5 * (values->GetQuantile(leftOut) + values->GetQuantile(1.0 - leftOut));
+  const double isovalue =
+    isovalueBetween(values->GetQuantile(leftOut), values->GetQuantile(1.0 - leftOut));
   vtkSMPropertyHelper isovalues(property);
   isovalues.SetUseUnchecked(useUnchecked);
   isovalues.SetNumberOfElements(1);

@@ -4,7 +4,8 @@
  *
  * vtkSMArrayRangeDomain's default is the middle of the whole range, which one bad corner of a simulation
  * moves to where there is nothing to see. Here it is the middle of what remains without the lowest and the
- * highest hundredth of the nodal values, wherever they are.
+ * highest hundredth of the nodal values, rounded to three digits of their range. Where that is 0 and values of both
+ * signs exist, it is a twentieth of the range: fields that are symmetric about 0 often have a saddle at 0.
  */
 #ifndef vtkSMIsovalueDomain_h
 #define vtkSMIsovalueDomain_h

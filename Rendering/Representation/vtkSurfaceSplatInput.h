@@ -48,7 +48,7 @@ struct Blocks
   std::set<std::string> Drawn = { "/" };
   std::vector<std::pair<std::string, std::array<double, 3>>> Colors; ///< RGB in [0, 1]
   std::vector<std::pair<std::string, double>> Opacities;             ///< in [0, 1]
-  unsigned int DistinctNumbers = 7; ///< after so many blocks their numbers begin again with 0
+  unsigned int DistinctNumbers = 12; ///< after so many blocks their numbers begin again with 0
 };
 
 /**

@@ -38,7 +38,10 @@ vtkSurfaceSplatRepresentation::vtkSurfaceSplatRepresentation()
   this->Mapper->SetCompositeIdArrayName(vtkSurfaceSplatInput::BlockIndexName);
   this->Mapper->SetCellColorArrayName(vtkSurfaceSplatInput::BlockColorName);
   this->SetMapScalars(1);
-  this->SetPointSize(2.); // as ParaView's other representations
+  // As ParaView's other representations have them; vtkProperty has other defaults.
+  this->SetPointSize(2.);
+  this->SetSpecularPower(100.);
+  this->SetRoughness(0.3);
 }
 
 vtkSurfaceSplatRepresentation::~vtkSurfaceSplatRepresentation() = default;

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 from paraview import servermanager, simple
-from support import add_point_array, contents, grid_of_cells, output_of, points_of, source_of
+from support import add_point_array, contents, grid_of_cells, output_of, points_of, reported, source_of
 from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON
 
 NAME = "HighOrderParticleIsosurface"
@@ -82,6 +82,35 @@ def test_contour_by_starts_with_a_field():
 
 def test_contour_by_takes_what_there_is():
     assert filter_on(GlobalNodeId=np.arange(8)).ContourBy == ["POINTS", "GlobalNodeId"]
+
+
+@pytest.mark.parametrize("low, high, expected", [
+    (-0.35, 0.9364076, 0.29),  # three digits of a range of 1.3
+    (1e-3, 2.2343e-3, 0.00162),
+    (101325.4, 101987.2, 101656.0),
+    (-3.2e-8, 5.7e-8, 1.25e-8),
+    (2e9, 9.123e9, 5.56e9),
+])
+def test_the_default_isovalue_has_three_digits_of_the_range(low, high, expected):
+    (isovalue,) = filter_on(u=np.linspace(low, high, 8)).Isosurfaces
+    assert isovalue == expected
+
+
+@pytest.mark.parametrize("scale", [1.0, 3e-7])
+def test_the_default_isovalue_of_a_symmetric_field_is_beside_its_saddle(scale):
+    """Sheets of xyz = 0 cross; rounding would make it 1e-17 or so."""
+    grid = output_of(simple.UnstructuredCellTypes(CellType="Hex", BlocksDimensions=[8, 8, 8]))
+    x = points_of(grid)
+    x = x / x.max() * 2 - 1
+    add_point_array(grid, "u", scale * x.prod(axis=1) + 1e-17 * scale)
+    proxy = simple.HighOrderParticleIsosurface(Input=source_of(grid), ContourBy=["POINTS", "u"])
+    proxy.SMProxy.GetProperty("ContourValues").ResetToDomainDefaults()
+    (isovalue,) = proxy.Isosurfaces
+    assert 0.02 * scale < isovalue < 0.1 * scale
+    assert float(f"{isovalue:.3g}") == isovalue
+    output = output_of(proxy)
+    assert output.GetNumberOfPoints() > 0
+    assert reported(output, "SingularPoints") == 0
 
 
 def test_one_odd_value_does_not_move_the_default_isovalue():
@@ -180,6 +209,13 @@ def test_default_isovalue_of_a_magnitude():
     assert list(corners.Isosurfaces) == pytest.approx([5.0])
 
 
+def test_the_number_of_particles_has_a_widget():
+    """ParaView 5.11 makes none for an IdTypeVectorProperty."""
+    number = filter_on(u=np.arange(8.0)).SMProxy.GetProperty("NumberOfParticles")
+    assert number.IsA("vtkSMIntVectorProperty")
+    assert number.FindDomain("vtkSMIntRangeDomain").GetMinimum(0) == 0
+
+
 def test_the_slider_of_the_spacing_reaches_beyond_its_default():
     proxy = filter_on(u=np.arange(8.0))
     bounds = proxy.SMProxy.GetProperty("Spacing").GetDomain("bounds")
@@ -234,6 +270,33 @@ def names_with_defaults(group, name):
     commands = {e.GetAttribute("command") for e in elements if e.GetAttribute("default_values")}
     setters = {command.removeprefix("Set") for command in commands}
     return {PRINTED_AS.get(setter, setter) for setter in setters}
+
+
+def defaults_of(name):
+    """{property: its default values as text} of a representation, as the XML has them."""
+    definition = proxy_manager().GetProxyDefinitionManager().GetCollapsedProxyDefinition("representations", name, None, True)
+    elements = [definition.GetNestedElement(i) for i in range(definition.GetNumberOfNestedElements())]
+    return {e.GetAttribute("name"): [float(v) if re.match(r"^[-+.\d]", v) else v for v in e.GetAttribute("default_values").split()]
+            for e in elements if e.GetAttribute("default_values")}
+
+
+def test_defaults_are_those_of_the_stock_representation():
+    """The panel shows the stock representation's value of a property that both have, and hands ours only changes."""
+    ours, stock = defaults_of("SurfaceSplatRepresentation"), defaults_of("SurfaceRepresentation")
+    shared = ours.keys() & stock.keys() - {"BlockColorsDistinctValues"}
+    assert len(shared) > 20
+    assert {name: ours[name] for name in shared} == {name: stock[name] for name in shared}
+
+
+def test_what_the_panel_shows_is_what_is_drawn():
+    """Those that ParaView's settings change, too, as the number of distinct colours of blocks."""
+    shown = simple.Show(simple.Sphere(), simple.CreateView("RenderView"))
+    shown.Representation = "Surface Splats"
+    drawn = state(shown.SMProxy.GetClientSideObject().GetActiveRepresentation())
+    for name in ("SpecularPower", "Roughness", "Metallic", "Specular", "Diffuse", "Ambient", "PointSize", "Opacity",
+                 "BlockColorsDistinctValues"):
+        assert float(drawn[name]) == getattr(shown, name), name
+    assert defaults_of("SurfaceSplatRepresentation")["BlockColorsDistinctValues"] == [shown.BlockColorsDistinctValues]
 
 
 @pytest.mark.parametrize("group, name", PROXIES)
