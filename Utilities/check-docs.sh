@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The architecture page tells the truth: every file that it names is there, every header is named. Links between the
-# pages of the documentation lead somewhere.
+# pages of the documentation lead to files and headings that are there.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 page=Documentation/architecture.md
@@ -25,11 +25,23 @@ while read -r header; do
   [ -e "$header" ] || complain "$page names $header, which is not there"
 done <<<"$named"
 
-# Relative links and pictures of the pages, without what follows '#'.
-for text in README.md CHANGELOG.md Documentation/*.md; do
+# What a heading is called in a link: small letters, blanks as '-', no punctuation. Headings in code blocks are none; of
+# several with the same name the first counts.
+anchors() { # FILE
+  awk '/^ *```/ { code = !code; next } !code && /^#+ / { sub(/^#+ +/, ""); print }' "$1" |
+    sed -E 's/`//g; s/\[([^]]*)\]\([^)]*\)/\1/g' | tr '[:upper:]' '[:lower:]' | sed -E 's/[^[:alnum:] _-]//g; s/ /-/g'
+}
+
+# Relative links and pictures of the pages; of links to a page also what follows '#'.
+for text in README.md CHANGELOG.md Documentation/*.md Testing/Data/README.md; do
   while read -r link; do
-    case $link in http://* | https://* | mailto:* | "#"* | "") continue ;; esac
-    [ -e "$(dirname "$text")/${link%%#*}" ] || complain "$text links to $link, which is not there"
-  done < <(grep -oE '\]\([^) ]+\)' "$text" | sed -E 's/^\]\((.*)\)$/\1/')
+    case $link in http://* | https://* | mailto:* | "") continue ;; esac
+    target=$text
+    [ -z "${link%%#*}" ] || target=$(dirname "$text")/${link%%#*}
+    [ -e "$target" ] || { complain "$text links to $link, which is not there"; continue; }
+    case $link in
+      *#*) grep -qxF -- "${link#*#}" <<<"$(anchors "$target")" || complain "$text links to $link: no such heading" ;;
+    esac
+  done < <(awk '/^ *```/ { code = !code; next } !code' "$text" | tr '\n' ' ' | grep -oE '\]\([^) ]+\)' | sed -E 's/^\]\((.*)\)$/\1/')
 done
 exit "$status"
