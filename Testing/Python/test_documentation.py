@@ -258,7 +258,7 @@ def execute(code, page, line, plugin, names):
 
 
 @pytest.mark.parametrize("page, line, code, how", BLOCKS)
-def test_python_of_the_pages_runs(page, line, code, how, plugin, project_folder):
+def test_python_of_the_pages_runs(page, line, code, how, plugin, project_folder, capfd):
     if how.startswith("compiled only"):
         compile(code, f"{page.name}:{line}", "exec")
     elif how == "by itself":  # classes cannot be imported any more where objects of them were seen before
@@ -272,6 +272,20 @@ def test_python_of_the_pages_runs(page, line, code, how, plugin, project_folder)
         execute(code, page, line, plugin, names)
         for name in re.findall(r'"(\w+\.(?:png|vtp|csv))"', code):
             assert (project_folder / name).stat().st_size > 1000, f"{name} was not written"
+        check_colors()
+    said = capfd.readouterr().err  # ParaView complains without raising anything
+    assert not re.search("error|warning|ERR[|]|WARN[|]", said, re.IGNORECASE), said
+
+
+def check_colors():
+    """ParaView takes the name of any array to colour by, and draws one colour if there is none."""
+    for view in simple.GetRenderViews():
+        for display in view.Representations:
+            if not hasattr(display, "ColorArrayName") or not hasattr(display, "Input"):
+                continue  # a legend
+            association, name = display.ColorArrayName
+            arrays = display.Input.CellData if association == "CELLS" else display.Input.PointData
+            assert not name or name in arrays.keys(), f"nothing called {name} to colour by"
 
 
 def test_few_blocks_are_exceptions():
