@@ -1,7 +1,17 @@
-#include "vtkSurfaceSplatGL.h" // before everything that may include an OpenGL header
+#include "OpenGL/Functions.h" // before everything that may include an OpenGL header
 
 #include "vtkSurfaceSplatMapper.h"
 
+#include "Drawing/SplatDrawing.h"
+#include "Drawing/SplatPrimitives.h"
+#include "Drawing/SplatView.h"
+#include "Particles/ParticleColors.h"
+#include "Particles/Selection.h"
+#include "Particles/SplatBuffers.h"
+#include "Particles/SplatParticles.h"
+#include "Passes/PictureTiles.h"
+#include "Passes/SplatLayer.h"
+#include "Shading/ShaderText.h"
 #include "vtkCellData.h"
 #include "vtkFloatArray.h"
 #include "vtkHardwareSelector.h"
@@ -20,16 +30,6 @@
 #include "vtkScalarsToColors.h"
 #include "vtkShaderProgram.h"
 #include "vtkShaderProperty.h"
-#include "vtkSurfaceSplatBuffers.h"
-#include "vtkSurfaceSplatColors.h"
-#include "vtkSurfaceSplatDrawing.h"
-#include "vtkSurfaceSplatLayer.h"
-#include "vtkSurfaceSplatParticles.h"
-#include "vtkSurfaceSplatPrimitives.h"
-#include "vtkSurfaceSplatSelection.h"
-#include "vtkSurfaceSplatShaders.h"
-#include "vtkSurfaceSplatTiles.h"
-#include "vtkSurfaceSplatView.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -39,7 +39,7 @@
 
 namespace
 {
-using Source = vtkSurfaceSplatColoring::Source;
+using Source = hop::SplatColoring::Source;
 
 // The base class keeps a program for every kind of primitive. Those of triangles and of strips are lit
 // alike; the second one draws outlines if the surface is opaque, else the back layer.
@@ -49,7 +49,7 @@ constexpr int Extra = vtkOpenGLPolyDataMapper::PrimitiveTriStrips;
 constexpr int Folds = vtkOpenGLPolyDataMapper::PrimitiveLines;
 
 // More are too slow to be drawn one after the other.
-constexpr int MaximumNumberOfLayeredSheets = 8;
+constexpr int MaximumNumberOfLayeredIsovalues = 8;
 
 vtkOpenGLRenderWindow* WindowOf(vtkRenderer* renderer)
 {
@@ -66,11 +66,11 @@ void GetFiniteBounds(vtkPolyData* input, double bounds[6])
 }
 }
 
-// What is seen of one sheet.
-struct vtkSurfaceSplatMapper::SheetLayers
+// What is seen of one isovalue.
+struct vtkSurfaceSplatMapper::IsovalueLayers
 {
-  vtkSurfaceSplatLayer Front{ vtkSurfaceSplatSide::Front };
-  vtkSurfaceSplatLayer Back{ vtkSurfaceSplatSide::Back }; // of translucent surfaces
+  hop::SplatLayer Front{ hop::LayerSide::Front };
+  hop::SplatLayer Back{ hop::LayerSide::Back }; // of translucent surfaces
 
   void ReleaseGraphicsResources(vtkWindow* window)
   {
@@ -81,15 +81,15 @@ struct vtkSurfaceSplatMapper::SheetLayers
 
 struct vtkSurfaceSplatMapper::Internals
 {
-  vtkSurfaceSplatBuffers Buffers;
-  vtkSurfaceSplatView View;
-  std::vector<std::unique_ptr<SheetLayers>> Layers;
-  const vtkSurfaceSplatDrawing* Drawing = nullptr; // while it goes on, as are the next two
-  vtkSurfaceSplatLayer* DrawnLayer = nullptr;
-  const vtkSurfaceSplatLayer* FrontLayer = nullptr; // of the same sheet
+  hop::SplatBuffers Buffers;
+  hop::SplatView View;
+  std::vector<std::unique_ptr<IsovalueLayers>> Layers;
+  const hop::SplatDrawing* Drawing = nullptr; // while it goes on, as are the next two
+  hop::SplatLayer* DrawnLayer = nullptr;
+  const hop::SplatLayer* FrontLayer = nullptr; // of the same isovalue
   int DrawnTiles = 0;
   bool Translucent = false;
-  vtkSurfaceSplatColoring Coloring;
+  hop::SplatColoring Coloring;
   bool HasBackface = false; // the shaders know of a backface property
   bool CannotSplat = false; // the driver has no floating-point targets
 
@@ -103,17 +103,17 @@ struct vtkSurfaceSplatMapper::Internals
   bool SaidNoNormals = false;
   bool SaidNoRadius = false;
 
-  // Those of a sheet. All have their own as far as memory goes, so that each pass of depth peeling finds them drawn.
-  SheetLayers& LayersOf(int sheet)
+  // Those of a isovalue. All have their own as far as memory goes, so that each pass of depth peeling finds them drawn.
+  IsovalueLayers& LayersOf(int isovalue)
   {
     constexpr double mostBytes = 1024. * 1024. * 1024.;
     constexpr double bytesPerPixel = 128.; // of both layers, about
     const double bytes = bytesPerPixel * this->View.GetWidth() * this->View.GetHeight();
     const auto index =
-      static_cast<std::size_t>(std::min<double>(sheet, std::max(1., mostBytes / bytes) - 1.));
+      static_cast<std::size_t>(std::min<double>(isovalue, std::max(1., mostBytes / bytes) - 1.));
     while (this->Layers.size() <= index)
     {
-      this->Layers.push_back(std::make_unique<SheetLayers>());
+      this->Layers.push_back(std::make_unique<IsovalueLayers>());
     }
     return *this->Layers[index];
   }
@@ -192,8 +192,7 @@ double vtkSurfaceSplatMapper::GetFallbackRadius(vtkPolyData* input)
   }
   double bounds[6];
   GetFiniteBounds(input, bounds);
-  const double distance =
-    vtkSurfaceSplatParticles::EstimateDistance(bounds, input->GetNumberOfPoints());
+  const double distance = hop::SplatParticles::EstimateDistance(bounds, input->GetNumberOfPoints());
   // Hexagons are covered from 0.577 of their distance on; three quarters leave some room for unevenness.
   return distance > 0. ? 0.75 * distance : 1.;
 }
@@ -297,11 +296,11 @@ void vtkSurfaceSplatMapper::UploadParticles(vtkRenderer* renderer, vtkPolyData* 
   {
     return;
   }
-  auto arrays = vtkSurfaceSplatArrays::FromPointData(input->GetPointData());
+  auto arrays = hop::ParticleArrays::FromPointData(input->GetPointData());
   arrays.Radii = this->GetRadiusArray(input);
   arrays.FallbackRadius = this->GetFallbackRadius(input);
   arrays.CellColors = this->GetCellColors(input);
-  vtkSurfaceSplatParticles particles = vtkSurfaceSplatParticles::FromPolyData(input, arrays);
+  hop::SplatParticles particles = hop::SplatParticles::FromPolyData(input, arrays);
   gpu.Buffers.Upload(WindowOf(renderer), particles);
   if (gpu.Buffers.GetNumberOfParticles() < particles.GetNumberOfParticles())
   {
@@ -358,7 +357,7 @@ void vtkSurfaceSplatMapper::UploadColors(vtkRenderer* renderer, vtkActor* actor)
   vtkUnsignedCharArray* colors = this->MapScalars(this->CurrentInput, 1.0, source);
   this->InterpolateScalarsBeforeMapping = interpolate;
 
-  vtkSurfaceSplatColoring coloring;
+  hop::SplatColoring coloring;
   coloring.OpacityIsInColors = cellColors != nullptr;
   coloring.OfScalars = colors || this->ColorCoordinates;
   if (this->ColorCoordinates)
@@ -399,7 +398,7 @@ std::vector<unsigned char> vtkSurfaceSplatMapper::MappedColors(
     source == Cells ? this->Internal->CellIds : this->Internal->PointIds;
   const vtkIdType count = this->Internal->Buffers.GetNumberOfParticles();
   const bool single = source == Field && this->FieldDataTupleId >= 0;
-  return vtkSurfaceSplatGatherColors(
+  return hop::GatherColors(
     colors, single ? std::vector<vtkIdType>(count, this->FieldDataTupleId) : ids, count);
 }
 
@@ -411,8 +410,8 @@ bool vtkSurfaceSplatMapper::UploadMappedColors(
   Internals& internal = *this->Internal;
   if (cellColors)
   {
-    vtkSurfaceSplatReplaceColors(rgba, cellColors, internal.CellIds,
-      internal.Buffers.GetNumberOfParticles(), actor->GetProperty());
+    hop::ReplaceColors(rgba, cellColors, internal.CellIds, internal.Buffers.GetNumberOfParticles(),
+      actor->GetProperty());
   }
   if (rgba.empty())
   {
@@ -433,7 +432,7 @@ bool vtkSurfaceSplatMapper::UploadLookupCoordinates(vtkRenderer* renderer)
     return false;
   }
   this->Internal->Buffers.UploadColors(
-    WindowOf(renderer), vtkSurfaceSplatLookupTexels(coordinates, this->Internal->PointIds, count));
+    WindowOf(renderer), hop::LookupTexels(coordinates, this->Internal->PointIds, count));
 
   // The base class binds this texture, of one colour a column, whenever there is a ColorTextureMap.
   if (!this->InternalColorTexture)
@@ -474,7 +473,7 @@ void vtkSurfaceSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* act
     internal.HasBackface = hasBackface;
     this->ForgetShaders();
   }
-  const vtkSurfaceSplatDrawing drawing = this->DescribeDrawing(renderer, actor);
+  const hop::SplatDrawing drawing = this->DescribeDrawing(renderer, actor);
   internal.Drawing = &drawing;
   internal.Buffers.Activate();
   if (!this->DrawsSplats() || !this->DrawSplats(renderer, actor))
@@ -504,17 +503,18 @@ bool vtkSurfaceSplatMapper::DrawSplats(vtkRenderer* renderer, vtkActor* actor)
   {
     this->Internal->ReleaseLayers(1, renderer->GetRenderWindow());
   }
-  // Nested sheets shine through each other: each has layers of its own.
-  const int allSheets = this->Internal->Buffers.GetNumberOfSheets();
-  const int sheets = translucent && allSheets <= MaximumNumberOfLayeredSheets ? allSheets : 1;
-  for (int sheet = 0; sheet < sheets; ++sheet)
+  // Nested isovalues shine through each other: each has layers of its own.
+  const int allIsovalues = this->Internal->Buffers.GetNumberOfIsovalues();
+  const int isovalues =
+    translucent && allIsovalues <= MaximumNumberOfLayeredIsovalues ? allIsovalues : 1;
+  for (int isovalue = 0; isovalue < isovalues; ++isovalue)
   {
-    vtkSurfaceSplatDrawing drawing = *this->Internal->Drawing;
-    if (sheets > 1)
+    hop::SplatDrawing drawing = *this->Internal->Drawing;
+    if (isovalues > 1)
     {
-      drawing.Sheet = sheet;
+      drawing.Isovalue = isovalue;
     }
-    SheetLayers& layers = this->Internal->LayersOf(sheet);
+    IsovalueLayers& layers = this->Internal->LayersOf(isovalue);
     if ((translucent && !layers.Back.Update(drawing)) || !layers.Front.Update(drawing))
     {
       vtkWarningMacro("This graphics driver cannot draw into floating-point textures: the "
@@ -535,10 +535,9 @@ bool vtkSurfaceSplatMapper::DrawSplats(vtkRenderer* renderer, vtkActor* actor)
 }
 
 //------------------------------------------------------------------------------
-vtkSurfaceSplatDrawing vtkSurfaceSplatMapper::DescribeDrawing(
-  vtkRenderer* renderer, vtkActor* actor)
+hop::SplatDrawing vtkSurfaceSplatMapper::DescribeDrawing(vtkRenderer* renderer, vtkActor* actor)
 {
-  vtkSurfaceSplatDrawing drawing;
+  hop::SplatDrawing drawing;
   const Source source = this->Internal->Coloring.From;
   drawing.ChooseParticles(renderer, actor, this->HasTranslucentCells(this->CurrentInput));
   drawing.Window = WindowOf(renderer);
@@ -556,8 +555,8 @@ vtkSurfaceSplatDrawing vtkSurfaceSplatMapper::DescribeDrawing(
 }
 
 //------------------------------------------------------------------------------
-void vtkSurfaceSplatMapper::DrawLayer(vtkSurfaceSplatLayer& layer, vtkSurfaceSplatLayer& frontLayer,
-  vtkRenderer* renderer, vtkActor* actor)
+void vtkSurfaceSplatMapper::DrawLayer(
+  hop::SplatLayer& layer, hop::SplatLayer& frontLayer, vtkRenderer* renderer, vtkActor* actor)
 {
   Internals& internal = *this->Internal;
   const bool front = &layer == &frontLayer;
@@ -572,12 +571,12 @@ void vtkSurfaceSplatMapper::DrawLayer(vtkSurfaceSplatLayer& layer, vtkSurfaceSpl
   if (renderer->GetSelector() || internal.Translucent)
   {
     this->DrawResolved(front ? Surface : Extra,
-      vtkSurfaceSplatTiles::Inside | vtkSurfaceSplatTiles::Edges, renderer, actor);
+      hop::PictureTiles::Inside | hop::PictureTiles::Edges, renderer, actor);
   }
   else
   {
-    this->DrawResolved(Surface, vtkSurfaceSplatTiles::Inside, renderer, actor);
-    this->DrawResolved(Extra, vtkSurfaceSplatTiles::Edges, renderer, actor);
+    this->DrawResolved(Surface, hop::PictureTiles::Inside, renderer, actor);
+    this->DrawResolved(Extra, hop::PictureTiles::Edges, renderer, actor);
     this->DrawFolds(renderer, actor);
   }
   internal.DrawnLayer = nullptr;
@@ -596,7 +595,7 @@ void vtkSurfaceSplatMapper::DrawFolds(vtkRenderer* renderer, vtkActor* actor)
   vtkOpenGLState* state = WindowOf(renderer)->GetState();
   vtkOpenGLState::ScopedglDepthMask depthMask(state);
   state->vtkglDepthMask(GL_FALSE);
-  this->DrawResolved(Folds, vtkSurfaceSplatTiles::Folds, renderer, actor);
+  this->DrawResolved(Folds, hop::PictureTiles::Folds, renderer, actor);
 }
 
 //------------------------------------------------------------------------------
@@ -610,7 +609,7 @@ void vtkSurfaceSplatMapper::DrawResolved(
   {
     // A program that was just built has a new vertex array, which UpdateShaders() may leave unbound.
     helper.VAO->Bind();
-    vtkSurfaceSplatTiles(this->Internal->View).Draw();
+    hop::PictureTiles(this->Internal->View).Draw();
   }
 }
 
@@ -635,14 +634,14 @@ void vtkSurfaceSplatMapper::DrawPrimitives(vtkRenderer* renderer, vtkActor* acto
 }
 
 //------------------------------------------------------------------------------
-vtkSurfaceSplatShaders vtkSurfaceSplatMapper::DescribeShaders(vtkActor* actor) const
+hop::ShaderText vtkSurfaceSplatMapper::DescribeShaders(vtkActor* actor) const
 {
-  using Part = vtkSurfaceSplatShaders::Part;
+  using Part = hop::ShaderText::Part;
   const bool translucent = this->Internal->Translucent;
   const bool extra = this->LastBoundBO == &this->Primitives[Extra];
   const bool folds = this->LastBoundBO == &this->Primitives[Folds];
   vtkProperty* property = actor->GetProperty();
-  vtkSurfaceSplatShaders shaders;
+  hop::ShaderText shaders;
   shaders.DrawsSplats = this->DrawsSplats();
   shaders.DrawsPoints = this->Mode == Points;
   shaders.Drawn = folds ? Part::Folds
@@ -671,7 +670,7 @@ void vtkSurfaceSplatMapper::GetShaderTemplate(
 void vtkSurfaceSplatMapper::ReplaceShaderColor(
   ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor)
 {
-  const vtkSurfaceSplatShaders ours = this->DescribeShaders(actor);
+  const hop::ShaderText ours = this->DescribeShaders(actor);
   ours.InsertColor(shaders[vtkShader::Fragment]);
   this->Superclass::ReplaceShaderColor(shaders, renderer, actor);
   ours.ReplaceSide(shaders[vtkShader::Fragment]);
@@ -719,7 +718,7 @@ void vtkSurfaceSplatMapper::ProcessSelectorPixelBuffers(
     pass == vtkHardwareSelector::CELL_ID_LOW24 || pass == vtkHardwareSelector::CELL_ID_HIGH24;
   if (cells && this->Internal->CellIds.empty())
   {
-    vtkSurfaceSplatSelectCells(this->CurrentInput, selector, pixels);
+    hop::SelectCells(this->CurrentInput, selector, pixels);
   }
   else
   {
@@ -733,20 +732,20 @@ void vtkSurfaceSplatMapper::SetMapperShaderParameters(
 {
   this->Superclass::SetMapperShaderParameters(cellBO, renderer, actor);
 
-  const vtkSurfaceSplatDrawing& drawing = *this->Internal->Drawing;
+  const hop::SplatDrawing& drawing = *this->Internal->Drawing;
   vtkShaderProgram* program = cellBO.Program;
   drawing.SetUniforms(program);
-  if (const vtkSurfaceSplatLayer* layer = this->Internal->DrawnLayer)
+  if (const hop::SplatLayer* layer = this->Internal->DrawnLayer)
   {
     const double diameter = 2. * drawing.RadiusScale * this->Internal->Buffers.GetMeanRadius() *
       this->Internal->View.GetScale();
     layer->SetSamplers(program, *this->Internal->FrontLayer);
     // Pixels with surface have at least twice this summed weight, others none (see the visibility pass).
     program->SetUniformf("splatLeastWeight",
-      static_cast<float>(0.5 * vtkSurfaceSplatPrimitives::GetLeastWeight(this->Sharpness)));
+      static_cast<float>(0.5 * hop::SplatPrimitives::GetLeastWeight(this->Sharpness)));
     program->SetUniformf("splatLayerDistance", static_cast<float>(diameter));
     program->SetUniformf("splatJump", static_cast<float>(5. * diameter));
-    vtkSurfaceSplatTiles(this->Internal->View).SetUniforms(program, this->Internal->DrawnTiles);
+    hop::PictureTiles(this->Internal->View).SetUniforms(program, this->Internal->DrawnTiles);
   }
   if (this->ColorByNormalDirection)
   {
@@ -789,7 +788,7 @@ int vtkSurfaceSplatMapper::GetShiftedClippingPlanes(vtkActor* actor, float plane
 {
   const int count = std::min(this->GetNumberOfClippingPlanes(), 6); // the base class says so
   const std::array<double, 3>& origin = this->Internal->Buffers.GetOrigin();
-  GetModelToWorld(actor, this->TempMatrix4);
+  hop::GetModelToWorld(actor, this->TempMatrix4);
   for (int i = 0; i < count; ++i)
   {
     double plane[4];

@@ -62,9 +62,12 @@
 #include <memory> // for std::unique_ptr
 #include <vector> // for std::vector
 
-class vtkSurfaceSplatLayer;
-struct vtkSurfaceSplatDrawing;
-struct vtkSurfaceSplatShaders;
+namespace hop
+{
+class SplatLayer;
+struct SplatDrawing;
+struct ShaderText;
+}
 
 class VTKHIGHORDERPARTICLERENDERING_EXPORT vtkSurfaceSplatMapper : public vtkOpenGLPolyDataMapper
 {
@@ -247,17 +250,17 @@ private:
 
   bool DrawsSplats() const;
   bool DrawSplats(vtkRenderer* renderer, vtkActor* actor);
-  void DrawLayer(vtkSurfaceSplatLayer& layer, vtkSurfaceSplatLayer& frontLayer,
-    vtkRenderer* renderer, vtkActor* actor);
+  void DrawLayer(
+    hop::SplatLayer& layer, hop::SplatLayer& frontLayer, vtkRenderer* renderer, vtkActor* actor);
   void DrawFolds(vtkRenderer* renderer, vtkActor* actor);
   void DrawResolved(int primitive, int tiles, vtkRenderer* renderer, vtkActor* actor);
   void ForgetShaders();
   void DrawPrimitives(vtkRenderer* renderer, vtkActor* actor);
-  vtkSurfaceSplatDrawing DescribeDrawing(vtkRenderer* renderer, vtkActor* actor);
-  vtkSurfaceSplatShaders DescribeShaders(vtkActor* actor) const;
+  hop::SplatDrawing DescribeDrawing(vtkRenderer* renderer, vtkActor* actor);
+  hop::ShaderText DescribeShaders(vtkActor* actor) const;
   int GetShiftedClippingPlanes(vtkActor* actor, float planes[6][4]);
 
-  struct SheetLayers;
+  struct IsovalueLayers;
   struct Internals; // what lives on the GPU
   std::unique_ptr<Internals> Internal;
 };

@@ -1,5 +1,6 @@
 #include "vtkSurfaceSplatRepresentation.h"
 
+#include "SplatInput.h"
 #include "vtkAlgorithm.h"
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
@@ -12,7 +13,6 @@
 #include "vtkRenderer.h"
 #include "vtkScalarsToColors.h"
 #include "vtkSurfaceSplatActor.h"
-#include "vtkSurfaceSplatInput.h"
 #include "vtkSurfaceSplatMapper.h"
 #include "vtkTransform.h"
 
@@ -33,10 +33,10 @@ vtkSurfaceSplatRepresentation::vtkSurfaceSplatRepresentation()
 {
   this->Actor->SetMapper(this->Mapper);
   // Of those that an input has.
-  this->Mapper->SetPointIdArrayName(vtkSurfaceSplatInput::BlockPointIdName);
-  this->Mapper->SetCellIdArrayName(vtkSurfaceSplatInput::BlockCellIdName);
-  this->Mapper->SetCompositeIdArrayName(vtkSurfaceSplatInput::BlockIndexName);
-  this->Mapper->SetCellColorArrayName(vtkSurfaceSplatInput::BlockColorName);
+  this->Mapper->SetPointIdArrayName(hop::SplatInput::BlockPointIdName);
+  this->Mapper->SetCellIdArrayName(hop::SplatInput::BlockCellIdName);
+  this->Mapper->SetCompositeIdArrayName(hop::SplatInput::BlockIndexName);
+  this->Mapper->SetCellColorArrayName(hop::SplatInput::BlockColorName);
   this->SetMapScalars(1);
   this->SetPointSize(2.); // as ParaView's other representations
 }
@@ -58,9 +58,9 @@ int vtkSurfaceSplatRepresentation::RequestData(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   const bool hasInput = inputs[0]->GetNumberOfInformationObjects() == 1;
-  this->Particles = vtkSurfaceSplatInput::AsParticles(
+  this->Particles = hop::SplatInput::AsParticles(
     hasInput ? vtkDataObject::GetData(inputs[0], 0) : nullptr, this->Blocks);
-  this->ArraysToColorBy = vtkSurfaceSplatInput::WithoutBlockIds(this->Particles);
+  this->ArraysToColorBy = hop::SplatInput::WithoutBlockIds(this->Particles);
   return this->Superclass::RequestData(request, inputs, outputs);
 }
 
@@ -157,7 +157,7 @@ void vtkSurfaceSplatRepresentation::UpdateColoring()
       break;
     case vtkDataObject::FIELD_ASSOCIATION_NONE:
       // Merged blocks have one number a cell.
-      this->Mapper->SetScalarMode(name == std::string(vtkSurfaceSplatInput::BlockNumberName)
+      this->Mapper->SetScalarMode(name == std::string(hop::SplatInput::BlockNumberName)
           ? VTK_SCALAR_MODE_USE_CELL_FIELD_DATA
           : VTK_SCALAR_MODE_USE_FIELD_DATA);
       this->Mapper->SetFieldDataTupleId(0);

@@ -12,11 +12,11 @@
 #ifndef vtkSurfaceSplatRepresentation_h
 #define vtkSurfaceSplatRepresentation_h
 
+#include "SplatInput.h"                               // for hop::SplatInput::Blocks
 #include "vtkHighOrderParticleRepresentationModule.h" // for export macro
 #include "vtkNew.h"                                   // for vtkNew
 #include "vtkPVDataRepresentation.h"
-#include "vtkSmartPointer.h"      // for vtkSmartPointer
-#include "vtkSurfaceSplatInput.h" // for vtkSurfaceSplatInput::Blocks
+#include "vtkSmartPointer.h" // for vtkSmartPointer
 
 class vtkPolyData;
 class vtkProperty;
@@ -145,7 +145,7 @@ private:
   vtkNew<vtkSurfaceSplatMapper> Mapper;
   vtkNew<vtkSurfaceSplatActor> Actor;
   vtkNew<vtkProperty> Backface;
-  vtkSurfaceSplatInput::Blocks Blocks;
+  hop::SplatInput::Blocks Blocks;
   vtkSmartPointer<vtkPolyData> Particles;       // of this process; empty where it has no data
   vtkSmartPointer<vtkPolyData> ArraysToColorBy; // the same as far as users care
 };

@@ -307,7 +307,7 @@ void ForEachPlaceOnSphere(const SplatScene& scene,
 }
 
 void ExpectClippingPlaneCuts(
-  SplatScene& scene, const SplatView& view, glm::dvec3 centre, double margin, double tolerance)
+  SplatScene& scene, const SceneView& view, glm::dvec3 centre, double margin, double tolerance)
 {
   scene.LookFrom(view.Direction, view.Parallel);
   // Keeps what lies 0.2 or more towards the viewer's upper right, whatever the view.

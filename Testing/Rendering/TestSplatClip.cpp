@@ -1,11 +1,11 @@
 // The planes that particles carry, where the surface ends or turns: what is cut off, and what fills gaps.
 #include "SplatScene.h"
 
+#include "Particles/SplatParticles.h"
 #include "vtkDoubleArray.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkSurfaceSplatMapper.h"
-#include "vtkSurfaceSplatParticles.h"
 
 #include <gtest/gtest.h>
 
@@ -177,7 +177,7 @@ TEST(SplatClip, WhereTheSurfaceIsAlmostSmoothSplatsHardlyStandOut)
   {
     ++top;
   }
-  const double beyondRidge = Radius * vtkSurfaceSplatParticles::OverlapAt(9.);
+  const double beyondRidge = Radius * hop::SplatParticles::OverlapAt(9.);
   EXPECT_NEAR(pixel * (SplatScene::Size / 2 - top),
     (0.25 + beyondRidge) * std::tan(glm::radians(4.5)), 2. * pixel);
   EXPECT_LT(beyondRidge, 0.4 * Radius);
@@ -187,7 +187,7 @@ TEST(SplatClip, AtKinksSplatsFillSmallGapsAndStaySharp)
 {
   for (const double degrees : { 12., 60., 80. })
   {
-    const double overlap = Radius * vtkSurfaceSplatParticles::OverlapAt(degrees);
+    const double overlap = Radius * hop::SplatParticles::OverlapAt(degrees);
     EXPECT_GT(overlap, 0.) << degrees;
     EXPECT_LT(overlap, 0.16 * Radius) << degrees;
     const auto gap = [&](double before)
@@ -202,7 +202,7 @@ TEST(SplatClip, NothingIsFilledAtSharpKinksAndRimsNorWithoutAngles)
 {
   for (const double degrees : { 91., 150., 180. })
   {
-    EXPECT_EQ(vtkSurfaceSplatParticles::OverlapAt(degrees), 0.) << degrees;
+    EXPECT_EQ(hop::SplatParticles::OverlapAt(degrees), 0.) << degrees;
   }
   EXPECT_NEAR(GapOf(Roof(120., 0.2), vtkSurfaceSplatMapper::Splats, 120., 0.2), 0.2, Pixel);
   EXPECT_NEAR(GapOf(Roof(4., 0.2, false), vtkSurfaceSplatMapper::Splats, 4., 0.2), 0.2, Pixel);
@@ -210,7 +210,7 @@ TEST(SplatClip, NothingIsFilledAtSharpKinksAndRimsNorWithoutAngles)
 
 TEST(SplatClip, AnglesThatAreNoNumbersAreThoseOfRims)
 {
-  EXPECT_EQ(vtkSurfaceSplatParticles::OverlapAt(std::numeric_limits<double>::quiet_NaN()), 0.);
+  EXPECT_EQ(hop::SplatParticles::OverlapAt(std::numeric_limits<double>::quiet_NaN()), 0.);
 }
 
 TEST(SplatClip, DisksGoOnWhereTheSurfaceIsAlmostSmooth)
