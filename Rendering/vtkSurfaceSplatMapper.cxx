@@ -41,22 +41,46 @@ namespace
 {
 using Source = hop::SplatColoring::Source;
 
-// The base class keeps a program for every kind of primitive. Those of triangles and of strips are lit
-// alike; the second one draws outlines if the surface is opaque, else the back layer.
+// The base class keeps a program for every kind of primitive. The programs of triangles and of strips are lit alike;
+// the one of strips draws outlines if the surface is opaque, otherwise the back layer.
 constexpr int Surface = vtkOpenGLPolyDataMapper::PrimitiveTris;
 constexpr int Extra = vtkOpenGLPolyDataMapper::PrimitiveTriStrips;
-// Outlines in front of the surface itself. Lines are lit where there are normals.
+// The program of lines draws outlines where the surface lies in front of itself. Lines are lit where there are normals.
 constexpr int Folds = vtkOpenGLPolyDataMapper::PrimitiveLines;
 
-// More are too slow to be drawn one after the other.
+// Number of isovalues up to which each has translucent layers of its own. The time of a picture grows with the number;
+// with a smaller one inner surfaces are missing more often. Chosen by experiment.
 constexpr int MaximumNumberOfLayeredIsovalues = 8;
+
+/** Memory for the textures of the layers on the GPU. */
+struct LayerMemory
+{
+  /**
+   * Bytes of all layers at most: one GiB, a choice that no measurement made. With less memory isovalues share layers,
+   * and their splats are summed up anew in each pass of depth peeling; with more the driver may run out of memory.
+   */
+  static constexpr double MostBytes = 1024. * 1024. * 1024.;
+  /**
+   * Bytes of a front and a back layer per pixel, about. Either has three sums of 16 bytes, three depths and a number of
+   * 4 bytes each, and marks of 2 bytes.
+   */
+  static constexpr double BytesPerPixel = 128.;
+};
+
+// Radius of all particles without a radius array, as a share of their distance. Hexagons are covered from 0.577 =
+// 1 / sqrt(3) on; three quarters leave some room for unevenness. Smaller disks leave holes, larger ones stand out more.
+constexpr double FallbackRadiusShare = 0.75;
+
+// Difference of depths, in diameters of the mean splat, from which on neighbouring pixels show different parts of the
+// surface. Chosen by experiment: a smaller one takes slants for folds, a larger one misses folds that are near.
+constexpr double FoldJump = 5.;
 
 vtkOpenGLRenderWindow* WindowOf(vtkRenderer* renderer)
 {
   return vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
 }
 
-// Of those points that are finite.
+// Bounds of the points that are finite.
 void GetFiniteBounds(vtkPolyData* input, double bounds[6])
 {
   for (int axis = 0; axis < 3; ++axis)
@@ -66,7 +90,7 @@ void GetFiniteBounds(vtkPolyData* input, double bounds[6])
 }
 }
 
-// What is seen of one isovalue.
+// What is seen of one isovalue, or of all together.
 struct vtkSurfaceSplatMapper::IsovalueLayers
 {
   hop::SplatLayer Front{ hop::LayerSide::Front };
@@ -84,7 +108,7 @@ struct vtkSurfaceSplatMapper::Internals
   hop::SplatBuffers Buffers;
   hop::SplatView View;
   std::vector<std::unique_ptr<IsovalueLayers>> Layers;
-  const hop::SplatDrawing* Drawing = nullptr; // while it goes on, as are the next two
+  const hop::SplatDrawing* Drawing = nullptr; // set while it goes on, as are the next two members
   hop::SplatLayer* DrawnLayer = nullptr;
   const hop::SplatLayer* FrontLayer = nullptr; // of the same isovalue
   int DrawnTiles = 0;
@@ -103,14 +127,14 @@ struct vtkSurfaceSplatMapper::Internals
   bool SaidNoNormals = false;
   bool SaidNoRadius = false;
 
-  // Those of a isovalue. All have their own as far as memory goes, so that each pass of depth peeling finds them drawn.
+  // The layers of an isovalue. As far as memory goes each isovalue has its own, so that each pass of depth peeling
+  // finds them drawn.
   IsovalueLayers& LayersOf(int isovalue)
   {
-    constexpr double mostBytes = 1024. * 1024. * 1024.;
-    constexpr double bytesPerPixel = 128.; // of both layers, about
-    const double bytes = bytesPerPixel * this->View.GetWidth() * this->View.GetHeight();
-    const auto index =
-      static_cast<std::size_t>(std::min<double>(isovalue, std::max(1., mostBytes / bytes) - 1.));
+    const double bytes =
+      LayerMemory::BytesPerPixel * this->View.GetWidth() * this->View.GetHeight();
+    const auto index = static_cast<std::size_t>(
+      std::min<double>(isovalue, std::max(1., LayerMemory::MostBytes / bytes) - 1.));
     while (this->Layers.size() <= index)
     {
       this->Layers.push_back(std::make_unique<IsovalueLayers>());
@@ -118,7 +142,7 @@ struct vtkSurfaceSplatMapper::Internals
     return *this->Layers[index];
   }
 
-  // Leaves so many of them.
+  // Releases all layers but the first ones.
   void ReleaseLayers(std::size_t left, vtkWindow* window)
   {
     for (; this->Layers.size() > left; this->Layers.pop_back())
@@ -193,8 +217,7 @@ double vtkSurfaceSplatMapper::GetFallbackRadius(vtkPolyData* input)
   double bounds[6];
   GetFiniteBounds(input, bounds);
   const double distance = hop::SplatParticles::EstimateDistance(bounds, input->GetNumberOfPoints());
-  // Hexagons are covered from 0.577 of their distance on; three quarters leave some room for unevenness.
-  return distance > 0. ? 0.75 * distance : 1.;
+  return distance > 0. ? FallbackRadiusShare * distance : 1.;
 }
 
 //------------------------------------------------------------------------------
@@ -347,8 +370,8 @@ bool vtkSurfaceSplatMapper::HasTranslucentCells(vtkPolyData* input)
 //------------------------------------------------------------------------------
 void vtkSurfaceSplatMapper::UploadColors(vtkRenderer* renderer, vtkActor* actor)
 {
-  // Only splats have something between the particles to look colours up for, and cells' own colours
-  // are not to be looked up.
+  // Colours are looked up between particles only, so that disks and points need none of it. Cells' own colours are
+  // no numbers to be looked up.
   vtkDataArray* cellColors =
     this->Internal->CellIds.empty() ? nullptr : this->GetCellColors(this->CurrentInput);
   const vtkTypeBool interpolate = this->InterpolateScalarsBeforeMapping;
@@ -388,11 +411,11 @@ void vtkSurfaceSplatMapper::ForgetShaders()
 }
 
 //------------------------------------------------------------------------------
-// The colour of every particle that scalars give; empty if they give none.
+// The colours that scalars give the particles. Empty if scalars give none.
 std::vector<unsigned char> vtkSurfaceSplatMapper::MappedColors(
   vtkUnsignedCharArray* colors, int source)
 {
-  constexpr int Cells = 1; // what MapScalars() says of the source
+  constexpr int Cells = 1; // what MapScalars() says where the scalars are from
   constexpr int Field = 2;
   const std::vector<vtkIdType>& ids =
     source == Cells ? this->Internal->CellIds : this->Internal->PointIds;
@@ -422,7 +445,7 @@ bool vtkSurfaceSplatMapper::UploadMappedColors(
 }
 
 //------------------------------------------------------------------------------
-// False if there are none.
+// False if there are no lookup coordinates.
 bool vtkSurfaceSplatMapper::UploadLookupCoordinates(vtkRenderer* renderer)
 {
   const vtkIdType count = this->Internal->Buffers.GetNumberOfParticles();
@@ -456,8 +479,8 @@ void vtkSurfaceSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* act
   this->DrawingSelection = false;
   if (this->PointPicking)
   {
-    // For points the base class draws without depth, on top of the surface they belong to; splats
-    // are that surface, and the nearest one must win.
+    // The base class draws points without depth, on top of the surface that they belong to. Splats are the surface
+    // itself, and the nearest one must be seen.
     WindowOf(renderer)->GetState()->vtkglDepthMask(GL_TRUE);
   }
   double bounds[6];
@@ -503,7 +526,7 @@ bool vtkSurfaceSplatMapper::DrawSplats(vtkRenderer* renderer, vtkActor* actor)
   {
     this->Internal->ReleaseLayers(1, renderer->GetRenderWindow());
   }
-  // Nested isovalues shine through each other: each has layers of its own.
+  // Translucent surfaces of different isovalues shine through each other: each has layers of its own.
   const int allIsovalues = this->Internal->Buffers.GetNumberOfIsovalues();
   const int isovalues =
     translucent && allIsovalues <= MaximumNumberOfLayeredIsovalues ? allIsovalues : 1;
@@ -524,7 +547,7 @@ bool vtkSurfaceSplatMapper::DrawSplats(vtkRenderer* renderer, vtkActor* actor)
       this->ForgetShaders();
       return false;
     }
-    // Far to near, for blending without depth peeling.
+    // The far layer is drawn first, for blending without depth peeling.
     if (translucent)
     {
       this->DrawLayer(layers.Back, layers.Front, renderer, actor);
@@ -567,7 +590,7 @@ void vtkSurfaceSplatMapper::DrawLayer(
   }
   internal.DrawnLayer = &layer;
   internal.FrontLayer = &frontLayer;
-  // Outlines are mixed with what was drawn before, which makes sense for pictures of opaque things.
+  // Outlines are mixed with what was drawn before, which makes sense for opaque surfaces in pictures only.
   if (renderer->GetSelector() || internal.Translucent)
   {
     this->DrawResolved(front ? Surface : Extra,
@@ -590,7 +613,7 @@ void vtkSurfaceSplatMapper::DrawFolds(vtkRenderer* renderer, vtkActor* actor)
 {
   if (this->Internal->Drawing->FacesViewer || actor->GetProperty()->GetInterpolation() == VTK_FLAT)
   {
-    return; // VTK would not light them
+    return; // VTK would not light lines
   }
   vtkOpenGLState* state = WindowOf(renderer)->GetState();
   vtkOpenGLState::ScopedglDepthMask depthMask(state);
@@ -621,7 +644,7 @@ void vtkSurfaceSplatMapper::DrawPrimitives(vtkRenderer* renderer, vtkActor* acto
   if (primitives.Program)
   {
     primitives.VAO->Bind(); // see DrawResolved()
-    // Sides are those of normals, which the vertex stage knows; mirrored triangles turn theirs.
+    // The vertex stage culls by the sides of normals. The sides of triangles are swapped where an actor mirrors them.
     vtkOpenGLState* state = WindowOf(renderer)->GetState();
     vtkOpenGLState::ScopedglEnableDisable cullFace(state, GL_CULL_FACE);
     state->vtkglDisable(GL_CULL_FACE);
@@ -740,11 +763,11 @@ void vtkSurfaceSplatMapper::SetMapperShaderParameters(
     const double diameter = 2. * drawing.RadiusScale * this->Internal->Buffers.GetMeanRadius() *
       this->Internal->View.GetScale();
     layer->SetSamplers(program, *this->Internal->FrontLayer);
-    // Pixels with surface have at least twice this summed weight, others none (see the visibility pass).
+    // Half the least summed weight of a pixel with surface. Pixels without surface have none.
     program->SetUniformf("splatLeastWeight",
       static_cast<float>(0.5 * hop::SplatPrimitives::GetLeastWeight(this->Sharpness)));
     program->SetUniformf("splatLayerDistance", static_cast<float>(diameter));
-    program->SetUniformf("splatJump", static_cast<float>(5. * diameter));
+    program->SetUniformf("splatJump", static_cast<float>(FoldJump * diameter));
     hop::PictureTiles(this->Internal->View).SetUniforms(program, this->Internal->DrawnTiles);
   }
   if (this->ColorByNormalDirection)
@@ -786,7 +809,7 @@ void vtkSurfaceSplatMapper::SetPropertyShaderParameters(
 //------------------------------------------------------------------------------
 int vtkSurfaceSplatMapper::GetShiftedClippingPlanes(vtkActor* actor, float planes[6][4])
 {
-  const int count = std::min(this->GetNumberOfClippingPlanes(), 6); // the base class says so
+  const int count = std::min(this->GetNumberOfClippingPlanes(), 6); // the limit of the base class
   const std::array<double, 3>& origin = this->Internal->Buffers.GetOrigin();
   hop::GetModelToWorld(actor, this->TempMatrix4);
   for (int i = 0; i < count; ++i)
@@ -805,7 +828,7 @@ void vtkSurfaceSplatMapper::SetCameraShaderParameters(
 {
   this->Superclass::SetCameraShaderParameters(cellBO, renderer, actor);
 
-  // Again with the shift of the particles.
+  // The base class's matrices know nothing of the particles' shift.
   vtkShaderProgram* program = cellBO.Program;
   program->SetUniformMatrix("MCDCMatrix", this->Internal->View.MCDC);
   if (program->IsUniformUsed("MCVCMatrix"))

@@ -22,21 +22,37 @@ namespace
 using Culling::Camera;
 using Culling::Splats;
 
-// Against rounding: as if splats that hide others were so much smaller,
-constexpr float Shrink = 0.95f;
-// and all ended so many pixels before the end, or after the end, of where they are drawn.
-constexpr float Margin = 0.1f;
+/**
+ * What keeps rounding from leaving out a splat that is seen. Both numbers are far above the rounding of float32; larger
+ * ones find fewer hidden splats.
+ */
+struct Safety
+{
+  /** Factor on the radius up to which a splat hides others, no unit. */
+  static constexpr float Shrink = 0.95f;
+  /** By how much a splat that hides ends earlier, and one that is hidden later, than it is drawn; pixels. */
+  static constexpr float Margin = 0.1f;
+};
 
-// A splat in the picture.
+// Number of splats from which on starting threads is worth it, chosen by experiment. A smaller one starts threads that
+// cost more than they save; a larger one leaves cores idle.
+constexpr vtkIdType WorthThreads = 20000;
+
+// Largest difference of a similarity's scaled axes from right angles and equal lengths, as a share of the squared
+// length. Some hundred times the rounding of float32; a larger one lets matrices through that stretch visibly.
+constexpr float SimilarityError = 1e-4f;
+
+// Where a splat is in the picture.
 struct Footprint
 {
   vtkIdType Particle = 0;
   glm::vec3 CentreVC;
   float RadiusVC = 0.f; // 0: nothing is drawn
   glm::vec2 Middle;     // pixels
-  float HalfSize = 0.f; // pixels, of a square around a disk facing the eye; infinite near it
-  float Wider = 1.f;    // than that it may be
-  float Nearest = 0.f;  // depth, device coordinates
+  // Half the side of the square around the splat if it faces the eye, pixels; infinite near the eye.
+  float HalfSize = 0.f;
+  float Wider = 1.f;   // factor by which a splat in perspective may reach beyond this square
+  float Nearest = 0.f; // smallest depth of the splat, device coordinates
 };
 
 class Projector
@@ -45,8 +61,8 @@ public:
   Projector(const Camera& camera, const Splats& splats)
     : View(camera)
     , All(splats)
-    , Turn(camera.MCVC)
-    , Scale(glm::length(this->Turn[0]))
+    , Linear(camera.MCVC)
+    , Scale(glm::length(this->Linear[0]))
     , Size(camera.Width, camera.Height)
     , Pixel(2.f / (glm::vec2(camera.VCDC[0][0], camera.VCDC[1][1]) * this->Size))
   {
@@ -67,10 +83,10 @@ private:
 
   const Camera& View;
   const Splats& All;
-  const glm::mat3 Turn;
+  const glm::mat3 Linear; // part of MCVC
   const float Scale;
   const glm::vec2 Size;
-  const glm::vec2 Pixel; // view coordinates, at distance 1, or everywhere if parallel
+  const glm::vec2 Pixel; // size of a pixel (VC) at distance 1, or everywhere if parallel
 };
 
 Footprint Projector::FootprintOf(vtkIdType number) const
@@ -79,7 +95,7 @@ Footprint Projector::FootprintOf(vtkIdType number) const
   splat.Particle = number * this->All.Stride;
   const float* centreRadius = this->All.CentreRadius + 4 * splat.Particle;
   const glm::vec3 centreMC(centreRadius[0], centreRadius[1], centreRadius[2]);
-  splat.CentreVC = this->Turn * centreMC + glm::vec3(this->View.MCVC[3]);
+  splat.CentreVC = this->Linear * centreMC + glm::vec3(this->View.MCVC[3]);
   const float radius = centreRadius[3] * this->All.RadiusScale * this->Scale;
   const float distance = -splat.CentreVC.z;
   if (!(radius > 0.f))
@@ -97,13 +113,13 @@ Footprint Projector::FootprintOf(vtkIdType number) const
   const glm::vec4 clip = this->View.VCDC * glm::vec4(splat.CentreVC, 1.f);
   splat.Middle = (0.5f * glm::vec2(clip) / clip.w + 0.5f) * this->Size;
   splat.HalfSize = splat.RadiusVC / pixel;
-  splat.Wider = this->View.Parallel
-    ? 1.f
-    : glm::length(splat.CentreVC) / (distance - splat.RadiusVC); // as a ball in perspective
+  // In perspective a splat lies in the outline of a ball of its radius.
+  splat.Wider =
+    this->View.Parallel ? 1.f : glm::length(splat.CentreVC) / (distance - splat.RadiusVC);
   return splat;
 }
 
-// Not those with clip planes, nor those that may not be drawn whole.
+// Splats with clip planes hide nothing, nor do splats that may not be drawn whole.
 bool Projector::HidesOthers(const Footprint& splat) const
 {
   const auto isPlane = [](const float* normal)
@@ -115,7 +131,7 @@ bool Projector::HidesOthers(const Footprint& splat) const
     !(planes && (isPlane(planes) || isPlane(planes + 4)));
 }
 
-// The depth that the passes give it at most.
+// The largest depth that the passes give the splat.
 float Projector::FarthestOf(const Footprint& splat) const
 {
   return this->DepthAt(splat.CentreVC.z - (1.f + this->All.Push) * splat.RadiusVC);
@@ -124,10 +140,11 @@ float Projector::FarthestOf(const Footprint& splat) const
 glm::vec3 Projector::NormalOf(const Footprint& splat) const
 {
   const float* normal = this->All.Normal + 4 * splat.Particle;
-  return this->Turn * glm::vec3(normal[0], normal[1], normal[2]);
+  return this->Linear * glm::vec3(normal[0], normal[1], normal[2]);
 }
 
-// From the middle of a disk to where it is seen so many pixels beside it.
+// The place on a disk, relative to its middle (VC), that is seen at this offset from its middle in the picture
+// (pixels).
 glm::vec3 Projector::OnDisk(
   const Footprint& splat, const glm::vec3& normalVC, glm::vec2 offset) const
 {
@@ -141,7 +158,7 @@ glm::vec3 Projector::OnDisk(
   return along * ray - splat.CentreVC;
 }
 
-// For square cells of the picture, from which depth on nothing is seen.
+// For each square cell of the picture, the depth behind which nothing is seen.
 class HidingDepths
 {
 public:
@@ -157,8 +174,8 @@ public:
     }
   }
 
-  // A splat that is nowhere deeper than a depth: isSolid() tells whether it covers the pixel at an offset from
-  // its middle.
+  // Adds a splat that is nowhere deeper than a depth. isSolid() tells whether the splat covers the pixel at an offset
+  // (pixels) from its middle.
   template <typename IsSolid>
   void Add(glm::vec2 middle, float halfSize, float depth, const IsSolid& isSolid)
   {
@@ -182,7 +199,7 @@ public:
     }
   }
 
-  // Whether it does that, by splats before this depth, with all that is in a square.
+  // Whether the splats that were added hide all that lies in a square at this depth or behind it.
   bool Hide(glm::vec2 middle, float halfSize, float depth) const
   {
     const auto [firstPixel, endPixel] = this->PixelsIn(middle, halfSize);
@@ -203,7 +220,7 @@ public:
   }
 
 private:
-  static constexpr float Nothing = 2.f;
+  static constexpr float Nothing = 2.f; // behind all depths, which end at 1
 
   static void Lower(std::atomic<float>& depth, float to)
   {
@@ -213,7 +230,7 @@ private:
     }
   }
 
-  // The first of those whose centres lie in a square, and the one after the last.
+  // The pixels whose centres lie in a square: the first one, and the one after the last.
   std::array<glm::ivec2, 2> PixelsIn(glm::vec2 middle, float halfSize) const
   {
     const glm::vec2 none(0.f);
@@ -222,9 +239,9 @@ private:
       glm::ivec2(glm::clamp(middle + halfSize + 0.5f, none, all)) };
   }
 
-  int CellSize;
-  glm::ivec2 Size; // pixels
-  glm::ivec2 Cells;
+  int CellSize;     // pixels
+  glm::ivec2 Size;  // pixels
+  glm::ivec2 Cells; // columns and rows
   std::vector<std::atomic<float>> Depths;
 };
 }
@@ -232,8 +249,8 @@ private:
 //------------------------------------------------------------------------------
 bool Culling::IsSimilarity(const glm::mat4& matrix)
 {
-  const glm::mat3 turn(matrix);
-  const glm::mat3 products = glm::transpose(turn) * turn;
+  const glm::mat3 linear(matrix);
+  const glm::mat3 products = glm::transpose(linear) * linear;
   const float square = products[0][0];
   const glm::mat3 difference = products - glm::mat3(square);
   float largest = 0.f;
@@ -242,14 +259,11 @@ bool Culling::IsSimilarity(const glm::mat4& matrix)
     const glm::vec3 part = glm::abs(difference[column]);
     largest = std::max({ largest, part.x, part.y, part.z });
   }
-  return largest < 1e-4f * square;
+  return largest < SimilarityError * square;
 }
 
 namespace
 {
-// From so many splats on it is worth starting threads for.
-constexpr vtkIdType WorthThreads = 20000;
-
 void Add(HidingDepths& depths, const Splats& splats, const Projector& projector, vtkIdType number)
 {
   const Footprint splat = projector.FootprintOf(number);
@@ -257,9 +271,10 @@ void Add(HidingDepths& depths, const Splats& splats, const Projector& projector,
   {
     return;
   }
-  const float solid = Shrink * splats.Solid * splat.RadiusVC;
+  const float solid = Safety::Shrink * splats.Solid * splat.RadiusVC;
   const glm::vec3 normal = projector.NormalOf(splat);
-  depths.Add(splat.Middle, splats.Solid * splat.HalfSize - Margin, projector.FarthestOf(splat),
+  depths.Add(splat.Middle, splats.Solid * splat.HalfSize - Safety::Margin,
+    projector.FarthestOf(splat),
     [&](glm::vec2 offset)
     {
       const glm::vec3 place = projector.OnDisk(splat, normal, offset);
@@ -269,12 +284,12 @@ void Add(HidingDepths& depths, const Splats& splats, const Projector& projector,
 
 bool MayBeSeen(const HidingDepths& depths, const Footprint& splat)
 {
-  const float halfSize = splat.Wider * splat.HalfSize + Margin;
+  const float halfSize = splat.Wider * splat.HalfSize + Safety::Margin;
   return splat.RadiusVC > 0.f &&
     !(std::isfinite(halfSize) && depths.Hide(splat.Middle, halfSize, splat.Nearest));
 }
 
-// Which of them may be.
+// For each splat whether it may be seen. First all splats are added that hide others, then all are looked at.
 std::vector<char> FindSeen(const Camera& camera, const Splats& splats, vtkIdType first,
   vtkIdType end, const hop::ParallelFor& parallelFor)
 {

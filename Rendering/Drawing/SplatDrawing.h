@@ -29,7 +29,7 @@ enum class DrawnKind
   All = 2
 };
 
-/** From which side particles are left out that are seen from it, in the numbers of splatHiddenSide (there). */
+/** Particles that are seen from this side are left out, in the numbers of splatHiddenSide (glsl/Disk.glsl). */
 enum class CulledSide
 {
   Inward = -1,
@@ -42,26 +42,27 @@ struct SplatDrawing
   vtkOpenGLRenderWindow* Window = nullptr;
   SplatBuffers* Buffers = nullptr;
   const SplatView* View = nullptr;
-  double RadiusScale = 1.;
-  double Sharpness = 2.;
+  double RadiusScale = 1.; // factor on all radii
+  double Sharpness = 2.;   // of the weights, see SplatProfile
   DrawnKind Kind = DrawnKind::All;
-  std::optional<int> Isovalue; // of these, the ones of this isovalue; without one, of all
-  int Stride = 1;              // every how-manieth particle is drawn
-  bool FacesViewer = false;    // there are no normals
+  std::optional<int>
+    Isovalue;     // number of the isovalue whose particles are drawn; without one, all are
+  int Stride = 1; // every Stride-th particle is drawn
+  bool FacesViewer = false; // there are no normals
   CulledSide HiddenSide = CulledSide::None;
   bool Colors = false;    // colours or lookup coordinates are accumulated
   bool Strongest = false; // the strongest particle of every pixel is found
   int NumberOfClippingPlanes = 0;
   float ClippingPlanes[6][4] = {}; // shifted model coordinates
-  std::vector<double> Key;         // whatever else the picture depends on
+  std::vector<double> Key;         // whatever the picture depends on that no other member says
 
   /** Chooses the kind and the hidden side: a renderer may draw an actor in two passes, opaque and translucent. */
   void ChooseParticles(vtkRenderer* renderer, vtkActor* actor, bool hasTranslucentCells);
 
-  /** Those uniforms of glsl/Disk.glsl that a program uses, and where it finds the particles. */
+  /** Sets the uniforms of glsl/Disk.glsl, and tells a program where it finds the particles. */
   void SetUniforms(vtkShaderProgram* program) const;
 
-  /** Of every Stride-th particle, those from the first to before the second are drawn. */
+  /** The numbers of the particles that are drawn, counting every Stride-th one: from the first to before the second. */
   std::array<vtkIdType, 2> GetDrawnRange() const;
 
   /** All that the picture depends on. */
@@ -71,12 +72,12 @@ struct SplatDrawing
   bool DrawsPoints() const;
 
   /**
-   * Whether pixels show one isovalue only, however near the others are. (Otherwise there is one, or they are drawn
-   * one after the other.)
+   * Whether each pixel shows one isovalue only, however near surfaces of other isovalues are. It is not needed where
+   * there is one isovalue, nor where a drawing has the particles of one.
    */
   bool TellsIsovaluesApart() const;
 
-  /** Whether all particles of the stride are drawn, and none of them is cut by clipping planes. */
+  /** Whether all particles of the stride are drawn, and no clipping plane cuts them. */
   bool DrawsAll() const;
 
   /** Whether splats are bent. */

@@ -30,22 +30,49 @@ namespace hop
 {
 namespace
 {
-// From middle to rim, splats cover at least that many pixels.
-constexpr double LeastPixels = 0.75;
+/** Splats of few pixels. Both numbers were chosen by experiment. */
+struct SmallSplats
+{
+  /**
+   * Smallest radius of a splat in the picture, pixels. Smaller splats fall between the middles of pixels and leave
+   * holes; larger ones blur the picture and its outline.
+   */
+  static constexpr double LeastPixels = 0.75;
+  /**
+   * Points are pushed away from the eye by their thickness over the cosine between normal and view ray; the smallest
+   * cosine so used, no unit. A larger one loses neighbours where the surface is seen at a slant, a smaller one takes
+   * surfaces far behind for the same.
+   */
+  static constexpr double LeastCosine = 0.2;
+};
 
-// Points are pushed the more, the more slanted the splat is seen, down to this cosine.
-constexpr double LeastCosine = 0.2;
+/** How Mesa's renderers in software are fed. Both numbers were measured on draw calls of 10^5 to 10^6 splats. */
+struct SoftwareBatches
+{
+  /**
+   * Splats a draw call. Where a call leaves some points out, Mesa goes through all its vertices again for every 4 KB of
+   * vertices that it passes on: larger calls repeat more work, smaller ones cost more calls.
+   */
+  static constexpr vtkIdType Size = 512;
+  /**
+   * Draw calls between two flushes. Mesa keeps what it has set up of each primitive until it is flushed: with this
+   * number it fits into the processor's cache, which halves the time of 10^6 splats. More fall out of the cache, fewer
+   * leave its threads waiting.
+   */
+  static constexpr int CallsPerFlush = 8;
+};
 
-// Of draw calls in which some points are left out, Mesa goes through all vertices again for every 4 KB of those
-// that it passes on.
-constexpr vtkIdType SoftwarePiece = 512;
-
-// Mesa's rasterizers in software keep what they have set up of each primitive until they are flushed: what that
-// many pieces need fits into the processor's cache.
-constexpr int PiecesAFlush = 8;
-
-// Of the size of splats, that of cells in which it is found what hides what: smaller ones find little more.
-constexpr double CellShare = 0.33;
+/** The cells in which is found what hides what, see Culling::Splats::CellSize. */
+struct CullingCells
+{
+  /**
+   * Side of a cell, as a share of the mean radius of splats in the picture. Chosen by experiment: smaller cells find
+   * little more and cost more, larger ones are covered by hardly any splat.
+   */
+  static constexpr double Share = 0.33;
+  /** Largest side, pixels. Splats that are so large are few. */
+  static constexpr double LargestPixels = 64.;
+};
 
 int CornersOf(const SplatDrawing& drawing)
 {
@@ -72,8 +99,8 @@ bool IsDrawnInSoftware()
   return name && (std::strstr(name, "llvmpipe") || std::strstr(name, "softpipe"));
 }
 
-// Lets Mesa's threads draw what was flushed while more is set up. At most two flushes are under way: they share
-// the processor's cache, and once there were 64 llvmpipe sets nothing up any more while it draws.
+// Lets Mesa's threads draw what was flushed while more is set up. At most two flushes are under way, as they share the
+// processor's cache; and llvmpipe, once it has had 64 unfinished ones, draws and sets up in turns for good.
 class SoftwareFlushes
 {
 public:
@@ -102,8 +129,8 @@ private:
 std::string Definitions(const SplatDrawing& drawing, const SplatPrimitives::Style& style)
 {
   return ShaderDefine("SPLAT_POINTS", drawing.DrawsPoints()) +
-    ShaderDefine("SPLAT_LEAST_PIXELS", LeastPixels) +
-    ShaderDefine("SPLAT_LEAST_COSINE", LeastCosine) +
+    ShaderDefine("SPLAT_LEAST_PIXELS", SmallSplats::LeastPixels) +
+    ShaderDefine("SPLAT_LEAST_COSINE", SmallSplats::LeastCosine) +
     ShaderDefine("SPLAT_HAS_CLIP", drawing.Buffers->GetHasClip()) +
     ShaderDefine("SPLAT_GAP_SHARE", SplatPrimitives::GapShare) +
     ShaderDefine("SPLAT_CURVED", drawing.DrawsCurved()) +
@@ -164,8 +191,10 @@ void SplatPrimitives::Cull(const SplatDrawing& drawing, double push)
     return;
   }
   const int corners = CornersOf(drawing);
-  const double mostPush = corners == 1 ? push / LeastCosine : push;
-  const int cellSize = corners == 1 ? 1 : static_cast<int>(std::clamp(CellShare * pixels, 1., 64.));
+  const double mostPush = corners == 1 ? push / SmallSplats::LeastCosine : push;
+  const int cellSize = corners == 1
+    ? 1
+    : static_cast<int>(std::clamp(CullingCells::Share * pixels, 1., CullingCells::LargestPixels));
   std::vector<unsigned int> visible;
   const bool found = drawing.Buffers->Read(
     [&](const SplatBuffers::Mapped& particles)
@@ -173,7 +202,7 @@ void SplatPrimitives::Cull(const SplatDrawing& drawing, double push)
       const auto [first, end] = drawing.GetDrawnRange();
       visible = Culling::FindVisible(camera,
         { particles.CentreRadius, particles.Normal, particles.Clip, drawing.Stride,
-          static_cast<float>(drawing.RadiusScale), static_cast<float>(LeastPixels),
+          static_cast<float>(drawing.RadiusScale), static_cast<float>(SmallSplats::LeastPixels),
           static_cast<float>(mostPush), static_cast<float>(splatReach()), cellSize },
         first, end);
     });
@@ -212,13 +241,13 @@ void SplatPrimitives::Draw(const SplatDrawing& drawing)
   const std::array<vtkIdType, 2> visible{ 0, this->NumberOfVisible.value_or(0) };
   const auto [begin, end] = this->NumberOfVisible ? visible : drawing.GetDrawnRange();
   const bool software = IsDrawnInSoftware();
-  const vtkIdType piece = software ? SoftwarePiece : std::max<vtkIdType>(end - begin, 1);
+  const vtkIdType piece = software ? SoftwareBatches::Size : std::max<vtkIdType>(end - begin, 1);
   SoftwareFlushes flushes;
-  this->VertexArray->Bind(); // without attributes, but OpenGL wants one
+  this->VertexArray->Bind(); // OpenGL wants one, although there are no attributes
   for (vtkIdType first = begin; first < end; first += piece)
   {
     this->DrawPiece(drawing, first, std::min(piece, end - first));
-    if (software && ((first - begin) / piece + 1) % PiecesAFlush == 0)
+    if (software && ((first - begin) / piece + 1) % SoftwareBatches::CallsPerFlush == 0)
     {
       flushes.Flush();
     }

@@ -25,34 +25,39 @@ public:
   SplatPrimitives();
   ~SplatPrimitives();
 
-  /** Of the weights that a splat has, 1 in its middle, the smallest that makes a surface. */
+  /** The smallest summed weight of a pixel with surface: of one splat at its reach, where it fills a gap. */
   static double GetLeastWeight(double sharpness);
 
-  /** Of the weights, what is left beyond clip planes where a splat fills gaps that others leave. */
+  /**
+   * Factor on the weight of a splat beyond its clip planes, where it fills gaps that others leave; no unit. Chosen by
+   * experiment: a larger factor softens creases where both sides overlap; it must be far above the rounding of the
+   * sums.
+   */
   static constexpr double GapShare = 1e-3;
 
-  /** What differs between the passes. */
+  /** How one pass draws the splats. */
   struct Style
   {
     std::string Fragment;     // source of the fragment stage
     double Push = 0.;         // by how many radii splats are moved away from the eye
-    bool EndsAtReach = false; // splats end where they count too little to be seen alone
-    bool SkipsHidden = false; // splats whose middle is hidden are left out, where they are points
+    bool EndsAtReach = false; // splats end at splatReach(); otherwise at their rims
+    bool SkipsHidden = false; // points whose middle is hidden are left out
   };
 
   /**
-   * Puts the program of a style in use, with all uniforms but those of the pass's own. nullptr if the
-   * driver does not take it; the shader cache has said why then.
+   * Puts the program of a style in use and sets all uniforms but the pass's own. nullptr if the driver does not take
+   * the program; the shader cache has said why then.
    */
   vtkShaderProgram* Use(const SplatDrawing& drawing, const Style& style);
 
   /**
-   * Leaves out, until it is called again, those splats that are behind others for certain, if that is worth it.
-   * @param push as of the pass that finds what is hidden
+   * Leaves out the splats that are behind others for certain, until it is called again. It does so only where drawing
+   * them in software costs more than finding them.
+   * @param push Style::Push of the pass that finds what is hidden
    */
   void Cull(const SplatDrawing& drawing, double push);
 
-  /** Draws, with the program in use. */
+  /** Draws with the program in use. */
   void Draw(const SplatDrawing& drawing);
 
   void ReleaseGraphicsResources();
@@ -65,7 +70,7 @@ private:
 
   vtkNew<vtkOpenGLVertexArrayObject> VertexArray;
   vtkNew<vtkOpenGLBufferObject>
-    Visible; // numbers of the splats that are drawn, if some are left out
+    Visible; // vertices of the splats that may be seen, if some are left out
   std::optional<vtkIdType> NumberOfVisible;
 };
 }

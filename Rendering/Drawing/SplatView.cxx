@@ -37,7 +37,7 @@ void SplatView::Update(vtkRenderer* renderer, vtkActor* actor, const std::array<
   this->VCDC->DeepCopy(vcdc);
   this->Parallel = camera->GetParallelProjection() != 0;
 
-  // Normals go by the inverse transpose; the matrices are transposed already.
+  // Normals are transformed by the inverse transpose; MCVC is transposed already.
   for (int row = 0; row < 3; ++row)
   {
     for (int column = 0; column < 3; ++column)
@@ -93,10 +93,12 @@ void SplatView::FindRectangle(const std::array<double, 3>& origin, const double 
     }
     if (!beforeTheEye)
     {
-      break; // the box reaches behind the eye: it may be anywhere
+      break; // the box reaches behind the eye: its picture may be anywhere
     }
   }
-  constexpr double margin = 2.; // pixels, for splats smaller than one
+  // Pixels around the box. Splats are enlarged to LeastPixels of the primitives and rounded to whole pixels, together
+  // less than this; a larger margin looks at more empty pixels.
+  constexpr double margin = 2.;
   for (int axis = 0; axis < 2; ++axis)
   {
     const double size = this->Viewport[2 + axis];
@@ -122,7 +124,7 @@ double SplatView::GetPixelSize() const
 
 double SplatView::GetLargestPixels(double length) const
 {
-  double largest = 0.; // length of a unit vector along an axis
+  double largest = 0.; // length (VC) of a unit vector along an axis
   for (int axis = 0; axis < 3; ++axis)
   {
     const double* row = this->MCVC->GetData() + 4 * axis;

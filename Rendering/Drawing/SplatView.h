@@ -2,12 +2,13 @@
  * @class SplatView
  * @brief camera, actor and viewport of one drawing, as the splat shaders take them
  *
- * Positions are relative to the middle of the particles (MC), shifted in double precision.
+ * Model coordinates (MC) are relative to the middle of the particles; the shift is done in double precision.
  */
 
 #pragma once
 
 #include "Drawing/Culling.h"
+
 #include "vtkMatrix3x3.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
@@ -32,9 +33,11 @@ public:
   void Update(vtkRenderer* renderer, vtkActor* actor, const std::array<double, 3>& origin,
     const double bounds[6]);
 
-  /** Width and height of the viewport in pixels. */
+  ///@{
+  /** Size of the viewport in pixels. */
   int GetWidth() const { return this->Viewport[2]; }
   int GetHeight() const { return this->Viewport[3]; }
+  ///@}
 
   /** By how much lengths grow from model to view coordinates, on average over the axes. */
   double GetScale() const;
@@ -45,33 +48,38 @@ public:
    */
   double GetLargestPixels(double length) const;
 
-  /** The same as SetUniforms(). */
+  /** What SetUniforms() tells programs of the camera. */
   Culling::Camera GetCamera() const;
 
   /** Left, bottom, width and height, within the viewport, of the pixels that splats can reach. */
   const std::array<int, 4>& GetRectangle() const { return this->Rectangle; }
 
-  /** Those uniforms of glsl/ that a program uses. */
+  /** Sets the uniforms of glsl/ that describe the view, as far as a program uses them. */
   void SetUniforms(vtkShaderProgram* program) const;
 
   /** Appends all that a picture of the splats depends on. */
   void AppendTo(std::vector<double>& key) const;
 
-  // From shifted model coordinates to view and device coordinates. VTK keeps matrices for shaders
-  // transposed, so that products read from left to right.
+  ///@{
+  /**
+   * From shifted model coordinates to view and device coordinates. VTK keeps matrices for shaders
+   * transposed, so that products read from left to right.
+   */
   vtkNew<vtkMatrix4x4> MCVC;
   vtkNew<vtkMatrix4x4> MCDC;
+  ///@}
 
 private:
   void FindEye();
-  double GetPixelSize() const; // at distance 1, or everywhere if parallel
+  double GetPixelSize() const; // VC, at distance 1, or everywhere if parallel
   void FindRectangle(const std::array<double, 3>& origin, const double bounds[6]);
 
   mutable vtkNew<vtkMatrix4x4> VCDC;
   mutable vtkNew<vtkMatrix3x3> NormalMatrix;
   std::array<float, 4> Eye = { 0.f, 0.f, 0.f, 1.f }; // MC; with w = 0 the direction to it
   bool Parallel = false;
-  double NearestDepth = 0.; // of the bounds, before the eye; <= 0: they reach behind it
+  double NearestDepth =
+    0.; // VC distance of the bounds before the eye; <= 0 if they reach behind it
   std::array<int, 4> Viewport = { 0, 0, 0, 0 };
   std::array<int, 4> Rectangle = { 0, 0, 0, 0 };
 };

@@ -1,5 +1,4 @@
-// What differs between versions of VTK: the loader of the OpenGL functions, and the name of an actor's
-// matrix.
+// What differs between versions of VTK: the loader that declares OpenGL's functions, and the name of an actor's matrix.
 #pragma once
 
 #if __has_include("vtk_glad.h")
@@ -13,7 +12,7 @@
 
 namespace hop
 {
-/** From an actor's own coordinates to the world's. */
+/** The matrix from an actor's own coordinates to the world's. */
 inline void GetModelToWorld(vtkActor* actor, vtkMatrix4x4* matrix)
 {
 #if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20220801)

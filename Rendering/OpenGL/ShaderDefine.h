@@ -1,5 +1,5 @@
 /**
- * @file  OpenGL/ShaderDefine.h
+ * @file  ShaderDefine.h
  * @brief constants that C++ and shaders share
  */
 
@@ -10,7 +10,7 @@
 namespace hop
 {
 ///@{
-/** The line of GLSL that defines a name as a number; one with a fraction has a point, whatever the locale is. */
+/** The line of GLSL that defines a name as a number. A number with a fraction has a point, whatever the locale is. */
 std::string ShaderDefine(const std::string& name, int value);
 std::string ShaderDefine(const std::string& name, double value);
 ///@}

@@ -17,21 +17,55 @@ namespace hop
 {
 namespace
 {
-// Neighbours count up to this many radii away, and up to this many times the distance that so many
-// particles have if they are spread over the sides of their bounding box: radii may be anything.
-constexpr double Reach = 1.5;
-constexpr double LongestReach = 4.;
+/** Which neighbours a fit looks at, and how much each counts. All numbers were chosen by experiment. */
+struct Neighbors
+{
+  /**
+   * Distance up to which neighbours count, in radii of the particle. The splats of the first ring and some of the
+   * second lie within it. A larger reach costs more, and fits to places that the splat does not cover.
+   */
+  static constexpr double Reach = 1.5;
+  /**
+   * The same in units of the distance that SplatParticles::EstimateDistance() gives. It bounds the number of neighbours
+   * where radii are much larger than the distances of the particles.
+   */
+  static constexpr double LongestReach = 4.;
+  /** The weight of a neighbour at the distance r, in radii, is exp(-Sharpness r^2): the default profile of a splat. */
+  static constexpr double Sharpness = 2.;
+  /** Cosine of 60 degrees: neighbours whose normals differ by more are of another side or another surface. */
+  static constexpr double LeastCosine = 0.5;
+  /** 1 / tan^2 of 30 degrees: neighbours that stand higher above the disk are of another surface. */
+  static constexpr double Flatness = 3.;
+  /**
+   * Distance behind a clip plane, in radii, up to which a neighbour still counts. Particles of a boundary curve or a
+   * crease lie on each other's planes more or less.
+   */
+  static constexpr double Margin = 0.1;
+  /**
+   * Share of its weight that a neighbour has behind a plane at which the surface is almost smooth. It belongs to
+   * another cell's surface, which may lie a step higher or lower, but the splat goes on over the plane a little.
+   */
+  static constexpr double ShareBehindSmooth = 0.5;
+};
 
-// What neighbours count behind a plane at which the surface is almost smooth: they belong to another cell's surface,
-// which may also lie a step higher or lower, but the splat goes on over that plane a little.
-constexpr double ShareBehindSmooth = 0.5;
+/** How much a particle's own shape operator counts beside its neighbours. */
+struct OwnShape
+{
+  /**
+   * Mean error of the neighbours' normals under the own operator at which the operator counts as much as all
+   * neighbours together, radians. Chosen by experiment; a larger one trusts operators that jump at faces.
+   */
+  static constexpr double Error = 0.01;
+  /** Keeps the weight finite if there is no error or no neighbour: the squared error (no unit) that counts as none. */
+  static constexpr double Tiny = 1e-6;
+};
 
-// By how much a normal may miss a neighbour's for the particle's own shape operator to count as much as
-// all neighbours together, radians.
-constexpr double OwnError = 0.01;
+// Largest number of the locator's buckets along an axis, chosen by experiment. More take more memory, up to 200^3
+// buckets; fewer hold more points each, among which the search is slower.
+constexpr double FinestDivisions = 200.;
 
 /**
- * Least squares for a symmetric 2 x 2 matrix (xx, xy, yy), near one that is known.
+ * Weighted least squares for a symmetric 2 x 2 matrix, as the vector (xx, xy, yy), near a known one.
  */
 class SymmetricFit
 {
@@ -52,10 +86,10 @@ public:
 
   vtkVector3d SolveNear(const vtkVector3d& known)
   {
-    // The mean squared error is SquaredError() / Weight. Without neighbours there is only what is known.
-    constexpr double tiny = 1e-6;
-    const double all = OwnError * this->Weight;
-    const double weight = (tiny + all * all) / (tiny + this->SquaredError(known));
+    // The mean squared error is SquaredError() / Weight. Without neighbours the known matrix comes out.
+    const double all = OwnShape::Error * this->Weight;
+    const double weight =
+      (OwnShape::Tiny + all * all) / (OwnShape::Tiny + this->SquaredError(known));
     this->Add({ 1., 0., 0. }, known[0], weight);
     this->Add({ 0., 1., 0. }, known[1], 2. * weight);
     this->Add({ 0., 0., 1. }, known[2], weight);
@@ -93,8 +127,8 @@ vtkVector3d Times(const float shape[8], const vtkVector3d& v)
     shape[6] * v[0] + shape[5] * v[1] + shape[2] * v[2]);
 }
 
-// How much a neighbour counts that is so far off: not at all if the surface ends or has a kink before it. Particles
-// of a rim lie on each other's edges, more or less: `margin` is what does not count.
+// The share of its weight that a neighbour at this offset (model coordinates) has: 0 if the surface ends or has a
+// crease before it. A neighbour less than `margin` behind a plane counts as one before it.
 double ShareOf(
   const std::vector<float>& clip, vtkIdType particle, const vtkVector3d& offset, double margin)
 {
@@ -108,7 +142,7 @@ double ShareOf(
     const double edge = clip[first + 3] + bend * (offset.SquaredNorm() - across * across);
     if (across > edge + margin)
     {
-      share = std::min(share, isSmooth ? ShareBehindSmooth : 0.);
+      share = std::min(share, isSmooth ? Neighbors::ShareBehindSmooth : 0.);
     }
   }
   return share;
@@ -128,10 +162,12 @@ public:
     vtkMath::Perpendiculars(
       this->Normal.GetData(), this->Tangent.GetData(), this->Bitangent.GetData(), 0.);
     const float* shape = &particles.Shape[8 * particle];
-    const vtkVector3d turn = Times(shape, this->Tangent);
-    const vtkVector3d biturn = Times(shape, this->Bitangent);
-    this->Own = vtkVector3d(this->Radius * turn.Dot(this->Tangent),
-      this->Radius * turn.Dot(this->Bitangent), this->Radius * biturn.Dot(this->Bitangent));
+    // Derivatives of the normal.
+    const vtkVector3d alongTangent = Times(shape, this->Tangent);
+    const vtkVector3d alongBitangent = Times(shape, this->Bitangent);
+    this->Own = vtkVector3d(this->Radius * alongTangent.Dot(this->Tangent),
+      this->Radius * alongTangent.Dot(this->Bitangent),
+      this->Radius * alongBitangent.Dot(this->Bitangent));
   }
 
   void AddNeighbor(vtkIdType neighbor)
@@ -145,20 +181,21 @@ public:
     const double cosine = normal.Dot(this->Normal);
     const double square = x * x + y * y;
     const bool isDrawn = this->Particles.CentreRadius[4 * neighbor + 3] > 0.f;
-    if (neighbor == this->Particle || !isDrawn || cosine < 0.5 ||
-      3. * height * height > square) // more than 30 degrees above the disk
+    if (neighbor == this->Particle || !isDrawn || cosine < Neighbors::LeastCosine ||
+      Neighbors::Flatness * height * height > square)
     {
       return;
     }
-    // At the height -Q(t) / 2 over the disk the normal is n + Q t, not normalized.
-    const double weight = std::exp(-2. * square) *
-      ShareOf(this->Particles.Clip, this->Particle, offset, 0.1 * this->Radius);
+    // At disk coordinates t the paraboloid has the height -t.Q t / 2 and the normal n + Q t, not normalized. Each
+    // neighbour gives three rows: two of the normal, one of the height.
+    const double weight = std::exp(-Neighbors::Sharpness * square) *
+      ShareOf(this->Particles.Clip, this->Particle, offset, Neighbors::Margin * this->Radius);
     this->Fit.Add({ x, y, 0. }, normal.Dot(this->Tangent) / cosine, weight);
     this->Fit.Add({ 0., x, y }, normal.Dot(this->Bitangent) / cosine, weight);
     this->Fit.Add({ 0.5 * x * x, x * y, 0.5 * y * y }, -height, weight);
   }
 
-  /** In model coordinates: xx, yy, zz, 0, xy, yz, xz, 0. */
+  /** Writes the operator in model coordinates: xx, yy, zz, 0, xy, yz, xz, 0. */
   void Write(float shape[8])
   {
     const vtkVector3d found = this->Fit.SolveNear(this->Own);
@@ -197,17 +234,17 @@ vtkNew<vtkPolyData> PointsOf(const SplatParticles& particles)
   return data;
 }
 
-// VTK's own choice of buckets is for points that fill a volume: of a surface each would hold hundreds.
+// Buckets of two distances each. VTK's own choice is for points that fill a volume; with it each bucket of a surface
+// would hold hundreds.
 void BuildLocator(vtkStaticPointLocator* locator, vtkPolyData* points, double distance)
 {
-  constexpr double finest = 200.;
   double bounds[6];
   points->GetBounds(bounds);
   int divisions[3];
   for (int axis = 0; axis < 3; ++axis)
   {
     const double length = bounds[2 * axis + 1] - bounds[2 * axis];
-    divisions[axis] = static_cast<int>(std::clamp(0.5 * length / distance, 1., finest));
+    divisions[axis] = static_cast<int>(std::clamp(0.5 * length / distance, 1., FinestDivisions));
   }
   locator->SetDataSet(points);
   locator->AutomaticOff();
@@ -224,7 +261,7 @@ void FitShapes(SplatParticles& particles)
     SplatParticles::EstimateDistance(points->GetBounds(), points->GetNumberOfPoints());
   if (distance == 0.)
   {
-    return; // all in one place
+    return; // all particles are in one place
   }
   vtkNew<vtkStaticPointLocator> locator;
   BuildLocator(locator, points, distance);
@@ -244,8 +281,8 @@ void FitShapes(SplatParticles& particles)
         double place[3];
         points->GetPoint(i, place);
         locator->FindPointsWithinRadius(
-          std::min(Reach * radius, LongestReach * distance), place, around);
-        // In an order that does not depend on threads.
+          std::min(Neighbors::Reach * radius, Neighbors::LongestReach * distance), place, around);
+        // Sums depend on the order of neighbours, which must not depend on the locator's threads.
         std::sort(around->begin(), around->end());
         for (vtkIdType neighbor : *around)
         {

@@ -9,6 +9,13 @@
 
 namespace hop
 {
+namespace
+{
+// Second lookup coordinate from which on vtkMapper means a value that is no number: the table is in the lower half of
+// VTK's texture of two rows, at 0.25, the colour of values that are no numbers in the upper one, at 0.75 or more.
+constexpr float NoNumber = 0.75f;
+}
+
 //------------------------------------------------------------------------------
 std::vector<unsigned char> GatherColors(
   vtkUnsignedCharArray* colors, const std::vector<vtkIdType>& ids, vtkIdType count)
@@ -58,7 +65,7 @@ std::vector<float> LookupTexels(
   {
     float coordinate[2] = { 0.f, 0.f };
     coordinates->GetTypedTuple(pointIds[i], coordinate);
-    if (coordinate[1] < 0.75f)
+    if (coordinate[1] < NoNumber)
     {
       texels[4 * i] = coordinate[0];
       texels[4 * i + 1] = 1.f;

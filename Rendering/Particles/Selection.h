@@ -1,5 +1,5 @@
 /**
- * @file  Particles/Selection.h
+ * @file  Selection.h
  * @brief which particle, and which cell, a pixel of a hardware selection stands for
  */
 
@@ -14,17 +14,18 @@ class vtkPolyData;
 namespace hop
 {
 /**
- * Code that writes those bytes of a particle's number that a pass of vtkHardwareSelector asks for: of its point,
- * or its own as the number of a cell. Empty for other passes. VTK's own code would take gl_VertexID and
- * gl_PrimitiveID, which are not those of particles. Its numbers of cells count through the vertex cells in order,
- * as particles do; where there are none, see SelectCells().
+ * GLSL that writes the bytes of a particle's number that one pass of vtkHardwareSelector asks for: of the number of its
+ * point, or of its own number as the number of a cell. Empty for passes that ask for neither.
+ *
+ * VTK's own code would write gl_VertexID and gl_PrimitiveID, which do not number particles. Cells are numbered through
+ * the vertex cells in order, as particles are; without vertex cells see SelectCells().
  */
 std::string SelectionCode(int pass);
 
 /**
- * Takes the points' numbers out of the pixels of a selection by cells and puts those of cells in: of the first that
- * uses the point. Points that none uses are not selected.
- * @param pixels that show the input: where each begins in the selector's buffers
+ * Replaces the numbers of points in the pixels of a selection by cells. The cell of a point is the first one that uses
+ * it. A point that no cell uses is not selected.
+ * @param pixels where the pixels that show the input begin in the selector's buffers
  */
 void SelectCells(
   vtkPolyData* input, vtkHardwareSelector* selector, const std::vector<unsigned int>& pixels);

@@ -35,7 +35,8 @@ void SplatBuffers::Upload(vtkOpenGLRenderWindow* window, const SplatParticles& p
   this->HasClip = !particles.Clip.empty();
   this->HasShape = !particles.Shape.empty();
   this->HasColor = false;
-  const GLint texels = this->HasClip ? 3 : this->HasShape ? 2 : 1; // a particle, at most
+  // Texels of one particle in the longest buffer.
+  const GLint texels = this->HasClip ? 3 : this->HasShape ? 2 : 1;
   const vtkIdType count = std::min<vtkIdType>(particles.GetNumberOfParticles(), limit / texels);
   this->NumberOfParticles = count;
   this->IsovalueRanges = particles.IsovalueRanges;
@@ -120,7 +121,7 @@ void SplatBuffers::SetSamplers(vtkShaderProgram* program)
   this->CentreRadius.SetSampler(program, "splatCentreRadius");
   this->Normal.SetSampler(program, "splatNormal");
   this->PointIds.SetSampler(program, "splatPointIds");
-  // Samplers that are not read must still name a buffer: drivers check their kind.
+  // A sampler that no shader reads must still name a texture of its kind: drivers check that.
   (this->HasClip ? this->Clip : this->CentreRadius).SetSampler(program, "splatClip");
   (this->HasShape ? this->Shape : this->CentreRadius).SetSampler(program, "splatShape");
   (this->HasColor ? this->Color : this->CentreRadius).SetSampler(program, "splatColor");

@@ -18,6 +18,30 @@ namespace hop
 {
 namespace
 {
+/** When the shape operators of particles are worth keeping. Both numbers were chosen by experiment. */
+struct StrongBend
+{
+  /**
+   * By how much the normal changes over one radius of a splat that is bent, radians. A smaller angle bends splats that
+   * look the same as flat disks and cost more; a larger one leaves disks whose rims stand off the surface.
+   */
+  static constexpr double Angle = 0.125;
+  /** Share of bent particles above which all splats are bent. A larger share draws more surfaces by flat disks. */
+  static constexpr double Share = 0.01;
+};
+
+/** Overlaps beyond clip planes, see SplatParticles::OverlapAt(). Both numbers were chosen by experiment. */
+struct Overlap
+{
+  /** Dihedral angle below which the surface is almost smooth, degrees. A larger one fills creases with flat flaps. */
+  static constexpr double SmoothDegrees = 10.;
+  /**
+   * Radii, at a crease of a small dihedral angle. A smaller overlap leaves gaps where the particles of both sides
+   * disagree on the crease; with a larger one splats stick out of it.
+   */
+  static constexpr double AtCrease = 0.15;
+};
+
 void CollectIds(vtkPolyData* input, SplatParticles& particles)
 {
   vtkCellArray* vertices = input->GetVerts();
@@ -85,7 +109,7 @@ bool ReadParticle(vtkPoints* points, vtkIdType id, double radius, vtkDataArray* 
   return true;
 }
 
-// Reads the shape operator; a surface whose bend is not finite is flat.
+// Reads the shape operator. It stays zero, which is flat, if it is not finite.
 void ReadShape(vtkDataArray* shapes, vtkIdType id, float shape[8])
 {
   double tensor[6];
@@ -97,12 +121,10 @@ void ReadShape(vtkDataArray* shapes, vtkIdType id, float shape[8])
   }
 }
 
-// Whether normals turn by more than an eighth of a radian over one radius, at a hundredth of the
-// particles or more.
+// Whether enough particles bend so much that disks would show, see StrongBend. Measured by the Frobenius norm of the
+// shape operator, which is at least the larger curvature.
 bool IsStronglyBent(const SplatParticles& particles)
 {
-  constexpr double bent = 0.125;
-  constexpr double share = 0.01;
   const vtkIdType count = particles.GetNumberOfParticles();
   vtkIdType found = 0;
   for (vtkIdType i = 0; i < count; ++i)
@@ -110,12 +132,12 @@ bool IsStronglyBent(const SplatParticles& particles)
     const float* s = &particles.Shape[8 * i];
     const double square =
       s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + 2. * (s[4] * s[4] + s[5] * s[5] + s[6] * s[6]);
-    found += std::sqrt(square) * particles.CentreRadius[4 * i + 3] > bent;
+    found += std::sqrt(square) * particles.CentreRadius[4 * i + 3] > StrongBend::Angle;
   }
-  return found > share * count;
+  return found > StrongBend::Share * count;
 }
 
-// Reads both planes of a particle; planes that are missing or not finite cut nothing off.
+// Reads both planes of a particle. A plane that is missing or not finite cuts nothing off.
 void ReadClipPlanes(const ParticleArrays& arrays, vtkIdType id, float planes[12])
 {
   const int count = std::min(
@@ -144,7 +166,7 @@ void ReadClipPlanes(const ParticleArrays& arrays, vtkIdType id, float planes[12]
   }
 }
 
-// What the fourth number of a particle's normal says: see SplatParticles::Normal.
+// The fourth number of a particle's normal, see SplatParticles::Normal.
 float TagOf(const ParticleArrays& arrays, const SplatParticles& particles,
   const std::vector<double>& isovalues, vtkIdType particle)
 {
@@ -182,15 +204,15 @@ std::vector<std::array<vtkIdType, 2>> RangesOf(
   return ranges;
 }
 
-// The different values that particles have in an array, in order of appearance; none if they are too many.
+// The different values that particles have in an array, the smallest first. None if they are too many or not finite.
 std::vector<double> FindIsovalues(vtkDataArray* values, const std::vector<vtkIdType>& ids)
 {
   std::vector<double> found;
   for (std::size_t i = 0; values && i < ids.size(); ++i)
   {
     const double value = values->GetComponent(ids[i], 0);
-    const bool isLast =
-      !found.empty() && found.back() == value; // as it mostly is: blocks have one each
+    const bool isLast = !found.empty() &&
+      found.back() == value; // mostly true, as the filter writes isosurface by isosurface
     if (!isLast && std::find(found.begin(), found.end(), value) == found.end())
     {
       if (!std::isfinite(value) || found.size() == SplatParticles::MaximumNumberOfIsovalues)
@@ -222,13 +244,14 @@ ParticleArrays ParticleArrays::FromPointData(vtkPointData* data)
 //------------------------------------------------------------------------------
 float SplatParticles::OverlapAt(double degrees)
 {
-  constexpr double smooth = 10.;
-  constexpr double atCrease = 0.15;
-  static_assert(atCrease < LeastSmoothOverlap && LeastSmoothOverlap < SmoothOverlap);
+  static_assert(Overlap::AtCrease < LeastSmoothOverlap && LeastSmoothOverlap < SmoothOverlap);
   const double cosine = std::cos(vtkMath::RadiansFromDegrees(degrees));
-  return degrees < smooth ? SmoothOverlap
-    : cosine > 0.         ? static_cast<float>(atCrease * cosine)
-                          : 0.f;
+  if (degrees < Overlap::SmoothDegrees)
+  {
+    return SmoothOverlap;
+  }
+  // An angle that is no number has no overlap either.
+  return cosine > 0. ? static_cast<float>(Overlap::AtCrease * cosine) : 0.f;
 }
 
 //------------------------------------------------------------------------------
@@ -240,7 +263,7 @@ double SplatParticles::EstimateDistance(const double bounds[6], vtkIdType count)
     size[axis] = std::max(bounds[2 * axis + 1] - bounds[2 * axis], 0.);
   }
   const double area = 2. * (size[0] * size[1] + size[1] * size[2] + size[2] * size[0]);
-  // Hexagons of spacing h have the area (sqrt(3)/2) h^2.
+  // A hexagon of the lattice with the spacing h has the area (sqrt(3)/2) h^2.
   return area > 0. ? std::sqrt(2. * area / (std::sqrt(3.) * static_cast<double>(count)))
                    : (size[0] + size[1] + size[2]) / static_cast<double>(count);
 }

@@ -43,7 +43,7 @@ void AccumulationPass::Draw(const SplatDrawing& drawing, SplatPrimitives& primit
 {
   vtkOpenGLState* state = drawing.Window->GetState();
   state->vtkglBindFramebuffer(GL_DRAW_FRAMEBUFFER, this->Framebuffer);
-  // A copy, as the first one is looked up while it is tested against.
+  // The depth is copied, because shaders look up the first one while fragments are tested against it.
   this->Visibility.CopyDepth(drawing);
   state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Framebuffer);
   state->vtkglEnable(GL_BLEND);

@@ -1,6 +1,6 @@
 /**
  * @class AccumulationPass
- * @brief second pass: weighted sums of what the splats of the surface that is seen know of it
+ * @brief second pass: weighted sums of normal, offset, depth and colour of the visible surface's splats
  */
 
 #pragma once

@@ -33,7 +33,7 @@ PassState::PassState(vtkOpenGLState* state, const std::array<int, 4>& rectangle)
   state->vtkglEnable(GL_DEPTH_TEST);
   state->vtkglDisable(GL_STENCIL_TEST);
   state->vtkglDisable(GL_CULL_FACE);
-  glEnable(GL_PROGRAM_POINT_SIZE); // which vtkOpenGLState does not know
+  glEnable(GL_PROGRAM_POINT_SIZE); // vtkOpenGLState does not know this one
 }
 
 PassState::~PassState()

@@ -1,8 +1,8 @@
 /**
  * @class PassState
- * @brief OpenGL state of the private splat passes, for as long as it lives
+ * @brief OpenGL state of the private splat passes, for as long as the object lives
  *
- * Whatever the passes change is as before when this object is destroyed.
+ * When the object is destroyed, all that the passes change is as it was before.
  */
 
 #pragma once
@@ -16,7 +16,7 @@ namespace hop
 class PassState
 {
 public:
-  /** @param rectangle left, bottom, width and height in pixels: nothing is drawn outside. */
+  /** @param rectangle left, bottom, width and height in pixels; nothing is drawn outside of it. */
   PassState(vtkOpenGLState* state, const std::array<int, 4>& rectangle);
   ~PassState();
 

@@ -14,8 +14,8 @@ PictureTiles::PictureTiles(const SplatView& view)
   const std::array<int, 4>& rectangle = view.GetRectangle();
   for (int axis = 0; axis < 2; ++axis)
   {
-    // OpenGL drops points whose middle is outside of the viewport, whatever they would cover: where the
-    // last tile would be such a point, all tiles are moved by half of one.
+    // OpenGL drops points whose middle is outside of the viewport, whatever they would cover. Where the last tile would
+    // be dropped, all tiles are moved by half a tile.
     const int left = size[axis] % Size;
     const int shift = left > 0 && left < Size / 2 ? Size / 2 : 0;
     this->First[axis] = (rectangle[axis] + shift) / Size * Size - shift;
@@ -27,8 +27,8 @@ PictureTiles::PictureTiles(const SplatView& view)
 //------------------------------------------------------------------------------
 std::array<int, 4> PictureTiles::GetNeighborhood(const SplatView& view)
 {
-  // Tiles begin and end less than one and a half of them beyond the splats, and are told apart by what lies
-  // half of one around them.
+  // Tiles begin and end less than one and a half tiles beyond the splats, and the shader looks at half a tile around
+  // each.
   constexpr int margin = 2 * Size;
   const std::array<int, 4>& rectangle = view.GetRectangle();
   return { rectangle[0] - margin, rectangle[1] - margin, rectangle[2] + 2 * margin,
@@ -47,7 +47,7 @@ void PictureTiles::SetUniforms(vtkShaderProgram* program, int kinds) const
 void PictureTiles::Draw() const
 {
   const bool enabled =
-    glIsEnabled(GL_PROGRAM_POINT_SIZE) != 0; // which vtkOpenGLState does not know
+    glIsEnabled(GL_PROGRAM_POINT_SIZE) != 0; // vtkOpenGLState does not know this one
   glEnable(GL_PROGRAM_POINT_SIZE);
   glDrawArrays(GL_POINTS, 0, this->Count[0] * this->Count[1]);
   if (!enabled)

@@ -2,9 +2,8 @@
  * @class PictureTiles
  * @brief the part of the picture that splats can reach, in square tiles of which each is one point
  *
- * Fragment stages that look up many texels are dear where there is no graphics card, and branches save
- * nothing there. So the vertex stage (glsl/ResolveVS.glsl) decides, a tile at a time,
- * what is worth drawing.
+ * Fragment stages that look up many texels are dear in software, where branches save nothing. So the vertex stage
+ * (glsl/ResolveVS.glsl) decides tile by tile whether there is something to draw.
  */
 
 #pragma once
@@ -20,25 +19,29 @@ class SplatView;
 class PictureTiles
 {
 public:
-  /** Pixels along the side of a tile. Tiles begin at a multiple of 4. */
+  /**
+   * Side of a tile in pixels. Tiles begin at a multiple of half a side. The shader tells tiles apart by averages over
+   * 4 x 4 pixels that it interpolates to 8 x 8, so that this size is tied to the two levels of the visibility texture.
+   */
   static constexpr int Size = 8;
 
-  /** What a tile must hold to be drawn; may be combined. */
+  /** What a tile must hold to be drawn, in the numbers of splatTilesWith (glsl/ResolveVS.glsl); may be combined. */
   enum Kind
   {
-    Inside = 1, // surface, but no edge of it
-    Edges = 2,
-    Folds = 4 // for programs that look for these only: the surface in front of itself
+    Inside = 1, // surface, but no edge of it in the picture
+    Edges = 2,  // an edge of the surface in the picture
+    // The surface in front of itself. Programs that are made for folds look for nothing else.
+    Folds = 4
   };
 
   explicit PictureTiles(const SplatView& view);
 
-  /** Left, bottom, width and height, within the viewport or around it, of all that drawing tiles looks at. */
+  /** Left, bottom, width and height, in pixels, of all that drawing tiles looks at; it may exceed the viewport. */
   static std::array<int, 4> GetNeighborhood(const SplatView& view);
 
   void SetUniforms(vtkShaderProgram* program, int kinds) const;
 
-  /** With the program that is in use. */
+  /** Draws the tiles with the program that is in use. */
   void Draw() const;
 
 private:

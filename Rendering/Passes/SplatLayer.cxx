@@ -27,7 +27,7 @@ bool SplatLayer::Update(const SplatDrawing& drawing)
     return true;
   }
   this->Key.clear();
-  // Whatever is looked at later is cleared.
+  // The passes clear, and draw in, all pixels that are looked at later.
   PassState state(drawing.Window->GetState(), PictureTiles::GetNeighborhood(*drawing.View));
   if (!std::all_of(this->Passes.begin(), this->Passes.end(),
         [&](SplatPass* pass) { return pass->Prepare(drawing); }))

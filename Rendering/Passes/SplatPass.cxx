@@ -15,14 +15,14 @@ namespace hop
 {
 namespace
 {
-// A multiple of four, to be halved twice.
+// Textures have a multiple of four texels both ways, so that the visibility pass can halve its texture twice.
 std::array<unsigned int, 2> TextureSize(const SplatView& view)
 {
   const auto padded = [](int size) { return static_cast<unsigned int>((size + 3) / 4 * 4); };
   return { padded(view.GetWidth()), padded(view.GetHeight()) };
 }
 
-// True if there is a texture already, of the right size now.
+// True if there was a texture already; it has the right size now.
 bool Resize(
   vtkTextureObject* texture, vtkOpenGLRenderWindow* window, const std::array<unsigned int, 2>& size)
 {

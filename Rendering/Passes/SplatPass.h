@@ -1,6 +1,8 @@
 /**
  * @class SplatPass
- * @brief one pass of the splatting: what it draws into, textures of the size of the viewport
+ * @brief base class of the passes of the splatting, and the textures that a pass draws into
+ *
+ * The textures have the size of the viewport.
  */
 
 #pragma once
@@ -22,8 +24,8 @@ struct SplatDrawing;
 /** Which of the surfaces along a view ray is meant. */
 enum class LayerSide
 {
-  Front, // seen first from the eye
-  Back   // seen last
+  Front, // the first one from the eye
+  Back   // the last one
 };
 
 class SplatPass
@@ -37,12 +39,12 @@ public:
   virtual void Draw(const SplatDrawing& drawing, SplatPrimitives& primitives) = 0;
 
   ///@{
-  /** Between these two, programs can read those textures that there are. */
+  /** Programs can read the textures that have been made between these two calls. */
   void Activate();
   void Deactivate();
   ///@}
 
-  /** Tells a program where they are, under their names behind a prefix; they must be active. */
+  /** Tells a program where the textures are, which must be active. Samplers are named by prefix and name. */
   void SetSamplers(vtkShaderProgram* program, const std::string& prefix = "splat") const;
 
   void ReleaseGraphicsResources(vtkWindow* window);
@@ -64,7 +66,7 @@ protected:
 
   static void PrepareTexture(
     const SplatDrawing& drawing, vtkTextureObject* texture, const Format& format);
-  /** Of these textures and of Depth. */
+  /** Makes the framebuffer of these textures and of Depth. */
   bool PrepareFramebuffer(
     const SplatDrawing& drawing, const std::vector<vtkTextureObject*>& colors);
 

@@ -45,7 +45,7 @@ void StrongestPass::Draw(const SplatDrawing& drawing, SplatPrimitives& primitive
   state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Framebuffer);
   state->vtkglDisable(GL_BLEND);
   state->vtkglDepthMask(GL_TRUE);
-  state->vtkglDepthFunc(GL_LESS); // of weights, see the fragment stage
+  state->vtkglDepthFunc(GL_LESS); // the fragment stage writes weights as depths
   const float weightless = 1.f;
   const GLuint nothing[4] = { 0, 0, 0, 0 };
   glClearBufferfv(GL_DEPTH, 0, &weightless);

@@ -1,7 +1,7 @@
 /**
  * @class StrongestPass
- * @brief third pass, where colours must not be mixed or particles are selected: the particle that counts
- *        most at a pixel
+ * @brief third pass, where colours must not be mixed or particles are selected: the number of the particle with the
+ *        largest weight at each pixel
  */
 
 #pragma once
@@ -18,7 +18,7 @@ public:
   StrongestPass(LayerSide side, VisibilityPass& visibility);
   ~StrongestPass() override;
 
-  /** True, and nothing done, where it is not asked for. */
+  /** Does nothing and returns true if the drawing does not ask for strongest particles. */
   bool Prepare(const SplatDrawing& drawing) override;
   void Draw(const SplatDrawing& drawing, SplatPrimitives& primitives) override;
 

@@ -23,21 +23,22 @@ public:
   void CopyDepth(const SplatDrawing& drawing) const;
 
   /**
-   * Draws for another pass, by a style whose program can look up what is seen. Whatever passes the depth test
-   * is of the surface that is seen, as thick as splats are wide.
+   * Draws for another pass, by a style whose program can look up what is seen. Splats that pass the depth test belong
+   * to the surface that is seen, which is taken to be as thick as splats are wide.
    */
   void DrawBy(
     const SplatDrawing& drawing, SplatPrimitives& primitives, SplatPrimitives::Style style);
 
 private:
   /**
-   * How thick a surface is, away from the eye, in radii. One isovalue is pushed back by it in this pass. Of several
-   * the wider splats would fall behind the narrower ones of a isovalue farther away, so that this pass leaves them
-   * where they are, and the others pull them.
+   * How thick a surface is, away from the eye, in radii; negative for the back layer. This pass pushes splats back by
+   * it if there is one isovalue. Of several isovalues, wide splats of one would fall behind narrow splats of another
+   * that lies farther away: so this pass leaves them in their places, and the later passes pull them by the same
+   * length.
    */
   double GetThickness() const;
 
-  // r: 1 where there is surface; g: number of its isovalue, and 128 more where it is seen from outward, in 255ths
+  // r: 1 where there is surface; g: number of its isovalue, plus 128 where it is seen from outward, in 255ths
   vtkNew<vtkTextureObject> Seen;
 };
 }

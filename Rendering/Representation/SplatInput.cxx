@@ -32,7 +32,7 @@ namespace hop
 {
 namespace
 {
-// Thresholding or clipping particles gives an unstructured grid of vertices.
+// Filters such as Threshold and Clip make an unstructured grid of vertices from particles.
 vtkSmartPointer<vtkPolyData> PointSetAsParticles(vtkPointSet* input)
 {
   auto particles = vtkSmartPointer<vtkPolyData>::New();
@@ -119,7 +119,7 @@ void EnsureVertexCells(vtkPolyData* particles)
   particles->SetStrips(nullptr);
 }
 
-// Flat indices of the blocks with data that selectors name.
+// Flat indices of the blocks with data that the selectors name.
 std::set<unsigned int> SelectedBlocks(
   vtkCompositeDataSet* input, const std::set<std::string>& selectors)
 {
@@ -131,7 +131,7 @@ std::set<unsigned int> SelectedBlocks(
     ? hierarchy->GetDataSetIndices(hierarchy->SelectNodes(names))
     : vtkDataAssemblyUtilities::GetSelectedCompositeIds(names, hierarchy, nullptr, true);
   std::set<unsigned int> blocks(named.begin(), named.end());
-  // The leaves of collections' hierarchies are partitioned data sets, those of the data their partitions.
+  // The leaves of a collection's hierarchy are partitioned data sets; the leaves of its data are their partitions.
   if (collection)
   {
     for (unsigned int i = 0; i < collection->GetNumberOfPartitionedDataSets(); ++i)
@@ -148,8 +148,8 @@ std::set<unsigned int> SelectedBlocks(
   return blocks;
 }
 
-// By flat index, the numbers that ParaView's geometry gives to blocks. Empty ones count. The pieces of a data set
-// have one number, but in multiblocks the next one is farther away.
+// The numbers that ParaView's geometry gives to blocks, by flat index. Empty blocks count. The pieces of a data set
+// have one number; in multiblocks the numbers of its pieces are left out before the next block.
 std::map<unsigned int, unsigned int> BlockNumbers(vtkCompositeDataSet* input)
 {
   std::map<unsigned int, unsigned int> numbers;
@@ -187,6 +187,7 @@ std::map<unsigned int, unsigned int> BlockNumbers(vtkCompositeDataSet* input)
   return numbers;
 }
 
+// Red, green, blue and opacity of a block without a colour of its own: the mapper takes values above 1 for none.
 constexpr std::array<double, 4> Unchanged = { 2., 2., 2., 2. };
 
 // Colours and opacities by flat index; blocks without either have no entry.

@@ -21,48 +21,47 @@ namespace hop
 namespace SplatInput
 {
 /**
- * Arrays that lead back to the input, for selections: of a merged input to its blocks; of a grid to those of
- * its cells that are vertices. -1 stands for no cell. Polydata does not have them.
+ * Names of arrays that lead from particles back to the input, for selections: of a merged input to its blocks, of a
+ * grid to its vertex cells. -1 stands for no cell. Particles from polydata do not have these arrays.
  */
 constexpr const char* BlockPointIdName = "SurfaceSplatPointId";
 constexpr const char* BlockCellIdName = "SurfaceSplatCellId";
 constexpr const char* BlockIndexName = "SurfaceSplatBlockIndex";
 
 /**
- * Cell array of a merged input where blocks have colours or opacities of their own, see
+ * Name of the cell array that a merged input has where blocks have colours or opacities of their own, see
  * vtkSurfaceSplatMapper::SetCellColorArrayName().
  */
 constexpr const char* BlockColorName = "SurfaceSplatBlockColor";
 
 /**
- * The number of its block, of each cell of a merged input: what ParaView's geometry keeps under this name in the
- * field data of blocks.
+ * Name of the cell array with the number of each cell's block in a merged input. ParaView's geometry keeps the number
+ * under this name in the field data of blocks.
  */
 constexpr const char* BlockNumberName = "vtkBlockColors";
 
 /**
- * How the blocks of a composite are drawn. Selectors are in the language of vtkDataAssembly for its
- * hierarchy; "/" names all. Of colours and opacities the last one that names a block counts.
+ * How the blocks of a composite are drawn. Selectors are in the language of vtkDataAssembly for the composite's
+ * hierarchy; "/" names all blocks. Where several colours or opacities name a block, the last one counts.
  */
 struct Blocks
 {
   std::set<std::string> Drawn = { "/" };
   std::vector<std::pair<std::string, std::array<double, 3>>> Colors; ///< RGB in [0, 1]
   std::vector<std::pair<std::string, double>> Opacities;             ///< in [0, 1]
-  unsigned int DistinctNumbers = 7; ///< after so many blocks their numbers begin again with 0
+  unsigned int DistinctNumbers = 7; ///< numbers of blocks go from 0 to before this, and begin again
 };
 
 /**
- * Polydata comes back as a shallow copy, other point sets with their points and vertex cells, the
- * blocks of a composite merged into one, so that their disks meet without seams and the nearest one
- * wins. Of arrays only those common to all blocks are kept. Other data, and nullptr, give a polydata
- * without points.
+ * The particles of a data object. Polydata comes back as a shallow copy; other point sets with their points and vertex
+ * cells; the blocks of a composite merged into one polydata, so that their disks meet without seams and the nearest one
+ * is seen. A merged polydata keeps the arrays that all blocks have. Other data, and nullptr, give a polydata without
+ * points.
  */
 vtkSmartPointer<vtkPolyData> AsParticles(vtkDataObject* data, const Blocks& blocks = {});
 
 /**
- * A shallow copy without the arrays named above, but for the blocks' numbers, which become field data: what is
- * offered to users.
+ * A shallow copy as it is offered to users: without the arrays named above, and with the blocks' numbers as field data.
  */
 vtkSmartPointer<vtkPolyData> WithoutBlockIds(vtkPolyData* particles);
 }

@@ -22,7 +22,8 @@ vtkStandardNewMacro(vtkSurfaceSplatRepresentation);
 
 namespace
 {
-// While the camera moves and the view asks for a level of detail, about this many are drawn.
+// Number of particles that are drawn, about, while the camera moves and the view asks for a level of detail. Chosen by
+// experiment: more make the picture slower, fewer make it coarser.
 constexpr vtkIdType InteractiveParticles = 50000;
 }
 
@@ -32,7 +33,7 @@ vtkSurfaceSplatRepresentation::vtkSurfaceSplatRepresentation()
   , ArraysToColorBy(Particles)
 {
   this->Actor->SetMapper(this->Mapper);
-  // Of those that an input has.
+  // Inputs need not have these arrays.
   this->Mapper->SetPointIdArrayName(hop::SplatInput::BlockPointIdName);
   this->Mapper->SetCellIdArrayName(hop::SplatInput::BlockCellIdName);
   this->Mapper->SetCompositeIdArrayName(hop::SplatInput::BlockIndexName);
@@ -162,13 +163,14 @@ void vtkSurfaceSplatRepresentation::UpdateColoring()
           : VTK_SCALAR_MODE_USE_FIELD_DATA);
       this->Mapper->SetFieldDataTupleId(0);
       break;
-    default:
+    case vtkDataObject::FIELD_ASSOCIATION_POINTS:
+    default: // particles have no other arrays
       this->Mapper->SetScalarMode(VTK_SCALAR_MODE_USE_POINT_FIELD_DATA);
   }
 }
 
 //------------------------------------------------------------------------------
-// All that the sides have in common.
+// Gives the backface property all that both sides have in common.
 void vtkSurfaceSplatRepresentation::UpdateBackface()
 {
   vtkProperty* property = this->Actor->GetProperty();

@@ -66,7 +66,8 @@ void ShaderText::SetVertexStage(vtkShader* vertex) const
 }
 
 //------------------------------------------------------------------------------
-// Code behind a tag comes before what was put there earlier: opacities are multiplied at last.
+// Code that is inserted behind a tag later stands before code that was inserted earlier: so the opacities, inserted
+// first, are multiplied last.
 void ShaderText::InsertColor(vtkShader* fragment) const
 {
   this->InsertOpacity(fragment);
@@ -110,7 +111,7 @@ void ShaderText::InsertParticleColors(vtkShader* fragment) const
   const Source from = this->Coloring.From;
   if (from == Source::Property || from == Source::Lookup)
   {
-    return; // VTK's own are right
+    return; // VTK's own colours are right
   }
   const bool averaged = from == Source::Colors && this->DrawsSplats;
   if (!averaged)
@@ -136,8 +137,8 @@ bool ShaderText::SidesDiffer() const
 
 void ShaderText::ReplaceSide(vtkShader* fragment) const
 {
-  // By this VTK chooses between the two properties. Triangles and points that splats are drawn by have sides of
-  // their own.
+  // VTK chooses between the two properties by gl_FrontFacing. It says nothing here, as the triangles and points that
+  // splats are drawn by have sides of their own.
   Replace(fragment, "gl_FrontFacing", this->SidesDiffer() ? "(splatSeenFromSide > 0.0)" : "true");
 }
 
@@ -179,7 +180,7 @@ void ShaderText::ReplacePosition(vtkShader* fragment) const
   }
   if (this->Coloring.From == Source::Lookup)
   {
-    // Under the names that VTK 9.2 and later versions read.
+    // Both names that versions of VTK from 9.2 on read.
     code += "  vec2 tcoordVCVSOutput = splatLookupCoordinates(splat);\n"
             "  vec2 colorTCoordVCVSOutput = tcoordVCVSOutput;\n";
   }
@@ -191,7 +192,7 @@ void ShaderText::InsertClip(vtkShader* fragment) const
 {
   if (this->DrawsSplats)
   {
-    Replace(fragment, "//VTK::Clip::Dec", ""); // the splat passes have clipped
+    Replace(fragment, "//VTK::Clip::Dec", ""); // the splat passes have clipped already
     Replace(fragment, "//VTK::Clip::Impl", "if (!splat.covered) discard;");
     return;
   }
@@ -226,7 +227,7 @@ void ShaderText::ReplaceDepth(vtkShader* fragment) const
 {
   if (this->DrawsSplats)
   {
-    // Offsets and render passes that ask for the depth of the fragment mean that of the surface.
+    // Depth offsets and render passes ask for the fragment's depth, which is the tile's, and mean the surface's.
     Replace(fragment, "gl_FragCoord.z", "gl_FragDepth");
   }
 }

@@ -1,9 +1,9 @@
 /**
  * @struct ShaderText
- * @brief  what the programs of particles have in VTK's shader template, tag by tag
+ * @brief  the text that the programs of particles have in VTK's shader template, tag by tag
  *
- * Our text depends on the members and on nothing else. VTK inserts its own at the same tags: functions say whether
- * they come before or after that.
+ * The text depends on the members and on nothing else. VTK inserts its own text at the same tags; each function says
+ * whether it is to be called before or after VTK's.
  */
 
 #pragma once
@@ -19,15 +19,15 @@ struct SplatColoring
 {
   enum class Source
   {
-    Property, // of the actor
-    Colors,   // one a particle, averaged
+    Property, // the actor's property
+    Colors,   // one colour a particle, averaged
     Lookup,   // averaged lookup coordinates
-    Strongest // one a particle, not to be mixed
+    Strongest // one colour a particle, the strongest one's
   };
 
   Source From = Source::Property;
-  bool OpacityIsInColors = false; // the property's has no part in it then
-  bool OfScalars = false;         // for both sides
+  bool OpacityIsInColors = false; // the property's opacity is not multiplied in
+  bool OfScalars = false;         // both sides have the colours of scalars
 
   bool operator!=(const SplatColoring& other) const;
 };
@@ -37,43 +37,44 @@ struct ShaderText
   /** What one program draws of a picture. */
   enum class Part
   {
-    Surface,  // what is nearest
-    Outline,  // the same, and smooth outlines
-    Folds,    // outlines in front of the surface itself
-    BackLayer // what is farthest, where that is another surface
+    Surface,  // the nearest surface
+    Outline,  // the nearest surface with smooth outlines
+    Folds,    // smooth outlines where the surface lies in front of itself
+    BackLayer // the farthest surface, where it is not the nearest one
   };
 
-  bool DrawsSplats = true;  // resolves the sums of a layer; else each particle is drawn for itself
-  bool DrawsPoints = false; // of particles for themselves
+  bool DrawsSplats =
+    true; // the sums of a layer are resolved; otherwise each particle is drawn for itself
+  bool DrawsPoints = false; // a particle that is drawn for itself is a point; otherwise a disk
   Part Drawn = Part::Surface;
   SplatColoring Coloring;
-  bool ColorsBySide = false; // instead of that
-  bool HasBackface = false;  // a property of its own for the inward side
-  bool HasCoat = false;      // asks for a normal of its own
-  int SelectionPass = -1;    // of vtkHardwareSelector; -1: nothing is selected
+  bool ColorsBySide = false; // each side has one colour, whatever the coloring says
+  bool HasBackface = false;  // the inward side has a property of its own
+  bool HasCoat = false;      // the material has a coat, whose normal VTK asks for
+  int SelectionPass = -1;    // pass of vtkHardwareSelector; -1: nothing is selected
 
-  /** The vertex stage as a whole, with VTK's tags. */
+  /** Replaces the whole vertex stage, VTK's tags included. */
   void SetVertexStage(vtkShader* vertex) const;
 
-  /** Colours and opacities; before VTK's own. */
+  /** Inserts colours and opacities. Before VTK's text. */
   void InsertColor(vtkShader* fragment) const;
 
-  /** Which side VTK's own colours take for the front; after those. */
+  /** Replaces what VTK's colours take for the front side. After VTK's text of colours. */
   void ReplaceSide(vtkShader* fragment) const;
 
-  /** Instead of VTK's own. */
+  /** Replaces the normal. VTK's text is not inserted. */
   void ReplaceNormal(vtkShader* fragment) const;
 
-  /** Where the surface is; before VTK's own. */
+  /** Replaces the position by the surface's. Before VTK's text. */
   void ReplacePosition(vtkShader* fragment) const;
 
-  /** What is no part of the surface; before VTK's own. */
+  /** Discards what is no part of the surface. Before VTK's text of clipping planes. */
   void InsertClip(vtkShader* fragment) const;
 
-  /** What is selected; before VTK's own. */
+  /** Replaces what a selection writes. Before VTK's text. */
   void ReplacePicking(const std::map<vtkShader::Type, vtkShader*>& shaders) const;
 
-  /** Which depth all that asks for one means; after everything else. */
+  /** Replaces the depth of the fragment by the surface's. After all other text. */
   void ReplaceDepth(vtkShader* fragment) const;
 
 private:

@@ -1,7 +1,7 @@
 //VTK::System::Dec
 
-// Second pass, with additive blending and the first pass's depth to test against: weighted sums of
-// what the splats of the surface that is seen know of it (Botsch et al. 2005).
+// Second pass (M. Botsch et al., High-Quality Surface Splatting on Today's GPUs, 2005), with additive blending, tested
+// against the first pass's depth: weighted sums of normal, offset, depth and colour over the visible surface's splats.
 
 //VTK::Output::Dec
 

@@ -1,15 +1,15 @@
 //VTK::System::Dec
 
-// Vertex stage of the modes 'Disks' and 'Points', inside VTK's template for polygonal data: the
-// replacements below are VTK's own, and they find the names they expect (vertexMC, MCDCMatrix ...).
-// splatVerticesPerParticle is 3 for disks and 1 for points; at planes with overlaps from SPLAT_SMOOTH_OVERLAP on the
-// surface is almost smooth.
+// Vertex stage of the modes 'Disks' and 'Points', inside VTK's template for polygonal data: VTK replaces the tags below
+// by its own text, which finds the names that it expects (vertexMC, MCDCMatrix ...). splatVerticesPerParticle is 3 for
+// disks and 1 for points. SPLAT_SMOOTH_OVERLAP is the overlap (radii) from which on the surface is almost smooth at a
+// plane.
 
 //Splat::Disk::Dec
 
 uniform mat3 normalMatrix;
 
-out vec2 splatDiskCoord;          // inside the unit circle = inside the disk
+out vec2 splatDiskCoord;          // inside of the disk within the unit circle
 flat out vec4 splatClipLines[2];  // see splatClipLine()
 flat out vec3 splatNormalVC;      // normal of the side that is seen
 flat out int splatParticle;
@@ -44,7 +44,7 @@ void main()
   splatDiskCoord = splatVerticesPerParticle == 1 ? vec2(0.0) : splatCorner[gl_VertexID % 3];
   vec4 vertexMC = vec4(disk.centreMC + splatDiskCoord.x * disk.tangentMC +
       splatDiskCoord.y * disk.bitangentMC, 1.0);
-  // Disks are not mixed: they go on over planes where the surface is almost smooth, and end at others.
+  // Disks are not mixed: they go on over planes at which the surface is almost smooth, and end at all other planes.
   vec2 overlaps = splatOverlaps(splatParticle);
   splatClipLines[0] = overlaps.x >= SPLAT_SMOOTH_OVERLAP ? vec4(0.0) : splatClipLine(splatParticle, 0, disk);
   splatClipLines[1] = overlaps.y >= SPLAT_SMOOTH_OVERLAP ? vec4(0.0) : splatClipLine(splatParticle, 1, disk);
@@ -75,6 +75,6 @@ void main()
 
   if (disk.tangentMC == vec3(0.0))
   {
-    gl_Position = vec4(2.0, 2.0, 2.0, 1.0); // nothing to draw
+    gl_Position = vec4(2.0, 2.0, 2.0, 1.0); // outside of the picture: there is nothing to draw
   }
 }

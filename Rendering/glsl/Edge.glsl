@@ -1,4 +1,4 @@
-// How far a place with these disk coordinates lies behind an edge of the surface, see splatClipLine().
+// How far a place with these disk coordinates lies behind a clip line, in MC; negative before it. See splatClipLine().
 float splatBehindLine(vec4 line, vec2 place)
 {
   float along = line.x * place.y - line.y * place.x;

@@ -1,7 +1,8 @@
-// What the fragment stages of the splat passes share. Inserted at //Splat::Fragment::Dec, behind
-// definitions of SPLAT_POINTS (splats are points: 0 or 1), SPLAT_HAS_CLIP (particles have clip planes: 0 or
-// 1), SPLAT_GAP_SHARE, SPLAT_APART (isovalues are told apart: 0 or 1) and SPLAT_CLIPPING_PLANES (the number of
-// the mapper's).
+// What the fragment stages of the splat passes share. Inserted at //Splat::Fragment::Dec, behind the definitions that
+// PassVS.glsl lists and these:
+//   SPLAT_HAS_CLIP          1: particles have clip planes
+//   SPLAT_GAP_SHARE         factor on the weight beyond a clip plane, see SplatPrimitives::GapShare
+//   SPLAT_CLIPPING_PLANES   number of the mapper's clipping planes
 
 #if SPLAT_POINTS
 flat in vec4 splatPixelToDisk;
@@ -31,15 +32,15 @@ in float splatDepthVC;
 #endif
 flat in vec4 splatClipLines[2];
 flat in vec2 splatBeyondClip;
-float splatShare = 1.0; // of the splat's weight that counts
-in vec3 splatPointMC; // of the disk
-vec3 splatPlaceMC;    // of the splat
+float splatShare = 1.0; // factor on the weight of the splat
+in vec3 splatPointMC; // the fragment's place on the disk
+vec3 splatPlaceMC;    // the fragment's place on the splat, which may be bent
 flat in vec3 splatNormalVC;
 flat in float splatSeenFromSide;
 flat in float splatMark;
 flat in int splatParticle;
 
-uniform vec3 splatFalloff; // sharpness; the Gaussian at the rim; where the weight is the least, squared
+uniform vec3 splatFalloff; // sharpness; the Gaussian at the rim; squared reach (radii^2), see SplatProfile
 uniform vec4 splatClippingPlane[6]; // MC
 
 #if SPLAT_POINTS
@@ -73,20 +74,19 @@ vec3 splatSurfaceNormal()
     splatNormalVC + splatDiskCoord.x * splatNormalChange[0] + splatDiskCoord.y * splatNormalChange[1]);
 }
 
-// Whether the normal is turned by more than 45 degrees. Where the surface bends as much between particles
-// a paraboloid tells nothing of it any more.
+// Whether the normal differs by more than 45 degrees from the particle's, for which its change is as long as itself.
+// Where the surface bends as much between particles, a paraboloid tells nothing of it; it would stick out.
 bool splatBendsAway()
 {
-  vec3 turn = splatDiskCoord.x * splatNormalChange[0] + splatDiskCoord.y * splatNormalChange[1];
-  return dot(turn, turn) > dot(splatNormalVC, splatNormalVC);
+  vec3 change = splatDiskCoord.x * splatNormalChange[0] + splatDiskCoord.y * splatNormalChange[1];
+  return dot(change, change) > dot(splatNormalVC, splatNormalVC);
 }
 
 // Where the pixel's view ray meets the splat, bent to the paraboloid at the height -Q(t) / 2 above the
 // disk at disk coordinates t; Q(t) = bend.x t.x^2 + 2 bend.y t.x t.y + bend.z t.y^2. From the place p
 // where the ray meets the plane of the disk the paraboloid is `along` e away, e the way to the eye:
 //   along e.n + Q(p + along e) / 2 = 0,
-// of which the solution on the side that is seen is taken. False if there is none: the ray passes the
-// surface by.
+// of which the solution on the side that is seen is taken. False if there is none: the ray passes the surface by.
 bool splatMeetRay()
 {
   vec3 toEyeMC = splatEyeMC.xyz - splatEyeMC.w * splatPointMC;
@@ -122,7 +122,7 @@ bool splatMeetRay()
 #if SPLAT_HAS_CLIP
 //Splat::Edge::Dec
 
-// How far a place lies behind one of the particle's clip planes.
+// How far the fragment lies behind one of the particle's clip planes (MC).
 float splatBehindClip(int plane)
 {
   float behind = splatBehindLine(splatClipLines[plane], splatDiskCoord);
@@ -136,7 +136,7 @@ float splatBehindClip(int plane)
 // Call this first. Whether the fragment is no part of the splat.
 bool splatOutside()
 {
-  // Also where there is no such place.
+  // The comparison is also false where the disk coordinates are no numbers.
   bool outside = !splatMeetRay() || !(dot(splatDiskCoord, splatDiskCoord) <= 1.0);
 #if SPLAT_HAS_CLIP
   vec2 behind = vec2(splatBehindClip(0), splatBehindClip(1));
@@ -157,13 +157,14 @@ bool splatOutside()
 uniform mat4 splatVCDC;
 #endif
 
-// Depth of the splat itself, for the depth buffer, where the rasterizer knows that of its middle or of its plane
-// only: near isovalues would break through each other.
+// Depth of the splat itself, for the depth buffer. The rasterizer knows the depth of the splat's middle or of its plane
+// only, with which surfaces near each other would break through each other.
 float splatOwnDepth()
 {
   float z = splatDepthVC;
 #if SPLAT_CURVED
-  // Later passes pull the plane by one radius, and it must come before this.
+  // Later passes pull the plane by one radius, and the pulled plane must come before this depth: so the depth stays
+  // less than a radius from the plane. Half a radius was chosen by experiment.
   float plane = splatCentreDepth + splatPlaneOffset.z;
   z = clamp(z, plane - 0.5 * splatRadiusVC, plane + 0.5 * splatRadiusVC);
 #endif
@@ -172,20 +173,20 @@ float splatOwnDepth()
 }
 #endif
 
-// Whether another side, or another isovalue, is what is seen at this pixel.
+// Whether another side, or another isovalue, is seen at this pixel. Marks are whole 255ths.
 bool splatIsOfOther(sampler2D seen)
 {
   float difference = texelFetch(seen, ivec2(gl_FragCoord.xy), 0).g - splatMark;
   return abs(difference) > 0.5 / 255.0;
 }
 
-// Whether the fragment belongs to the outermost rim, which counts too little to be seen alone.
+// Whether the fragment is farther from the particle than the splat makes a surface, see splatReach() in SplatProfile.h.
 bool splatBeyondReach()
 {
   return dot(splatDiskCoord, splatDiskCoord) > splatFalloff.z;
 }
 
-// A Gaussian, lowered so that it ends with zero at the rim of the disk; 1 in the middle.
+// The weight of SplatProfile: a Gaussian, lowered so that it ends with zero at the rim; 1 in the middle.
 float splatWeight()
 {
   float gaussian = exp(-splatFalloff.x * dot(splatDiskCoord, splatDiskCoord));

@@ -1,10 +1,17 @@
 //VTK::System::Dec
 
 // Vertex stage of the splat passes (visibility, accumulation, strongest), behind definitions of
-// SPLAT_POINTS, SPLAT_LEAST_PIXELS, SPLAT_LEAST_COSINE and SPLAT_APART (isovalues are told apart: 0 or 1). A splat
-// is a triangle in the plane of its disk, so that depth and disk coordinates are interpolated by the rasterizer,
-// right for every projection, and the near plane clips it. Where all splats cover a few pixels only (SPLAT_POINTS
-// 1), each is a point instead, of the depth of its middle: a third of the vertices.
+//   SPLAT_POINTS         1: splats are points; 0: triangles
+//   SPLAT_CURVED         1: splats are bent to paraboloids
+//   SPLAT_SKIPS_HIDDEN   1: points whose middle is hidden are left out
+//   SPLAT_APART          1: isovalues are told apart
+//   SPLAT_LEAST_PIXELS   smallest radius of a splat, pixels
+//   SPLAT_LEAST_COSINE   smallest cosine by which the push of a point is divided
+// Drawing/SplatPrimitives.cxx explains the last two.
+//
+// A splat is a triangle in the plane of its disk: so the rasterizer interpolates depth and disk coordinates, right for
+// every projection, and the near plane clips it. Where all splats cover a few pixels only, each is a point instead,
+// with the depth of its middle: a third of the vertices.
 
 //Splat::Disk::Dec
 
@@ -14,38 +21,38 @@ uniform mat3 splatNormalMatrix; // normals from MC to VC
 uniform int splatParallel;      // 1: parallel projection
 uniform float splatPixel; // size of a pixel (VC) at distance 1, or everywhere if parallel
 uniform float splatPush;  // by how many radii the disk is moved along the view ray, away from the eye
-uniform float splatExtent; // how far a splat reaches, in radii
+uniform float splatExtent; // radius of what is drawn of a splat, in radii: the reach of its profile, or 1
 uniform vec4 splatViewport; // left, bottom, width, height in pixels
 
 #if SPLAT_POINTS
 flat out vec4 splatPixelToDisk; // matrix, by columns, from offsets in pixels to disk coordinates
 flat out vec2 splatCentrePixel;
-flat out vec3 splatDepths; // z in the middle, and by how much it grows along the disk coordinates
+flat out vec3 splatDepths; // z in the middle (VC), and its derivatives along the disk coordinates
 #elif SPLAT_CURVED
 out vec2 splatPlaneCoord; // disk coordinates before the splat is bent
 out vec3 splatPlaneOffset; // the same place, from the centre (VC)
-flat out vec3 splatDual[2]; // these two take offsets along the disk (MC) to disk coordinates
+flat out vec3 splatDual[2]; // products with these take an offset along the disk (MC) to disk coordinates
 flat out vec3 splatNormalMC;
 flat out vec3 splatBend; // see splatMeetRay()
-flat out vec3 splatNormalChange[2]; // by how much the normal (VC) turns along the disk coordinates
-flat out float splatCentreDepth;
-flat out vec2 splatClipDepths; // by how much a place below the disk is before the clip planes
+flat out vec3 splatNormalChange[2]; // derivatives of the normal (VC) along the disk coordinates
+flat out float splatCentreDepth; // z (VC)
+flat out vec2 splatClipDepths; // cosines between the disk's normal and the clip planes' normals
 flat out float splatRadiusVC;
 #else
-out vec2 splatDiskCoord; // inside the unit circle = inside the splat
+out vec2 splatDiskCoord; // inside of the splat within the unit circle
 out vec3 splatOffsetVC;  // from the centre of the disk
 out float splatDepthVC;  // z
 #endif
 flat out vec4 splatClipLines[2]; // see splatClipLine()
-flat out vec2 splatBeyondClip;   // how far beyond them the splat fills gaps (MC)
+flat out vec2 splatBeyondClip;   // how far beyond its clip lines the splat fills gaps (MC)
 out vec3 splatPointMC;           // for clipping planes
-flat out vec3 splatNormalVC;     // outward, unit if flat
+flat out vec3 splatNormalVC;     // outward; of length 1 if splats are flat
 flat out float splatSeenFromSide;
-flat out float splatMark; // tells splats of other sides and isovalues apart: g of splatSeen
+flat out float splatMark; // tells sides and isovalues apart: g of splatSeen
 flat out int splatParticle;
 
 #if SPLAT_CURVED
-uniform samplerBuffer splatShape; // derivative of the normal along the surface, xx, yy, zz | xy, yz, xz
+uniform samplerBuffer splatShape; // shape operator (1 / MC), two texels a particle: xx, yy, zz | xy, yz, xz
 
 mat3 splatShapeOf(int particle)
 {
@@ -76,7 +83,7 @@ bool splatIsHidden(vec4 centreClip)
 #endif
 
 #if SPLAT_POINTS
-// Of an offset (VC) from a place with these clip coordinates, what becomes of it in pixels.
+// The derivative, in pixels, of the picture of a place with these clip coordinates along an offset (VC).
 vec2 splatInPixels(vec3 offsetVC, vec4 placeClip)
 {
   vec4 offset = splatVCDC * vec4(offsetVC, 0.0);
@@ -102,10 +109,9 @@ void main()
   float radiusVC = sqrt(max(dot(tangentVC, tangentVC), dot(bitangentVC, bitangentVC)));
   bool nothing = radiusVC == 0.0;
 
-  // A splat covers at least SPLAT_LEAST_PIXELS from its middle to its rim: smaller ones would fall
-  // between the pixels, and of those that do not only one or two would make a pixel.
+  // Smaller splats would fall between the middles of pixels, and the others would be one or two at a pixel.
   float pixel = splatPixel * (splatParallel == 1 ? 1.0 : abs(centreVC.z));
-  float enlarge = max(1.0, SPLAT_LEAST_PIXELS * pixel / max(radiusVC, 1e-30));
+  float enlarge = max(1.0, SPLAT_LEAST_PIXELS * pixel / max(radiusVC, 1e-30)); // not divided by 0
   splatClipLines[0].xy *= enlarge;
   splatClipLines[1].xy *= enlarge;
   tangentVC *= enlarge;
@@ -122,7 +128,8 @@ void main()
   splatPointMC = disk.centreMC;
   gl_PointSize = max(2.0 * splatExtent * radiusVC / pixel, 1.0);
   vec3 vertexVC = centreVC;
-  // The depths of middles differ by as much more than those of neighbouring planes as they tilt.
+  // Neighbouring points of a surface that is seen at a slant differ in depth by their distance over this cosine, where
+  // triangles in the same plane would not.
   vec3 toEye = splatParallel == 1 ? vec3(0.0, 0.0, 1.0) : normalize(-centreVC);
   radiusVC /= max(abs(dot(splatNormalVC, toEye)), SPLAT_LEAST_COSINE);
 #else
@@ -135,16 +142,17 @@ void main()
   vec3 tangentMC = enlarge * disk.tangentMC;
   vec3 bitangentMC = enlarge * disk.bitangentMC;
   float square = dot(tangentMC, tangentMC);
-  vec3 turn = splatShapeOf(splatParticle) * tangentMC;
-  vec3 biturn = splatShapeOf(splatParticle) * bitangentMC;
+  vec3 alongTangent = splatShapeOf(splatParticle) * tangentMC;
+  vec3 alongBitangent = splatShapeOf(splatParticle) * bitangentMC;
   splatPlaneCoord = place;
   splatPlaneOffset = offsetVC;
   splatDual[0] = tangentMC / square;
   splatDual[1] = bitangentMC / square;
   splatNormalMC = disk.normalMC;
-  splatBend = vec3(dot(tangentMC, turn), dot(tangentMC, biturn), dot(bitangentMC, biturn));
-  splatNormalChange[0] = splatNormalMatrix * turn;
-  splatNormalChange[1] = splatNormalMatrix * biturn;
+  splatBend =
+    vec3(dot(tangentMC, alongTangent), dot(tangentMC, alongBitangent), dot(bitangentMC, alongBitangent));
+  splatNormalChange[0] = splatNormalMatrix * alongTangent;
+  splatNormalChange[1] = splatNormalMatrix * alongBitangent;
   splatNormalVC = splatNormalMatrix * disk.normalMC;
   splatCentreDepth = centreVC.z;
   splatRadiusVC = radiusVC;
@@ -156,7 +164,7 @@ void main()
 #endif
 #endif
 #if SPLAT_APART
-  // Near and far plane, for passes in which they cut the disk where it is, not where it is moved to.
+  // Near and far plane, for passes in which they cut the disk in its own place before it is moved.
   vec4 clip = splatVCDC * vec4(vertexVC, 1.0);
   gl_ClipDistance[0] = clip.w + clip.z;
   gl_ClipDistance[1] = clip.w - clip.z;
@@ -168,6 +176,7 @@ void main()
   }
   else
   {
+    // Nearer to the eye than two radii the factor grows no more: a pull must not take the splat behind the eye.
     vertexVC *= 1.0 + splatPush * radiusVC / max(length(centreVC), 2.0 * radiusVC);
   }
   vec4 placeClip = splatVCDC * vec4(vertexVC, 1.0);

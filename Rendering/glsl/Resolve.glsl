@@ -1,5 +1,8 @@
-// The resolve pass, inserted into VTK's fragment shader behind definitions of SPLAT_OUTLINE, SPLAT_FOLDS (only
-// with the former) and SPLAT_BACK_LAYER (0 or 1): what the sums say of the surface at a pixel.
+// The resolve pass: what the sums say of the surface at a pixel. Inserted into VTK's fragment shader behind the
+// definitions of
+//   SPLAT_OUTLINE      1: outlines are smooth
+//   SPLAT_FOLDS        1: outlines where the surface lies in front of itself; SPLAT_OUTLINE is 1 then
+//   SPLAT_BACK_LAYER   1: the back layer is drawn
 
 //Splat::Ray::Dec
 
@@ -7,13 +10,18 @@ uniform sampler2D splatNormalWeight; // sums of weight * normal (VC, outward), w
 uniform sampler2D splatOffsetDepth;  // sums of weight * offset from the particle (VC), weight * z
 uniform sampler2D splatColorSum;     // sums of weight * colour or lookup coordinates
 uniform sampler2D splatSeen;         // r: 1 where there is surface; g: above 0.5 where it is seen from outward
-uniform usampler2D splatStrongest; // number of the particle that counts most, from 1 on
-uniform float splatLeastWeight; // pixels with surface have more than this summed weight, others none
+uniform usampler2D splatStrongest; // number of the particle with the largest weight, from 1 on
+uniform float splatLeastWeight; // pixels with surface have a larger summed weight than this; others have none
 
 bool splatHasSurface(ivec2 texel)
 {
   return texelFetch(splatSeen, texel, 0).r > 0.5;
 }
+
+// Smallest cosines between normal and view ray that lengths along the ray are divided by, no unit. Both were chosen by
+// experiment. A smaller one lets noise of the normals grow at outlines, a larger one changes the depth there.
+const float splatLeastLayerCosine = 0.1; // for the distance of two layers
+const float splatLeastDepthCosine = 0.03; // for the correction of the depth
 
 #if SPLAT_OUTLINE
 //Splat::Outline::Dec
@@ -26,7 +34,7 @@ struct SplatSurface
   ivec2 texel;
   float weight;
   vec3 positionVC;
-  vec3 normalVC; // of the side that is seen
+  vec3 normalVC; // unit, of the side that is seen
   float seenFrom; // 1: from outward
   float depth;    // for the depth buffer
 };
@@ -35,7 +43,7 @@ struct SplatSurface
 uniform sampler2D splatFrontNormalWeight; // as above, of the front layer
 uniform sampler2D splatFrontOffsetDepth;
 uniform sampler2D splatFrontSeen;
-uniform float splatLayerDistance; // VC; layers closer than this are one
+uniform float splatLayerDistance; // VC; layers closer to each other than this are one
 
 // Where the view ray meets one surface only, the back layer is the front layer once more.
 bool splatIsFrontLayer(ivec2 texel, float z, float seenFrom, float towardsEye)
@@ -43,7 +51,7 @@ bool splatIsFrontLayer(ivec2 texel, float z, float seenFrom, float towardsEye)
   float weight = texelFetch(splatFrontNormalWeight, texel, 0).w;
   float zFront = texelFetch(splatFrontOffsetDepth, texel, 0).w / max(weight, splatLeastWeight);
   float seenFromFront = texelFetch(splatFrontSeen, texel, 0).g < 0.5 ? -1.0 : 1.0;
-  return seenFrom == seenFromFront && (zFront - z) * max(towardsEye, 0.1) < splatLayerDistance;
+  return seenFrom == seenFromFront && (zFront - z) * max(towardsEye, splatLeastLayerCosine) < splatLayerDistance;
 }
 #endif
 
@@ -78,24 +86,25 @@ SplatSurface splatResolve()
   vec3 normal = normalize(normalWeight.xyz);
   surface.seenFrom = texelFetch(splatSeen, surface.texel, 0).g < 0.5 ? -1.0 : 1.0;
 
-  // Disks touch the surface; at an offset d from where disk i touches, the surface lies
-  // (n - n_i) . d / 2 below the disk, up to third order, as normals change linearly along d. n_i . d
-  // is zero, so the weighted mean needs no more than the mean offset.
+  // Disk i touches the surface at its particle, with the normal n_i. At an offset d along the disk the surface lies
+  // (n - n_i) . d / 2 below it, up to third order, as the normal changes linearly to n along d. n_i . d is zero, so
+  // that the weighted mean over the disks needs no more than the mean offset.
   float below = 0.5 * dot(normal, offsetDepth.xyz);
   float towardsEye = surface.seenFrom * dot(normal, toEye);
 #if SPLAT_BACK_LAYER
   surface.covered = !splatIsFrontLayer(surface.texel, offsetDepth.w, surface.seenFrom, towardsEye);
 #endif
-  float z = offsetDepth.w - surface.seenFrom * below * toEye.z / max(towardsEye, 0.03);
+  float z = offsetDepth.w - surface.seenFrom * below * toEye.z / max(towardsEye, splatLeastDepthCosine);
   surface.positionVC = splatOnRay(pixelDC, z);
-  // Beyond the outline the mean may point away, which lights would take for darkness.
+  // Beyond the outline the mean normal may point away from the eye, which would look dark.
   surface.normalVC = normalize(surface.seenFrom * normal - min(towardsEye, 0.0) * toEye);
   vec4 positionDC = splatVCDC * vec4(surface.positionVC, 1.0);
-  // What is mixed in beyond the outline hides nothing that is drawn later.
+  // A colour that is mixed in beyond the outline hides nothing that is drawn later.
   surface.depth =
     inside ? clamp(0.5 * positionDC.z / positionDC.w + 0.5, 0.0, 1.0) : 1.0;
 #if SPLAT_FOLDS
-  // Mixed into what this pixel shows: hidden by what is nearer than that, which is not written again.
+  // The colour is mixed into what this pixel shows. So it is tested at the depth of that surface, a little farther:
+  // a tenth of the jump that tells surfaces apart, far above rounding.
   vec4 ownDC = splatVCDC * vec4(splatOnRay(pixelDC, splatMeanDepth(own) + 0.1 * splatJump), 1.0);
   surface.depth = clamp(0.5 * ownDC.z / ownDC.w + 0.5, 0.0, 1.0);
 #endif
@@ -107,8 +116,8 @@ int splatStrongestAt(ivec2 texel)
   return int(texelFetch(splatStrongest, texel, 0).r) - 1;
 }
 
-// Where VTK's colour texture has the colour of the mean scalar: the lower of its two rows is the
-// lookup table, the upper one the colour of what is no number.
+// The place of the mean scalar's colour in VTK's colour texture. The lower one of its two rows is the lookup table,
+// with its middle at 0.25; the upper one, at 0.75, is the colour of values that are no numbers.
 vec2 splatLookupCoordinates(SplatSurface surface)
 {
   vec2 sums = texelFetch(splatColorSum, surface.texel, 0).xy; // weight * position, weight of numbers

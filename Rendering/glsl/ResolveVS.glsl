@@ -1,19 +1,18 @@
 //VTK::System::Dec
 
-// Vertex stage of the resolve pass, inside VTK's template for polygonal data: the picture in square
-// tiles, each a point, of which those are left out that have nothing to draw. Outlines are looked for
-// in tiles around them only, for they cost more than all the rest; where the surface lies in front of
-// itself (SPLAT_FOLDS 1) that are tiles in which its depth jumps.
+// Vertex stage of the resolve pass, inside VTK's template for polygonal data: the picture in square tiles, each a
+// point. Tiles that have nothing to draw are left out. Programs of outlines, which cost more than all the rest, draw
+// only tiles with an edge of the surface; programs of folds draw only tiles in which the depth of the surface jumps.
 
-uniform sampler2D splatSeen;  // r: 1 where there is surface; with two levels of averages
+uniform sampler2D splatSeen;  // r: 1 where there is surface; has two levels of averages
 uniform vec4 splatViewport;   // left, bottom, width, height in pixels
-uniform ivec2 splatFirstTile; // its left and bottom in pixels
+uniform ivec2 splatFirstTile; // left and bottom of the first tile in pixels
 uniform int splatTilesInRow;
-uniform int splatTilesWith;   // 1: surface but no edge of it; 2: an edge; 3: either
+uniform int splatTilesWith;   // what drawn tiles hold: 1: surface but no edge of it; 2: an edge; 3: either
 
 //VTK::CustomUniforms::Dec
 
-// 0: the tile and its neighbourhood are empty; 1: they are covered; 2: in part.
+// 0: the tile and its neighbourhood are empty; 1: they are covered; 2: they are covered in part.
 int splatTileKind(vec2 low)
 {
   vec2 size = vec2(textureSize(splatSeen, 0));
@@ -24,13 +23,14 @@ int splatTileKind(vec2 low)
     vec2 place = low + SPLAT_TILE_SIZE * vec2(corner % 2, corner / 2);
     covered += textureLod(splatSeen, place / size, 2.0).r;
   }
+  // Four means of 1, less rounding; a single empty pixel leaves at most 4 - 1 / 64.
   return covered == 0.0 ? 0 : (covered > 3.999 ? 1 : 2);
 }
 
 #if SPLAT_FOLDS
 uniform sampler2D splatVisibleDepth;
 uniform mat4 splatVCDC;
-uniform float splatJump; // VC; depths of one surface differ by less in a tile
+uniform float splatJump; // VC; in a tile the depths of one part of the surface differ by less
 
 // z (VC) of a depth of the depth buffer.
 float splatDepthOf(float depth)
@@ -39,11 +39,12 @@ float splatDepthOf(float depth)
   return (splatVCDC[3][2] - z * splatVCDC[3][3]) / (z * splatVCDC[2][3] - splatVCDC[2][2]);
 }
 
-// Whether depths in a tile and right beside it differ by more than those of one surface do.
+// Whether depths in a tile and right beside it differ by more than a jump. Looks at 4 x 4 pixels, evenly spread from
+// one pixel before the tile on.
 bool splatHasJump(vec2 low)
 {
   ivec2 last = textureSize(splatVisibleDepth, 0) - 1;
-  float nearest = -1e30;
+  float nearest = -1e30; // beyond all depths, as is the next
   float farthest = 1e30;
   for (int i = 0; i < 16; ++i)
   {

@@ -1,7 +1,7 @@
 //VTK::System::Dec
 
-// Third pass, where colours must not be mixed or particles are selected: the number of the particle
-// that counts most at a pixel. Its own depth buffer compares logarithms of weights.
+// Third pass, where colours must not be mixed or particles are selected: the number of the particle with the largest
+// weight at a pixel. The pass has a depth buffer of its own, which compares logarithms of weights.
 
 //Splat::Fragment::Dec
 
@@ -19,7 +19,9 @@ void main()
   {
     discard;
   }
-  // Where weights fall steeply, 1 minus a weight would be 1 although the splat is the only one.
+  // Logarithms tell small weights apart, where 1 minus the weight would be rounded to 1. `least` is smaller than all
+  // weights above 0 in float32: the smallest one, with the largest sharpness and in a gap, is about 2e-19. The factor
+  // 0.99 keeps weights of 0 nearer than the cleared depth, 1.
   const float least = 1e-26;
   gl_FragDepth = 0.99 * log(max(splatWeight(), least)) / log(least);
   splatNumber = uint(splatParticle) + 1u;

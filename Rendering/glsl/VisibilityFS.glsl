@@ -1,7 +1,7 @@
 //VTK::System::Dec
 
-// First pass: the depth of the nearest splats, that there is one, from which side it is seen and of which
-// isovalue it is. The outermost rim of a splat counts too little to be seen alone.
+// First pass: the depth of the nearest splat at each pixel, that there is one, from which side it is seen, and which
+// isovalue it has. A splat has no part in it beyond its reach, where it counts too little to be seen alone.
 
 //VTK::Output::Dec
 
