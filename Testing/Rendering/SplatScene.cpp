@@ -84,11 +84,11 @@ void AddShapeOfSphere(vtkPolyData* particles, double radius)
     glm::dvec3 x;
     particles->GetPoint(i, &x.x);
     const glm::dvec3 n = glm::normalize(x);
-    const double turn[6] = { 1. - n.x * n.x, 1. - n.y * n.y, 1. - n.z * n.z, -n.x * n.y, -n.y * n.z,
-      -n.x * n.z };
+    const double shapeOfUnitSphere[6] = { 1. - n.x * n.x, 1. - n.y * n.y, 1. - n.z * n.z,
+      -n.x * n.y, -n.y * n.z, -n.x * n.z };
     for (int c = 0; c < 6; ++c)
     {
-      shape->InsertNextValue(turn[c] / radius);
+      shape->InsertNextValue(shapeOfUnitSphere[c] / radius);
     }
   }
   particles->GetPointData()->AddArray(shape);

@@ -31,7 +31,7 @@ vtkSmartPointer<vtkPolyData> Disks(
 // Adds one vertex cell a point: `order[cell]` is the point of the cell, or the cell's number.
 void AddVertexCells(vtkPolyData* particles, const std::vector<vtkIdType>& order = {});
 
-// Adds shape operators: how the normals of a sphere around the origin turn.
+// Adds the shape operators of a sphere around the origin.
 void AddShapeOfSphere(vtkPolyData* particles, double radius);
 
 // Where a scene is looked at from.
@@ -52,7 +52,8 @@ class SplatScene
 public:
   static constexpr int Size = 256; // pixels, both ways
 
-  // The mode is Disks until a test chooses another one. All positions that a scene gives or takes are relative to `centre`.
+  // The mode is Disks until a test chooses another one. All positions that a scene gives or takes are relative to
+  // `centre`.
   explicit SplatScene(vtkPolyData* particles, glm::dvec3 centre = glm::dvec3(0.));
   ~SplatScene();
 
@@ -112,7 +113,7 @@ private:
   std::vector<unsigned char> Color;
 };
 
-// Of the spheres that tests draw: particles on them, and where they are looked at from.
+// Number of particles on the spheres that tests draw, and where the spheres are looked at from.
 constexpr int Count = 5000;
 inline const SceneView SphereViews[] = { { { 0., 0., 1. }, false }, { { 0., 0., 1. }, true },
   { { -1., 2., 0.5 }, false }, { { 0.3, -1., -2. }, true } };

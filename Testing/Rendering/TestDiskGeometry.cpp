@@ -23,7 +23,7 @@ class DisksOnSphere : public testing::TestWithParam<SceneView>
 {
 };
 
-// The sphere's pixels must be on the sphere, at most a rim's height outside, and none missing.
+// The sphere's pixels must be on the sphere, at most as far outside as a disk's rim, and none missing.
 void ExpectUnitSphere(const SplatScene& scene)
 {
   ForEachPlaceOnSphere(scene,

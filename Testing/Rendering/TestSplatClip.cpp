@@ -1,4 +1,4 @@
-// The planes that particles carry, where the surface ends or turns: what is cut off, and what fills gaps.
+// The planes that particles carry beside boundary curves and creases: what is cut off, and what fills gaps.
 #include "SplatScene.h"
 
 #include "Particles/SplatParticles.h"
@@ -92,7 +92,7 @@ TEST(SplatClip, EdgesMayBeCurved)
     { 0.6, -0.9 });
 }
 
-TEST(SplatClip, CurvaturesThatAreNoNumbersAreThoseOfLines)
+TEST(SplatClip, CurvaturesThatAreNoNumbersAreOfLines)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   ExpectCut({ 1., 0., 0. }, { 0.2 }, [](glm::dvec3 p) { return p.x < 0.2; }, { nan });
@@ -110,7 +110,7 @@ namespace
 {
 constexpr double Radius = 0.8;
 
-// Two disks that would meet at x = 0, each with a plane that lies that far before it.
+// Two disks that would meet at x = 0, each with a plane at the distance `before` before it.
 vtkSmartPointer<vtkPolyData> Roof(double degrees, double before, bool hasAngles = true)
 {
   const double half = glm::radians(0.5 * degrees);
@@ -183,7 +183,7 @@ TEST(SplatClip, WhereTheSurfaceIsAlmostSmoothSplatsHardlyStandOut)
   EXPECT_LT(beyondRidge, 0.4 * Radius);
 }
 
-TEST(SplatClip, AtKinksSplatsFillSmallGapsAndStaySharp)
+TEST(SplatClip, AtCreasesSplatsFillSmallGapsAndStaySharp)
 {
   for (const double degrees : { 12., 60., 80. })
   {
@@ -198,7 +198,7 @@ TEST(SplatClip, AtKinksSplatsFillSmallGapsAndStaySharp)
   }
 }
 
-TEST(SplatClip, NothingIsFilledAtSharpKinksAndRimsNorWithoutAngles)
+TEST(SplatClip, NothingIsFilledAtSharpCreasesAndBoundariesNorWithoutAngles)
 {
   for (const double degrees : { 91., 150., 180. })
   {
@@ -208,7 +208,7 @@ TEST(SplatClip, NothingIsFilledAtSharpKinksAndRimsNorWithoutAngles)
   EXPECT_NEAR(GapOf(Roof(4., 0.2, false), vtkSurfaceSplatMapper::Splats, 4., 0.2), 0.2, Pixel);
 }
 
-TEST(SplatClip, AnglesThatAreNoNumbersAreThoseOfRims)
+TEST(SplatClip, AnglesThatAreNoNumbersAreOfBoundaries)
 {
   EXPECT_EQ(hop::SplatParticles::OverlapAt(std::numeric_limits<double>::quiet_NaN()), 0.);
 }

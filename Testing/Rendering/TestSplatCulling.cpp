@@ -1,6 +1,8 @@
 // Splats that are left out as others hide them: many, and none that is seen.
 #include "SplatScene.h"
 
+#include "Common/SplatProfile.h"
+
 #include "Drawing/Culling.h"
 #include "vtkActor.h"
 #include "vtkDoubleArray.h"
@@ -60,8 +62,8 @@ struct Sphere
 
   Splats AsSplats() const
   {
-    return { this->CentreRadius.data(), this->Normal.data(), nullptr, 1, 1.f, 0.75f, 1.f, 0.93f,
-      1 };
+    return { this->CentreRadius.data(), this->Normal.data(), nullptr, 1, 1.f, 0.75f, 1.f,
+      static_cast<float>(hop::splatReach()), 1 };
   }
 
   std::vector<float> CentreRadius;

@@ -28,7 +28,7 @@ namespace
 const glm::dvec3 Red(255., 0., 0.);
 const glm::dvec3 Blue(0., 0., 255.);
 
-// That of the filter for so many particles on the unit sphere.
+// The spacing that the filter gives so many particles on the unit sphere.
 double SpacingOf(int count)
 {
   return 0.0539 * std::sqrt(5000. / count);
@@ -89,7 +89,7 @@ void ExpectColorOnSphere(const SplatScene& scene, double minimalCosine, const gl
 }
 
 // Particles are drawn as triangles if they are few, as points if they are many.
-class SplatSheets : public testing::TestWithParam<int>
+class SplatIsovalues : public testing::TestWithParam<int>
 {
 protected:
   NestedSpheres Spheres{ GetParam() };
@@ -112,9 +112,9 @@ protected:
 };
 }
 
-INSTANTIATE_TEST_SUITE_P(Counts, SplatSheets, testing::Values(5000, 40000));
+INSTANTIATE_TEST_SUITE_P(Counts, SplatIsovalues, testing::Values(5000, 40000));
 
-TEST_P(SplatSheets, OnlyTheNearestIsSeen)
+TEST_P(SplatIsovalues, OnlyTheNearestIsSeen)
 {
   for (const SceneView& view : SphereViews)
   {
@@ -125,7 +125,7 @@ TEST_P(SplatSheets, OnlyTheNearestIsSeen)
   }
 }
 
-TEST_P(SplatSheets, OnlyTheNearestIsSeenFromInwardToo)
+TEST_P(SplatIsovalues, OnlyTheNearestIsSeenFromInwardToo)
 {
   vtkNew<vtkPlane> plane; // leaves the far half
   plane->SetNormal(0., 0., -1.);
@@ -135,7 +135,7 @@ TEST_P(SplatSheets, OnlyTheNearestIsSeenFromInwardToo)
   ExpectColorOnSphere(this->Scene, 0.4, Blue);
 }
 
-TEST_P(SplatSheets, TheStrongestParticleIsOneOfTheNearest)
+TEST_P(SplatIsovalues, TheStrongestParticleIsOneOfTheNearest)
 {
   vtkNew<vtkLookupTable> categories;
   categories->IndexedLookupOn();
@@ -151,7 +151,7 @@ TEST_P(SplatSheets, TheStrongestParticleIsOneOfTheNearest)
   this->ExpectTheOuterSphere();
 }
 
-TEST_P(SplatSheets, OnlyParticlesOfTheNearestAreSelected)
+TEST_P(SplatIsovalues, OnlyParticlesOfTheNearestAreSelected)
 {
   this->Scene.Render();
   vtkNew<vtkHardwareSelector> selector;
@@ -166,7 +166,7 @@ TEST_P(SplatSheets, OnlyParticlesOfTheNearestAreSelected)
   EXPECT_LT(ids->GetValueRange()[1], GetParam()); // the outer ones come first
 }
 
-TEST_P(SplatSheets, TheNearPlaneCutsThem)
+TEST_P(SplatIsovalues, TheNearPlaneCutsThem)
 {
   this->Scene.LookFrom({ 0., 0., 1. }, true);
   this->Scene.Renderer->GetActiveCamera()->SetClippingRange(3.2, 7.);
@@ -186,7 +186,7 @@ TEST_P(SplatSheets, TheNearPlaneCutsThem)
   EXPECT_LT(wrong, 10); // points are not cut themselves
 }
 
-TEST(SplatSheetsOfManyIsovalues, AreToldApart)
+TEST(SplatsOfManyIsovalues, AreToldApart)
 {
   vtkNew<vtkAppendPolyData> all;
   const double spacing = SpacingOf(5000);
@@ -203,7 +203,7 @@ TEST(SplatSheetsOfManyIsovalues, AreToldApart)
 }
 
 // Few particles, whose planes would break through the surface in front.
-TEST(SplatSheetsThatBend, AreToldApart)
+TEST(BentSplatsOfTwoIsovalues, AreToldApart)
 {
   constexpr int count = 500;
   const double gap = 0.3 * SpacingOf(count);
