@@ -58,6 +58,7 @@ void vtkSMComponentDomain::NumberMagnitudeAsChosen()
     return;
   }
   std::vector<std::string> names;
+  names.reserve(components);
   for (int component = 0; component < components; ++component)
   {
     names.emplace_back(this->GetEntryTextForValue(component));

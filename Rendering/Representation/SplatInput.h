@@ -49,7 +49,8 @@ struct Blocks
   std::set<std::string> Drawn = { "/" };
   std::vector<std::pair<std::string, std::array<double, 3>>> Colors; ///< RGB in [0, 1]
   std::vector<std::pair<std::string, double>> Opacities;             ///< in [0, 1]
-  unsigned int DistinctNumbers = 12; ///< numbers of blocks go from 0 to before this, and begin again
+  unsigned int DistinctNumbers =
+    12; ///< numbers of blocks go from 0 to before this, and begin again
 };
 
 /**
