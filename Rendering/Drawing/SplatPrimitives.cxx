@@ -226,6 +226,8 @@ void SplatPrimitives::DrawPiece(const SplatDrawing& drawing, vtkIdType first, vt
   const auto count = static_cast<GLsizei>(corners * size);
   if (this->NumberOfVisible)
   {
+    // OpenGL takes the offset into a buffer as a pointer.
+    // NOLINTNEXTLINE(performance-no-int-to-ptr)
     glDrawElements(mode, count, GL_UNSIGNED_INT,
       reinterpret_cast<const void*>(corners * first * sizeof(GLuint)));
   }
