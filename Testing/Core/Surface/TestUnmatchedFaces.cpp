@@ -137,7 +137,7 @@ TEST_P(SurfaceThroughHangingNodes, HasBoundariesAtTheOuterBoundaryOnly)
   {
     EXPECT_EQ(p.clips[0].exists() && p.clips[0].distance == 0.0, onCube(p.position.xyz));
   }
-  // Along the boundary curve no gap, where it passes from element to element at x = 0 neither.
+  // The boundary curve has no gap, not even at x = 0, where it passes from element to element.
   Buffer<Particle> boundary;
   std::copy_if(result.particles.begin(), result.particles.end(), std::back_inserter(boundary),
     [](const Particle& p) { return onCube(p.position.xyz); });
@@ -181,7 +181,7 @@ TEST_P(SurfaceThroughHangingNodes, EndsOnBothSidesWhereTheFieldJumps)
     {
       const bool left = std::abs(x.z - 0.1) < 1e-6;
       ++boundaries[left];
-      // At the ends it may be seen from an element that has no face at x = 0.
+      // At the curve's ends a particle may belong to an element that has no face at x = 0.
       EXPECT_TRUE(onCube(x) || std::abs(p.jump - (left ? 0.2 : -0.2)) < 1e-6);
       EXPECT_TRUE(onCube(x) || std::abs(p.clips[0].normal.xyz.x) > 1.0 - 1e-6);
     }
@@ -234,7 +234,7 @@ TEST(UnmatchedFaces, AcrossASlitTheSurfaceEndsOnBothSidesIfItIsWide)
       });
     EXPECT_NEAR(
       static_cast<double>(onBoundary), slit > 0.4 * spacing ? 2.0 * 2.0 / spacing : 0.0, 4.0);
-    // Boundary curves nearer to each other than particles are: what Fast promises in any case.
+    // Boundary curves may be nearer to each other than particles are: this is what Fast promises in any case.
     EXPECT_GE(leastSpacing(result.particles), 0.59);
   }
 }
@@ -273,13 +273,13 @@ TEST(FadingJump, HasBoundariesOnlyWhereTheSidesMissEachOther)
       ++boundaries[std::abs(x.z) < 1e-9];
     }
   }
-  // Farther than 0.6 spacings apart both sides have one, nearer than that one for both.
+  // Where the curves are farther apart than 0.6 spacings both sides have particles, else both sides share them.
   const double both = 2.0 - 2.0 * std::sqrt(4.0 * 0.6 * spacing);
   const double one = 2.0 - 2.0 * agree;
   EXPECT_NEAR(boundaries[0] + boundaries[1], (both + one) / spacing, 5);
   EXPECT_GE(std::min(boundaries[0], boundaries[1]) * spacing, both - 3.0 * spacing);
   EXPECT_GE(leastSpacing(result.particles), 0.58);
-  // Where the sides agree, the surface is as if it were one.
+  // Where both sides agree, particles stand as on a continuous surface.
   Buffer<Particle> seam;
   std::copy_if(result.particles.begin(), result.particles.end(), std::back_inserter(seam),
     [&](const Particle& p)
