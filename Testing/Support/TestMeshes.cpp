@@ -226,17 +226,19 @@ int boundaryFaceCount(const ElementMesh& mesh, const Location& location)
 
 ReferencePoint insidePoint(Domain domain, glm::dvec3 t)
 {
-  if (domain == Domain::Hexahedron)
-  {
-    return { t };
-  }
-  // Roots make the points fill the simplex evenly.
-  const double third = domain == Domain::Tetrahedron ? std::cbrt(t.z) : 1.0;
+  // Roots make the points fill the simplices evenly.
   const double a = std::sqrt(t.x);
-  const glm::dvec3 flat(a * (1.0 - t.y), a * t.y, 0.0);
-  return domain == Domain::Tetrahedron
-    ? ReferencePoint{ third * glm::dvec3(flat.x, flat.y, 1.0 - a) }
-    : ReferencePoint{ { flat.x, flat.y, t.z } };
+  const glm::dvec2 onTriangle(a * (1.0 - t.y), a * t.y);
+  switch (domain)
+  {
+    case Domain::Hexahedron:
+      return { t };
+    case Domain::Tetrahedron:
+      return { std::cbrt(t.z) * glm::dvec3(onTriangle, 1.0 - a) };
+    case Domain::Wedge:
+      return { { onTriangle, t.z } };
+  }
+  unknownDomain();
 }
 
 } // namespace hop::testing

@@ -26,14 +26,15 @@ struct Isosurface
   bool endsWhereItMay = false;
 
   /// Whether a place lies on the surface: |F - c| is within the tolerance, or within rounding errors of F - c, however
-  /// small the tolerance. Rounding is no excuse where it is not small beside the field's change over `reach`.
+  /// small the tolerance. Rounding does not count where it is not small beside the field's change over `reach`.
   /// \param reach world units
   bool holds(const FieldPoint& point, double reach) const
   {
     // Rounding errors of F - c in epsilons of c; chosen by experiment. Larger: particles farther off are accepted;
     // smaller: particles are rejected where the field changes little beside its size.
     constexpr double epsilons = 16.0;
-    // Largest rounding error, in units of the field's change over `reach`, that is an excuse.
+    // Largest rounding error that is accepted, in units of the field's change over `reach`; chosen by experiment.
+    // Larger: points in regions of nearly constant field pass; smaller: particles are rejected.
     constexpr double farFromNoise = 1e-4;
     const double noise =
       epsilons * std::numeric_limits<double>::epsilon() * std::abs(this->isovalue);

@@ -69,8 +69,8 @@ TEST(Space, AngleBetweenKnownVectors)
   {
     // Lengths do not matter; small angles and angles near pi keep all their digits.
     const WorldVector y{ { 1e-3 * std::cos(angle), 1e-3 * std::sin(angle), 0.0 } };
-    EXPECT_NEAR(angleBetween(x, y), angle, 1e-15);
-    EXPECT_NEAR(angleBetween(y, 1e5 * x), angle, 1e-15);
+    EXPECT_NEAR(angleBetween(x, y), angle, 1e-14);
+    EXPECT_NEAR(angleBetween(y, 1e5 * x), angle, 1e-14);
   }
   EXPECT_EQ(angleBetween(x, WorldVector{}), 0.0);
   EXPECT_EQ(angleBetween(WorldVector{}, WorldVector{}), 0.0);

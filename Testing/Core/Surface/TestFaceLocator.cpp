@@ -211,7 +211,7 @@ TEST(FaceLocator, HasNothingToDoWhereAllFacesMatch)
   }
 }
 
-TEST(FaceLocator, LooksOnlyWhereTheSurfaceIs)
+TEST(FaceLocator, KnowsOnlyFacesThatTheSurfacePasses)
 {
   // z = 0.5: on the right in the upper boxes only.
   MeshRecipe recipe;

@@ -107,7 +107,7 @@ TEST_P(WarmStart, FindsWhatWasNotThereBefore)
   expectGood(after, scratch);
 }
 
-TEST_P(WarmStart, CoversWhatIsFarFromWhereItWas)
+TEST_P(WarmStart, CoversSurfaceFarFromThePlacesOfTheRunBefore)
 {
   // Much of the surface lies within a spacing or two of the boundary.
   constexpr double coarse = 0.125;
