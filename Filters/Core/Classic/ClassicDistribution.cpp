@@ -250,9 +250,7 @@ bool ClassicSystem::settle(
   }
   at = walker.evaluateCurved(at.location);
   const Curvature bend = curvature(at.point.gradient, at.hessian);
-  particle = { at.location, at.point.map.position, surfaceNormal(at.point.gradient), bend,
-    std::abs(at.point.value) / length(at.point.gradient), this->Particles.sizing.at(bend.magnitude),
-    {}, 0.0 };
+  particle = particleAt(at.location, at.point, bend, this->Particles.sizing.at(bend.magnitude));
   return true;
 }
 

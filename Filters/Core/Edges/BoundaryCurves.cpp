@@ -284,8 +284,9 @@ bool BoundaryFinisher::finish(const BoundaryPlace& place, BoundaryParticle& boun
 {
   const auto point = this->Exact.project(place.location, place.face, place.spacing);
   Anchor anchor;
+  double jump = 0.0;
   int otherWall = -1;
-  if (!point || !this->lookBehind(*point, boundary.particle.jump, otherWall) ||
+  if (!point || !this->lookBehind(*point, jump, otherWall) ||
     !anchorPatch(point->at, anchor, boundary.patch))
   {
     return false;
@@ -294,11 +295,10 @@ bool BoundaryFinisher::finish(const BoundaryPlace& place, BoundaryParticle& boun
   boundary.patch.spacing =
     this->Proxy.spacingAt(boundary.patch.position, boundary.patch.curvatureMagnitude());
   boundary.patch.fixed = true;
-  const WorldVector normal = surfaceNormal(field.gradient);
-  boundary.particle = { point->at.location, field.map.position, normal,
-    curvature(field.gradient, point->at.hessian), std::abs(field.value) / length(field.gradient),
-    this->Sizing.angularDensity == 0.0 ? this->Sizing.spacing : boundary.patch.spacing, {},
-    boundary.particle.jump };
+  boundary.particle =
+    particleAt(point->at.location, field, curvature(field.gradient, point->at.hessian),
+      this->Sizing.angularDensity == 0.0 ? this->Sizing.spacing : boundary.patch.spacing);
+  boundary.particle.jump = jump;
   const Jet& jet = this->Exact.jetAt(*point);
   offerFaces(this->Surface, this->Jumps, jet, field, boundary.particle);
   boundary.side = this->sideAt(point->face, point->at, jet);

@@ -68,8 +68,8 @@ bool Finish::settle(int i, const Location& place, const Jet& jet)
   }
   const double spacing =
     this->Sizing.angularDensity == 0.0 ? this->Sizing.spacing : this->Moving.patches()[i].spacing;
-  this->Result.particles[i] = { place, point.map.position, surfaceNormal(point.gradient),
-    curvature(point.gradient, worldHessian(jet, point)), residual, spacing, {}, 0.0 };
+  this->Result.particles[i] =
+    particleAt(place, point, curvature(point.gradient, worldHessian(jet, point)), spacing);
   offerFaces(surface, this->Jumps, jet, point, this->Result.particles[i]);
   this->Result.settled[i] = 1;
   this->Moving.settle(i, place, point);

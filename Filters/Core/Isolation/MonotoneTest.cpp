@@ -8,20 +8,6 @@ namespace hop
 namespace
 {
 
-/// The axes of the simplex factor to which an axis belongs.
-std::vector<int> factorAxes(Domain domain, int axis)
-{
-  switch (domain)
-  {
-    case Domain::Tetrahedron:
-      return { 0, 1, 2 };
-    case Domain::Wedge:
-      return axis == 2 ? std::vector<int>{ 2 } : std::vector<int>{ 0, 1 };
-    default:
-      return { axis };
-  }
-}
-
 LatticePoint shifted(const LatticePoint& point, int axis, int by)
 {
   return { point.i + (axis == 0 ? by : 0), point.j + (axis == 1 ? by : 0),
@@ -44,7 +30,8 @@ MonotoneTest::MonotoneTest(Domain domain, const Degrees& degrees)
     {
       this->Begin.push_back(static_cast<int>(this->Differences.size()));
       int rest = degrees[axis]; // alpha_0
-      for (const int m : factorAxes(domain, axis))
+      const SimplexFactor& factor = factorOf(domain, axis);
+      for (int m = factor.axis; m < factor.end(); ++m)
       {
         const int alpha = along(point, m);
         rest -= alpha;

@@ -17,13 +17,14 @@ const std::vector<Tetrahedron>& fillingTetrahedra(Domain domain)
   static const std::vector<Tetrahedron> wedge{ { 0, 1, 2, 5 }, { 0, 1, 5, 4 }, { 0, 4, 5, 3 } };
   switch (domain)
   {
+    case Domain::Hexahedron:
+      return hexahedron;
     case Domain::Tetrahedron:
       return tetrahedron;
     case Domain::Wedge:
       return wedge;
-    default:
-      return hexahedron;
   }
+  unknownDomain();
 }
 
 void marchTetrahedron(
