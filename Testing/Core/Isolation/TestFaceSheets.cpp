@@ -146,7 +146,7 @@ TEST(FaceSheets, TipsOfPyramidsAreNone)
   findFaceNeighbors(mesh, 1e-9);
   const std::vector<SurfaceBox> boxes = findSurfaceBoxes(mesh, 0.0, spacing, {});
   ASSERT_FALSE(boxes.empty());
-  const std::vector<SurfaceBox> same = giveFaceSheetsOnce({ &mesh, 0.0, 1e-9 }, boxes, {});
+  const std::vector<SurfaceBox> same = assignFaceSheets({ &mesh, 0.0, 1e-9 }, boxes, {});
   ASSERT_EQ(same.size(), boxes.size());
   for (std::size_t b = 0; b < boxes.size(); ++b)
   {

@@ -287,7 +287,7 @@ TEST(SurfaceBoxes, WhereTheSurfaceCrossesItselfBoxesAreBounded)
       oneCell(domain, 2, [](const glm::dvec3& x) { return (x.x - 0.113) * (x.y + 0.207); });
     const auto boxes = findSurfaceBoxes(mesh, 0.0, 10.0, {});
     EXPECT_GT(uncertifiedCount(boxes), 0) << domain;
-    EXPECT_LE(boxes.size(), 3 * MaximumLongPieces * mesh.elements.size()) << domain;
+    EXPECT_LE(boxes.size(), 3 * TooManyPieces::LongCount * mesh.elements.size()) << domain;
   }
 }
 
