@@ -80,26 +80,37 @@ TEST(SizingField, ItsPlacesKeepToTheGradation)
 TEST(SizingField, LaterPlacesLimitEarlierOnes)
 {
   SizingField field(sizing);
-  field.add({ { glm::dvec3(0.0), 0.4f }, { glm::dvec3(0.0, 0.0, 1.9), 0.5f } }, {});
+  field.add({ { glm::dvec3(0.0), 0.4f }, { glm::dvec3(0.0, 0.0, 1.9), 0.5f },
+              { glm::dvec3(-0.2, 0.0, 0.0), 0.5f } },
+    {});
   EXPECT_EQ(field.spacingOf(0), 0.4f);
+  EXPECT_NEAR(field.spacingOf(2), 0.4 + 0.2 * SizingField::GradationSlope, 1e-6);
   field.add({ { glm::dvec3(0.1, 0.0, 0.0), 0.1f } }, {});
-  EXPECT_EQ(field.placeCount(), 3u);
+  EXPECT_EQ(field.placeCount(), 4u);
   EXPECT_NEAR(field.spacingOf(0), 0.1 + 0.1 * SizingField::GradationSlope, 1e-6);
   EXPECT_EQ(field.spacingOf(1), 0.5f);
-  EXPECT_EQ(field.spacingOf(2), 0.1f);
+  EXPECT_NEAR(field.spacingOf(2), 0.1 + 0.3 * SizingField::GradationSlope, 1e-6);
+  EXPECT_EQ(field.spacingOf(3), 0.1f);
 }
 
-TEST(SizingField, OfFewPlacesAllAreRepresentatives)
+/// How many of some places are representatives, if most places are far from each other and some are in one place.
+std::ptrdiff_t representativesWithCrowd(int crowd)
 {
-  std::vector<glm::dvec3> positions;
-  std::vector<float> spacings;
+  std::vector<glm::dvec3> positions(crowd, glm::dvec3(0.123, 0.234, 0.345));
   for (const SizingField::Limit& limit : randomLimits(100, 2))
   {
-    positions.push_back(limit.position);
-    spacings.push_back(0.1f);
+    positions.push_back(2.0 * limit.position);
   }
+  const std::vector<float> spacings(positions.size(), 0.1f);
   const std::vector<char> marks = markRepresentatives(positions, spacings);
-  EXPECT_EQ(std::count(marks.begin(), marks.end(), 1), 100);
+  return std::count(marks.begin(), marks.end(), 1);
+}
+
+TEST(SizingField, OfFewPlacesInACellAllAreRepresentatives)
+{
+  EXPECT_EQ(representativesWithCrowd(0), 100);
+  EXPECT_EQ(representativesWithCrowd(16), 116);
+  EXPECT_EQ(representativesWithCrowd(17), 101) << "one of the crowd";
 }
 
 TEST(SizingField, OfDensePlacesOneInEachNeighbourhoodIsARepresentative)
