@@ -17,7 +17,7 @@ namespace hop
 ///    enough for both sheets to be nearly flat;
 ///  - halved across its longest direction otherwise.
 /// An undecided piece is not halved any more after MaximumBisections bisections, nor are all undecided pieces of an
-/// element where there are too many of them (TooManyPieces in UndecidedPieces.cpp): the surface then is singular
+/// element where there are too many of them (TooManyPieces in UndecidedPieces.h): the surface then is singular
 /// along lines. A piece that is not halved is certified if its field rises along some direction all the same: the
 /// surface then only touches the box, or cuts off a negligible part of it. Otherwise its box is returned undecided.
 /// Pieces in which the field is tangent to the isovalue (TangencyTest.h) are left undecided much earlier. Undecided

@@ -20,7 +20,7 @@ struct PairLimits
   /// Distance of a sheet from its tangent plane at most, in units of the thickness of the domain.
   static constexpr double Flat = 0.1;
   /// Distance of a corner from a sheet below which the value at the corner is the field's own value, in units of the
-  /// distance between the sheet and the extremum. The extrapolation from `place` is less exact there.
+  /// distance between the sheet and the extremum. Distances from second order may have the wrong sign that near.
   static constexpr double AtSheet = 0.1;
   /// Distance of the nearest corner from a sheet that clearly passes all corners by, in units of the distance of the
   /// sheet from its tangent plane.

@@ -24,9 +24,9 @@ struct Sampling
   /// the spacing there.
   static constexpr double OffsetPerSize = 0.02;
   static constexpr double OffsetPerSpacing = 0.2;
-  /// Evaluations of a place and of where Newton steps lead from there, before the patient search.
+  /// Evaluations of a box, with a Newton step between one and the next, before it is sampled patiently.
   static constexpr int MaximumSteps = 3;
-  /// The patient search: tolerance of Newton's method in units of the largest offset, and the farthest way to the
+  /// Of samplePatiently: tolerance of Newton's method in units of the largest offset, and the farthest way to the
   /// surface in units of the size of the box.
   static constexpr double Tolerance = 0.5;
   static constexpr double Travel = 2.0;
@@ -222,8 +222,8 @@ void SurfaceProxy::sampleBoxes(const ParallelFor& parallelFor)
 }
 
 /// Samples the boxes begin to end - 1 by Newton's method from the middle of their triangles, which is near the surface
-/// already. All boxes of an element are evaluated together; boxes whose first place is not near enough again, after one
-/// Newton step each. Boxes that the steps leave, or that take too many steps, are searched patiently.
+/// already. Boxes of one element are evaluated together. A box whose place is not near enough takes a Newton step and
+/// is evaluated again; if the steps leave the box, or are too many, it is sampled patiently.
 /// \param places room for one a box
 /// \return number of evaluations
 std::int64_t SurfaceProxy::sampleRange(

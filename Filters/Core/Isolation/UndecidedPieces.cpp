@@ -16,8 +16,8 @@ struct TangencyTests
   /// Bisections from one test to the next: each axis of a nearly cubic element is halved once in between. Fewer cost
   /// more tests of pieces that hardly changed.
   static constexpr int Interval = 3;
-  /// Bisections before the first test: three along each axis. Fewer test pieces that still hold the surface and a
-  /// tangency side by side; more leave more pieces to test.
+  /// Bisections before the first test: three along each axis. After fewer bisections pieces still hold the surface and
+  /// a tangency side by side; after more there are more pieces to test.
   static constexpr int First = 9;
   /// Undecided pieces with one sign at their corners that are normal where the surface crosses the element. A smaller
   /// number tests pieces that a few bisections would decide, a larger one takes more time where there is a tangency.

@@ -24,8 +24,8 @@ struct StopRule
 /// \param isCrossed whether the element has boxes already, so that the surface crosses it
 StopRule stopRuleOf(const std::vector<Piece>& level, bool isCrossed, const PieceTests& tests);
 
-/// Whether a piece that is not certified stays undecided by a rule, `all` left aside, or as it is nothing but the
-/// isovalue.
+/// Whether halving a piece that is not certified would not decide it: the field is nothing but the isovalue, or
+/// `tangent` or `apart` of the rule holds for the piece.
 bool staysUndecided(const Piece& piece, const StopRule& rule, const PieceTests& tests);
 
 /// Boxes of the pieces of an element that stay undecided, and the parts of the element (Piece::part) that hold the
