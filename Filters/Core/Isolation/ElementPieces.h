@@ -90,8 +90,8 @@ Piece halve(Piece& piece);
 /// \param part number as in Piece::part
 Piece partOf(Piece whole, int part);
 
-/// Bisections of an element that make its parts: at most eight, of which UndecidedPieces.h returns the ones that hold
-/// many undecided pieces. Three bisections halve a nearly cubic element once along each axis. More make smaller
+/// Bisections that divide an element into its parts. Parts replace undecided pieces where these are many
+/// (UndecidedPieces.h). Three bisections halve a nearly cubic element once along each axis. More make smaller
 /// boxes in larger numbers. Chosen by experiment.
 constexpr int PartBisections = 3;
 

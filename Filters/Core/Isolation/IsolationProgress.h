@@ -57,8 +57,9 @@ private:
   const ReportProgress& Progress;
   /// Share that was done when the level began.
   double Before = 0.0;
-  /// Pieces of the level: all, those whose surface has its boxes, and those without surface.
+  /// Number of pieces of the level.
   std::size_t Pieces = 0;
+  /// Closed pieces of the level, with and without surface.
   std::atomic<std::size_t> Finished{ 0 };
   std::atomic<std::size_t> Empty{ 0 };
 };

@@ -16,13 +16,13 @@ struct SurfaceBox
   double size = 0.0;
   /// Largest distance of a corner from the middle of the box, reference space.
   double referenceRadius = 0.0;
-  /// Whether the surface in the box is proven to be one sheet, along some direction of which the field only rises, or
-  /// one of two sheets close to each other, each of which has its own box. The box is undecided otherwise.
+  /// Whether the surface in the box is proven to be one sheet: either the field only rises along some direction, or two
+  /// sheets close to each other have one box each. The box is undecided otherwise.
   bool certified = false;
   /// Whether the box is certified although the field stands still somewhere in it, as at a wall or on the axis of a
   /// needle: the surface may lie near that place, and bend much within the box.
   bool weakly = false;
-  /// Whether the field stood still in the piece of which the box is a part: the surface may be thinner than the box.
+  /// Whether the field stands still in a larger piece that holds the box: the surface may be thinner than the box.
   bool mayBeThin = false;
   /// Whether F - c has opposite signs at the two ends: a point of the surface then lies on the line between them.
   bool straddles = false;
