@@ -8,6 +8,21 @@ namespace hop
 namespace
 {
 
+/// How the signs of a derivative are judged.
+struct Judgement
+{
+  /// Rounding errors of differences, as a share of the largest value times the largest degree, which is the largest
+  /// factor of a difference: some hundred times the rounding errors of doubles, as bisections add up theirs. A smaller
+  /// share takes noise for a slope, a larger one takes gentle slopes for noise.
+  static constexpr double Rounding = 1e-13;
+  /// |value| at least where the derivative is zero, as a share of the largest value. Chosen by experiment: a smaller
+  /// share takes the tangency at a wall for a sheet, a larger one splits boxes beside walls in vain.
+  static constexpr double NotZero = 1e-6;
+  /// Derivative at least, as a share of its mean, for Monotony::Strict. Larger shares made particles of small
+  /// surfaces of a given number stand unevenly; smaller ones let the surface bend much in a box of any size.
+  static constexpr double Slow = 1e-3;
+};
+
 LatticePoint shifted(const LatticePoint& point, int axis, int by)
 {
   return { point.i + (axis == 0 ? by : 0), point.j + (axis == 1 ? by : 0),
@@ -22,6 +37,12 @@ int along(const LatticePoint& point, int axis)
 } // namespace
 
 MonotoneTest::MonotoneTest(Domain domain, const Degrees& degrees)
+{
+  this->listDifferences(domain, degrees);
+  this->sumMean(latticePoints(domain, degrees).size());
+}
+
+void MonotoneTest::listDifferences(Domain domain, const Degrees& degrees)
 {
   const auto index = [&](const LatticePoint& p) { return coefficientIndex(domain, degrees, p); };
   for (const LatticePoint& point : latticePoints(domain, degrees))
@@ -50,7 +71,11 @@ MonotoneTest::MonotoneTest(Domain domain, const Degrees& degrees)
     }
   }
   this->Begin.push_back(static_cast<int>(this->Differences.size()));
-  this->Mean.resize(latticePoints(domain, degrees).size(), glm::dvec3(0.0));
+}
+
+void MonotoneTest::sumMean(std::size_t points)
+{
+  this->Mean.resize(points, glm::dvec3(0.0));
   for (std::size_t n = 0; n + 1 < this->Begin.size(); ++n)
   {
     const int axis = static_cast<int>(n % 3);
@@ -77,10 +102,9 @@ Monotony MonotoneTest::monotony(const std::vector<double>& values) const
   {
     return Monotony::None;
   }
-  // Differences of values carry the values' rounding errors, times the degree.
-  const double rounding = 1e-13 * largest * MaximumDegree * length;
-  const double smallest = 1e-6 * largest;
-  const double slow = 1e-3 * length * length / static_cast<double>(values.size());
+  const double rounding = Judgement::Rounding * largest * MaximumDegree * length;
+  const double smallest = Judgement::NotZero * largest;
+  const double slow = Judgement::Slow * length * length / static_cast<double>(values.size());
   bool rises = false;
   bool isSlow = false;
   bool standsStillBelow = false;

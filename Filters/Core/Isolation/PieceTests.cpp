@@ -63,7 +63,7 @@ Monotony PieceTests::sheetIn(const Piece& piece) const
   }
   const bool mayHoldMore = piece.bisections < MaximumBoundaryBisections && piece.isOnBoundary();
   const Monotony monotony = this->Monotone.monotony(values);
-  return monotony != Monotony::None && mayHoldMore && !this->Boundary.crossedOnce(values, slack)
+  return monotony != Monotony::None && mayHoldMore && !this->Boundary.isCrossedOnce(values, slack)
     ? Monotony::None
     : monotony;
 }

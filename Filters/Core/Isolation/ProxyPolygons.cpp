@@ -7,7 +7,7 @@ namespace
 
 using Tetrahedron = std::array<int, 4>;
 
-/// Corners, in the order of facts(domain).corners, of tetrahedra that fill the domain. Those of the
+/// Tetrahedra that fill a domain, by their corners in the order of facts(domain).corners. All tetrahedra of the
 /// hexahedron share the diagonal from corner 0 to corner 6.
 const std::vector<Tetrahedron>& fillingTetrahedra(Domain domain)
 {
@@ -27,6 +27,7 @@ const std::vector<Tetrahedron>& fillingTetrahedra(Domain domain)
   unknownDomain();
 }
 
+/// Appends the triangle, or the two triangles of the quadrilateral, between corners above and below zero.
 void marchTetrahedron(
   const SurfaceBox& box, const Tetrahedron& corners, std::vector<ReferenceTriangle>& triangles)
 {

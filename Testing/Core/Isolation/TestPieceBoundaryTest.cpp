@@ -1,4 +1,4 @@
-#include "Isolation/BoundaryTest.h"
+#include "Isolation/PieceBoundaryTest.h"
 
 #include "ElementCases.h"
 #include "TestMeshes.h"
@@ -36,12 +36,13 @@ std::vector<double> coefficientsOf(Domain domain, const Degrees& degrees, const 
   return values;
 }
 
-bool crossedOnce(Domain domain, const Degrees& degrees, const Field& f)
+bool isCrossedOnce(Domain domain, const Degrees& degrees, const Field& f)
 {
-  return BoundaryTest(domain, degrees).crossedOnce(coefficientsOf(domain, degrees, f), slack);
+  return PieceBoundaryTest(domain, degrees)
+    .isCrossedOnce(coefficientsOf(domain, degrees, f), slack);
 }
 
-TEST(BoundaryTest, APlaneCrossesOnce)
+TEST(PieceBoundaryTest, APlaneCrossesOnce)
 {
   Random random(1);
   for (const ElementCase& which : allElementCases())
@@ -55,26 +56,26 @@ TEST(BoundaryTest, APlaneCrossesOnce)
     {
       const glm::dvec3 normal = randomVector(random);
       const glm::dvec3 through = randomPoint(which.domain, random).xyz;
-      EXPECT_TRUE(crossedOnce(which.domain, which.degrees,
+      EXPECT_TRUE(isCrossedOnce(which.domain, which.degrees,
         [&](const glm::dvec3& u) { return glm::dot(normal, u - through); }))
         << which;
     }
   }
 }
 
-TEST(BoundaryTest, NothingCrossesWhereThereIsNoZero)
+TEST(PieceBoundaryTest, NothingCrossesWhereThereIsNoZero)
 {
   for (const Domain domain : allDomains)
   {
     for (const double sign : { 1.0, -1.0 })
     {
-      EXPECT_TRUE(crossedOnce(
+      EXPECT_TRUE(isCrossedOnce(
         domain, { 3, 3, 3 }, [sign](const glm::dvec3& u) { return sign * (1.0 + u.x); }));
     }
   }
 }
 
-TEST(BoundaryTest, TwoClippedCornersAreTwoPieces)
+TEST(PieceBoundaryTest, TwoClippedCornersAreTwoPieces)
 {
   // f = z + const - (height of a saddle in x and y): it rises along z all over the cube, and cuts off
   // two opposite corners of its floor.
@@ -82,10 +83,10 @@ TEST(BoundaryTest, TwoClippedCornersAreTwoPieces)
   { return u.z + 0.9 * (u.x + u.y - 2.0 * u.x * u.y) - 0.3; };
   EXPECT_TRUE(MonotoneTest(Domain::Hexahedron, { 2, 2, 2 })
                 .rises(coefficientsOf(Domain::Hexahedron, { 2, 2, 2 }, saddle)));
-  EXPECT_FALSE(crossedOnce(Domain::Hexahedron, { 2, 2, 2 }, saddle));
+  EXPECT_FALSE(isCrossedOnce(Domain::Hexahedron, { 2, 2, 2 }, saddle));
 }
 
-TEST(BoundaryTest, AClosedCurveInsideAFaceIsSeen)
+TEST(PieceBoundaryTest, AClosedCurveInsideAFaceIsSeen)
 {
   // A bowl that dips through the floor only, far from its edges.
   for (const Domain domain : allDomains)
@@ -95,26 +96,26 @@ TEST(BoundaryTest, AClosedCurveInsideAFaceIsSeen)
       const glm::dvec2 d = glm::dvec2(u) - 0.3;
       return u.z + glm::dot(d, d) - 0.01;
     };
-    EXPECT_FALSE(crossedOnce(domain, { 2, 2, 2 }, bowl)) << domain;
+    EXPECT_FALSE(isCrossedOnce(domain, { 2, 2, 2 }, bowl)) << domain;
   }
 }
 
-TEST(BoundaryTest, TwoZerosOnAnEdgeAreSeen)
+TEST(PieceBoundaryTest, TwoZerosOnAnEdgeAreSeen)
 {
   for (const Domain domain : allDomains)
   {
     const Field twice = [](const glm::dvec3& u) { return (u.x - 0.4) * (u.x - 0.6) + u.y + u.z; };
-    EXPECT_FALSE(crossedOnce(domain, { 2, 2, 2 }, twice)) << domain;
+    EXPECT_FALSE(isCrossedOnce(domain, { 2, 2, 2 }, twice)) << domain;
   }
 }
 
-TEST(BoundaryTest, AFieldThatIsZeroOnAFaceIsCrossedOnceAtMost)
+TEST(PieceBoundaryTest, AFieldThatIsZeroOnAFaceIsCrossedOnceAtMost)
 {
   for (const Domain domain : allDomains)
   {
-    EXPECT_TRUE(crossedOnce(domain, { 2, 2, 2 }, [](const glm::dvec3& u) { return u.z; }))
+    EXPECT_TRUE(isCrossedOnce(domain, { 2, 2, 2 }, [](const glm::dvec3& u) { return u.z; }))
       << domain;
-    EXPECT_TRUE(crossedOnce(domain, { 2, 2, 2 }, [](const glm::dvec3& u) { return -u.z; }))
+    EXPECT_TRUE(isCrossedOnce(domain, { 2, 2, 2 }, [](const glm::dvec3& u) { return -u.z; }))
       << domain;
   }
 }

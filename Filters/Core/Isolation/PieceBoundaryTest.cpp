@@ -1,6 +1,4 @@
-#include "Isolation/BoundaryTest.h"
-
-#include "Support/DisjointSets.h"
+#include "Isolation/PieceBoundaryTest.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +8,7 @@ namespace hop
 namespace
 {
 
-/// The steps on the lattice from one corner to another.
+/// Steps on the lattice from one corner to another.
 struct Walk
 {
   LatticePoint start;
@@ -26,15 +24,16 @@ Walk walkBetween(Domain domain, const Degrees& degrees, int from, int to)
   return { a, { (b.i - a.i) / n, (b.j - a.j) / n, (b.k - a.k) / n }, n };
 }
 
-/// All on the side of zero that `positive` says, or as good as zero.
-bool oneSided(
+/// Whether all values at some lattice points have one sign, up to the slack.
+bool areOneSided(
   const std::vector<double>& values, const std::vector<int>& points, bool positive, double slack)
 {
   return std::all_of(points.begin(), points.end(),
     [&](int point) { return positive ? values[point] >= -slack : values[point] <= slack; });
 }
 
-bool oneDirection(
+/// Whether values along an edge only rise, or only fall, up to the slack.
+bool areMonotone(
   const std::vector<double>& values, const std::vector<int>& points, bool rising, double slack)
 {
   for (std::size_t n = 1; n < points.size(); ++n)
@@ -50,7 +49,7 @@ bool oneDirection(
 
 } // namespace
 
-BoundaryTest::BoundaryTest(Domain domain, const Degrees& degrees)
+PieceBoundaryTest::PieceBoundaryTest(Domain domain, const Degrees& degrees)
   : ItsDomain(domain)
   , ItsDegrees(degrees)
 {
@@ -74,8 +73,8 @@ BoundaryTest::BoundaryTest(Domain domain, const Degrees& degrees)
   }
 }
 
-/// Finds the edges of a face among those known, or adds them.
-void BoundaryTest::addEdges(const Face& face, FaceLattice& lattice)
+/// Lists the edges of a face, and adds the unknown ones to all edges.
+void PieceBoundaryTest::addEdges(const Face& face, FaceLattice& lattice)
 {
   for (int c = 0; c < face.cornerCount; ++c)
   {
@@ -101,7 +100,33 @@ void BoundaryTest::addEdges(const Face& face, FaceLattice& lattice)
   }
 }
 
-bool BoundaryTest::crossedOnce(const std::vector<double>& values, double slack) const
+bool PieceBoundaryTest::isCrossedOnce(const std::vector<double>& values, double slack) const
+{
+  const std::optional<std::vector<char>> crossed = this->crossedEdges(values, slack);
+  if (!crossed)
+  {
+    return false;
+  }
+  DisjointSets curves(this->Edges.size());
+  for (const FaceLattice& face : this->Faces)
+  {
+    if (!uniteEdges(face, *crossed, values, slack, curves))
+    {
+      return false;
+    }
+  }
+  int count = 0;
+  for (int e = 0; e < static_cast<int>(this->Edges.size()); ++e)
+  {
+    count += (*crossed)[e] && curves.root(e) == e;
+  }
+  return count <= 1;
+}
+
+/// Marks the edges that hold one zero.
+/// \return nothing if an edge may hold more than one
+std::optional<std::vector<char>> PieceBoundaryTest::crossedEdges(
+  const std::vector<double>& values, double slack) const
 {
   std::vector<char> crossed(this->Edges.size(), 0);
   for (std::size_t e = 0; e < this->Edges.size(); ++e)
@@ -110,43 +135,39 @@ bool BoundaryTest::crossedOnce(const std::vector<double>& values, double slack) 
     const bool start = values[points.front()] >= 0.0;
     const bool end = values[points.back()] >= 0.0;
     crossed[e] = start != end;
-    if (crossed[e] ? !oneDirection(values, points, end, slack)
-                   : !oneSided(values, points, end, slack))
+    if (crossed[e] ? !areMonotone(values, points, end, slack)
+                   : !areOneSided(values, points, end, slack))
     {
-      return false;
+      return std::nullopt;
     }
   }
+  return crossed;
+}
 
-  DisjointSets curves(this->Edges.size());
+/// Unites the two edges of a face in which its curve of zeros ends.
+/// \return whether the face holds one curve of zeros at most, and no closed one
+bool PieceBoundaryTest::uniteEdges(const FaceLattice& face, const std::vector<char>& crossed,
+  const std::vector<double>& values, double slack, DisjointSets& curves)
+{
+  std::vector<int> ends;
+  std::copy_if(face.edges.begin(), face.edges.end(), std::back_inserter(ends),
+    [&](int edge) { return crossed[edge]; });
+  if (ends.empty() && areOneSided(values, face.points, values[face.points.front()] >= 0.0, slack))
+  {
+    return true;
+  }
   std::vector<double> onFace;
-  for (const FaceLattice& face : this->Faces)
+  std::transform(face.points.begin(), face.points.end(), std::back_inserter(onFace),
+    [&](int point) { return values[point]; });
+  if (ends.size() > 2 || !face.monotone.rises(onFace))
   {
-    std::vector<int> ends;
-    std::copy_if(face.edges.begin(), face.edges.end(), std::back_inserter(ends),
-      [&](int edge) { return crossed[edge]; });
-    if (ends.empty() && oneSided(values, face.points, values[face.points.front()] >= 0.0, slack))
-    {
-      continue;
-    }
-    onFace.clear();
-    std::transform(face.points.begin(), face.points.end(), std::back_inserter(onFace),
-      [&](int point) { return values[point]; });
-    if (ends.size() > 2 || !face.monotone.rises(onFace))
-    {
-      return false;
-    }
-    if (!ends.empty())
-    {
-      curves.unite(ends[0], ends[1]);
-    }
+    return false;
   }
-
-  int count = 0;
-  for (int e = 0; e < static_cast<int>(this->Edges.size()); ++e)
+  if (!ends.empty())
   {
-    count += crossed[e] && curves.root(e) == e;
+    curves.unite(ends[0], ends[1]);
   }
-  return count <= 1;
+  return true;
 }
 
 } // namespace hop
