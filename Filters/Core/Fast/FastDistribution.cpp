@@ -13,6 +13,7 @@
 #include "Isolation/UndecidedBoxes.h"
 #include "Support/Interruptible.h"
 #include "Support/KeepMarked.h"
+#include "Surface/SpacingSearch.h"
 
 #include <algorithm>
 #include <atomic>
@@ -34,8 +35,6 @@ constexpr double weaklyPerSpacing = 3.0;
 /// Spacing of the first look, in units of the mesh's diagonal. Where more is asked for, the number of
 /// particles cannot get out of hand.
 constexpr double coarseSpacingPerExtent = 0.001;
-/// The first spacing tried where a number of particles is given, in units of the mesh's diagonal.
-constexpr double firstSpacingPerExtent = 0.02;
 /// Particles on boundary curves stand for half as much area as others, and count as so much of one.
 constexpr double onBoundary = 0.5;
 /// Seeds nearer to a boundary curve's particle than this, in units of their spacing, are dropped: half the
@@ -234,22 +233,16 @@ double FastSystem::wantedCount() const
 /// Finds the spacing that goes with a given number of particles.
 void FastSystem::matchCount(std::int64_t count)
 {
-  constexpr int tries = 8;
-  constexpr double closeEnough = 0.01;
-  this->Sizing.spacing = this->Parameters.firstSpacing > 0.0
+  const double firstSpacing = this->Parameters.firstSpacing > 0.0
     ? this->Parameters.firstSpacing
-    : meshExtent(this->Mesh) * firstSpacingPerExtent;
-  this->lookAtSurface();
-  for (int n = 1; n < tries; ++n)
-  {
-    const double ratio = this->wantedCount() / static_cast<double>(count);
-    if (!(ratio > 0.0) || std::abs(ratio - 1.0) < closeEnough)
+    : meshExtent(this->Mesh) * SpacingSearch::FirstSpacingPerDiagonal;
+  findSpacing(count, firstSpacing,
+    [this](double spacing)
     {
-      break;
-    }
-    this->Sizing.spacing *= std::sqrt(ratio);
-    this->lookAtSurface();
-  }
+      this->Sizing.spacing = spacing;
+      this->lookAtSurface();
+      return this->wantedCount();
+    });
   // Corners of boundary curves are there at any spacing.
   const std::size_t boundaries = this->BoundaryPatches.size();
   const std::size_t most = std::min(boundaries, static_cast<std::size_t>(count));
