@@ -32,27 +32,27 @@ TEST(PatchDistances, TheFirstOfTwoStays)
   EXPECT_EQ(thinOut(row, { 1, 1, 1, 1 }, 0.6, {}), (Marks{ 1, 0, 1, 1 }));
 }
 
-TEST(PatchDistances, ThoseThatAreNotWantedPushNoneAside)
+TEST(PatchDistances, PatchesThatAreNoCandidatesPushNoneAside)
 {
   const Buffer<Patch> row = inARow({ 0.0, 0.5, 1.0, 2.0 });
   EXPECT_EQ(thinOut(row, { 0, 1, 1, 1 }, 0.6, {}), (Marks{ 0, 1, 0, 1 }));
   EXPECT_EQ(thinOut(row, { 0, 1, 0, 1 }, 0.6, {}), (Marks{ 0, 1, 0, 1 }));
 }
 
-TEST(PatchDistances, ThoseBehindStayWhoeverIsNear)
+TEST(PatchDistances, PatchesBehindTheCandidatesStayWhoeverIsNear)
 {
   const Buffer<Patch> row = inARow({ 0.0, 2.0, 0.5 });
   EXPECT_EQ(thinOut(row, { 1, 1 }, 0.6, {}), (Marks{ 0, 1 }));
 }
 
-TEST(PatchDistances, SheetsThatAreTurnedAwayAreOthers)
+TEST(PatchDistances, SheetsThatAreTurnedAwayAreNotSeen)
 {
   Buffer<Patch> row = inARow({ 0.0, 0.1 });
   row[1].normal = { 0, 0, -1 };
   EXPECT_EQ(thinOut(row, { 1, 1 }, 0.6, {}), (Marks{ 1, 1 }));
 }
 
-/// The n-th of samples in the plane, at random places of a square; a few face down. Spacings grow along x.
+/// A sample in the plane, at a random place of a square; one of five faces down. Spacings grow along x.
 SurfaceProxy::Sample randomSample(Random& random, double width)
 {
   SurfaceProxy::Sample sample;
@@ -75,7 +75,7 @@ std::vector<SurfaceProxy::Sample> randomSamples(std::size_t count, double width)
   return samples;
 }
 
-TEST(PatchDistances, ThoseChosenCoverTheOthers)
+TEST(PatchDistances, ChosenSamplesCoverAllOthers)
 {
   constexpr std::size_t count = 1000;
   const auto samples = randomSamples(count, 20.0);
@@ -100,7 +100,7 @@ TEST(PatchDistances, ThoseChosenCoverTheOthers)
   EXPECT_LT(expected.size(), 800u);
 }
 
-/// Looking at all of those chosen before would take 10^11 steps.
+/// Comparing each with all chosen before would take 10^11 steps.
 TEST(PatchDistances, ManyAreChosenInTime)
 {
   constexpr std::size_t count = 500'000;
