@@ -64,7 +64,7 @@ QualityCase ellipsoidCase()
 }
 
 /// Particles of hexagonal packing: the integral of 2/(sqrt(3) h^2) over the surface.
-double wantedCount(const QualityCase& which)
+double hexagonalCountOf(const QualityCase& which)
 {
   constexpr int pieces = 4000;
   double count = 0.0;
@@ -134,7 +134,7 @@ TEST_P(FastQuality, IsAsPromised)
   // In the dense cases, with some thousand particles on strongly bent surfaces, 0.71 to 0.80 of the particles
   // have six neighbours: a missed target.
   const bool even = which.sizing.angularDensity == 0.0;
-  EXPECT_NEAR(count / wantedCount(which), 1.0, 0.02);
+  EXPECT_NEAR(count / hexagonalCountOf(which), 1.0, 0.02);
   EXPECT_LE(static_cast<double>(result.report.evaluations) / count, 8.0);
   double smallest = which.sizing.spacing;
   for (const Particle& p : result.particles)
@@ -235,7 +235,7 @@ TEST_P(FastQualityAtBoundaries, IsAsPromised)
   EXPECT_GE(evenness.meanMinAngle, 50.5);
   EXPECT_GE(evenness.worstMinAngle, 30.0);
   EXPECT_LE(coverageRadius(result.particles, probesOf(mesh, spacing)), 0.80);
-  // Only the particles on the boundary curve miss neighbours, and no hole is wide enough for others to.
+  // Only particles on boundary curves miss neighbours: there is no hole between the others.
   std::size_t onBoundary = 0;
   for (const Particle& p : result.particles)
   {
