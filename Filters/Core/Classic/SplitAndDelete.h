@@ -11,8 +11,8 @@ namespace hop
 /// \return whether so many changed that the system has to settle again; if not, none did
 bool splitAndDelete(ClassicParticles& particles, Random& random);
 
-/// Relative change of the spacing that would make the mean energy the ideal one, to first order: positive where there
-/// is too much energy. In hexagonal packing dE/ds = -6 E'(beta) beta / s.
+/// Share by which the spacing has to fall so that the mean energy becomes the ideal one, to first order; negative where
+/// it has to rise. In hexagonal packing dE/ds = -6 E'(beta) beta / s.
 double excessEnergy(const std::vector<ClassicParticle>& movers);
 
 /// Splits or deletes so many particles that the mean energy becomes ideal, to first order. The biased coin splits no
