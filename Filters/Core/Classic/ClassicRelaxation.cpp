@@ -57,7 +57,7 @@ EnergyAndForce interact(
   return sum;
 }
 
-/// Moves particle i by the longest step that lowers its energy.
+/// Moves particle i by the first of ever shorter steps that lowers its energy.
 void relax(ClassicParticles& particles, std::size_t i)
 {
   const ClassicParticle start = particles.movers[i];

@@ -77,7 +77,8 @@ struct WarmStart
   static constexpr double SeedDistance = 0.75;
 };
 
-/// Fractions of the run, as far as progress is concerned, at the end of its stages: about their shares of the time.
+/// Progress, 0 to 1, at the end of the stages: roughly the part of the time that is over. Chosen by experiment; nothing
+/// but progress bars depends on it.
 struct ProgressAt
 {
   static constexpr double Estimated = 0.05;
@@ -104,7 +105,7 @@ std::vector<int> sweepsOfRounds(Quality quality, bool isWarm)
   return isWarm ? std::vector<int>{ 12, 22 } : std::vector<int>{ 7, 13 };
 }
 
-/// A part of the run, as far as progress is concerned.
+/// A part of the run, between two values of its progress.
 struct Section
 {
   double begin = 0.0, end = 0.0;
@@ -171,7 +172,7 @@ private:
   std::unique_ptr<SurfaceProxy> Proxy;
   FaceJumps Jumps;
   BoundaryCurves Curves;
-  /// Of the particles on these curves.
+  /// Patches of the particles on these curves.
   Buffer<Patch> BoundaryPatches;
   std::unique_ptr<MovingParticles> Moving;
   /// Whether particles of the previous run go on.
@@ -356,8 +357,8 @@ void FastSystem::addSeedsBetween(std::int64_t count)
   this->Moving->append(seeds);
 }
 
-/// Takes particles from places near the surface to it. Those that start too far from it, or do not arrive, are
-/// dropped.
+/// Takes particles from places near the surface to it. Particles that start too far from it, or do not
+/// arrive, are dropped.
 void FastSystem::continueFrom(const std::vector<Location>& places)
 {
   const auto keepWithin = [this](float farthest)
@@ -478,7 +479,7 @@ void FastSystem::finish()
   fitSmallComponents(*this->Proxy, all, particles, this->Parallel);
 }
 
-/// The road of the data, as long as nobody interrupts.
+/// All stages, one after the other.
 void FastSystem::make()
 {
   if (!this->estimateCount())

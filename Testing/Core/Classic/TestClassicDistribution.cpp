@@ -75,7 +75,7 @@ void expectSame(const Distribution& a, const Distribution& b)
   }
 }
 
-/// Zero for none: no particles are not evenly spaced.
+/// Zero without values, so that no particles do not pass for evenly spaced ones.
 double smallest(const std::vector<double>& values)
 {
   return values.empty() ? 0.0 : *std::min_element(values.begin(), values.end());
@@ -139,7 +139,7 @@ TEST_P(EvenCover, IsAsDenseAndAsEvenAsHexagonalPacking)
   EXPECT_NEAR(mean(nearest), 1.0, 0.1);
   for (const Particle& p : result.particles)
   {
-    // As far from the analytic surface as the interpolation lets them be.
+    // The mesh interpolates the analytic surface.
     const glm::dvec3 x = p.position.xyz;
     EXPECT_LE(glm::distance(p.normal.xyz, which.surface.normal(x)), 0.06);
   }
@@ -166,7 +166,7 @@ TEST(ClassicDistribution, GivesExactlyTheNumberOfParticlesAskedFor)
 {
   const KnownSurface surface = sphere({ 0, 0, 0 }, 0.6);
   const ElementMesh mesh = straightMesh(surface);
-  // The first spacing is of no importance.
+  // The spacing at the start does not matter.
   for (const double spacing : { 0.02, 0.2 })
   {
     for (const std::int64_t count : { 60, 500, 1300 })
@@ -218,7 +218,7 @@ TEST(ClassicDistribution, IsDenserWhereTheSurfaceBends)
   ASSERT_GT(waist.size(), 50u);
   EXPECT_LT(tipSpacing / tips.size(), 0.75 * waistSpacing / waist.size());
   EXPECT_GE(smallest(nearest), 0.5);
-  // In both places particles stand as far apart as the sizing function of spacing has it.
+  // In both places particles stand as far apart as the sizing function asks for.
   EXPECT_NEAR(mean(tips), 1.0, 0.15);
   EXPECT_NEAR(mean(waist), 1.0, 0.1);
 }

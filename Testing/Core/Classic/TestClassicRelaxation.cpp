@@ -117,6 +117,30 @@ TEST(ClassicRelaxation, NoneGoesFartherThanASpacing)
   EXPECT_GT(farthest, 0.3 * spacing);
 }
 
+TEST(ClassicRelaxation, StepThatRaisesTheEnergyIsNotTaken)
+{
+  // Between two rows that are so near that the longest step leads into one of them.
+  ClassicLattice lattice(0.0);
+  const ClassicParticle centre = lattice.particles.movers[0];
+  lattice.particles.movers.clear();
+  lattice.add(centre, { 0.0, 0.01 * spacing });
+  for (const double side : { -0.4, 0.4 })
+  {
+    for (int n = -12; n <= 12; ++n)
+    {
+      lattice.add(centre, { 0.1 * spacing * n, side * spacing });
+    }
+  }
+  for (ClassicParticle& m : lattice.particles.movers)
+  {
+    m.lambda = ClassicParticle::LargestLambda;
+  }
+  sweep(lattice);
+  const ClassicParticle& moved = lattice.particles.movers[0];
+  EXPECT_LT(moved.lambda, ClassicParticle::LargestLambda);
+  EXPECT_LE(distance(moved, centre), 0.01 * spacing);
+}
+
 TEST(ClassicRelaxation, EnergyFallsFromSweepToSweep)
 {
   ClassicLattice lattice(0.6);

@@ -153,7 +153,7 @@ TEST_P(FastOpenCover, ClipsWhereTheSurfaceEnds)
     ++clipped;
     EXPECT_GE(p.clips[0].distance, 0.0);
     EXPECT_LE(p.clips[0].distance, 1.5 * spacing);
-    // Down to the wall along the surface, which may meet it at an angle.
+    // The distance is measured along the surface, which may meet the wall at an angle.
     EXPECT_GE(p.clips[0].distance, toWall - 0.2 * spacing);
   }
   EXPECT_GT(clipped * spacing, open.boundary);
@@ -284,7 +284,7 @@ TEST(FastDistribution, DependsOnTheSeedAndNotOnThreads)
 
 TEST(FastDistribution, FindsComponentsFarSmallerThanTheSpacing)
 {
-  // Beside a large sphere, one that is a twentieth of a spacing across, even within a spacing of it.
+  // Beside a large sphere, one that is a twentieth of a spacing across: far from it, and within a spacing of it.
   const glm::dvec3 center(-0.25, -0.2, -0.2);
   for (const glm::dvec3& other : { glm::dvec3(0.8, 0.75, 0.7), glm::dvec3(0.45, -0.2, -0.2) })
   {
@@ -542,7 +542,7 @@ TEST(FastDistribution, StopsSoonAfterTheMonitorAsksForIt)
 
 TEST(FastDistribution, ProgressRisesWhileOneElementIsSplit)
 {
-  // Asked some twenty times a second: the element has to keep it busy for longer than that.
+  // The monitor is asked some twenty times a second: the element has to take longer than that.
   const ElementMesh mesh = meshOf(Domain::Hexahedron, 8, torus(0.5, 0.22).field, 1);
   std::set<double> fractions;
   distribute(mesh, withSpacing(0.004),

@@ -225,6 +225,17 @@ TEST(PatchRelaxation, NoneGoesFartherThanHalfTheRadiusOfCurvature)
   }
 }
 
+TEST(PatchRelaxation, ParticlesMoveOnTheirPatchesNotInTheirPlanes)
+{
+  // A sphere of radius 2 falls below its tangent plane, towards a fixed particle there, until both are out of range.
+  Buffer<Patch> patches{ patchAt({ 0, 0, 0 }), patchAt({ -0.9, 0, -1.2 }) };
+  patches[0].shape = { 0.5f, 0.0f, 0.5f };
+  patches[1].fixed = true;
+  const Relaxed relaxed = sweep(patches, { 2000 });
+  const double apart = glm::distance(placeAfter(patches, relaxed, 0), patches[1].position);
+  EXPECT_NEAR(apart, range, 0.005 * range);
+}
+
 TEST(PatchRelaxation, SheetsTurnedAwayDoNotSeeEachOther)
 {
   const auto movedAt = [](double degrees)

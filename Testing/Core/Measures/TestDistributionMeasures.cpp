@@ -147,7 +147,7 @@ TEST(DistributionMeasures, MissingParticleLeavesAHole)
 
 TEST(DistributionMeasures, ParticlesThatDoNotCountAreNeighborsStill)
 {
-  // Two that are too near to each other, in the middle.
+  // Two particles in the middle are too near to each other.
   Buffer<Particle> particles = hexagonalLattice(6, 1.0, 1.0);
   const glm::dvec3 middle = particles.front().position.xyz;
   particles.push_back(
