@@ -19,7 +19,8 @@ struct FinishedParticles
 };
 
 /// Takes all particles that move to the surface by Newton's method: first a few steps for all of them at once, then one
-/// by one the particles that have not converged. Each gets the creases at faces of its element as clip planes (FacePlanes.h).
+/// by one the particles that have not converged. Each gets the creases at faces of its element as clip planes
+/// (FacePlanes.h).
 FinishedParticles finishParticles(MovingParticles& moving, const FaceJumps& jumps,
   const SizingFunction& sizing, const ParallelFor& parallelFor);
 

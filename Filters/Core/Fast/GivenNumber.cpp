@@ -21,8 +21,8 @@ struct Exchange
   /// Least distance between particles that are added or removed at once, in units of the spacing, as long as there are
   /// enough such places. Smaller: two may go into the same gap; larger: worse places are used.
   static constexpr double Distance = 2.0;
-  /// Number of seeds of which the ones with most room are added: so many in all, and so many more for each particle asked for.
-  /// More of them find the middles of gaps more exactly, and take longer.
+  /// Number of seeds of which the ones with most room are added: so many in all, and so many more for each particle
+  /// asked for. More of them find the middles of gaps more exactly, and take longer.
   static constexpr std::int64_t LeastSeeds = 64;
   static constexpr std::int64_t SeedsPerParticle = 2;
 };

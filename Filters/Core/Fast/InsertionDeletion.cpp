@@ -13,8 +13,8 @@ namespace hop
 namespace
 {
 
-/// What energies, in units of the ideal one of hexagonal packing, tell about the number of particles. All numbers were chosen by
-/// experiment; they hold for the packings that the sweeps of PatchRelaxation.h reach.
+/// What energies, in units of the ideal one of hexagonal packing, tell about the number of particles. All numbers were
+/// chosen by experiment; they hold for the packings that the sweeps of PatchRelaxation.h reach.
 struct EnergyOfNumber
 {
   /// A particle with more energy than this is one too many. Hexagonal packing has as much where all distances are 0.80
