@@ -20,15 +20,15 @@ namespace
 /// When the system has settled, and when neighbours are looked up. From the paper.
 struct Steady
 {
-  /// Relative change of the whole energy over SweepsPerList sweeps. Larger: particles stop before they stand evenly;
-  /// smaller: many more sweeps.
+  /// Relative change of the whole energy over SweepsPerList sweeps; the paper has it from one sweep to the next.
+  /// Larger: particles stop before they stand evenly; smaller: many more sweeps.
   static constexpr double Change = 0.0015;
   /// Sweeps with the same lists of neighbours. More: particles leave the lists' range in the meantime.
   static constexpr int SweepsPerList = 5;
 };
 
-/// Largest numbers of repetitions, where the paper names none. Chosen by experiment; a run that reaches them is
-/// reported as not converged.
+/// Largest numbers of repetitions, where the paper names none. Chosen by experiment. A run that uses up the rounds of
+/// its last level is reported as not converged.
 struct Largest
 {
   /// Sweeps until the energy is steady.

@@ -53,7 +53,8 @@ struct Hole
 /// them. Chosen by experiment. Larger: it starts near other neighbours; smaller: the two repel each other too strongly.
 constexpr float insertionDistance = 0.55f;
 
-/// Directions in which a free place is looked for, one every 30 degrees. Chosen by experiment; more take longer.
+/// Directions in which a free place is looked for, one every 30 degrees. Chosen by experiment. More of them find the
+/// middles of holes more exactly, and take longer.
 constexpr int directions = 12;
 
 /// Least cosine between the normals of neighbours that lie on the same sheet: up to 60 degrees, as where pairs do not
@@ -69,9 +70,9 @@ double missingShare(double excess)
     HexagonalDistance * pairEnergyDerivative(HexagonalDistance) / pairEnergy(HexagonalDistance);
   const double quadratic = 0.5 * HexagonalDistance * HexagonalDistance *
     pairEnergySecondDerivative(HexagonalDistance) / pairEnergy(HexagonalDistance);
-  const double bend = quadratic / linear; // < 0
-  const double first = std::max(excess / linear, 0.5 / bend);
-  const double eps = first - bend * first * first;
+  const double ratio = quadratic / linear; // < 0
+  const double first = std::max(excess / linear, 0.5 / ratio);
+  const double eps = first - ratio * first * first;
   return 2.0 * eps + eps * eps;
 }
 
