@@ -13,6 +13,7 @@
 #include "Run/Ranks.h"
 #include "Run/RunMessages.h"
 #include "Support/Interruptible.h"
+#include "Surface/SpacingSearch.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkCellArray.h"
@@ -44,8 +45,6 @@ namespace
 constexpr double automaticSpacingPerSide = 0.01;
 /// Larger spacings say no more: a component has its least number of particles long before.
 constexpr double largestSpacingPerSide = 1e3;
-/// The first spacing that ranks try together where a number of particles is given.
-constexpr double firstSpacingPerDiagonal = 0.02;
 /// Where a run's progress stands when cells are converted, and when particles are done.
 constexpr double convertedShare = 0.1;
 constexpr double distributedShare = 0.95;
@@ -456,7 +455,7 @@ std::vector<RankShare> vtkHighOrderParticleIsosurface::ShareOut(
       sumOfRanks(static_cast<double>(particlesThatFit())))
   {
     shares = shareOutToRanks(this->NumberOfParticles, isovalues.size(),
-      firstSpacingPerDiagonal * scale.Diagonal,
+      hop::SpacingSearch::FirstSpacingPerDiagonal * scale.Diagonal,
       [&](std::size_t i, double spacing)
       {
         WantedParticles wanted;

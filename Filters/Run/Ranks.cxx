@@ -1,5 +1,7 @@
 #include "Run/Ranks.h"
 
+#include "Surface/SpacingSearch.h"
+
 #include "vtkBoundingBox.h"
 #include "vtkCommunicator.h"
 #include "vtkMultiProcessController.h"
@@ -11,9 +13,6 @@
 
 namespace
 {
-
-constexpr int spacingTries = 8;
-constexpr double closeEnough = 0.01;
 
 /// That of several ranks, or none.
 vtkMultiProcessController* controllerOfRanks()
@@ -78,19 +77,10 @@ std::vector<std::int64_t> split(std::int64_t number, const std::vector<double>& 
 /// One isosurface on its way to the spacing at which all ranks together want as many particles as asked for.
 struct CommonSpacing
 {
-  double spacing = 0.0;
-  bool isFound = false;
+  hop::SpacingSearch search;
   /// Wanted at that spacing.
   WantedParticles here;
   std::vector<double> ofRanks;
-
-  /// Another spacing, if this one does not do. On a flat surface the number goes with 1/s^2.
-  void improve(std::int64_t number)
-  {
-    const double ratio = sum(this->ofRanks) / static_cast<double>(number);
-    this->isFound = this->isFound || !(ratio > 0.0) || std::abs(ratio - 1.0) < closeEnough;
-    this->spacing *= this->isFound ? 1.0 : std::sqrt(ratio);
-  }
 };
 
 void gatherWanted(std::vector<CommonSpacing>& surfaces, const WantedAt& wanted)
@@ -98,9 +88,9 @@ void gatherWanted(std::vector<CommonSpacing>& surfaces, const WantedAt& wanted)
   std::vector<double> owned;
   for (std::size_t i = 0; i < surfaces.size(); ++i)
   {
-    if (!surfaces[i].isFound)
+    if (!surfaces[i].search.isOver())
     {
-      surfaces[i].here = wanted(i, surfaces[i].spacing);
+      surfaces[i].here = wanted(i, surfaces[i].search.spacing());
     }
     owned.push_back(surfaces[i].here.owned);
   }
@@ -115,19 +105,16 @@ void gatherWanted(std::vector<CommonSpacing>& surfaces, const WantedAt& wanted)
 std::vector<CommonSpacing> findSpacings(
   std::int64_t number, std::size_t surfaces, double firstSpacing, const WantedAt& wanted)
 {
-  CommonSpacing first;
-  first.spacing = firstSpacing;
-  std::vector<CommonSpacing> found(surfaces, first);
-  const auto isFound = [](const CommonSpacing& surface) { return surface.isFound; };
-  gatherWanted(found, wanted);
-  for (int n = 1; n < spacingTries && !std::all_of(found.begin(), found.end(), isFound); ++n)
+  std::vector<CommonSpacing> found(surfaces, { { number, firstSpacing }, {}, {} });
+  const auto isOver = [](const CommonSpacing& surface) { return surface.search.isOver(); };
+  do
   {
+    gatherWanted(found, wanted);
     for (CommonSpacing& surface : found)
     {
-      surface.improve(number);
+      surface.search.update(sum(surface.ofRanks));
     }
-    gatherWanted(found, wanted);
-  }
+  } while (!std::all_of(found.begin(), found.end(), isOver));
   return found;
 }
 
@@ -177,7 +164,8 @@ std::vector<RankShare> shareOutToRanks(
     const double perWanted = all > 0.0 ? static_cast<double>(number) / all : 0.0;
     const std::int64_t owned =
       split(number, surface.ofRanks)[controller ? controller->GetLocalProcessId() : 0];
-    shares.push_back({ owned + std::llround(perWanted * surface.here.ghosts), surface.spacing });
+    shares.push_back(
+      { owned + std::llround(perWanted * surface.here.ghosts), surface.search.spacing() });
   }
   return shares;
 }
