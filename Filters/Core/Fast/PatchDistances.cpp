@@ -1,5 +1,6 @@
 #include "Fast/PatchDistances.h"
 
+#include "Support/KeepFirst.h"
 #include "Support/KeepMarked.h"
 #include "Support/SpacingGrid.h"
 
@@ -118,23 +119,9 @@ std::vector<char> areAlone(
 std::vector<char> thinOut(const Buffer<Patch>& patches, const std::vector<char>& wanted,
   double distance, const ParallelFor& parallelFor)
 {
-  const std::size_t count = wanted.size();
   const Crowd crowd(patches, distance, parallelFor);
-  std::vector<char> kept =
-    testAll(count, parallelFor, [&](std::size_t i) { return wanted[i] && crowd.isAlone(i); });
-  kept.resize(patches.size(), 1);
-  // The few that have a neighbour too near, one by one.
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    if (wanted[i] && !kept[i])
-    {
-      bool alone = true;
-      crowd.visitNear(i, [&](int j) { alone = alone && !kept[j]; });
-      kept[i] = alone;
-    }
-  }
-  kept.resize(count);
-  return kept;
+  return keepFirst(wanted, patches.size(), parallelFor,
+    [&](std::size_t i, const auto& use) { crowd.visitNear(i, use); });
 }
 
 std::vector<double> clearances(const Buffer<Patch>& patches, std::size_t count,

@@ -156,8 +156,8 @@ TEST(ClipPlanes, OfBoundariesCutOnlyTheirOwnSide)
   EXPECT_GT(beside, 60);
 }
 
-/// Where two sheets end at one face, each at its own height, and their slopes differ a lot, the boundary curve of one would cut
-/// off whole splats on the boundary curve of the other.
+/// Where two sheets end at one face, each at its own height, and their slopes differ a lot, the boundary curve of one
+/// would cut off whole splats on the boundary curve of the other.
 TEST(ClipPlanes, OfBoundariesAreNotThoseOfSheetsThatAreTurnedALot)
 {
   int onBoundary = 0;
@@ -285,7 +285,8 @@ TEST(ClipPlanes, OfBentBoundariesFollowThemOnInclinedSurfaces)
   EXPECT_GT(onBoundary, 130);
 }
 
-/// A boundary curve that bends within less than a spacing may run anywhere behind that: of such a one no plane is turned far.
+/// A boundary curve that bends within less than a spacing may run anywhere behind that: of such a one no plane is
+/// turned far.
 TEST(ClipPlanes, OfBoundariesThatBendStronglyAreNotTurnedFar)
 {
   const ElementMesh mesh = makeMesh(MeshRecipe{});
