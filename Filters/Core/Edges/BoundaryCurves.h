@@ -35,7 +35,7 @@ struct BoundaryParticle
   /// Anchored to the boundary face and fixed.
   Patch patch;
   BoundarySide side;
-  /// In a corner of the boundary curve, at the element's other boundary face.
+  /// In a corner of the boundary curve, at the other boundary face, if that is one of the same element.
   BoundarySide otherSide;
 };
 

@@ -17,8 +17,8 @@ constexpr double ClipReach = 1.5;
 constexpr double SameEdge = 0.8;
 
 /// Gives a particle a plane that is within reach, if the plane comes before one that the particle has. Boundary curves
-/// nearer than a spacing come first, then creases (CreaseAngle), then faces with a smaller dihedral angle and boundary
-/// curves farther off; of two alike the nearer one. The particle's second plane belongs to another edge than its first.
+/// nearer than a spacing come first, then creases (CreaseAngle) and boundary curves farther off, then faces with a
+/// smaller dihedral angle; of two alike the nearer one. The particle's second plane belongs to another edge than its first.
 void offerPlane(Particle& particle, const ClipPlane& plane);
 
 /// Offers a particle the faces of its element that have a dihedral angle. At a crease the plane touches the edge where
