@@ -102,7 +102,7 @@ BoundaryChords::Chord::Chord(const BoundaryPoint& from, const BoundaryPoint& to)
   this->places = { first.u.xyz, (last.element == first.element ? last : first).u.xyz };
 }
 
-bool BoundaryChords::anyPasses(const BoundaryPoint& point) const
+bool BoundaryChords::pass(const BoundaryPoint& point) const
 {
   const auto found = this->Chords.find(faceSlot(point.at.location.element, point.face));
   const glm::dvec3& x = point.at.point.map.position.xyz;
@@ -116,7 +116,7 @@ bool BoundaryChords::anyPasses(const BoundaryPoint& point) const
       });
 }
 
-bool BoundaryChords::anyCrosses(int element, int face, const std::array<glm::dvec3, 2>& ends) const
+bool BoundaryChords::cross(int element, int face, const std::array<glm::dvec3, 2>& ends) const
 {
   const auto found = this->Chords.find(faceSlot(element, face));
   return found != this->Chords.end() &&
@@ -518,7 +518,7 @@ bool BoundaryTracer::follow(
     const double moved = glm::distance(position.xyz, next->position());
     standstills = moved < ChordLengths::Standstill * step ? standstills + 1 : 0;
     // The last chord ends where this one begins, and is added only now: it would be met at once.
-    const bool again = this->Chords.anyPasses(next->leaving);
+    const bool again = this->Chords.pass(next->leaving);
     addLast();
     lastChord.emplace(here, next->arriving);
     if (again)

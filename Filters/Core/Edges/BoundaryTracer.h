@@ -56,10 +56,10 @@ public:
   void add(const Chord& chord) { this->Chords[chord.face].push_back(chord); }
 
   /// Whether a chord of the same sheet on the same face passes a point, to a fifth of the chord's length.
-  bool anyPasses(const BoundaryPoint& point) const;
+  bool pass(const BoundaryPoint& point) const;
 
   /// Whether a chord on a face crosses the line between two places on that face.
-  bool anyCrosses(int element, int face, const std::array<glm::dvec3, 2>& ends) const;
+  bool cross(int element, int face, const std::array<glm::dvec3, 2>& ends) const;
 
 private:
   /// By the slots of the faces.
@@ -115,11 +115,11 @@ public:
   ReferenceVector velocity(const BoundaryPoint& point) const;
 
   /// Whether a boundary curve was traced through a point.
-  bool isTraced(const BoundaryPoint& point) const { return this->Chords.anyPasses(point); }
+  bool isTraced(const BoundaryPoint& point) const { return this->Chords.pass(point); }
   /// The same of a crossing. Costs nothing, but may overlook a curve.
   bool isTraced(const FaceCrossing& crossing) const
   {
-    return this->Chords.anyCrosses(crossing.location.element, crossing.face, crossing.ends);
+    return this->Chords.cross(crossing.location.element, crossing.face, crossing.ends);
   }
 
   std::int64_t evaluations() const

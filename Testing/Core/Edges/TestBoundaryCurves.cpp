@@ -178,9 +178,10 @@ TEST_P(BoundaryCurvesIn, HaveCornersWhereFacesOfACubeMeet)
 TEST_P(BoundaryCurvesIn, OfAPlaneAreAPolygon)
 {
   const Domain domain = this->GetParam();
-  const glm::dvec3 normal = glm::normalize(glm::dvec3(0.4, 0.7, 1.0));
-  const double offset = 0.45;
-  const ElementMesh mesh = referenceMesh(domain, 1, plane(normal, offset).field);
+  const glm::dvec3 normal = glm::normalize(glm::dvec3(0.2, 0.3, 1.0));
+  const double offset = 0.37;
+  ElementMesh mesh = referenceMesh(domain, 1, plane(normal, offset).field);
+  findFaceNeighbors(mesh, 1e-9);
   const DomainFacts& which = facts(domain);
   double expected = 0.0;
   std::vector<std::array<glm::dvec3, 2>> sides;
@@ -232,6 +233,26 @@ TEST_P(BoundaryCurvesIn, OfAPlaneAreAPolygon)
     }
   }
   EXPECT_EQ(corners, 2 * sides.size());
+}
+
+/// The plane leaves the first triangle of a wedge for its oblique side at an angle of 19.3 degrees.
+TEST(BoundaryCurves, PassCornersOfLessThanTwentyDegrees)
+{
+  const glm::dvec3 normal = glm::normalize(glm::dvec3(0.4, 0.7, 1.0));
+  const double offset = 0.45;
+  ElementMesh mesh = referenceMesh(Domain::Wedge, 1, plane(normal, offset).field);
+  findFaceNeighbors(mesh, 1e-9);
+  const double y = (offset - normal.x) / (normal.y - normal.x); // on the edge x + y = 1, z = 0
+  const glm::dvec3 corner(1.0 - y, y, 0.0);
+  std::vector<double> distances;
+  for (const BoundaryParticle& p : curvesOf(mesh).particles)
+  {
+    distances.push_back(glm::distance(p.particle.position.xyz, corner));
+  }
+  std::sort(distances.begin(), distances.end());
+  ASSERT_GT(distances.size(), 40u);
+  EXPECT_GT(distances[0], 1e-3);
+  EXPECT_NEAR(distances[0] + distances[1], spacing, 0.05 * spacing);
 }
 
 TEST_P(BoundaryCurvesIn, AreNoneOnASurfaceInsideTheDomain)
