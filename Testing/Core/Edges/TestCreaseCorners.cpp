@@ -84,16 +84,17 @@ TEST(CreaseCorners, PlanesStayWhereOthersCover)
   EXPECT_NEAR(distanceAt(result[0], 1), 0.2 + 0.55, 1e-6);
 }
 
-/// Of two particles that could cover a corner the one whose plane is nearer does.
+/// Of two particles that could cover a corner, the one whose plane is nearest to it does.
 TEST(CreaseCorners, ThePlaneThatIsNearestGivesWay)
 {
-  const Particle near = particleAt({ 0, 0 }, planeTo(45, 0.3, 0.5), planeTo(-45, 0.3, 0.5));
-  Particle far = particleAt({ -0.1, 0 }, planeTo(45, 0.2, 0.5), planeTo(-45, 0.2, 0.5));
-  const auto result = closed({ near, far });
+  // The planes of the second particle are nearer to both by 0.03.
+  const double distance = 0.3 + 0.01 * std::sqrt(0.5) - 0.03;
+  const auto result = closed({ particleAt({ 0, 0 }, planeTo(45, 0.3, 0.5), planeTo(-45, 0.3, 0.5)),
+    particleAt({ -0.01, 0 }, planeTo(45, distance, 0.5), planeTo(-45, distance, 0.5)) });
   EXPECT_GT(distanceAt(result[0], 0), 0.5);
   EXPECT_GT(distanceAt(result[0], 1), 0.5);
-  EXPECT_LT(distanceAt(result[1], 0), 0.3);
-  EXPECT_LT(distanceAt(result[1], 1), 0.3);
+  EXPECT_DOUBLE_EQ(distanceAt(result[1], 0), distance);
+  EXPECT_DOUBLE_EQ(distanceAt(result[1], 1), distance);
 }
 
 /// Two creases that are parallel, as on a thin strip, have no corner.
