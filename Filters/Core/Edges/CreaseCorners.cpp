@@ -1,5 +1,6 @@
 #include "Edges/CreaseCorners.h"
 
+#include "Common/SplatProfile.h"
 #include "Edges/FaceJumps.h"
 
 #include <algorithm>
@@ -16,9 +17,9 @@ namespace
 /// What a splat covers at a crease: lengths in units of its particle's spacing. Chosen by experiment.
 struct Cover
 {
-  /// Distance from its particle up to which a splat covers the surface: a little farther off it counts too little to be
-  /// seen alone, and the surface may bend away from it. A larger one leaves holes, a smaller one moves planes in vain.
-  static constexpr double Reach = 0.91;
+  /// Share of a splat's reach up to which it surely covers the surface: a margin, as splats may be bent. A larger one
+  /// leaves holes, a smaller one moves planes in vain.
+  static constexpr double SureShare = 0.98;
   /// Distance behind the plane of a crease up to which a splat still fills gaps.
   static constexpr double BehindPlane = 0.05;
   /// Largest distance of a place that a splat covers from the plane of the splat.
@@ -26,7 +27,9 @@ struct Cover
   /// Largest distance from what it covers behind a crease at which a splat stands off: more is seen beside the crease.
   static constexpr double StandOff = 0.25;
 };
-static_assert(2.0 * Cover::Reach <= ParticleGrid::Reach);
+
+/// Distance from its particle up to which a splat covers the surface, in units of the spacing.
+const double coverReach = Cover::SureShare * splatReach();
 
 /// Distance of the places looked at, along the crease and away from it, in units of the spacing. Chosen by experiment:
 /// smaller corners may be overlooked; a smaller one costs time.
@@ -67,7 +70,7 @@ bool reaches(const Particle& particle, const glm::dvec3& place)
   const double height = glm::dot(offset, particle.normal.xyz);
   const double h = particle.spacing;
   return std::abs(height) < Cover::Height * h &&
-    glm::dot(offset, offset) - height * height < Cover::Reach * Cover::Reach * h * h;
+    glm::dot(offset, offset) - height * height < coverReach * coverReach * h * h;
 }
 
 /// How far a place lies behind the farthest of a particle's planes, world units; infinite if it lies behind a plane
@@ -156,7 +159,7 @@ std::vector<int> CreaseCorners::findAround(int i) const
       const Particle& other = this->All.at(j);
       if (j != i && dot(other.normal, particle.normal) > 0.0 &&
         length(other.position - particle.position) <
-          Cover::Reach * (particle.spacing + other.spacing))
+          coverReach * (particle.spacing + other.spacing))
       {
         found.push_back(j);
       }
@@ -212,7 +215,7 @@ double CreaseCorners::openFrom(int i, int plane, const glm::dvec3& start, const 
   {
     const glm::dvec3 offset = start + (count + 1) * step * away;
     const glm::dvec3 place = particle.position.xyz + offset;
-    if (!(glm::length(offset) <= Cover::Reach * particle.spacing) ||
+    if (!(glm::length(offset) <= coverReach * particle.spacing) ||
       (count + 1) * placeStep > farthest ||
       (cuts(other) && glm::dot(offset, other.normal.xyz) > other.distance) ||
       !this->isOpen(i, place, around))
@@ -231,7 +234,7 @@ double CreaseCorners::openBehind(int i, int plane, const std::vector<int>& aroun
   }
   const Particle& particle = this->All.at(i);
   const Cut cut = cutOf(particle, particle.clips[plane]);
-  const double reach = Cover::Reach * particle.spacing;
+  const double reach = coverReach * particle.spacing;
   const double half = std::sqrt(std::max(0.0, reach * reach - glm::dot(cut.foot, cut.foot)));
   const double step = placeStep * particle.spacing;
   const auto most = static_cast<int>(half / step);
@@ -254,7 +257,7 @@ void CreaseCorners::close()
     {
       const auto i = static_cast<int>(n);
       const auto isCut = [&](const ClipPlane& plane)
-      { return isCrease(plane) && plane.distance < Cover::Reach * this->All.at(i).spacing; };
+      { return isCrease(plane) && plane.distance < coverReach * this->All.at(i).spacing; };
       const auto& clips = this->All.at(i).clips;
       const std::array<bool, 2> wanted{ isCut(clips[0]), isCut(clips[1]) };
       if (wanted[0] || wanted[1])

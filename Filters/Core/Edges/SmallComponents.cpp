@@ -1,5 +1,6 @@
 #include "Edges/SmallComponents.h"
 
+#include "Common/SplatProfile.h"
 #include "Support/KeepMarked.h"
 
 #include <algorithm>
@@ -46,9 +47,7 @@ double drawnPart(const Particle& particle)
 /// \param particleCount the component's area in particles
 double radiusOfComponent(double particleCount, double part)
 {
-  constexpr double visible =
-    0.93; // of a splat's radius; farther off it counts too little to be seen
-  return std::sqrt(0.5 * std::sqrt(3.0) * particleCount / (part * Pi)) / visible;
+  return std::sqrt(0.5 * std::sqrt(3.0) * particleCount / (part * Pi)) / splatReach();
 }
 
 /// Whether no other particle is near. Particles near in space mostly come one after the other, so that a look at the

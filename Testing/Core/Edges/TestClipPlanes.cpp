@@ -1,5 +1,6 @@
 #include "Edges/ClipPlanes.h"
 
+#include "Common/SplatProfile.h"
 #include "Fast/FastDistribution.h"
 #include "TestMeshes.h"
 
@@ -373,10 +374,9 @@ Distribution distributeOnPyramid(int sides, double slope, std::uint64_t seed = 1
 /// Whether a particle's splat covers a place, cut off as it is; splats reach a little beyond creases.
 bool covers(const Particle& particle, const glm::dvec3& place)
 {
-  constexpr double visible = 0.93;
   constexpr double beyondCreases = 0.1;
   const glm::dvec3 offset = place - particle.position.xyz;
-  return glm::length(offset) < visible * spacing &&
+  return glm::length(offset) < splatReach() * spacing &&
     std::none_of(particle.clips.begin(), particle.clips.end(),
       [&](const ClipPlane& plane)
       {

@@ -1,5 +1,6 @@
 #include "Edges/ParticleGrid.h"
 
+#include "Common/SplatProfile.h"
 #include "ElementCases.h"
 #include "Support/Random.h"
 #include "ThreadedFor.h"
@@ -58,6 +59,12 @@ TEST(ParticleGrid, NumbersFreeParticlesFirst)
     EXPECT_EQ(grid.position(static_cast<int>(i)), expected.position.xyz);
     EXPECT_EQ(grid.spacing(static_cast<int>(i)), static_cast<float>(expected.spacing));
   }
+}
+
+TEST(ParticleGrid, ReachesAsFarAsSplatsOverlap)
+{
+  EXPECT_GE(ParticleGrid::Reach, 2.0 * splatReach());
+  EXPECT_LT(ParticleGrid::Reach, 2.01 * splatReach());
 }
 
 TEST(ParticleGrid, FindsAllParticlesWithinReach)
