@@ -1,5 +1,6 @@
 #include "Fast/PatchDistances.h"
 
+#include "Support/KeepFirst.h"
 #include "Support/KeepMarked.h"
 #include "Support/SpacingGrid.h"
 
@@ -135,23 +136,9 @@ std::vector<char> areSeparated(
 std::vector<char> thinOut(const Buffer<Patch>& patches, const std::vector<char>& candidates,
   double distance, const ParallelFor& parallelFor)
 {
-  const std::size_t count = candidates.size();
   const NearPatches nearPatches(patches, distance, parallelFor);
-  std::vector<char> kept = testAll(
-    count, parallelFor, [&](std::size_t i) { return candidates[i] && nearPatches.isSeparated(i); });
-  kept.resize(patches.size(), 1);
-  // The few candidates with a neighbour too near, one by one.
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    if (candidates[i] && !kept[i])
-    {
-      bool separated = true;
-      nearPatches.visitNear(i, [&](int j) { separated = separated && !kept[j]; });
-      kept[i] = separated;
-    }
-  }
-  kept.resize(count);
-  return kept;
+  return keepFirst(candidates, patches.size(), parallelFor,
+    [&](std::size_t i, const auto& use) { nearPatches.visitNear(i, use); });
 }
 
 std::vector<double> clearances(const Buffer<Patch>& patches, std::size_t count,

@@ -1,5 +1,6 @@
 #include "Edges/ClipPlanes.h"
 
+#include "Common/SplatProfile.h"
 #include "Fast/FastDistribution.h"
 #include "TestMeshes.h"
 
@@ -29,7 +30,7 @@ Distribution distributeOnRoof(double slope, double step = 0.0, double density = 
   return distributeFast({ &mesh, 0.0, 1e-9 }, parameters, {}, {});
 }
 
-/// Those beside the ridge and far from walls.
+/// The particles beside the ridge and far from the faces of the cube.
 std::vector<Particle> besideRidge(const Distribution& distribution, double farthest)
 {
   std::vector<Particle> found;
@@ -123,8 +124,8 @@ TEST(ClipPlanes, OfBoundariesComeFirstThoughOthersAreNearer)
   for (const Particle& p : distributeOnRoof(std::tan(glm::radians(1.5))).particles)
   {
     const glm::dvec3 x = p.position.xyz;
-    const double toWall = 1.0 - std::abs(x.y);
-    if (std::abs(x.x) < toWall && toWall < spacing)
+    const double toBoundary = 1.0 - std::abs(x.y);
+    if (std::abs(x.x) < toBoundary && toBoundary < spacing)
     {
       ++both;
       EXPECT_TRUE(p.clips[0].isBoundary());
@@ -156,9 +157,9 @@ TEST(ClipPlanes, OfBoundariesCutOnlyTheirOwnSide)
   EXPECT_GT(beside, 60);
 }
 
-/// Where two sheets end at one face, each at its own height, and their slopes differ a lot, the boundary curve of one would cut
-/// off whole splats on the boundary curve of the other.
-TEST(ClipPlanes, OfBoundariesAreNotThoseOfSheetsThatAreTurnedALot)
+/// Where two sheets end at one face, each at its own height, and their slopes differ a lot, the boundary curve of one
+/// would cut off whole splats on the boundary curve of the other.
+TEST(ClipPlanes, OfBoundariesAreNotForSheetsAtALargeAngle)
 {
   int onBoundary = 0;
   for (const Particle& p : besideRidge(distributeOnRoof(0.8, 0.5 * spacing), 1e-9))
@@ -192,19 +193,19 @@ TEST(ClipPlanes, AreNotWhereTheSurfaceGoesOnBehindAnEdge)
   DistributionParameters parameters;
   parameters.sizing = { spacing, 0.0 };
   int near = 0;
-  int boundaries = 0;
+  int onBoundary = 0;
   for (const Particle& p : distributeFast({ &mesh, 0.0, 1e-9 }, parameters, {}, {}).particles)
   {
     const glm::dvec3& x = p.position.xyz;
     if (std::hypot(x.x, x.y) < 1.2 * spacing && std::abs(x.z - 0.5) < 0.5 - 2.0 * spacing)
     {
       ++near;
-      boundaries += std::hypot(x.x, x.y) < 2.0 * gap;
+      onBoundary += std::hypot(x.x, x.y) < 2.0 * gap;
       EXPECT_FALSE(p.clips[0].isBoundary()) << x.x << " " << x.y << " " << x.z;
     }
   }
   EXPECT_GT(near, 30);
-  EXPECT_GT(boundaries, 10); // as one element says
+  EXPECT_GT(onBoundary, 10); // as one element says
 }
 
 /// Elements between two cylinders of radius r and r + 1; the last is not joined to the first.
@@ -285,27 +286,28 @@ TEST(ClipPlanes, OfBentBoundariesFollowThemOnInclinedSurfaces)
   EXPECT_GT(onBoundary, 130);
 }
 
-/// A boundary curve that bends within less than a spacing may run anywhere behind that: of such a one no plane is turned far.
+/// Beyond a spacing a boundary curve that bends within less than one may run anywhere: no plane is turned far to follow
+/// it.
 TEST(ClipPlanes, OfBoundariesThatBendStronglyAreNotTurnedFar)
 {
   const ElementMesh mesh = makeMesh(MeshRecipe{});
   const Isosurface surface{ &mesh, 0.0, 1e-9 };
   for (const double bend : { -0.9, 0.9 })
   {
-    Buffer<BoundaryParticle> boundaries(1);
-    boundaries[0] = {};
-    boundaries[0].particle.location.element = 0;
-    boundaries[0].particle.normal = { { 0, 0, 1 } };
-    boundaries[0].particle.spacing = spacing;
-    boundaries[0].patch.spacing = static_cast<float>(spacing);
-    boundaries[0].side = { 0, { { 1, 0, 0 } }, bend / spacing };
+    Buffer<BoundaryParticle> onBoundary(1);
+    onBoundary[0] = {};
+    onBoundary[0].particle.location.element = 0;
+    onBoundary[0].particle.normal = { { 0, 0, 1 } };
+    onBoundary[0].particle.spacing = spacing;
+    onBoundary[0].patch.spacing = static_cast<float>(spacing);
+    onBoundary[0].side = { 0, { { 1, 0, 0 } }, bend / spacing };
     Buffer<Particle> particles(1);
     particles[0] = {};
     particles[0].location.element = 0;
     particles[0].position = { { -0.9 * spacing, 1.1 * spacing, 0.0 } };
-    particles[0].normal = boundaries[0].particle.normal;
+    particles[0].normal = onBoundary[0].particle.normal;
     particles[0].spacing = spacing;
-    const ParticleGrid all(particles, boundaries, {});
+    const ParticleGrid all(particles, onBoundary, {});
     markClipPlanes(surface, all, {});
     const ClipPlane& plane = particles[0].clips[0];
     ASSERT_TRUE(plane.exists()) << bend;
@@ -372,10 +374,9 @@ Distribution distributeOnPyramid(int sides, double slope, std::uint64_t seed = 1
 /// Whether a particle's splat covers a place, cut off as it is; splats reach a little beyond creases.
 bool covers(const Particle& particle, const glm::dvec3& place)
 {
-  constexpr double visible = 0.93;
   constexpr double beyondCreases = 0.1;
   const glm::dvec3 offset = place - particle.position.xyz;
-  return glm::length(offset) < visible * spacing &&
+  return glm::length(offset) < splatReach() * spacing &&
     std::none_of(particle.clips.begin(), particle.clips.end(),
       [&](const ClipPlane& plane)
       {
@@ -433,7 +434,7 @@ TEST(ClipPlanes, StayAtStraightCreases)
 }
 
 /// Where a plane cuts off a triangle, hardly larger than a splat, from a corner of a cube.
-TEST(ClipPlanes, OfBothWallsCutParticlesInCorners)
+TEST(ClipPlanes, OfBothFacesCutParticlesInCorners)
 {
   for (const double sides : { 0.8, 1.0, 1.3 })
   {

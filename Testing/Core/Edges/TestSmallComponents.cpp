@@ -1,5 +1,6 @@
 #include "Edges/SmallComponents.h"
 
+#include "Common/SplatProfile.h"
 #include "Fast/FastDistribution.h"
 #include "TestMeshes.h"
 
@@ -40,8 +41,7 @@ TEST(SmallPieces, AreDrawnAboutAsLargeAsTheyAre)
     const Particle& particle = result.particles[0];
     ASSERT_TRUE(particle.clips[0].exists() && particle.clips[1].exists());
     const double sector = Pi - angleBetween(particle.clips[0].normal, particle.clips[1].normal);
-    const double radius =
-      0.93 * particle.shrink * particle.spacing; // farther off splats count too little
+    const double radius = splatReach() * particle.shrink * particle.spacing;
     const double drawn = 0.5 * sector * radius * radius;
     const double area = 0.25 * std::sqrt(3.0) * sides * sides * spacing * spacing;
     EXPECT_NEAR(drawn / area, 1.0, 0.1) << sides;
