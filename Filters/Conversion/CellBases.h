@@ -15,25 +15,28 @@
 class vtkCell;
 class vtkUnstructuredGrid;
 
+namespace hop
+{
+
 /// How the cells of one kind are rewritten as elements.
 struct CellBasis
 {
-  CellBasis(hop::NodalBasis nodal, bool isBezier)
+  CellBasis(NodalBasis nodal, bool isBezier)
     : basis(std::move(nodal))
     , jacobian(basis.domain(), basis.degrees())
     , bezier(isBezier)
   {
   }
 
-  hop::NodalBasis basis;
-  hop::JacobianTest jacobian;
+  NodalBasis basis;
+  JacobianTest jacobian;
   /// Bezier: nodal values are Bernstein coefficients, and the grid's RationalWeights apply.
   bool bezier = false;
 };
 
 /// What tells the kinds of cells apart: cell type, number of points, and degrees, zeros if those follow from
 /// the number of points.
-using CellKind = std::tuple<int, vtkIdType, hop::Degrees>;
+using CellKind = std::tuple<int, vtkIdType, Degrees>;
 
 /// The bases of grids' cells: one a kind, shared by all cells of it. VTK stays the one authority on its
 /// cells: the order of the nodes of Lagrange and Bezier cells comes from their parametric coordinates, and
@@ -44,7 +47,7 @@ using CellKind = std::tuple<int, vtkIdType, hop::Degrees>;
 class CellBases
 {
 public:
-  explicit CellBases(hop::NodeSpacing spacing);
+  explicit CellBases(NodeSpacing spacing);
 
   /// The basis of cells of a kind, or nullptr: the type is not supported, or the number of points does not
   /// fit the degrees. For several threads.
@@ -53,9 +56,9 @@ public:
 private:
   std::unique_ptr<const CellBasis> makeBasis(const CellKind& kind) const;
   std::unique_ptr<const CellBasis> makeLatticeBasis(
-    vtkCell* vtk, hop::Domain domain, const hop::Degrees& degrees) const;
+    vtkCell* vtk, Domain domain, const Degrees& degrees) const;
 
-  hop::NodeSpacing Spacing;
+  NodeSpacing Spacing;
   std::mutex Mutex;
   std::map<CellKind, std::unique_ptr<const CellBasis>> Known;
 };
@@ -79,4 +82,6 @@ private:
 
 /// VTK's parametric coordinates of a cell of that type at a reference point. They are the reference
 /// coordinates themselves except for the 19-node pyramid, whose own are those of a true pyramid.
-hop::ReferencePoint parametricCoordinates(int cellType, const hop::ReferencePoint& u);
+ReferencePoint parametricCoordinates(int cellType, const ReferencePoint& u);
+
+} // namespace hop

@@ -8,6 +8,9 @@
 
 #include <sstream>
 
+namespace hop
+{
+
 namespace
 {
 
@@ -91,8 +94,8 @@ std::string CellCensus::describe() const
     describeCells(text, cells,
       "of type " + nameOfCellType(type) +
         " skipped: not a supported 3-D cell, or its number of points fits no degree up to " +
-        std::to_string(hop::maximumInputDegree(hop::Domain::Tetrahedron)) +
-        " (hexahedra: " + std::to_string(hop::maximumInputDegree(hop::Domain::Hexahedron)) + ")");
+        std::to_string(maximumInputDegree(Domain::Tetrahedron)) +
+        " (hexahedra: " + std::to_string(maximumInputDegree(Domain::Hexahedron)) + ")");
   }
   describeCells(text, this->brokenConnectivity, "skipped: point ids outside the grid");
   describeCells(text, this->notFinite,
@@ -104,3 +107,5 @@ std::string CellCensus::describe() const
   describeCells(text, this->folded, "kept, but partly inverted: the Jacobian changes its sign");
   return text.str();
 }
+
+} // namespace hop

@@ -5,6 +5,9 @@
 #include <map>
 #include <string>
 
+namespace hop
+{
+
 /// What is to become of a cell. All but Keep leave it out.
 enum class Verdict : char
 {
@@ -62,3 +65,5 @@ struct CellCensus
   /// One text that names all that was skipped or is doubtful, empty if nothing.
   std::string describe() const;
 };
+
+} // namespace hop

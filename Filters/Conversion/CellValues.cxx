@@ -11,6 +11,9 @@
 #include <algorithm>
 #include <cmath>
 
+namespace hop
+{
+
 namespace
 {
 
@@ -79,3 +82,5 @@ Verdict readCell(
   }
   return readWeights(rationalWeights(block, cell), values) ? Verdict::Keep : Verdict::BadWeights;
 }
+
+} // namespace hop

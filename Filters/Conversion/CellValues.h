@@ -9,6 +9,9 @@
 
 #include <vector>
 
+namespace hop
+{
+
 /// What is read of one cell. To be used again for the next one, so that memory is: one a thread.
 struct CellValues
 {
@@ -31,3 +34,5 @@ vtkDataArray* rationalWeights(const InputBlock& block, const CellBasis& cell);
 /// \return Keep, or what is wrong with the cell; `values` are not complete then
 Verdict readCell(
   const InputBlocks& blocks, const BlockCell& where, const CellBasis& cell, CellValues& values);
+
+} // namespace hop

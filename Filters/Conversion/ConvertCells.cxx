@@ -12,6 +12,9 @@
 #include <limits>
 #include <numeric>
 
+namespace hop
+{
+
 namespace
 {
 
@@ -31,15 +34,15 @@ void addToRows(std::vector<double>& values, double factor, const std::vector<dou
 /// it would cross that to and fro by rounding errors.
 /// \param amplification of the nodal values' rounding errors, as they were before the origin was subtracted
 void snapToIsovalues(
-  std::vector<hop::Coefficient>& coefficients, const FieldRange& range, double amplification)
+  std::vector<Coefficient>& coefficients, const FieldRange& range, double amplification)
 {
   const auto [lowest, highest] = std::minmax_element(coefficients.begin(), coefficients.end(),
-    [](const hop::Coefficient& a, const hop::Coefficient& b) { return a.w < b.w; });
+    [](const Coefficient& a, const Coefficient& b) { return a.w < b.w; });
   constexpr double mostOfRange = 1e-8;
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * amplification *
     std::max(std::abs(lowest->w + range.origin), std::abs(highest->w + range.origin));
   const double slack = std::min(rounding, mostOfRange * (highest->w - lowest->w));
-  for (hop::Coefficient& c : coefficients)
+  for (Coefficient& c : coefficients)
   {
     for (const double isovalue : range.isovalues)
     {
@@ -99,11 +102,11 @@ std::vector<double> controlWeights(const CellBasis& cell, const CellValues& valu
 }
 
 /// Control rows with one number for the field; a vector's sum only says whether it is finite.
-std::vector<hop::Coefficient> coefficientsOf(const std::vector<double>& control, int width)
+std::vector<Coefficient> coefficientsOf(const std::vector<double>& control, int width)
 {
-  std::vector<hop::Coefficient> coefficients(control.size() / width);
+  std::vector<Coefficient> coefficients(control.size() / width);
   const double* row = control.data();
-  for (hop::Coefficient& c : coefficients)
+  for (Coefficient& c : coefficients)
   {
     c = { row[0], row[1], row[2], std::accumulate(row + 3, row + width, 0.0) };
     row += width;
@@ -111,7 +114,7 @@ std::vector<hop::Coefficient> coefficientsOf(const std::vector<double>& control,
   return coefficients;
 }
 
-hop::JacobianSign jacobianSign(const CellBasis& cell, const hop::BernsteinForm& form)
+JacobianSign jacobianSign(const CellBasis& cell, const BernsteinForm& form)
 {
   // At the highest degrees the bound is far above what coordinates suffer that vary smoothly.
   constexpr double largestRounding = 1e-6;
@@ -119,8 +122,8 @@ hop::JacobianSign jacobianSign(const CellBasis& cell, const hop::BernsteinForm& 
 }
 
 /// Writes the coefficients of one element.
-hop::JacobianSign convert(const InputBlocks& blocks, const CellBasis& cell, const FieldRange& range,
-  const hop::Element& element, hop::ElementMesh& mesh, CellValues& values)
+JacobianSign convert(const InputBlocks& blocks, const CellBasis& cell, const FieldRange& range,
+  const Element& element, ElementMesh& mesh, CellValues& values)
 {
   const BlockCell where = blocks.locate(element.cell);
   readCell(blocks, where, cell, values);
@@ -132,15 +135,15 @@ hop::JacobianSign convert(const InputBlocks& blocks, const CellBasis& cell, cons
   const std::vector<double> control =
     controlRows(cell, nodalRows(blocks[where.block].grid, cell.basis.nodeCount(), values), width);
   std::vector<double> weights = controlWeights(cell, values);
-  std::vector<hop::Coefficient> plain = coefficientsOf(control, width);
-  const hop::BernsteinForm form{ cell.basis.domain(), cell.basis.degrees(), plain.data(),
+  std::vector<Coefficient> plain = coefficientsOf(control, width);
+  const BernsteinForm form{ cell.basis.domain(), cell.basis.degrees(), plain.data(),
     element.rational ? weights.data() : nullptr };
-  const hop::JacobianSign sign = jacobianSign(cell, form);
+  const JacobianSign sign = jacobianSign(cell, form);
 
-  hop::Coefficient* coefficients = &mesh.coefficients[element.firstCoefficient];
+  Coefficient* coefficients = &mesh.coefficients[element.firstCoefficient];
   if (blocks.isMagnitude())
   {
-    weights = hop::squareField(form.domain, form.degrees, width, control, weights, coefficients);
+    weights = squareField(form.domain, form.degrees, width, control, weights, coefficients);
   }
   else
   {
@@ -159,12 +162,12 @@ hop::JacobianSign convert(const InputBlocks& blocks, const CellBasis& cell, cons
 
 } // namespace
 
-std::vector<hop::JacobianSign> convertCells(const InputBlocks& blocks,
-  const std::vector<const CellBasis*>& bases, const FieldRange& range, hop::ElementMesh& mesh,
-  const hop::ParallelFor& parallelFor)
+std::vector<JacobianSign> convertCells(const InputBlocks& blocks,
+  const std::vector<const CellBasis*>& bases, const FieldRange& range, ElementMesh& mesh,
+  const ParallelFor& parallelFor)
 {
-  std::vector<hop::JacobianSign> signs(mesh.elements.size());
-  hop::runParallel(parallelFor, static_cast<std::ptrdiff_t>(signs.size()),
+  std::vector<JacobianSign> signs(mesh.elements.size());
+  runParallel(parallelFor, static_cast<std::ptrdiff_t>(signs.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       CellValues values;
@@ -175,3 +178,5 @@ std::vector<hop::JacobianSign> convertCells(const InputBlocks& blocks,
     });
   return signs;
 }
+
+} // namespace hop

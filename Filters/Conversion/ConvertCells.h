@@ -6,6 +6,9 @@
 
 #include <vector>
 
+namespace hop
+{
+
 /// Which values of the chosen scalar matter.
 struct FieldRange
 {
@@ -21,6 +24,8 @@ struct FieldRange
 /// \param range tells what is done with the chosen scalar
 /// \param mesh elements that need no more but coefficients and corners, and room for the coefficients
 /// \return what the Jacobian determinant does, one an element
-std::vector<hop::JacobianSign> convertCells(const InputBlocks& blocks,
-  const std::vector<const CellBasis*>& bases, const FieldRange& range, hop::ElementMesh& mesh,
-  const hop::ParallelFor& parallelFor);
+std::vector<JacobianSign> convertCells(const InputBlocks& blocks,
+  const std::vector<const CellBasis*>& bases, const FieldRange& range, ElementMesh& mesh,
+  const ParallelFor& parallelFor);
+
+} // namespace hop

@@ -13,6 +13,9 @@
 #include <limits>
 #include <set>
 
+namespace hop
+{
+
 namespace
 {
 
@@ -48,10 +51,10 @@ double originOf(const InputBlocks& blocks)
   return lowest <= highest && highest - lowest < little * std::abs(middle) ? middle : 0.0;
 }
 
-using Corners = decltype(hop::Element::corners);
+using Corners = decltype(Element::corners);
 
 /// For comparisons: copies of a cell may list them in other orders.
-Corners sortedCorners(const hop::Element& element)
+Corners sortedCorners(const Element& element)
 {
   Corners corners = element.corners;
   std::sort(corners.begin(), corners.end());
@@ -61,8 +64,8 @@ Corners sortedCorners(const hop::Element& element)
 class Builder
 {
 public:
-  Builder(const InputBlocks& blocks, hop::NodeSpacing spacing, const std::vector<double>& isovalues,
-    const hop::ParallelFor& parallelFor, const std::function<void(double)>& reached)
+  Builder(const InputBlocks& blocks, NodeSpacing spacing, const std::vector<double>& isovalues,
+    const ParallelFor& parallelFor, const std::function<void(double)>& reached)
     : Blocks(blocks)
     , Isovalues(isovalues)
     , Parallel(parallelFor)
@@ -80,34 +83,34 @@ private:
   void makeElements(const std::vector<JudgedCells>& ranges);
   Room roomFor(const JudgedCells& range) const;
   void makeElements(const JudgedCells& range, const Room& before);
-  hop::Degrees elementDegrees(const CellBasis& cell) const;
-  void dropCollapsed(const std::vector<hop::JacobianSign>& signs);
+  Degrees elementDegrees(const CellBasis& cell) const;
+  void dropCollapsed(const std::vector<JacobianSign>& signs);
   void dropDoubledGhosts(std::vector<double>& tolerances);
   void keep(const std::vector<char>& marks);
 
   const InputBlocks& Blocks;
   const std::vector<double>& Isovalues;
-  const hop::ParallelFor& Parallel;
+  const ParallelFor& Parallel;
   const std::function<void(double)>& Reached;
   GridElements Result;
 };
 
 GridElements Builder::build()
 {
-  hop::ElementMesh& mesh = this->Result.mesh;
+  ElementMesh& mesh = this->Result.mesh;
   this->makeElements(
     judgeCells(this->Blocks, this->Isovalues, *this->Result.kinds, this->Parallel));
   this->Reached(0.2);
-  const std::vector<hop::JacobianSign> signs = convertCells(this->Blocks, this->Result.bases,
+  const std::vector<JacobianSign> signs = convertCells(this->Blocks, this->Result.bases,
     { this->Isovalues, this->Result.origin }, mesh, this->Parallel);
   this->Reached(0.3);
   this->dropCollapsed(signs);
-  std::vector<double> tolerances = hop::cornerTolerances(mesh, this->Parallel);
+  std::vector<double> tolerances = cornerTolerances(mesh, this->Parallel);
   this->Reached(0.5);
-  hop::numberCorners(mesh, tolerances, this->Parallel);
+  numberCorners(mesh, tolerances, this->Parallel);
   this->Reached(0.9);
   this->dropDoubledGhosts(tolerances);
-  hop::findFaceNeighbors(mesh, tolerances, this->Parallel);
+  findFaceNeighbors(mesh, tolerances, this->Parallel);
   return std::move(this->Result);
 }
 
@@ -115,7 +118,7 @@ GridElements Builder::build()
 void Builder::makeElements(const std::vector<JudgedCells>& ranges)
 {
   std::vector<Room> before(ranges.size());
-  hop::forAll(
+  forAll(
     this->Parallel, ranges.size(), [&](std::size_t r) { before[r] = this->roomFor(ranges[r]); });
   Room all;
   for (std::size_t r = 0; r < ranges.size(); ++r)
@@ -125,12 +128,12 @@ void Builder::makeElements(const std::vector<JudgedCells>& ranges)
     before[r] = start;
     this->Result.census[ranges[r].block].add(ranges[r].census);
   }
-  hop::ElementMesh& mesh = this->Result.mesh;
+  ElementMesh& mesh = this->Result.mesh;
   mesh.elements.resize(all.elements);
   this->Result.bases.resize(all.elements);
   mesh.coefficients.resize(all.coefficients);
   mesh.weights.resize(all.anyRational ? all.coefficients : 0);
-  hop::forAll(this->Parallel, ranges.size(),
+  forAll(this->Parallel, ranges.size(),
     [&](std::size_t r) { this->makeElements(ranges[r], before[r]); });
 }
 
@@ -141,7 +144,7 @@ Room Builder::roomFor(const JudgedCells& range) const
   for (const KeptCell& kept : range.kept)
   {
     room.coefficients +=
-      hop::coefficientCount(kept.basis->basis.domain(), this->elementDegrees(*kept.basis));
+      coefficientCount(kept.basis->basis.domain(), this->elementDegrees(*kept.basis));
     room.anyRational =
       room.anyRational || rationalWeights(this->Blocks[range.block], *kept.basis) != nullptr;
   }
@@ -154,26 +157,26 @@ void Builder::makeElements(const JudgedCells& range, const Room& before)
   for (std::size_t i = 0; i < range.kept.size(); ++i)
   {
     const auto& [cell, basis] = range.kept[i];
-    hop::Element& element = this->Result.mesh.elements[before.elements + i];
+    Element& element = this->Result.mesh.elements[before.elements + i];
     element.domain = basis->basis.domain();
     element.degrees = this->elementDegrees(*basis);
     element.firstCoefficient = coefficient;
     element.rational = rationalWeights(this->Blocks[range.block], *basis) != nullptr;
     element.cell = this->Blocks.firstCell(range.block) + cell;
     this->Result.bases[before.elements + i] = basis;
-    coefficient += hop::coefficientCount(element.domain, element.degrees);
+    coefficient += coefficientCount(element.domain, element.degrees);
   }
 }
 
 /// Squares have twice the degree.
-hop::Degrees Builder::elementDegrees(const CellBasis& cell) const
+Degrees Builder::elementDegrees(const CellBasis& cell) const
 {
-  const hop::Degrees& d = cell.basis.degrees();
-  return this->Result.squared ? hop::Degrees{ 2 * d[0], 2 * d[1], 2 * d[2] } : d;
+  const Degrees& d = cell.basis.degrees();
+  return this->Result.squared ? Degrees{ 2 * d[0], 2 * d[1], 2 * d[2] } : d;
 }
 
 /// Takes out elements without volume and those whose coordinates are not finite.
-void Builder::dropCollapsed(const std::vector<hop::JacobianSign>& signs)
+void Builder::dropCollapsed(const std::vector<JacobianSign>& signs)
 {
   std::vector<char> marks(signs.size(), 1);
   for (std::size_t e = 0; e < signs.size(); ++e)
@@ -182,15 +185,15 @@ void Builder::dropCollapsed(const std::vector<hop::JacobianSign>& signs)
     CellCensus& census = this->Result.census[block];
     switch (signs[e])
     {
-      case hop::JacobianSign::NotFinite:
+      case JacobianSign::NotFinite:
         census.notFinite.add(cell);
         marks[e] = 0;
         break;
-      case hop::JacobianSign::Zero:
+      case JacobianSign::Zero:
         census.collapsed.add(cell);
         marks[e] = 0;
         break;
-      case hop::JacobianSign::Mixed:
+      case JacobianSign::Mixed:
         census.folded.add(cell);
         break;
       default:
@@ -204,9 +207,9 @@ void Builder::dropCollapsed(const std::vector<hop::JacobianSign>& signs)
 /// second time: readers of files in pieces bring both together.
 void Builder::dropDoubledGhosts(std::vector<double>& tolerances)
 {
-  const std::vector<hop::Element>& elements = this->Result.mesh.elements;
+  const std::vector<Element>& elements = this->Result.mesh.elements;
   std::vector<char> marks;
-  for (const hop::Element& element : elements)
+  for (const Element& element : elements)
   {
     marks.push_back(!this->Blocks.isGhost(this->Blocks.locate(element.cell)));
   }
@@ -227,21 +230,23 @@ void Builder::dropDoubledGhosts(std::vector<double>& tolerances)
     marks[e] = marks[e] || present.insert(sortedCorners(elements[e])).second;
   }
   this->keep(marks);
-  hop::keepMarked(tolerances, marks);
+  keepMarked(tolerances, marks);
 }
 
 /// Takes out elements without a mark.
 void Builder::keep(const std::vector<char>& marks)
 {
-  hop::keepMarked(this->Result.mesh.elements, marks);
-  hop::keepMarked(this->Result.bases, marks);
+  keepMarked(this->Result.mesh.elements, marks);
+  keepMarked(this->Result.bases, marks);
 }
 
 } // namespace
 
-GridElements buildGridElements(const InputBlocks& blocks, hop::NodeSpacing spacing,
-  const std::vector<double>& isovalues, const hop::ParallelFor& parallelFor,
+GridElements buildGridElements(const InputBlocks& blocks, NodeSpacing spacing,
+  const std::vector<double>& isovalues, const ParallelFor& parallelFor,
   const std::function<void(double)>& reached)
 {
   return Builder(blocks, spacing, isovalues, parallelFor, reached).build();
 }
+
+} // namespace hop

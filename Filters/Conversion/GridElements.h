@@ -10,12 +10,15 @@
 #include <memory>
 #include <vector>
 
+namespace hop
+{
+
 /// Grids seen as elements: those that can hold one of the isosurfaces in Bernstein form, joined at
 /// their faces within and across blocks, and the bases by which further arrays can be evaluated on them.
 struct GridElements
 {
   /// Its elements name their cells by the number that InputBlocks gives them.
-  hop::ElementMesh mesh;
+  ElementMesh mesh;
   /// Of all kinds of cells.
   std::unique_ptr<CellBases> kinds;
   /// One an element, of those.
@@ -42,5 +45,7 @@ struct GridElements
 /// \param isovalues of the chosen scalar, at least one
 /// \param reached is told what share of the work is done, 0 to 1; may throw to end it early
 GridElements buildGridElements(
-  const InputBlocks& blocks, hop::NodeSpacing spacing, const std::vector<double>& isovalues,
-  const hop::ParallelFor& parallelFor, const std::function<void(double)>& reached = [](double) {});
+  const InputBlocks& blocks, NodeSpacing spacing, const std::vector<double>& isovalues,
+  const ParallelFor& parallelFor, const std::function<void(double)>& reached = [](double) {});
+
+} // namespace hop

@@ -11,6 +11,9 @@
 #include <limits>
 #include <numeric>
 
+namespace hop
+{
+
 namespace
 {
 
@@ -157,11 +160,11 @@ bool Judge::straddles(double lower, double upper) const
 } // namespace
 
 std::vector<JudgedCells> judgeCells(const InputBlocks& blocks, const std::vector<double>& isovalues,
-  CellBases& kinds, const hop::ParallelFor& parallelFor)
+  CellBases& kinds, const ParallelFor& parallelFor)
 {
   std::vector<JudgedCells> ranges = rangesOfCells(blocks);
   const Judge judge(blocks, isovalues);
-  hop::runParallel(parallelFor, static_cast<std::ptrdiff_t>(ranges.size()),
+  runParallel(parallelFor, static_cast<std::ptrdiff_t>(ranges.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       CellValues values;
@@ -173,3 +176,5 @@ std::vector<JudgedCells> judgeCells(const InputBlocks& blocks, const std::vector
     });
   return ranges;
 }
+
+} // namespace hop

@@ -7,6 +7,9 @@
 
 #include <vector>
 
+namespace hop
+{
+
 /// A cell that can hold surface.
 struct KeptCell
 {
@@ -31,4 +34,6 @@ struct JudgedCells
 /// \param kinds those of the cells are added
 /// \return all cells, in order
 std::vector<JudgedCells> judgeCells(const InputBlocks& blocks, const std::vector<double>& isovalues,
-  CellBases& kinds, const hop::ParallelFor& parallelFor);
+  CellBases& kinds, const ParallelFor& parallelFor);
+
+} // namespace hop

@@ -6,6 +6,9 @@
 #include "vtkPointData.h"
 #include "vtkUnstructuredGrid.h"
 
+namespace hop
+{
+
 namespace
 {
 
@@ -54,3 +57,5 @@ std::vector<std::string> dropShortArrays(InputBlock& block)
   block.grid = dropped.empty() ? block.grid : copy;
   return dropped;
 }
+
+} // namespace hop

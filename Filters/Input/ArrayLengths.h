@@ -2,6 +2,9 @@
 
 #include "Input/InputBlocks.h"
 
+namespace hop
+{
+
 /// Names and lengths of a block's scalars if they do not reach its last point; else empty.
 std::string describeShortScalars(const InputBlock& block);
 
@@ -9,3 +12,5 @@ std::string describeShortScalars(const InputBlock& block);
 /// without them.
 /// \return their names and lengths
 std::vector<std::string> dropShortArrays(InputBlock& block);
+
+} // namespace hop

@@ -21,6 +21,9 @@
 #include <tuple>
 #include <utility>
 
+namespace hop
+{
+
 namespace
 {
 
@@ -70,7 +73,7 @@ private:
 class SharedCells
 {
 public:
-  SharedCells(const InputBlocks& blocks, const hop::ParallelFor& parallelFor);
+  SharedCells(const InputBlocks& blocks, const ParallelFor& parallelFor);
 
   /// All different sets of blocks that have one cell in common.
   std::set<Members> find() const;
@@ -81,13 +84,13 @@ private:
   bool othersReach(std::size_t block, const std::array<double, 3>& place) const;
 
   const InputBlocks& Blocks;
-  const hop::ParallelFor& Parallel;
+  const ParallelFor& Parallel;
   /// For each block, the bounds of others that overlap it: only there can it share cells.
   std::vector<std::vector<vtkBoundingBox>> Others;
   std::vector<vtkUnsignedCharArray*> Ghosts;
 };
 
-SharedCells::SharedCells(const InputBlocks& blocks, const hop::ParallelFor& parallelFor)
+SharedCells::SharedCells(const InputBlocks& blocks, const ParallelFor& parallelFor)
   : Blocks(blocks)
   , Parallel(parallelFor)
   , Others(blocks.size())
@@ -150,7 +153,7 @@ std::vector<PlacedCell> SharedCells::placeCells() const
 {
   std::vector<PlacedCell> cells;
   std::mutex access;
-  hop::runParallel(this->Parallel, static_cast<std::ptrdiff_t>(this->Blocks.cellCount()),
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(this->Blocks.cellCount()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       std::vector<PlacedCell> found;
@@ -205,11 +208,11 @@ std::set<Members> SharedCells::find() const
   constexpr std::size_t cellsPerBin = 16;
   const std::vector<PlacedCell> cells = this->placeCells();
   const std::size_t bins = cells.size() / cellsPerBin + 1;
-  const hop::Grouping binned = hop::groupedBy(
+  const Grouping binned = groupedBy(
     cells, bins, [bins](const PlacedCell& cell) { return cell.hash() % bins; }, this->Parallel);
   std::set<Members> sets;
   std::mutex access;
-  hop::runParallel(this->Parallel, static_cast<std::ptrdiff_t>(bins),
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(bins),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       std::set<Members> found;
@@ -231,7 +234,7 @@ std::set<Members> SharedCells::find() const
 
 /// Pairs of blocks, the earlier one first, that have a cell in common.
 std::set<std::pair<std::size_t, std::size_t>> blocksThatShareCells(
-  const InputBlocks& blocks, const hop::ParallelFor& parallelFor)
+  const InputBlocks& blocks, const ParallelFor& parallelFor)
 {
   std::set<std::pair<std::size_t, std::size_t>> pairs;
   for (const Members& members : SharedCells(blocks, parallelFor).find())
@@ -250,7 +253,7 @@ std::set<std::pair<std::size_t, std::size_t>> blocksThatShareCells(
 } // namespace
 
 std::vector<InputBlocks> groupWithoutSharedCells(
-  const InputBlocks& blocks, const hop::ParallelFor& parallelFor)
+  const InputBlocks& blocks, const ParallelFor& parallelFor)
 {
   const auto sharing = blocksThatShareCells(blocks, parallelFor);
   std::vector<Members> groups;
@@ -282,3 +285,5 @@ std::vector<InputBlocks> groupWithoutSharedCells(
   }
   return result;
 }
+
+} // namespace hop

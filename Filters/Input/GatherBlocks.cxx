@@ -11,6 +11,9 @@
 #include "vtkSmartPointer.h"
 #include "vtkUnstructuredGrid.h"
 
+namespace hop
+{
+
 namespace
 {
 
@@ -72,3 +75,5 @@ GatheredBlocks gatherBlocks(vtkDataObject* input, vtkDataObject* output)
   outputTree->GetFieldData()->PassData(tree->GetFieldData());
   return gatherLeaves(tree, outputTree);
 }
+
+} // namespace hop

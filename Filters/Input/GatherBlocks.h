@@ -4,6 +4,9 @@
 
 class vtkDataObject;
 
+namespace hop
+{
+
 /// The grids of an input, with a name and a place for their particles each, but without scalars.
 struct GatheredBlocks
 {
@@ -16,3 +19,5 @@ struct GatheredBlocks
 /// \param output vtkPolyData, or a composite of the input's kind, which gets the input's structure with
 /// names and, in the place of every grid, empty vtkPolyData
 GatheredBlocks gatherBlocks(vtkDataObject* input, vtkDataObject* output);
+
+} // namespace hop

@@ -13,6 +13,9 @@ class vtkPolyData;
 class vtkUnsignedCharArray;
 class vtkUnstructuredGrid;
 
+namespace hop
+{
+
 /// One grid of the input, and where its particles go.
 struct InputBlock
 {
@@ -62,6 +65,10 @@ private:
   std::vector<std::int64_t> FirstCells;
 };
 
+/// The component of the blocks' scalars to contour by, or InputBlocks::Magnitude.
+/// \param asked number of components or more for the magnitude; scalars have but one component
+int componentOf(const std::vector<InputBlock>& blocks, int asked);
+
 /// Whether a cell is another piece's, is hidden, or has others in its place: then it is a neighbour, no more.
 /// What else `vtkGhostType` may say about a cell does not matter.
 /// \param ghosts the grid's, or nullptr
@@ -69,3 +76,5 @@ bool isGhostCell(vtkUnsignedCharArray* ghosts, vtkIdType cell);
 
 /// The bounds of a grid, without points whose coordinates are not finite.
 vtkBoundingBox finiteBounds(vtkUnstructuredGrid* grid);
+
+} // namespace hop

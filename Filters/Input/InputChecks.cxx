@@ -15,6 +15,9 @@
 #include <sstream>
 #include <string>
 
+namespace hop
+{
+
 namespace
 {
 
@@ -246,3 +249,5 @@ CheckedBlocks checkBlocks(const GatheredBlocks& gathered, vtkInformation* asked)
   }
   return checked;
 }
+
+} // namespace hop

@@ -7,6 +7,9 @@
 
 class vtkInformation;
 
+namespace hop
+{
+
 /// What to do where no isovalue is given; empty where there are some.
 UserMessages checkIsovalues(const std::vector<double>& isovalues, const GatheredBlocks& gathered);
 
@@ -28,3 +31,5 @@ struct CheckedBlocks
 
 /// \param asked names the array: vtkAlgorithm::GetInputArrayInformation
 CheckedBlocks checkBlocks(const GatheredBlocks& gathered, vtkInformation* asked);
+
+} // namespace hop

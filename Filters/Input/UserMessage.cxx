@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+namespace hop
+{
+
 std::string listOf(const std::vector<std::string>& names)
 {
   constexpr std::size_t most = 10;
@@ -13,3 +16,5 @@ std::string listOf(const std::vector<std::string>& names)
   const std::size_t more = names.size() - std::min(names.size(), most);
   return names.empty() ? "none" : list + (more > 0 ? " and " + std::to_string(more) + " more" : "");
 }
+
+} // namespace hop

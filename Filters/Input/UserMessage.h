@@ -3,6 +3,9 @@
 #include <string>
 #include <vector>
 
+namespace hop
+{
+
 /// What a user is to be told. The filter tells it: observers of errors and warnings listen there.
 struct UserMessage
 {
@@ -20,3 +23,5 @@ using UserMessages = std::vector<UserMessage>;
 
 /// "a, b, c and 2 more", or "none".
 std::string listOf(const std::vector<std::string>& names);
+
+} // namespace hop

@@ -13,6 +13,9 @@
 
 #include <algorithm>
 
+namespace hop
+{
+
 namespace
 {
 
@@ -72,8 +75,8 @@ private:
   /// Bernstein coefficients of all arrays, one row of components a coefficient.
   void convert(int element)
   {
-    const hop::Element& e = this->Elements.mesh.elements[element];
-    const hop::NodalBasis& basis = this->Elements.bases[element]->basis;
+    const Element& e = this->Elements.mesh.elements[element];
+    const NodalBasis& basis = this->Elements.bases[element]->basis;
     const int nodes = basis.nodeCount();
     vtkIdType count = 0;
     const vtkIdType* ids = nullptr;
@@ -120,9 +123,9 @@ private:
   /// Components first, first + 1, ... at the points collected, for the rows from `begin` on.
   void evaluateGroup(int element, int first, std::ptrdiff_t begin)
   {
-    const hop::NodalBasis& basis = this->Elements.bases[element]->basis;
+    const NodalBasis& basis = this->Elements.bases[element]->basis;
     const int components = std::min(groupSize, this->width() - first);
-    this->Group.assign(basis.coefficientCount(), hop::Coefficient(0.0));
+    this->Group.assign(basis.coefficientCount(), Coefficient(0.0));
     for (std::size_t i = 0; i < this->Group.size(); ++i)
     {
       const double weight = this->Weights.empty() ? 1.0 : this->Weights[i];
@@ -131,13 +134,13 @@ private:
         this->Group[i][c] = weight * this->Coefficients[i * this->width() + first + c];
       }
     }
-    hop::evaluateGradients({ basis.domain(), basis.degrees(), this->Group.data(),
-                             this->Weights.empty() ? nullptr : this->Weights.data() },
+    evaluateGradients({ basis.domain(), basis.degrees(), this->Group.data(),
+                        this->Weights.empty() ? nullptr : this->Weights.data() },
       this->Points.data(), static_cast<int>(this->Points.size()), this->Jets);
     for (int c = 0; c < components; ++c)
     {
       const Target& target = this->Targets[first + c];
-      const double* values = this->Jets.row(hop::quantity::value, c);
+      const double* values = this->Jets.row(quantity::value, c);
       for (int n = 0; n < this->Jets.size(); ++n)
       {
         target.values[(begin + n) * target.stride] = values[n];
@@ -155,23 +158,25 @@ private:
   std::vector<double> Nodal;
   std::vector<double> Coefficients;
   std::vector<double> Weights;
-  std::vector<hop::ReferencePoint> Points;
+  std::vector<ReferencePoint> Points;
   std::ptrdiff_t BatchEnd = 0;
-  std::vector<hop::Coefficient> Group;
-  hop::JetBatch Jets;
+  std::vector<Coefficient> Group;
+  JetBatch Jets;
 };
 
 } // namespace
 
 void evaluatePointArrays(const InputBlocks& blocks, const GridElements& elements,
   const std::vector<EvaluatedArray>& arrays, const std::vector<ParticleRow>& rows,
-  const hop::ParallelFor& parallelFor)
+  const ParallelFor& parallelFor)
 {
   if (arrays.empty())
   {
     return;
   }
-  hop::runParallel(parallelFor, static_cast<std::ptrdiff_t>(rows.size()),
+  runParallel(parallelFor, static_cast<std::ptrdiff_t>(rows.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     { ArrayEvaluator(blocks, elements, arrays, rows).evaluate(begin, end); });
 }
+
+} // namespace hop

@@ -9,6 +9,9 @@
 #include <numeric>
 #include <utility>
 
+namespace hop
+{
+
 namespace
 {
 
@@ -181,3 +184,5 @@ std::vector<RankShare> shareOutToRanks(
   }
   return shares;
 }
+
+} // namespace hop

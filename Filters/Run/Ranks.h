@@ -7,6 +7,9 @@
 
 class vtkBoundingBox;
 
+namespace hop
+{
+
 // What ranks agree on. Every rank has to call each of these, as often and in the same order as all others: also
 // one without data, with an error, or that is to stop.
 
@@ -48,3 +51,5 @@ bool isOneOfRanks();
 /// \return one share a surface
 std::vector<RankShare> shareOutToRanks(
   std::int64_t number, std::size_t surfaces, double firstSpacing, const WantedAt& wanted);
+
+} // namespace hop

@@ -10,6 +10,9 @@
 #include <string>
 #include <vector>
 
+namespace hop
+{
+
 // Advice depends on the filter's NumberOfParticles: where it is positive, Spacing is ignored.
 
 /// A run that ended in an exception.
@@ -23,5 +26,7 @@ UserMessages reviewArrays(const std::vector<InputBlock>& blocks);
 UserMessages reviewCells(const InputBlocks& blocks, const std::vector<CellCensus>& census);
 
 /// What a distribution could not do.
-UserMessages reviewDistribution(const InputBlocks& blocks, const hop::Distribution& distribution,
+UserMessages reviewDistribution(const InputBlocks& blocks, const Distribution& distribution,
   double isovalue, std::int64_t numberOfParticles);
+
+} // namespace hop

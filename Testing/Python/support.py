@@ -4,6 +4,7 @@ and ask VTK's own cells, contour and locator for a second opinion."""
 import os
 
 import numpy as np
+from highorderparticles import vtkHighOrderParticleIsosurface
 from paraview import simple
 from paraview.vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.util.misc import calldata_type
@@ -103,7 +104,22 @@ def array_of(data, name, association="point"):
 
 
 def array_names(attributes):
-    return {attributes.GetArrayName(i) for i in range(attributes.GetNumberOfArrays())}
+    return set(array_list(attributes))
+
+
+def array_list(attributes):
+    return [attributes.GetArrayName(i) for i in range(attributes.GetNumberOfArrays())]
+
+
+def own_arrays(association):
+    """{name: number of components} of the arrays that the filter says every output has, in their order; association:
+    vtkDataObject.POINT or FIELD."""
+    table = vtkHighOrderParticleIsosurface
+    return {
+        table.GetOutputArrayName(i): table.GetOutputArrayNumberOfComponents(i)
+        for i in range(table.GetNumberOfOutputArrays())
+        if table.GetOutputArrayAssociation(i) == association
+    }
 
 
 def reported(particles, name):

@@ -1,44 +1,26 @@
 """What the filter writes: arrays, structure, order, and that it depends on the input and the seed only."""
 
+import re
 import shutil
 import subprocess
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
 import support
+from highorderparticles import vtkHighOrderParticleIsosurface
 from paraview import simple
 from vtkmodules import vtkCommonDataModel
 from vtkmodules.vtkCommonCore import VTK_DOUBLE, VTK_FLOAT, vtkFloatArray, vtkSMPTools
-from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkMultiBlockDataSet, vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkDataObject, vtkMultiBlockDataSet, vtkUnstructuredGrid
 
 BLOCK_NAME = vtkCompositeDataSet.NAME()
 
-OWN_ARRAYS = {
-    "Normals": ("vtkDoubleArray", 3),
-    "Radius": ("vtkDoubleArray", 1),
-    "Mean_Curvature": ("vtkDoubleArray", 1),
-    "Gauss_Curvature": ("vtkDoubleArray", 1),
-    "Shape_Operator": ("vtkDoubleArray", 6),
-    "Residual": ("vtkDoubleArray", 1),
-    "Clip_Normal": ("vtkDoubleArray", 6),
-    "Clip_Distance": ("vtkDoubleArray", 2),
-    "Clip_Angle": ("vtkDoubleArray", 2),
-    "Clip_Curvature": ("vtkDoubleArray", 2),
-    "Jump": ("vtkDoubleArray", 1),
-    "Isovalue": ("vtkDoubleArray", 1),
-    "vtkOriginalCellIds": ("vtkIdTypeArray", 1),
-    "ParametricCoordinates": ("vtkDoubleArray", 3),
-}
-REPORT = {
-    "Evaluations",
-    "Iterations",
-    "ElementsDropped",
-    "CellsSkipped",
-    "BoxesUnresolved",
-    "ParticlesRejected",
-    "ParticlesUndersampled",
-}
+# What the filter's own table says: {name: number of components}.
+OWN_ARRAYS = support.own_arrays(vtkDataObject.POINT)
+REPORT = support.own_arrays(vtkDataObject.FIELD)
+PROJECT = Path(__file__).resolve().parents[2]
 
 
 @pytest.fixture
@@ -60,14 +42,43 @@ CYLINDER = {"array": "pressure", "isovalues": -0.5, "Spacing": 13 / 60}
 # Arrays
 
 
-def test_own_arrays_have_their_names_types_and_components(channel):
+def test_the_outputs_own_arrays_are_those_of_the_table_in_its_order(channel):
     particles = support.run_quietly(channel, "pressure", 0.6)
-    attributes = particles.GetPointData()
-    assert support.array_names(attributes) == {*OWN_ARRAYS, "pressure", "velocity", "vorticity"}
-    for name, (kind, components) in OWN_ARRAYS.items():
-        array = attributes.GetArray(name)
-        assert (array.GetClassName(), array.GetNumberOfComponents()) == (kind, components), name
+    grid = support.output_of(channel)
+    for table, attributes, of_input in [
+        (OWN_ARRAYS, particles.GetPointData(), grid.GetPointData()),
+        (REPORT, particles.GetFieldData(), grid.GetFieldData()),
+    ]:
+        names = [name for name in support.array_list(attributes) if not of_input.HasArray(name)]
+        assert [(name, attributes.GetArray(name).GetNumberOfComponents()) for name in names] == list(table.items())
+    for name in OWN_ARRAYS:
+        array = particles.GetPointData().GetArray(name)
+        assert array.GetClassName() == ("vtkIdTypeArray" if name == "vtkOriginalCellIds" else "vtkDoubleArray"), name
         assert array.GetNumberOfTuples() == particles.GetNumberOfPoints(), name
+    assert all(particles.GetFieldData().GetArray(name).GetClassName() == "vtkIdTypeArray" for name in REPORT)
+    assert support.array_names(particles.GetPointData()) - set(OWN_ARRAYS) == {"pressure", "velocity", "vorticity"}
+
+
+def test_every_array_of_the_table_is_explained():
+    table = vtkHighOrderParticleIsosurface
+    count = table.GetNumberOfOutputArrays()
+    assert count == len(OWN_ARRAYS) + len(REPORT), "each name once"
+    assert all(table.GetOutputArrayDescription(i).endswith(".") for i in range(count))
+    for beyond in (-1, count):
+        assert table.GetOutputArrayName(beyond) is None and table.GetOutputArrayDescription(beyond) is None
+    assert [name for name in OWN_ARRAYS if not table.IsOwnPointArray(name)] == []
+    assert not any(table.IsOwnPointArray(name) for name in REPORT)
+
+
+@pytest.mark.parametrize("page", ["README.md", "Plugin/HighOrderParticleIsosurface.xml"])
+def test_pages_for_users_name_every_point_array(page):
+    text = (PROJECT / page).read_text()
+    assert [name for name in OWN_ARRAYS if not re.search(rf"\b{name}\b", text)] == []
+
+
+def test_the_class_comment_names_the_arrays_of_the_table():
+    comment = (PROJECT / "Filters/vtkHighOrderParticleIsosurface.h").read_text().split("*/")[0]
+    assert set(re.findall(r"`(\w+)`", comment)) == {*OWN_ARRAYS, *REPORT}
 
 
 def test_arrays_hold_what_their_names_say(channel):
@@ -108,7 +119,7 @@ def test_active_normals_and_scalars(cylinder):
 
 def test_report_is_in_the_field_data(cylinder):
     particles = support.run_quietly(cylinder, **CYLINDER)
-    assert REPORT <= support.array_names(particles.GetFieldData())
+    assert set(REPORT) <= support.array_names(particles.GetFieldData())
     assert support.reported(particles, "Evaluations") > particles.GetNumberOfPoints()
     assert support.reported(particles, "Iterations") > 0
     cells = support.output_of(cylinder).GetNumberOfCells()
@@ -169,12 +180,9 @@ def test_point_arrays_of_the_filters_names_give_way_and_are_named(channel, point
 
 
 def test_field_arrays_of_the_reports_names_give_way_and_are_named(channel):
-    names = {*REPORT, "SingularPoints", "UnresolvedCellIds"}
-    report = support.array_names(support.run_quietly(channel, "pressure", 0.6, Spacing=0.04).GetFieldData())
-    assert names <= report
-    particles, messages = support.run(copy_with_arrays(channel, fields=names), "pressure", 0.6, Spacing=0.04)
+    particles, messages = support.run(copy_with_arrays(channel, fields=REPORT), "pressure", 0.6, Spacing=0.04)
     assert support.reported(particles, "Iterations") != 99
-    assert len(messages.warnings) == 1 and all(f"field array '{name}'" in messages.warnings[0] for name in names)
+    assert len(messages.warnings) == 1 and all(f"field array '{name}'" in messages.warnings[0] for name in REPORT)
 
 
 def test_a_contoured_array_with_the_name_of_the_isovalues_is_what_it_was(channel):
@@ -417,7 +425,7 @@ def test_multiblock_keeps_its_structure(data):
     assert [leaf is None for _, _, leaf in leaves] == [False, True, False]
     alone = [support.run_quietly(grid, "F", 0.3, Spacing=0.08, Tolerance=1e-12) for grid in (torus, bump)]
     for single, (_, _, leaf) in zip(alone, (leaves[0], leaves[2])):
-        assert leaf.IsA("vtkPolyData") and REPORT <= support.array_names(leaf.GetFieldData())
+        assert leaf.IsA("vtkPolyData") and set(REPORT) <= support.array_names(leaf.GetFieldData())
         assert leaf.GetNumberOfPoints() == pytest.approx(single.GetNumberOfPoints(), rel=0.05)
 
 
