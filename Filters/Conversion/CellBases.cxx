@@ -26,6 +26,7 @@ namespace hop
 namespace
 {
 
+/// Stands for degrees that follow from the number of points.
 constexpr Degrees degreesFromCount{ 0, 0, 0 };
 
 bool isBezier(int cellType)
@@ -40,7 +41,7 @@ bool isLagrange(int cellType)
     cellType == VTK_LAGRANGE_WEDGE;
 }
 
-/// The domain on which cells of a type are polynomial.
+/// The domain on which cells of a type are polynomial; none for types that are not supported.
 std::optional<Domain> domainOf(int cellType)
 {
   switch (cellType)
@@ -73,14 +74,16 @@ std::optional<Domain> domainOf(int cellType)
   }
 }
 
-/// Lagrange cells whose points do not fill a lattice, but which VTK knows all the same.
+/// Whether a Lagrange cell has more nodes than its lattice: VTK's tetrahedron of 15 and wedge of 21 nodes have nodes in
+/// the middles of faces and of the cell.
 bool isEnriched(int cellType, vtkIdType points)
 {
   return (cellType == VTK_LAGRANGE_TETRAHEDRON && points == 15) ||
     (cellType == VTK_LAGRANGE_WEDGE && points == 21);
 }
 
-/// The degrees that the file gives for this cell; zeros if it leaves them to the number of points.
+/// The degrees that the grid gives for a cell, -1 for a degree out of range; zeros if they follow from the number of
+/// points.
 Degrees explicitDegrees(vtkUnstructuredGrid* grid, vtkIdType cell)
 {
   const int type = grid->GetCellType(cell);
@@ -97,7 +100,8 @@ Degrees explicitDegrees(vtkUnstructuredGrid* grid, vtkIdType cell)
   return { degree(tuple[0]), degree(tuple[1]), degree(tuple[2]) };
 }
 
-/// The degree at which the domain has that many nodes, or the given degrees if they have.
+/// The degrees with which a cell on the domain has that many nodes: the given degrees if there are any, else equal
+/// ones. None if there are no such degrees.
 std::optional<Degrees> fittingDegrees(Domain domain, const Degrees& given, vtkIdType nodes)
 {
   if (given != degreesFromCount)
@@ -118,16 +122,16 @@ std::optional<Degrees> fittingDegrees(Domain domain, const Degrees& given, vtkId
   return {};
 }
 
-/// Number of points of a cell type that has but one.
-/// \pre VTK has a class for it, as for all types that have a domain
+/// The number of points of cells of a type that always has the same number.
+/// \pre VTK has a class for the type; it has one for all types with a domain
 vtkIdType usualPointCount(int cellType)
 {
   return vtk::TakeSmartPointer(vtkGenericCell::InstantiateCell(cellType))->GetNumberOfPoints();
 }
 
-/// A cell of that kind, alone and with all points at the origin. VTK can be asked about its nodes
-/// whatever is wrong with the cells of the input.
-/// \param degrees of a cell that fills its lattice
+/// A grid with one cell of a kind and with all points at the origin. VTK can be asked about the cell's nodes, whatever
+/// is wrong with the cells of the input.
+/// \param degrees for cells whose nodes fill their lattice
 vtkSmartPointer<vtkUnstructuredGrid> gridOfOneCell(
   int cellType, vtkIdType nodes, const std::optional<Degrees>& degrees)
 {
@@ -149,10 +153,12 @@ vtkSmartPointer<vtkUnstructuredGrid> gridOfOneCell(
   return grid;
 }
 
+/// The values of VTK's shape functions, one a node.
 std::vector<double> shapeFunctions(vtkCell* cell, const ReferencePoint& u)
 {
-  // VTK's cells write as many values as they have points, some a few more.
-  std::vector<double> weights(cell->GetNumberOfPoints() + 32);
+  // VTK's cells write as many values as they have points; some write more. The reserve is ample.
+  constexpr int reserve = 32;
+  std::vector<double> weights(cell->GetNumberOfPoints() + reserve);
   const ReferencePoint parametric = parametricCoordinates(cell->GetCellType(), u);
   cell->InterpolateFunctions(&parametric.xyz.x, weights.data());
   weights.resize(cell->GetNumberOfPoints());
@@ -162,7 +168,10 @@ std::vector<double> shapeFunctions(vtkCell* cell, const ReferencePoint& u)
 /// Whether a basis gives back VTK's shape functions away from the points where it was sampled.
 bool reproduces(vtkCell* cell, const NodalBasis& basis)
 {
+  // Number of random points: polynomials that differ do not agree at all of them.
   constexpr int trials = 20;
+  // Largest difference of shape functions, whose values are about 1: far above rounding errors, far below the
+  // difference of polynomials of different degrees. Chosen by experiment.
   constexpr double tolerance = 1e-9;
   const int nodes = basis.nodeCount();
   std::vector<double> unit(static_cast<std::size_t>(nodes) * nodes, 0.0);
@@ -176,7 +185,7 @@ bool reproduces(vtkCell* cell, const NodalBasis& basis)
   Random random(1);
   for (int trial = 0; trial < trials; ++trial)
   {
-    // In every domain, simplices included.
+    // Coordinates up to 1/3 are in every domain, simplices included.
     const ReferencePoint u{ glm::dvec3(
       random.uniform() / 3.0, random.uniform() / 3.0, random.uniform() / 3.0) };
     evaluateBasis(basis.domain(), basis.degrees(), u, bernstein.data());
@@ -197,9 +206,10 @@ bool reproduces(vtkCell* cell, const NodalBasis& basis)
   return true;
 }
 
-/// VTK's own shape functions in the Bernstein basis of the lowest degree that holds them.
+/// VTK's own shape functions in the first of some Bernstein bases that holds them.
 std::unique_ptr<const CellBasis> sampleBasis(vtkCell* cell, Domain domain)
 {
+  // Degree 4 is that of the bubble in the middle of the tetrahedron of 15 nodes.
   constexpr Degrees candidates[] = { { 1, 1, 1 }, { 2, 2, 1 }, { 2, 2, 2 }, { 3, 3, 3 },
     { 4, 4, 4 } };
   for (const Degrees& degrees : candidates)
@@ -245,7 +255,7 @@ std::unique_ptr<const CellBasis> CellBases::makeBasis(const CellKind& kind) cons
 {
   const auto& [type, points, given] = kind;
   const std::optional<Domain> domain = domainOf(type);
-  // There are types of which VTK can make no cell.
+  // VTK can make no cell of some types without a domain.
   if (!domain)
   {
     return nullptr;
@@ -256,7 +266,7 @@ std::unique_ptr<const CellBasis> CellBases::makeBasis(const CellKind& kind) cons
   {
     degrees = fittingDegrees(*domain, given, points);
   }
-  // VTK's cells do not survive a wrong number of points.
+  // VTK's cells crash with a wrong number of points.
   const bool fits =
     onLattice ? degrees.has_value() : isEnriched(type, points) || points == usualPointCount(type);
   if (!fits)
@@ -301,7 +311,7 @@ const CellBasis* BasisLookup::basisOf(vtkUnstructuredGrid* grid, vtkIdType cell)
 {
   const CellKind kind{ grid->GetCellType(cell), grid->GetCells()->GetCellSize(cell),
     explicitDegrees(grid, cell) };
-  // Cells of a kind mostly follow one another.
+  // Consecutive cells are mostly of the same kind.
   if (this->Latest == this->Known.end() || this->Latest->first != kind)
   {
     bool isNew = false;
@@ -320,7 +330,7 @@ ReferencePoint parametricCoordinates(int cellType, const ReferencePoint& u)
   {
     return u;
   }
-  // Base at height 1/2, apex above its middle at height 1.
+  // The base stands at height 1/2, the apex above its middle at height 1.
   const glm::dvec2 shrunk = (1.0 - u.xyz.z) * glm::dvec2(u.xyz) + u.xyz.z * glm::dvec2(0.5, 0.5);
   return { { shrunk.x, shrunk.y, 0.5 + 0.5 * u.xyz.z } };
 }

@@ -14,8 +14,8 @@ namespace hop
 namespace
 {
 
-/// VTK's table of names has Lagrange and Bezier triangles and quadrilaterals the wrong way round, but
-/// it also knows the types of which no cell can be made.
+/// The class of a cell type. VTK's table of names confuses triangles and quadrilaterals of Lagrange and Bezier type, so
+/// it is asked only about types of which no cell can be made.
 std::string nameOfCellType(int type)
 {
   const auto cell = vtk::TakeSmartPointer(vtkGenericCell::InstantiateCell(type));
@@ -55,7 +55,8 @@ void CellCensus::count(Verdict verdict, vtkIdType cell, int cellType)
     case Verdict::Level:
       this->level.add(cell);
       break;
-    default:
+    case Verdict::Keep:
+    case Verdict::Hidden:
       break;
   }
 }

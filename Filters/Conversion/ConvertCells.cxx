@@ -30,15 +30,19 @@ void addToRows(std::vector<double>& values, double factor, const std::vector<dou
   }
 }
 
-/// Coefficients that cannot be told from an isovalue take it: where the surface lies in a face of the element
-/// it would cross that to and fro by rounding errors.
-/// \param amplification of the nodal values' rounding errors, as they were before the origin was subtracted
+/// Sets coefficients that cannot be told from an isovalue to the isovalue: a surface in a face of the element would
+/// else cross the face to and fro by rounding errors.
+/// \param amplification by which the conversion enlarges the rounding errors of the nodal values; these errors belong
+/// to the values before the origin was subtracted
 void snapToIsovalues(
   std::vector<Coefficient>& coefficients, const FieldRange& range, double amplification)
 {
   const auto [lowest, highest] = std::minmax_element(coefficients.begin(), coefficients.end(),
     [](const Coefficient& a, const Coefficient& b) { return a.w < b.w; });
+  // Largest change of a coefficient, as a fraction of the range of the element's coefficients: larger values would move
+  // the surface where the conversion enlarges rounding errors much. Chosen by experiment.
   constexpr double mostOfRange = 1e-8;
+  // Four rounding errors of the largest value.
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * amplification *
     std::max(std::abs(lowest->w + range.origin), std::abs(highest->w + range.origin));
   const double slack = std::min(rounding, mostOfRange * (highest->w - lowest->w));
@@ -52,7 +56,7 @@ void snapToIsovalues(
   }
 }
 
-/// Rows of x, y, z and the field's components, one a node, times the weight if there is one.
+/// Rows of x, y, z and the field's components, one row a node, times the node's weight if there is one.
 std::vector<double> nodalRows(vtkUnstructuredGrid* grid, int nodes, const CellValues& values)
 {
   const int width = 3 + values.components;
@@ -74,10 +78,10 @@ std::vector<double> nodalRows(vtkUnstructuredGrid* grid, int nodes, const CellVa
   return nodal;
 }
 
-/// The Bernstein coefficients of those.
+/// The Bernstein coefficients of nodal rows, in rows of the same width.
 std::vector<double> controlRows(const CellBasis& cell, std::vector<double> nodal, int width)
 {
-  // The conversion enlarges rounding errors, so it is given differences from the first node.
+  // Differences from the first node are converted where the conversion enlarges rounding errors: they are smaller.
   std::vector<double> origin(width, 0.0);
   if (cell.basis.conversionNorm() > 1.0)
   {
@@ -90,7 +94,7 @@ std::vector<double> controlRows(const CellBasis& cell, std::vector<double> nodal
   return control;
 }
 
-/// Ones where the cell is not rational.
+/// Bernstein coefficients of the weights; ones where the cell is not rational.
 std::vector<double> controlWeights(const CellBasis& cell, const CellValues& values)
 {
   std::vector<double> weights(cell.basis.coefficientCount(), 1.0);
@@ -101,7 +105,8 @@ std::vector<double> controlWeights(const CellBasis& cell, const CellValues& valu
   return weights;
 }
 
-/// Control rows with one number for the field; a vector's sum only says whether it is finite.
+/// Control rows with one number for the field. For a vector this is the sum of its components, which only tells whether
+/// they are finite.
 std::vector<Coefficient> coefficientsOf(const std::vector<double>& control, int width)
 {
   std::vector<Coefficient> coefficients(control.size() / width);
@@ -116,7 +121,9 @@ std::vector<Coefficient> coefficientsOf(const std::vector<double>& control, int 
 
 JacobianSign jacobianSign(const CellBasis& cell, const BernsteinForm& form)
 {
-  // At the highest degrees the bound is far above what coordinates suffer that vary smoothly.
+  // Largest relative rounding error of coefficients that is allowed for. At the highest degrees the bound on the error
+  // is far above the errors of coordinates that vary smoothly; with it, sound elements would be taken for doubtful
+  // ones. Chosen by experiment.
   constexpr double largestRounding = 1e-6;
   return cell.jacobian.sign(form, std::min(cell.basis.conversionError(), largestRounding));
 }

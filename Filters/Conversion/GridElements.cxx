@@ -19,7 +19,7 @@ namespace hop
 namespace
 {
 
-/// Room in a mesh.
+/// Room that elements need in a mesh.
 struct Room
 {
   std::size_t elements = 0;
@@ -34,9 +34,11 @@ struct Room
   }
 };
 
-/// See GridElements::origin: the middle of all values where they differ little, whatever the isovalues.
+/// See GridElements::origin: the middle of the range of all values where the range is small, whatever the isovalues.
 double originOf(const InputBlocks& blocks)
 {
+  // Largest range, as a fraction of the middle value, at which the middle is subtracted: three digits are won. Where
+  // the range is larger there is less to win, and zero stays zero. Chosen by experiment.
   constexpr double little = 1e-3;
   double lowest = std::numeric_limits<double>::infinity();
   double highest = -lowest;
@@ -53,7 +55,7 @@ double originOf(const InputBlocks& blocks)
 
 using Corners = decltype(Element::corners);
 
-/// For comparisons: copies of a cell may list them in other orders.
+/// The corners in an order in which copies of a cell can be compared, which may list them differently.
 Corners sortedCorners(const Element& element)
 {
   Corners corners = element.corners;
@@ -61,6 +63,16 @@ Corners sortedCorners(const Element& element)
   return corners;
 }
 
+/// Fractions of the work that are done after its stages. They only move the progress bar; chosen by experiment.
+struct ConversionProgress
+{
+  static constexpr double Judged = 0.2;
+  static constexpr double Converted = 0.3;
+  static constexpr double CornersFound = 0.5;
+  static constexpr double CornersNumbered = 0.9;
+};
+
+/// Builds the elements of all blocks, stage by stage.
 class Builder
 {
 public:
@@ -100,21 +112,21 @@ GridElements Builder::build()
   ElementMesh& mesh = this->Result.mesh;
   this->makeElements(
     judgeCells(this->Blocks, this->Isovalues, *this->Result.kinds, this->Parallel));
-  this->Reached(0.2);
+  this->Reached(ConversionProgress::Judged);
   const std::vector<JacobianSign> signs = convertCells(this->Blocks, this->Result.bases,
     { this->Isovalues, this->Result.origin }, mesh, this->Parallel);
-  this->Reached(0.3);
+  this->Reached(ConversionProgress::Converted);
   this->dropCollapsed(signs);
   std::vector<double> tolerances = cornerTolerances(mesh, this->Parallel);
-  this->Reached(0.5);
+  this->Reached(ConversionProgress::CornersFound);
   numberCorners(mesh, tolerances, this->Parallel);
-  this->Reached(0.9);
+  this->Reached(ConversionProgress::CornersNumbered);
   this->dropDoubledGhosts(tolerances);
   findFaceNeighbors(mesh, tolerances, this->Parallel);
   return std::move(this->Result);
 }
 
-/// Elements of the cells to keep, with room for their coefficients.
+/// Makes elements of the cells to keep, with room for their coefficients.
 void Builder::makeElements(const std::vector<JudgedCells>& ranges)
 {
   std::vector<Room> before(ranges.size());
@@ -137,6 +149,7 @@ void Builder::makeElements(const std::vector<JudgedCells>& ranges)
     [&](std::size_t r) { this->makeElements(ranges[r], before[r]); });
 }
 
+/// The room that the cells to keep of a range need.
 Room Builder::roomFor(const JudgedCells& range) const
 {
   Room room;
@@ -151,6 +164,7 @@ Room Builder::roomFor(const JudgedCells& range) const
   return room;
 }
 
+/// \param before the room that the elements of earlier ranges need
 void Builder::makeElements(const JudgedCells& range, const Room& before)
 {
   std::size_t coefficient = before.coefficients;
@@ -168,14 +182,14 @@ void Builder::makeElements(const JudgedCells& range, const Room& before)
   }
 }
 
-/// Squares have twice the degree.
+/// The degrees of a cell's element: squares have twice the degree.
 Degrees Builder::elementDegrees(const CellBasis& cell) const
 {
   const Degrees& d = cell.basis.degrees();
   return this->Result.squared ? Degrees{ 2 * d[0], 2 * d[1], 2 * d[2] } : d;
 }
 
-/// Takes out elements without volume and those whose coordinates are not finite.
+/// Removes elements without volume or with coordinates that are not finite.
 void Builder::dropCollapsed(const std::vector<JacobianSign>& signs)
 {
   std::vector<char> marks(signs.size(), 1);
@@ -196,15 +210,16 @@ void Builder::dropCollapsed(const std::vector<JacobianSign>& signs)
       case JacobianSign::Mixed:
         census.folded.add(cell);
         break;
-      default:
+      case JacobianSign::Positive:
+      case JacobianSign::Negative:
         break;
     }
   }
   this->keep(marks);
 }
 
-/// A ghost whose original, or another copy, is here too would claim the faces of its neighbours a
-/// second time: readers of files in pieces bring both together.
+/// Removes ghosts whose original, or another copy, is in the mesh too; readers of files in pieces bring both. Such a
+/// ghost would claim the faces of its neighbours a second time.
 void Builder::dropDoubledGhosts(std::vector<double>& tolerances)
 {
   const std::vector<Element>& elements = this->Result.mesh.elements;
@@ -233,7 +248,7 @@ void Builder::dropDoubledGhosts(std::vector<double>& tolerances)
   keepMarked(tolerances, marks);
 }
 
-/// Takes out elements without a mark.
+/// Removes elements without a mark.
 void Builder::keep(const std::vector<char>& marks)
 {
   keepMarked(this->Result.mesh.elements, marks);

@@ -28,7 +28,7 @@ std::string nameOf(vtkDataObjectTreeIterator* node)
 GatheredBlocks gatherLeaves(vtkDataObjectTree* input, vtkDataObjectTree* output)
 {
   GatheredBlocks result;
-  // The leaves of a collection are pieces of what has a name.
+  // In a collection the partitioned data sets have names; its leaves, their pieces, have none.
   const bool isCollection = vtkPartitionedDataSetCollection::SafeDownCast(input) != nullptr;
   std::string nameOfPieces;
   const auto node = vtk::TakeSmartPointer(input->NewTreeIterator());

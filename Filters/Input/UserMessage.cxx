@@ -7,7 +7,7 @@ namespace hop
 
 std::string listOf(const std::vector<std::string>& names)
 {
-  constexpr std::size_t most = 10;
+  constexpr std::size_t most = 10; // names; more would hide the rest of the message
   std::string list;
   for (std::size_t n = 0; n < std::min(names.size(), most); ++n)
   {

@@ -19,17 +19,19 @@ namespace hop
 namespace
 {
 
-/// The evaluators take so many components at once: elsewhere they are x, y, z and f.
+/// Number of components that the evaluators of the core take at once: elsewhere these are x, y, z and the field.
 constexpr int groupSize = 4;
 
-/// Where a component of some array goes.
+/// The place of a component in an output array.
 struct Target
 {
+  /// Of the first row.
   double* values = nullptr;
+  /// Doubles from one row to the next.
   int stride = 0;
 };
 
-/// One a thread.
+/// Evaluates all arrays at some rows. Each thread has an evaluator of its own.
 class ArrayEvaluator
 {
 public:
@@ -50,7 +52,7 @@ public:
     }
   }
 
-  /// Rows begin to end - 1.
+  /// Evaluates rows begin to end - 1.
   void evaluate(std::ptrdiff_t begin, std::ptrdiff_t end)
   {
     while (begin < end)
@@ -72,7 +74,7 @@ private:
   int width() const { return static_cast<int>(this->Targets.size()); }
   int elementOf(std::ptrdiff_t row) const { return this->Rows[row].particle->location.element; }
 
-  /// Bernstein coefficients of all arrays, one row of components a coefficient.
+  /// Converts all arrays to Bernstein form on an element: one row of components a coefficient.
   void convert(int element)
   {
     const Element& e = this->Elements.mesh.elements[element];
@@ -105,9 +107,10 @@ private:
     }
   }
 
-  /// Places of the next rows that share an element, as many as are evaluated at once.
+  /// Collects the places of the next rows that share an element, as many as are evaluated at once.
   void collectPoints(std::ptrdiff_t begin, std::ptrdiff_t end)
   {
+    // Fewer rows cost more calls of the kernels, more need more memory for their values. Chosen by experiment.
     constexpr std::ptrdiff_t batchSize = 64;
     const int element = this->elementOf(begin);
     this->Points.clear();
@@ -120,7 +123,7 @@ private:
     }
   }
 
-  /// Components first, first + 1, ... at the points collected, for the rows from `begin` on.
+  /// Evaluates up to groupSize components, from `first` on, at the collected points, for the rows from `begin` on.
   void evaluateGroup(int element, int first, std::ptrdiff_t begin)
   {
     const NodalBasis& basis = this->Elements.bases[element]->basis;
@@ -152,13 +155,14 @@ private:
   const GridElements& Elements;
   const std::vector<EvaluatedArray>& Arrays;
   const std::vector<ParticleRow>& Rows;
-  /// One a component of all arrays.
+  /// One target a component of all arrays.
   std::vector<Target> Targets;
   vtkNew<vtkIdList> CopiedIds;
   std::vector<double> Nodal;
   std::vector<double> Coefficients;
   std::vector<double> Weights;
   std::vector<ReferencePoint> Points;
+  /// One past the last row that collectPoints() took.
   std::ptrdiff_t BatchEnd = 0;
   std::vector<Coefficient> Group;
   JetBatch Jets;

@@ -10,10 +10,10 @@ class vtkBoundingBox;
 namespace hop
 {
 
-// What ranks agree on. Every rank has to call each of these, as often and in the same order as all others: also
-// one without data, with an error, or that is to stop.
+// What MPI ranks agree on. Every rank has to call these functions equally often and in the same order, also a rank
+// without data, with an error, or one that is to stop.
 
-/// The box around all boxes of all ranks.
+/// The box around the boxes of all ranks.
 vtkBoundingBox overAllRanks(const vtkBoundingBox& local);
 
 std::size_t largestOfRanks(std::size_t local);
@@ -24,7 +24,7 @@ double sumOfRanks(double local);
 struct WantedParticles
 {
   double owned = 0.0;
-  /// In ghost cells: they belong to another rank.
+  /// Particles in ghost cells, which belong to another rank.
   double ghosts = 0.0;
 };
 

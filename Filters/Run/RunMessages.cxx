@@ -12,31 +12,33 @@ namespace hop
 namespace
 {
 
+/// Fraction of undersampled particles above which there is a warning, and which the recommended spacing leaves; the
+/// text says 1%. Smaller values warn of a few particles at a tip, larger ones hide visible flaws. Chosen by experiment.
 constexpr double warnUndersampledShare = 0.01;
 
-/// The spacing at which all but so small a share of the particles would follow the surface, evenly spread.
+/// The spacing at which all but this fraction of the particles would follow the surface, if spread evenly.
 double resolvingSpacing(const Buffer<Particle>& particles)
 {
-  std::vector<double> bends;
-  bends.reserve(particles.size());
+  std::vector<double> curvatures;
+  curvatures.reserve(particles.size());
   for (const Particle& particle : particles)
   {
-    bends.push_back(particle.curvature.magnitude);
+    curvatures.push_back(particle.curvature.magnitude);
   }
   const auto above =
-    static_cast<std::ptrdiff_t>(warnUndersampledShare * static_cast<double>(bends.size()));
-  const auto rank = static_cast<std::ptrdiff_t>(bends.size()) - 1 - above;
-  std::nth_element(bends.begin(), bends.begin() + rank, bends.end());
-  return Particle::LargestBend / bends[rank];
+    static_cast<std::ptrdiff_t>(warnUndersampledShare * static_cast<double>(curvatures.size()));
+  const auto rank = static_cast<std::ptrdiff_t>(curvatures.size()) - 1 - above;
+  std::nth_element(curvatures.begin(), curvatures.begin() + rank, curvatures.end());
+  return Particle::LargestBend / curvatures[rank];
 }
 
-/// What a user has to change for fewer particles.
+/// What a user has to choose for fewer particles.
 const char* fewerParticles(std::int64_t numberOfParticles)
 {
   return numberOfParticles > 0 ? "a smaller NumberOfParticles" : "a larger Spacing";
 }
 
-/// What a user has to change for particles that follow the surface's bends.
+/// What a user has to choose for particles that follow the curvature of the surface.
 std::string moreParticles(const Distribution& distribution, std::int64_t numberOfParticles)
 {
   if (numberOfParticles > 0)
