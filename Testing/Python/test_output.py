@@ -233,7 +233,7 @@ def test_automatic_spacing_is_one_hundredth_of_the_longest_side(cylinder):
 
 
 def test_automatic_spacing_where_the_input_was_not_read_before(data):
-    """ParaView's own domain of bounds would fill in a number that comes from empty bounds."""
+    """ParaView's own domain would compute a spacing from empty bounds."""
     reader = simple.XMLUnstructuredGridReader(FileName=[data("mfem_cylinder_hex_prism_p3.vtu")])
     proxy = simple.HighOrderParticleIsosurface(Input=reader, ContourBy=["POINTS", "pressure"], Isosurfaces=[-0.5])
     assert proxy.Spacing == 0
@@ -252,7 +252,7 @@ def test_half_the_spacing_means_four_times_the_particles(channel):
         support.run_quietly(channel, "pressure", 0.6, Spacing=h, AngularDensity=0).GetNumberOfPoints()
         for h in (0.02, 0.01)
     )
-    # A little less: the rim only doubles.
+    # A little less than four times: on boundary curves the number only doubles.
     assert 3.6 <= fine / coarse <= 4.1
 
 
@@ -273,7 +273,7 @@ def test_number_of_particles_is_kept_exactly(data, number):
     # A sphere of radius 0.6: its area gives the spacing.
     expected = np.sqrt(4 * np.pi * 0.36 / number / (np.sqrt(3) / 2))
     np.testing.assert_allclose(support.array_of(particles, "Radius"), expected, rtol=0.1)
-    # None is taken away where they crowd: at hanging faces, and at a spacing of half the radius.
+    # No particle is removed where they crowd: at hanging faces, and at a spacing of half the radius.
     assert support.nearest_neighbors(particles).min() > 0.45
 
 
@@ -285,7 +285,7 @@ def test_angular_density_makes_particles_denser_where_the_surface_bends(data):
     mean, gauss = (support.array_of(adapted, f"{kind}_Curvature") for kind in ("Mean", "Gauss"))
     magnitude = np.sqrt(4 * mean**2 - 2 * gauss)  # of both principal curvatures
     wanted = 0.08 / (1 + 7 * magnitude * 0.08 / (2 * np.pi))
-    # No larger than that, to single precision and the last step; less beside places that want less.
+    # No larger than wanted, but for single precision and the last step; less beside places that want less.
     radius = support.array_of(adapted, "Radius")
     assert np.all(radius <= wanted * 1.002)
     assert np.median(radius / wanted) > 0.95
@@ -311,7 +311,7 @@ def test_the_form_of_the_readme(cylinder):
     assert particles.PointData["Mean_Curvature"].GetNumberOfComponents() == 1
 
 
-# The same every time
+# Reproducibility
 
 
 def test_same_seed_same_bytes_other_seed_other_particles(cylinder):
@@ -323,7 +323,7 @@ def test_same_seed_same_bytes_other_seed_other_particles(cylinder):
 
 @pytest.fixture
 def smp():
-    """Leaves threads as they were."""
+    """vtkSMPTools; restores its back end and number of threads."""
     backend = vtkSMPTools.GetBackend()
     yield vtkSMPTools
     vtkSMPTools.SetBackend(backend)
@@ -365,7 +365,7 @@ def test_progress_rises_to_one(channel):
 @pytest.mark.parametrize("share", [0.01, 0.2, 0.94])
 @pytest.mark.parametrize("as_multiblock", [False, True])
 def test_an_aborted_run_ends_early_and_leaves_a_valid_output(channel, as_multiblock, share):
-    """As ParaView's button does from within a progress event, in the newest versions."""
+    """Aborts from within a progress event, as the button of ParaView's newest versions does."""
     grid = support.output_of(channel)
     if as_multiblock:
         composite = vtkMultiBlockDataSet()
@@ -394,7 +394,7 @@ def test_an_aborted_run_ends_early_and_leaves_a_valid_output(channel, as_multibl
     algorithm.Update()  # as a view does that wants to draw
     assert time.monotonic() - begin < 0.2
     assert algorithm.GetOutputDataObject(0).GetNumberOfPoints() == 0
-    proxy.Seed = 2  # a change is a new wish
+    proxy.Seed = 2  # a changed property is a new request
     again = support.output_of(proxy)
     assert again.GetNumberOfPoints() > 10_000
     whole = again.GetBlock(0) if as_multiblock else again
@@ -449,7 +449,7 @@ def test_ghost_cells_own_no_particles(data):
     half = support.run_quietly(grid, "u", 0.0, Spacing=0.06)
     owners = support.array_of(half, "vtkOriginalCellIds")
     assert len(owners) > 100 and not np.any(ghost[owners])
-    # They carry the particles over the border: what remains is what it was.
+    # Ghosts carry particles across the border: the remaining particles are what they were.
     kept = ~ghost[support.array_of(whole, "vtkOriginalCellIds")]
     assert np.array_equal(support.points_of(half), support.points_of(whole)[kept])
     assert "vtkGhostType" not in support.array_names(half.GetPointData()) | support.array_names(half.GetCellData())
@@ -475,7 +475,7 @@ def test_of_all_that_ghost_types_say_only_some_make_ghosts(data, kind, owned):
 
 
 def with_nodes_of_its_own(grid):
-    """The same cells, each with nodes of its own."""
+    """The same cells, each with its own nodes."""
     cells, order = [], []
     for id in range(grid.GetNumberOfCells()):
         cell = grid.GetCell(id)
@@ -597,8 +597,8 @@ def test_a_quadratic_function_on_a_straight_cell_has_a_sphere(kind):
     np.testing.assert_allclose(support.array_of(particles, "Mean_Curvature"), -1 / 0.7, rtol=1e-6)
     np.testing.assert_allclose(support.array_of(particles, "Gauss_Curvature"), 1 / 0.49, rtol=1e-6)
     x, y, z = points.T / 0.7
-    turn = np.column_stack([x * x - 1, y * y - 1, z * z - 1, x * y, y * z, x * z]) / 0.7
-    np.testing.assert_allclose(support.array_of(particles, "Shape_Operator"), turn, atol=1e-6)
+    derivative = np.column_stack([x * x - 1, y * y - 1, z * z - 1, x * y, y * z, x * z]) / 0.7
+    np.testing.assert_allclose(support.array_of(particles, "Shape_Operator"), derivative, atol=1e-6)
 
 
 @pytest.mark.parametrize("kind", ["Lagrange hexahedron of degrees 4, 2, 3", "Lagrange wedge of degrees 3, 3, 2"])
@@ -613,7 +613,7 @@ def test_cells_of_uneven_degrees_join_where_they_meet(kind):
     particles = support.run_quietly(grid, "F", 0.4, Spacing=0.06)
     assert set(support.array_of(particles, "vtkOriginalCellIds")) == {0, 1, 2}
     np.testing.assert_allclose(support.points_of(particles)[:, 0], 0.4, atol=1e-7)
-    # Rims on the inner faces would double the particles there.
+    # Boundary curves on the inner faces would double the particles there.
     assert support.nearest_neighbors(particles).min() > 0.6
 
 
@@ -622,7 +622,7 @@ def test_cells_of_uneven_degrees_join_where_they_meet(kind):
     ["Tet", "Hex", "Wedge", "Quadratic Tet", "Lagrange Tetrahedron", "Lagrange Hexahedron", "Lagrange Wedge"],
 )
 def test_paraviews_own_source_of_cells(cell_type):
-    """An independent maker of cells, many to a side; its field is roughly the distance to (2, 2, 2)."""
+    """Cells of ParaView's own source; their field is roughly the distance to (2, 2, 2)."""
     grid = support.output_of(
         simple.UnstructuredCellTypes(CellType=cell_type, BlocksDimensions=[4, 4, 4], CellOrder=3)
     )
@@ -702,7 +702,7 @@ def program(name):
     return path
 
 
-# With 0 each rank has to find the spacing that belongs to the whole, not to its own pieces.
+# With Spacing 0 each rank has to find the spacing of the whole grid, not of its own pieces.
 @pytest.mark.parametrize("spacing", [0.1, 0])
 def test_pvbatch_alone_and_on_two_ranks(data, plugin, tmp_path, spacing):
     path = data("dealii_shell_p3_00.pvtu")
@@ -712,5 +712,5 @@ def test_pvbatch_alone_and_on_two_ranks(data, plugin, tmp_path, spacing):
     ranks = run_batch([mpirun, "-np", "2", "--oversubscribe", pvbatch, "--sym"], plugin, path, tmp_path, spacing)
     particles, cells = ranks.T
     assert cells.sum() == 236 and np.all(cells > 0) and np.all(particles > 0)
-    # Without ghost cells the cut between the pieces is a rim, on both sides: a few more, no fewer.
+    # Without ghost cells the surface ends on both sides of the cut between pieces: a few more particles, no fewer.
     assert here <= particles.sum() <= 1.12 * here
