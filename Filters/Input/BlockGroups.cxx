@@ -46,7 +46,7 @@ struct PlacedCell
     std::size_t sum = 0;
     for (const double x : this->place)
     {
-      sum = 31 * sum + std::hash<double>()(x);
+      sum = 31 * sum + std::hash<double>()(x); // an odd factor, as usual in polynomial hashes
     }
     return sum;
   }

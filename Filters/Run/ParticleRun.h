@@ -35,20 +35,22 @@ struct RunCaller
 {
   /// Receives the fraction of the run that is done, 0 to 1; returns false to ask for an early end.
   std::function<bool(double)> report;
+  /// Whether the run is to end early.
   std::function<bool()> isAborted;
+  /// Passes messages on to the user.
   std::function<void(const UserMessages&)> tell;
 };
 
-/// The road of one request, from checked blocks to their particles: blocks that share cells are kept apart in groups;
-/// cells of a group are converted to elements; ranks share out a given number of particles; particles are distributed
-/// on each isosurface, and packed into the blocks' outputs.
+/// The road of one request, from checked blocks to their particles. Blocks that share cells are put into different
+/// groups. For each group, cells are converted to elements, ranks share out the number of particles if it is given,
+/// particles are distributed on each isosurface, and packed into the outputs of the blocks.
 ///
 /// Where the run is interrupted or memory runs out, blocks stay without particles.
 class ParticleRun
 {
 public:
-  /// \param previous where particles of the run before stood; is renewed
-  /// \pre all outlive the run
+  /// \param previous holds the places of the previous run's particles, and then of this run's
+  /// \pre all arguments outlive the run
   ParticleRun(const RunProperties& properties, const RunScale& scale, const RunCaller& caller,
     PreviousRun& previous);
 

@@ -16,8 +16,10 @@ namespace hop
 /// The box around the boxes of all ranks.
 vtkBoundingBox overAllRanks(const vtkBoundingBox& local);
 
+/// The largest of the ranks' numbers.
 std::size_t largestOfRanks(std::size_t local);
 
+/// The sum of the ranks' numbers, the same to the last bit on all ranks.
 double sumOfRanks(double local);
 
 /// How many particles a rank's part of an isosurface wants.

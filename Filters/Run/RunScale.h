@@ -12,7 +12,7 @@ struct RunScale
 {
   double spacing = 0.0;
   double tolerance = 0.0;
-  /// Of the bounds.
+  /// Diagonal of the bounds.
   double diagonal = 0.0;
 };
 

@@ -1,6 +1,7 @@
 """The plugin as ParaView sees it: its name, its proxies, their labels, menu and defaults."""
 
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -44,6 +45,18 @@ def test_plugin_is_loaded_under_its_name(plugin):
     loaded = [known.GetPluginName(i) for i in range(known.GetNumberOfPlugins()) if known.GetPluginLoaded(i)]
     assert NAME in loaded
     assert plugin.name == NAME + ".so"
+
+
+def test_the_plugin_is_described_once():
+    """ParaView builds the folder of the file that describes the plugin; the file itself is the one at the top."""
+    project = Path(__file__).resolve().parents[2]
+    description = project / "paraview.plugin"
+    assert (project / "Plugin/paraview.plugin").resolve() == description
+    version = re.search(r"project\(\w+ VERSION ([\d.]+)", (project / "CMakeLists.txt").read_text())[1]
+    known = servermanager.vtkSMProxyManager.GetProxyManager().GetPluginManager().GetLocalInformation()
+    i = next(i for i in range(known.GetNumberOfPlugins()) if known.GetPluginName(i) == NAME)
+    assert known.GetPluginVersion(i) == version
+    assert re.sub(r"\s+", " ", known.GetDescription(i)).strip() in re.sub(r"\s+", " ", description.read_text())
 
 
 def test_filter_has_its_label_and_its_place_in_the_filters_menu():
