@@ -18,7 +18,7 @@ namespace
 constexpr int spacingTries = 8;
 constexpr double closeEnough = 0.01;
 
-/// The controller if there are several ranks, else nullptr.
+/// That of several ranks, or none.
 vtkMultiProcessController* controllerOfRanks()
 {
   vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();

@@ -2,9 +2,9 @@
  * @class vtkSMIsovalueDomain
  * @brief the range of the chosen array, with a default that a few odd values do not spoil
  *
- * vtkSMArrayRangeDomain's default is the middle of the whole range; a few extreme values in one corner of a simulation
- * move it to where there is nothing to see. Here the default is the middle of the range that remains without the lowest
- * and the highest hundredth of the nodal values, over all blocks and ranks.
+ * vtkSMArrayRangeDomain's default is the middle of the whole range, which one bad corner of a simulation
+ * moves to where there is nothing to see. Here it is the middle of what remains without the lowest and the
+ * highest hundredth of the nodal values, wherever they are.
  */
 #ifndef vtkSMIsovalueDomain_h
 #define vtkSMIsovalueDomain_h
