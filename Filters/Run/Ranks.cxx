@@ -11,6 +11,9 @@
 #include <numeric>
 #include <utility>
 
+namespace hop
+{
+
 namespace
 {
 
@@ -21,8 +24,8 @@ vtkMultiProcessController* controllerOfRanks()
   return controller && controller->GetNumberOfProcesses() > 1 ? controller : nullptr;
 }
 
-/// A number for each surface, from every rank: one list a surface, in the order of ranks. From the lists
-/// all ranks compute the same to the last bit, which sums by MPI do not promise.
+/// Gathers one number a surface from every rank: one list a surface, in the order of ranks. From these lists all ranks
+/// compute the same sums to the last bit, which MPI's own sums do not promise.
 std::vector<std::vector<double>> gather(const std::vector<double>& local)
 {
   vtkMultiProcessController* controller = controllerOfRanks();
@@ -46,7 +49,8 @@ double sum(const std::vector<double>& numbers)
   return std::accumulate(numbers.begin(), numbers.end(), 0.0);
 }
 
-/// Whole numbers in the ratio of the weights, with that sum; all zero if no weight is positive.
+/// Splits a number into whole numbers in the ratio of the weights, by largest remainders; all are zero if no weight is
+/// positive.
 std::vector<std::int64_t> split(std::int64_t number, const std::vector<double>& weights)
 {
   const double all = sum(weights);
@@ -169,3 +173,5 @@ std::vector<RankShare> shareOutToRanks(
   }
   return shares;
 }
+
+} // namespace hop
