@@ -100,11 +100,14 @@ inline void tetrahedronBasis(int degree, const Number* u, Number* basis)
   }
 }
 
-/// How many components are summed in one pass, so that their sums fit into 16 registers.
+/// How many components are summed in one pass.
 constexpr int componentsAtOnce(int components, int netSize)
 {
+  // Sums that stay in registers: processors up to AVX2 have 16 of them, of which four are left for basis functions and
+  // coefficients. With more sums, some are written to memory in each step; with fewer, the basis is read more often.
+  constexpr int mostSums = 12;
   int atOnce = components;
-  while (atOnce * netSize > 12 && atOnce > 1)
+  while (atOnce * netSize > mostSums && atOnce > 1)
   {
     atOnce /= 2;
   }

@@ -48,7 +48,7 @@ public:
   }
 
 private:
-  using Together = Lanes<4>::Type;
+  using Together = Vector<double, 4>;
   LineBasis<Together, Order, Degree> Lines;
 };
 
