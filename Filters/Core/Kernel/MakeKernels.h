@@ -105,9 +105,9 @@ void pointOfDegree(const Element& element, const double* point, double* result)
   }
 }
 
-/// Up to these, an element's degree is known to the compiler if it is the same along all axes. At
-/// single points that pays for long: it breaks up chains of sums. The sums of batches fill the
-/// registers anyhow.
+/// Up to these, there are kernels of elements of one degree along all axes, which the compiler knows. At single points
+/// that pays up to high degrees, as it breaks up chains of sums; the sums of batches fill the registers anyhow. Chosen
+/// by experiment (Testing/Benchmarks/kernel_benchmark.cpp shows the times); higher ones make the library larger.
 constexpr int HighestBatchDegree = 4;
 constexpr int HighestPointDegree = 8;
 

@@ -12,14 +12,17 @@ namespace hop::kernel
 namespace
 {
 
+/// Most basis functions of a triangle and of a tetrahedron.
 constexpr int MaximumTriangle = (MaximumDegree + 1) * (MaximumDegree + 2) / 2;
 constexpr int MaximumTetrahedron = MaximumTriangle * (MaximumDegree + 3) / 3;
 
+/// Basis functions of a triangle.
 constexpr int triangleCount(int degree)
 {
   return (degree + 1) * (degree + 2) / 2;
 }
 
+/// value[n][k] = n over k, by Pascal's triangle.
 struct Binomials
 {
   double value[MaximumLine][MaximumLine] = {};

@@ -82,7 +82,8 @@ inline void pairEnergy(Floats t, Floats& energy, Floats& first, Floats& second)
 /// H^-1 g for a symmetric H whose eigenvalues are raised to `floor` at least.
 inline Tangential newtonStep(const TangentialHessian& h, const Tangential& g, float floor)
 {
-  // Keeps the root off zero where both eigenvalues are one: 1e-6 squared, beside eigenvalues of 14 in hexagonal packing.
+  // Keeps the root off zero where both eigenvalues are one: 1e-6 squared, beside eigenvalues of 14 in hexagonal
+  // packing.
   constexpr float tiny = 1e-12f;
   const Floats mean = 0.5f * (h.xx + h.yy);
   const Floats difference = 0.5f * (h.xx - h.yy);
@@ -168,8 +169,8 @@ inline Floats dot(const Floats (&a)[3], const Floats (&b)[3])
 }
 
 /// Adds the energies of all pairs, and their weighted gradients and Hessians along the surface, both divided by
-/// (beta/h_i)^2. A pair has the weight w = (h_ij/h_i)^2 and alpha = beta/h_ij; then its gradient w alpha E' d/|d| and its
-/// Hessian w alpha^2 (...) have the factor (beta/h_i)^2 in common, which cancels in Newton's step.
+/// (beta/h_i)^2. A pair has the weight w = (h_ij/h_i)^2 and alpha = beta/h_ij; then its gradient w alpha E' d/|d| and
+/// its Hessian w alpha^2 (...) have the factor (beta/h_i)^2 in common, which cancels in Newton's step.
 inline void sumPairs(const SweepBlock& block, const std::int32_t* neighbors, const Seen* seen,
   const Displaced& here, Floats& energy, Tangential& gradient, TangentialHessian& hessian)
 {
@@ -193,9 +194,9 @@ inline void sumPairs(const SweepBlock& block, const std::int32_t* neighbors, con
     Floats first;
     Floats second;
     pairEnergy(t, value, first, second);
-    // Neighbours on a sheet whose normal is turned away fade out (smoothstep) from 60 degrees, where twice the cosine is
-    // one, to 90 degrees. Angles chosen by experiment: with larger ones, the two sides of a thin part push each other;
-    // with smaller ones, particles of a sharp bend do not see each other.
+    // Neighbours on a sheet whose normal is turned away fade out (smoothstep) from 60 degrees, where twice the cosine
+    // is one, to 90 degrees. Angles chosen by experiment: with larger ones, the two sides of a thin part push each
+    // other; with smaller ones, particles of a sharp bend do not see each other.
     const Floats facing = least(greatest(2.0f * dot(normal, other.normal), all(0.0f)), all(1.0f));
     const Floats fade = facing * facing * (3.0f - 2.0f * facing);
     energy += fade * value;
@@ -229,7 +230,7 @@ inline void publish(const SweepBlock& block, const Displaced& there, Seen* seen)
 }
 
 /// See SweepFunction.
-void sweepBlocks(
+inline void sweepBlocks(
   SweepBlock* blocks, std::ptrdiff_t count, const std::int32_t* neighbors, Seen* seen)
 {
   // Least eigenvalue, as a share of those of hexagonal packing: both are 3 (E''(beta) + E'(beta)/beta) = 13.7 there.
