@@ -46,6 +46,7 @@ for file in Common/*.* Filters/Core/*/*.*; do
     name=$(sed -E 's/.*include[[:space:]]*[<"]([^>"]+)[>"].*/\1/' <<<"$line")
     case $line in
       *\<glm/*) ;;
+      *\<intrin.h\>) [ "$file" = Filters/Core/Kernel/InstructionSet.cpp ] || complain "$file includes <$name>" ;; # MSVC's CPUID
       *\<*) [[ $name =~ ^[a-z_0-9]+$ ]] || complain "$file includes <$name>" ;;
       *) { [ -e "Filters/Core/$name" ] && [[ $file = Filters/* ]]; } || [ -e "$name" ] || complain "$file includes $name" ;;
     esac
