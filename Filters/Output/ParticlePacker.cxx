@@ -240,7 +240,7 @@ vtkSmartPointer<Array> Packer::newArray(const std::string& name, int components)
 template <class Array, class Write>
 vtkSmartPointer<Array> Packer::addArray(const std::string& name, int components, const Write& write)
 {
-  const auto array = this->newArray<Array>(name, components);
+  auto array = this->newArray<Array>(name, components);
   auto* values = array->GetPointer(0);
   this->fillWith([values, components, write](std::ptrdiff_t i, const ParticleRow& row)
     { write(row, values + i * components); });
