@@ -18,7 +18,7 @@ cat >use.py <<EOT
 import sys
 from paraview.simple import *
 if len(sys.argv) > 1:
-    Connect("localhost", int(sys.argv[1]))
+    Connect("127.0.0.1", int(sys.argv[1]))
     LoadDistributedPlugin("$name", remote=True, ns=globals())
 LoadDistributedPlugin("$name", remote=False, ns=globals())
 reader = XMLUnstructuredGridReader(FileName=["/package/mfem_hex1_p8.vtu"])

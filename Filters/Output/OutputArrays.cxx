@@ -52,7 +52,7 @@ std::vector<ParticleArray> makeParticleArrays()
       "Radius of the particle's splat, world units: the distance to neighbours that the particle "
       "wants; less where it stands alone on a component of the surface smaller than this distance.",
       [](const ParticleRow& row, const RowCells&, double* out)
-      { *out = row.particle->shrink * row.particle->spacing; } },
+      { *out = row.particle->radiusPerSpacing * row.particle->spacing; } },
     { "Mean_Curvature", 1,
       "Mean of the two principal curvatures with respect to Normals, 1/world units: 1/r on a "
       "sphere of radius r with high values inside.",
@@ -96,7 +96,7 @@ std::vector<ParticleArray> makeParticleArrays()
       "Curvature of the boundary curve or crease at each of these planes, 1/world units: positive "
       "where the edge bends towards the plane's normal, 0 where Clip_Angle is below 10 degrees.",
       [](const ParticleRow& row, const RowCells&, double* out)
-      { writeOfClips(row, out, [](const ClipPlane& plane) { return plane.bend; }); } },
+      { writeOfClips(row, out, [](const ClipPlane& plane) { return plane.edgeCurvature; }); } },
     { "Jump", 1,
       "F - c on the other side, where the particle stands on a boundary curve at which the field "
       "jumps from element to element; else 0.",

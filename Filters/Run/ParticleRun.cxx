@@ -107,7 +107,7 @@ private:
   }
   GridElements convert(const Work& work) const;
   std::vector<RankShare> shareOut(const GridElements& elements, const Work& work) const;
-  WantedParticles countWanted(
+  SurfaceCount countWanted(
     const GridElements& elements, double isovalue, double spacing, const Work& work) const;
   void fill(
     const GridElements& elements, const std::vector<RankShare>& shares, const Work& work) const;
@@ -172,7 +172,7 @@ std::vector<RankShare> GroupRun::shareOut(const GridElements& elements, const Wo
       shareOutToRanks(number, isovalues.size(), SpacingSearch::FirstSpacingPerDiagonal * this->Scale.diagonal,
         [&](std::size_t i, double spacing)
         {
-          WantedParticles wanted;
+          SurfaceCount wanted;
           this->unlessAborted(
             [&]() { wanted = this->countWanted(elements, isovalues[i], spacing, work); });
           return wanted;
@@ -182,7 +182,7 @@ std::vector<RankShare> GroupRun::shareOut(const GridElements& elements, const Wo
 }
 
 /// \throw Interrupted
-WantedParticles GroupRun::countWanted(
+SurfaceCount GroupRun::countWanted(
   const GridElements& elements, double isovalue, double spacing, const Work& work) const
 {
   if (!elements.canBe(isovalue))
@@ -190,9 +190,9 @@ WantedParticles GroupRun::countWanted(
     return {};
   }
   const std::vector<double> ofElements =
-    wantedParticles({ &elements.mesh, elements.fieldIsovalue(isovalue), this->Scale.tolerance },
+    particlesPerElement({ &elements.mesh, elements.fieldIsovalue(isovalue), this->Scale.tolerance },
       { spacing, this->Properties.angularDensity }, work.monitor, work.parallelFor);
-  WantedParticles wanted;
+  SurfaceCount wanted;
   for (std::size_t e = 0; e < ofElements.size(); ++e)
   {
     const bool isGhost = this->Blocks.isGhost(this->Blocks.locate(elements.mesh.elements[e].cell));

@@ -83,11 +83,11 @@ struct CommonSpacing
 {
   hop::SpacingSearch search;
   /// Wanted at that spacing.
-  WantedParticles here;
+  SurfaceCount here;
   std::vector<double> ofRanks;
 };
 
-void gatherWanted(std::vector<CommonSpacing>& surfaces, const WantedAt& wanted)
+void gatherWanted(std::vector<CommonSpacing>& surfaces, const CountAt& wanted)
 {
   std::vector<double> owned;
   for (std::size_t i = 0; i < surfaces.size(); ++i)
@@ -107,7 +107,7 @@ void gatherWanted(std::vector<CommonSpacing>& surfaces, const WantedAt& wanted)
 
 /// Whether to go on follows from what was gathered: all ranks come to the same end.
 std::vector<CommonSpacing> findSpacings(
-  std::int64_t number, std::size_t surfaces, double firstSpacing, const WantedAt& wanted)
+  std::int64_t number, std::size_t surfaces, double firstSpacing, const CountAt& wanted)
 {
   std::vector<CommonSpacing> found(surfaces, { { number, firstSpacing }, {}, {} });
   const auto isOver = [](const CommonSpacing& surface) { return surface.search.isOver(); };
@@ -157,7 +157,7 @@ double sumOfRanks(double local)
 }
 
 std::vector<RankShare> shareOutToRanks(
-  std::int64_t number, std::size_t surfaces, double firstSpacing, const WantedAt& wanted)
+  std::int64_t number, std::size_t surfaces, double firstSpacing, const CountAt& wanted)
 {
   vtkMultiProcessController* controller = controllerOfRanks();
   const std::vector<CommonSpacing> found = findSpacings(number, surfaces, firstSpacing, wanted);

@@ -23,7 +23,7 @@ std::size_t largestOfRanks(std::size_t local);
 double sumOfRanks(double local);
 
 /// How many particles a rank's part of an isosurface wants.
-struct WantedParticles
+struct SurfaceCount
 {
   double owned = 0.0;
   /// Particles in ghost cells, which belong to another rank.
@@ -31,7 +31,7 @@ struct WantedParticles
 };
 
 /// What this rank's part of a surface wants at a spacing; does not throw.
-using WantedAt = std::function<WantedParticles(std::size_t surface, double spacing)>;
+using CountAt = std::function<SurfaceCount(std::size_t surface, double spacing)>;
 
 /// What a rank is to give of an isosurface.
 struct RankShare
@@ -52,6 +52,6 @@ bool isOneOfRanks();
 /// \param firstSpacing to try, the same on all ranks
 /// \return one share a surface
 std::vector<RankShare> shareOutToRanks(
-  std::int64_t number, std::size_t surfaces, double firstSpacing, const WantedAt& wanted);
+  std::int64_t number, std::size_t surfaces, double firstSpacing, const CountAt& wanted);
 
 } // namespace hop

@@ -29,7 +29,7 @@ double resolvingSpacing(const Buffer<Particle>& particles)
     static_cast<std::ptrdiff_t>(warnUndersampledShare * static_cast<double>(curvatures.size()));
   const auto rank = static_cast<std::ptrdiff_t>(curvatures.size()) - 1 - above;
   std::nth_element(curvatures.begin(), curvatures.begin() + rank, curvatures.end());
-  return Particle::LargestBend / curvatures[rank];
+  return Particle::LargestCurvatureTimesSpacing / curvatures[rank];
 }
 
 /// What a user has to choose for fewer particles.

@@ -66,7 +66,7 @@ bool ClassicParticles::place(
     return false;
   }
   mover.normal = surfaceNormal(mover.at.point.gradient);
-  mover.ideal = idealEnergyOnBoundary(walker.endCount(mover.at.location));
+  mover.ideal = idealEnergyOnBoundary(walker.endFaceCount(mover.at.location));
   mover.curvature = 0.0;
   if (this->sizing.angularDensity > 0.0)
   {

@@ -147,7 +147,7 @@ public:
     , Sizing(sizing)
     , Samples(*surface.mesh, proxy)
     , Tracer(roughly(surface, proxy.smallestSpacing()), BoundaryTracer::Points::Rough)
-    , Walker(surface.withWalls())
+    , Walker(surface.endingWhereItMay())
   {
   }
 
@@ -352,7 +352,7 @@ BoundarySide BoundaryFinisher::sideAt(int face, const Evaluated& at, const Jet& 
   const LevelSet field{ at.point.gradient, at.hessian };
   const LevelSet margin =
     faceLevels(jet, at.point.map, this->Surface.mesh->face(at.location.element, face));
-  return { face, outward, dot(bendOfCrossing(field, margin), outward) };
+  return { face, outward, dot(curvatureOfCrossing(field, margin), outward) };
 }
 
 /// Looks behind all boundary faces on which a point lies.
@@ -378,7 +378,7 @@ std::optional<BoundaryFinisher::Beyond> BoundaryFinisher::lookBehind(const Bound
     }
     // What is found behind a face that the mesh does not join may lie too far off to count.
     const bool joined = mesh.neighbor(location.element, f).element >= 0;
-    if (joined ? SurfaceWalker::goesOn(this->Surface, point.at, f, *behind)
+    if (joined ? SurfaceWalker::continuesIn(this->Surface, point.at, f, *behind)
                : !this->Exact.isOnBoundary(point))
     {
       return std::nullopt;
@@ -413,7 +413,7 @@ bool BoundarySampler::isTooNear(std::size_t i, std::size_t j) const
   const BoundaryParticle& a = this->Result.particles[i];
   const BoundaryParticle& b = this->Result.particles[j];
   const double cosine = dot(a.particle.normal, b.particle.normal);
-  const double near = cosine > SameSheet ? Nearness::OnOneSheet : Nearness::AtSharpEdge;
+  const double near = cosine > SheetCosine ? Nearness::OnOneSheet : Nearness::AtSharpEdge;
   return cosine > 0.0 && glm::distance(a.patch.position, b.patch.position) < near * a.patch.spacing;
 }
 

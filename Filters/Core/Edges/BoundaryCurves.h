@@ -17,7 +17,7 @@ struct BoundarySide
   WorldVector outward;
   /// Curvature of the boundary curve along the surface, 1/radius, positive where the curve bends outwards: negative
   /// where the surface is convex there, positive around holes in it.
-  double bend = 0.0;
+  double edgeCurvature = 0.0;
 
   bool exists() const { return dot(this->outward, this->outward) > 0.0; }
 };

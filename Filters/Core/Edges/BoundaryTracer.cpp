@@ -152,7 +152,7 @@ int BoundaryTracer::boundaryFaceOf(const Location& location, int preferred) cons
 
 bool BoundaryTracer::goesOnAt(const FaceCrossing& crossing, double farthest)
 {
-  if (!this->Surface.isUndecided(crossing.location.element, crossing.face))
+  if (!this->Surface.isOpenToBoth(crossing.location.element, crossing.face))
   {
     return false;
   }

@@ -81,7 +81,7 @@ public:
   BoundaryTracer(const Isosurface& surface, Points points)
     : Surface(surface)
     , IsRough(points == Points::Rough)
-    , Walker(surface.withWalls(), points == Points::Exact)
+    , Walker(surface.endingWhereItMay(), points == Points::Exact)
     , Passer(surface)
   {
   }

@@ -23,8 +23,8 @@ struct BoundarySight
   /// Largest angle, radians, by which a plane is turned to follow a bent curve: beyond it the curve may run anywhere.
   static constexpr double LargestAngle = 0.5;
   /// Largest curvature of the curve, 1/spacing, that a parabola follows.
-  static constexpr double LargestBend = 1.0;
-  /// Curves that bend less than this share of LargestBend are straight: it keeps a quotient finite.
+  static constexpr double LargestCurvatureTimesSpacing = 1.0;
+  /// Curves that bend less than this share of LargestCurvatureTimesSpacing are straight: it keeps a quotient finite.
   static constexpr double StraightShare = 1e-3;
 };
 
@@ -51,8 +51,8 @@ ClipPlane boundarySeenFrom(const BoundaryParticle& onBoundary, const Particle& p
   const glm::dvec3& outward = onBoundary.side.outward.xyz;
   const glm::dvec3 along = glm::cross(onBoundary.particle.normal.xyz, outward);
   const glm::dvec3 step = particle.position.xyz - onBoundary.particle.position.xyz;
-  const double largest = BoundarySight::LargestBend / particle.spacing;
-  const double bend = std::clamp(onBoundary.side.bend, -largest, largest);
+  const double largest = BoundarySight::LargestCurvatureTimesSpacing / particle.spacing;
+  const double bend = std::clamp(onBoundary.side.edgeCurvature, -largest, largest);
   const double farthest =
     BoundarySight::LargestAngle / std::max(std::abs(bend), BoundarySight::StraightShare * largest);
   const double s = std::clamp(glm::dot(step, along), -farthest, farthest);
@@ -80,7 +80,7 @@ void offerBoundaries(
   };
   const auto endsSheetOf = [&](const BoundaryParticle& other)
   {
-    return other.side.exists() && dot(other.particle.normal, particle.normal) > SameSheet &&
+    return other.side.exists() && dot(other.particle.normal, particle.normal) > SheetCosine &&
       boundarySeenFrom(other, particle).distance >= -BoundarySight::SameSide * particle.spacing;
   };
   grid.visit(particle.position.xyz, particle.spacing,
@@ -137,7 +137,7 @@ bool areFacing(const BoundaryParticle& a, const BoundaryParticle& b)
 
 /// Marks the particles on boundary curves beyond which a free particle goes on with the surface.
 void markGoingOn(const SpacingGrid& grid, const ParticleGrid& all,
-  std::vector<std::atomic<char>>& goesOn, const ParallelFor& parallelFor)
+  std::vector<std::atomic<char>>& continuesIn, const ParallelFor& parallelFor)
 {
   const Buffer<BoundaryParticle>& onBoundary = all.boundaryParticles();
   forAll(parallelFor, all.size() - onBoundary.size(),
@@ -149,7 +149,7 @@ void markGoingOn(const SpacingGrid& grid, const ParticleGrid& all,
         {
           if (goesOnAt(onBoundary[j], particle))
           {
-            goesOn[j] = 1;
+            continuesIn[j] = 1;
           }
         });
     });
@@ -162,8 +162,8 @@ void dropEndsThatGoOn(
   const SpacingGrid& grid, const ParticleGrid& all, const ParallelFor& parallelFor)
 {
   Buffer<BoundaryParticle>& onBoundary = all.boundaryParticles();
-  std::vector<std::atomic<char>> goesOn(onBoundary.size());
-  markGoingOn(grid, all, goesOn, parallelFor);
+  std::vector<std::atomic<char>> continuesIn(onBoundary.size());
+  markGoingOn(grid, all, continuesIn, parallelFor);
   forAll(parallelFor, onBoundary.size(),
     [&](std::size_t i)
     {
@@ -172,13 +172,13 @@ void dropEndsThatGoOn(
         [&](int j)
         {
           isSlit = isSlit || areFacing(onBoundary[i], onBoundary[j]);
-          goesOn[i] = goesOn[i] || goesOnAt(onBoundary[i], onBoundary[j].particle);
+          continuesIn[i] = continuesIn[i] || goesOnAt(onBoundary[i], onBoundary[j].particle);
         });
-      goesOn[i] = goesOn[i] && !isSlit;
+      continuesIn[i] = continuesIn[i] && !isSlit;
     });
   for (std::size_t i = 0; i < onBoundary.size(); ++i)
   {
-    if (goesOn[i])
+    if (continuesIn[i])
     {
       onBoundary[i].side = {};
     }
@@ -227,7 +227,7 @@ private:
     {
       return joined >= 0
         ? other == joined
-        : this->Surface.locator && this->Surface.locator->mayGoOnIn(element, plane.face, other);
+        : this->Surface.locator && this->Surface.locator->mayContinueIn(element, plane.face, other);
     };
     bool found = false;
     this->All.visit(foot, particle.spacing,
@@ -269,7 +269,7 @@ void markClipPlanes(
       auto& [particle, patch, side, other] = onBoundary[i];
       if (side.exists() && other.exists())
       {
-        offerPlane(particle, { other.outward, 0.0, other.bend, static_cast<float>(Pi) });
+        offerPlane(particle, { other.outward, 0.0, other.edgeCurvature, static_cast<float>(Pi) });
       }
     });
   closeCreaseCorners(all, parallelFor);

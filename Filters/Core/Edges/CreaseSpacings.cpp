@@ -11,10 +11,10 @@ namespace
 {
 
 /// Largest distance of places along a crease, in units of the spacing there. Chosen by experiment: a larger one lets
-/// spacings rise between places (SurfaceProxy::GradationSlope times the distance), a smaller one costs evaluations.
+/// spacings rise between places (SizingField::GradationSlope times the distance), a smaller one costs evaluations.
 constexpr double placesPerSpacing = 0.5;
 
-using SpacingLimit = SurfaceProxy::SpacingLimit;
+using SpacingLimit = SizingField::Limit;
 
 class CreaseSampler
 {
@@ -101,7 +101,7 @@ void CreaseSampler::addBox(std::size_t box, std::vector<SpacingLimit>& limits)
 
 } // namespace
 
-std::vector<SurfaceProxy::SpacingLimit> findCreaseSpacings(const Isosurface& surface,
+std::vector<SizingField::Limit> findCreaseSpacings(const Isosurface& surface,
   const SurfaceProxy& proxy, const FaceJumps& jumps, const ParallelFor& parallelFor,
   std::int64_t& evaluations)
 {

@@ -16,7 +16,7 @@ inline double spacingAtCrease(const SizingFunction& sizing, double angle)
 /// (Meyer et al. 2007, section 4.3: particles stand closer near faces across which the normal is discontinuous).
 /// None with rho = 0.
 /// \param evaluations is increased by the number of evaluations
-std::vector<SurfaceProxy::SpacingLimit> findCreaseSpacings(const Isosurface& surface,
+std::vector<SizingField::Limit> findCreaseSpacings(const Isosurface& surface,
   const SurfaceProxy& proxy, const FaceJumps& jumps, const ParallelFor& parallelFor,
   std::int64_t& evaluations);
 

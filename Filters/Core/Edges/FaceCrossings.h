@@ -13,7 +13,7 @@ struct FaceCrossing
   Location location;
   int face = -1;
   /// The ends of an edge of a box, between which the crossing lies, in reference space; nearer to it where larger
-  /// values belong to another sheet (SurfaceBox::ownValues).
+  /// values belong to another sheet (SurfaceBox::largestOwnValue).
   std::array<glm::dvec3, 2> ends{};
   /// By how much F differs between them.
   double rise = 0.0;
@@ -39,7 +39,7 @@ inline FaceCrossing crossingBetween(
   const double valueTo = box.values[cornerB];
   const auto placeOf = [&](double value)
   { return glm::mix(from, to, (valueFrom - value) / (valueFrom - valueTo)); };
-  const double own = box.ownValues;
+  const double own = box.largestOwnValue;
   const double first = std::clamp(valueFrom, -own, own);
   const double last = std::clamp(valueTo, -own, own);
   ReferencePoint u{ placeOf(0.0) };

@@ -222,7 +222,7 @@ std::optional<JumpFinder::Finding> JumpFinder::look(
 bool JumpFinder::isUnmatched(int element, int face) const
 {
   return this->Mesh.neighbor(element, face).element < 0 && this->Surface.locator &&
-    this->Surface.locator->mayGoOn(element, face);
+    this->Surface.locator->mayContinue(element, face);
 }
 
 /// Whether there may be a jump at a crossing that is worth an evaluation. The field rises along the face at least as
@@ -308,7 +308,7 @@ void JumpFinder::lookAtElement(int element, Walkers& walkers)
 
 FaceJumps JumpFinder::run(const ParallelFor& parallelFor)
 {
-  Isosurface ending = this->Surface.withWalls();
+  Isosurface ending = this->Surface.endingWhereItMay();
   ending.jumpTolerances = &this->EndingEverywhere;
   ending.tolerance =
     std::max(this->Surface.tolerance, Looks::Tolerance * this->Proxy.smallestSpacing());

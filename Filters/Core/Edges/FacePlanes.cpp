@@ -71,7 +71,7 @@ ClipPlane edgeSeenFrom(const Particle& particle, const Quadratic& field, const Q
   }
   const LevelSet marginThere = margin.slopeAt(nearest);
   const WorldVector outward{ -glm::normalize(marginThere.gradient.xyz) };
-  const WorldVector bend = bendOfCrossing(field.slopeAt(nearest), marginThere);
+  const WorldVector bend = curvatureOfCrossing(field.slopeAt(nearest), marginThere);
   return { outward, std::max(0.0, glm::dot(nearest, outward.xyz)), dot(bend, outward) };
 }
 

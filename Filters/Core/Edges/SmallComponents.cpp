@@ -117,7 +117,7 @@ public:
       });
     if (isKnown && hasBox)
     {
-      particle.shrink =
+      particle.radiusPerSpacing =
         std::clamp(radiusOfComponent(count, drawnPart(particle)), SmallComponent::LeastRadius, 1.0);
     }
   }

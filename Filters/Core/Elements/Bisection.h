@@ -61,7 +61,7 @@ void LatticeLines::bisect(std::vector<Value>& coefficients, std::vector<Value>& 
 /// algorithm rounds by half an epsilon of doubles at most: this covers ninety steps in a row that all err one way.
 /// Larger: pieces whose coefficients nearly reach the isovalue are split in vain; smaller: a piece that holds surface
 /// might be dropped.
-constexpr double RoundingShare = 1e-14;
+constexpr double BisectionRounding = 1e-14;
 
 /// Bisects once along a direction. Where the same is done many times, keep the LatticeLines.
 template <class Value>

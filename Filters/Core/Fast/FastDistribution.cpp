@@ -35,7 +35,7 @@ struct BoxDiagonal
   /// More than in a hexahedron, as wedges and tetrahedra fill less of their bounds.
   static constexpr double Wedge = 7.0;
   static constexpr double Tetrahedron = 7.5;
-  /// Where the gradient of the field vanishes nearby (SurfaceBox::weakly), so that one sample tells less.
+  /// Where the gradient of the field vanishes nearby (SurfaceBox::risesWeakly), so that one sample tells less.
   static constexpr double Weak = 3.0;
   /// Where the surface is thinner than a spacing: each box gets a particle of its own.
   static constexpr double Thin = 1.0;
@@ -209,9 +209,9 @@ bool FastSystem::isFineEnough(const SurfaceBox& box, const SizingFunction& sizin
   }
   const double spacing = sizing.at(patch.curvatureMagnitude());
   const bool isThin = patch.curvatureMagnitude() * spacing > BoxDiagonal::ThinBend ||
-    (box.weakly && std::abs(anchor.offset) > MovingParticles::SeedOffset * spacing);
+    (box.risesWeakly && std::abs(anchor.offset) > MovingParticles::SeedOffset * spacing);
   const double perOwnSpacing = isThin ? BoxDiagonal::Thin
-    : box.weakly                      ? BoxDiagonal::Weak
+    : box.risesWeakly                      ? BoxDiagonal::Weak
                                       : perSpacing;
   return box.size <= perOwnSpacing * spacing;
 }
@@ -557,7 +557,7 @@ Distribution distributeFast(const Isosurface& surface, const DistributionParamet
     [&]() { return FastSystem(surface, parameters, monitor, parallelFor).run(); });
 }
 
-std::vector<double> wantedParticles(const Isosurface& surface, const SizingFunction& sizing,
+std::vector<double> particlesPerElement(const Isosurface& surface, const SizingFunction& sizing,
   const Monitor& monitor, const ParallelFor& parallelFor)
 {
   DistributionParameters parameters;

@@ -23,7 +23,7 @@ Distribution distributeFast(const Isosurface& surface, const DistributionParamet
 /// Number of particles that the surface takes in each element of the mesh at a sizing function, as Fast counts them.
 /// A particle on a boundary curve counts half, as half of the area around it lies beyond the surface's end.
 /// \throw Interrupted if the monitor asks for an early end
-std::vector<double> wantedParticles(const Isosurface& surface, const SizingFunction& sizing,
+std::vector<double> particlesPerElement(const Isosurface& surface, const SizingFunction& sizing,
   const Monitor& monitor, const ParallelFor& parallelFor);
 
 } // namespace hop

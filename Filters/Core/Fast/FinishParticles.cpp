@@ -125,7 +125,7 @@ void Finish::followSingly()
   }
   const Isosurface& surface = this->Moving.surface();
   const std::vector<float> noTolerances(faceSlot(surface.mesh->elements.size(), 0), 0.0f);
-  Isosurface sealed = surface.withWalls();
+  Isosurface sealed = surface.endingWhereItMay();
   sealed.jumpTolerances = &noTolerances;
   runParallel(this->Parallel, static_cast<std::ptrdiff_t>(this->Pending.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)

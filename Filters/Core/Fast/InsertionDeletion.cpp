@@ -31,7 +31,7 @@ struct EnergyOfNumber
   static constexpr double SmallestShare = 0.02;
   /// Largest curvature magnitude times spacing at which energies tell numbers: beyond it neighbours do not lie near one
   /// plane, in which packings are compared.
-  static constexpr float LargestBend = 1.0f;
+  static constexpr float LargestCurvatureTimesSpacing = 1.0f;
 };
 
 /// A hole between particles that is as wide as one. All numbers were chosen by experiment; distances are in units of
@@ -151,7 +151,7 @@ public:
       {
         const Patch& patch = this->Patches[i];
         if (this->Energies[i] >= 0.0f && this->Energies[i] < largest &&
-          patch.curvatureMagnitude() * patch.spacing <= EnergyOfNumber::LargestBend)
+          patch.curvatureMagnitude() * patch.spacing <= EnergyOfNumber::LargestCurvatureTimesSpacing)
         {
           places[i] = this->hole(i);
         }
@@ -224,7 +224,7 @@ private:
   double shareMissing(std::size_t i) const
   {
     const Patch& patch = this->Patches[i];
-    const bool bent = patch.curvatureMagnitude() * patch.spacing > EnergyOfNumber::LargestBend;
+    const bool bent = patch.curvatureMagnitude() * patch.spacing > EnergyOfNumber::LargestCurvatureTimesSpacing;
     if (this->Energies[i] < 0.0f || this->Changed[i] || bent)
     {
       return 0.0;

@@ -225,7 +225,7 @@ Location MovingParticles::target(std::size_t i, const glm::dvec3& step, std::int
   }
   // Only particles on boundary curves may stand on a wall.
   Location reached = walker.move(start, { step });
-  const auto onWall = [&]() { return walker.endCount(reached) > 0; };
+  const auto onWall = [&]() { return walker.endFaceCount(reached) > 0; };
   if (onWall())
   {
     reached = walker.move(start, { 0.5 * step });

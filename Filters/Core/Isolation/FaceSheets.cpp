@@ -60,7 +60,7 @@ public:
     : Surface(surface)
     , Facts(facts(surface.mesh->elements[element].domain))
     , Number(element)
-    , Slack(RoundingShare * largestValue(surface.mesh->form(element), surface.isovalue))
+    , Slack(BisectionRounding * largestValue(surface.mesh->form(element), surface.isovalue))
   {
   }
 
@@ -156,7 +156,7 @@ private:
     const Jet jet = evaluateGradient(form, place->location.u);
     const double rise = glm::dot(gradientOf(jet), facts(form.domain).faces[place->face].inward.xyz);
     const double value = std::abs(jet.value.w - this->Surface.isovalue);
-    const double slack = RoundingShare * largestValue(form, this->Surface.isovalue);
+    const double slack = BisectionRounding * largestValue(form, this->Surface.isovalue);
     return value > std::max(slack, offSheet * std::abs(rise)) ? 0 : (rise > 0.0) - (rise < 0.0);
   }
 

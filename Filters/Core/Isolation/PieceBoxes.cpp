@@ -65,8 +65,8 @@ SurfaceBox boxOf(const Piece& piece, const PieceTests& tests)
 {
   SurfaceBox box = boxAround(piece, piece.cornerValues());
   box.certified = piece.certified();
-  // Where the field rose weakly in a piece, it may rise strictly in a half of the piece.
-  box.weakly = piece.sheet == Monotony::Weak && tests.monotony(piece) != Monotony::Strict;
+  // Where the field rose risesWeakly in a piece, it may rise strictly in a half of the piece.
+  box.risesWeakly = piece.sheet == Monotony::Weak && tests.monotony(piece) != Monotony::Strict;
   box.mayBeThin = piece.sheet == Monotony::Weak;
   findEnds(piece, box);
   return box;
@@ -89,7 +89,7 @@ void appendBoxesOfPair(const Piece& piece, const SheetPair& pair, std::vector<Su
       {
         std::swap(box.ends[0], box.ends[1]);
       }
-      box.ownValues = static_cast<float>(sheet.reach / box.valueUnit);
+      box.largestOwnValue = static_cast<float>(sheet.reach / box.valueUnit);
       box.middle.u = proxyMiddle(piece.kind->domain, box);
     }
   }

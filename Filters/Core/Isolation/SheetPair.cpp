@@ -66,7 +66,7 @@ public:
   {
     double value = 0.0;
     double slope = 0.0;
-    double bend = 0.0;
+    double curvature = 0.0;
   };
 
   Expansion at(const glm::dvec3& u) const
@@ -95,11 +95,11 @@ public:
     Line line{ there.value, 0.0, 0.0, 0.0 };
     for (int step = 0; step < 2; ++step)
     {
-      line.distance += there.slope / there.bend;
+      line.distance += there.slope / there.curvature;
       there = this->at(u - line.distance * this->Direction);
     }
     line.valueThere = there.value;
-    line.reach = std::sqrt(std::max(0.0, -2.0 * there.value / there.bend));
+    line.reach = std::sqrt(std::max(0.0, -2.0 * there.value / there.curvature));
     return line;
   }
 
@@ -192,7 +192,7 @@ std::optional<SheetPair> findSheetPair(
     dominantDirection(hessianOf(evaluateHessian(field, { middle }).second));
   const FieldOnLines along(field, direction);
   SheetPair pair;
-  pair.outside = along.at(middle).bend > 0.0 ? 1.0 : -1.0;
+  pair.outside = along.at(middle).curvature > 0.0 ? 1.0 : -1.0;
   if (direction == glm::dvec3(0.0) || !bendsOneWay(field, test, direction, pair.outside))
   {
     return std::nullopt;

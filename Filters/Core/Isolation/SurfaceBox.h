@@ -21,7 +21,7 @@ struct SurfaceBox
   bool certified = false;
   /// Whether the box is certified although the field stands still somewhere in it, as at a wall or on the axis of a
   /// needle: the surface may lie near that place, and bend much within the box.
-  bool weakly = false;
+  bool risesWeakly = false;
   /// Whether the field stands still in a larger piece that holds the box: the surface may be thinner than the box.
   bool mayBeThin = false;
   /// Whether F - c has opposite signs at the two ends: a point of the surface then lies on the line between them.
@@ -36,7 +36,7 @@ struct SurfaceBox
   double valueUnit = 1.0;
   /// In the box of one of two sheets, the largest absolute value, in units of `valueUnit`, that belongs to this sheet;
   /// infinite otherwise.
-  float ownValues = std::numeric_limits<float>::infinity();
+  float largestOwnValue = std::numeric_limits<float>::infinity();
 };
 
 /// Whether a place lies in the ball around a box. A seed that Newton's method took farther may be on another component

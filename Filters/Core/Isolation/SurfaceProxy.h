@@ -33,10 +33,8 @@ public:
   SurfaceProxy(const Isosurface& surface, const SizingFunction& sizing,
     std::vector<SurfaceBox> boxes, const ParallelFor& parallelFor);
 
-  using SpacingLimit = SizingField::Limit;
-
   /// Limits the spacings at some places and, by gradation, around them.
-  void limitSpacings(const std::vector<SpacingLimit>& limits, const ParallelFor& parallelFor);
+  void limitSpacings(const std::vector<SizingField::Limit>& limits, const ParallelFor& parallelFor);
 
   /// Number of particles in hexagonal packing at the spacings h of the sizing field: the sum of 2 area/(sqrt(3) h^2)
   /// over the triangles.
@@ -108,7 +106,6 @@ public:
   const std::vector<SurfaceBox>& boxes() const { return this->Boxes; }
   std::int64_t evaluations() const { return this->Evaluations; }
 
-  static constexpr double GradationSlope = SizingField::GradationSlope;
 
 private:
   struct WeighedTriangle

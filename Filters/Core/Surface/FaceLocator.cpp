@@ -94,6 +94,7 @@ double stepInside(Domain domain, const LocalMap& map, ReferencePoint& u, WorldVe
 
 FaceLocator::FaceLocator(const ElementMesh& mesh, double isovalue, const ParallelFor& parallelFor)
   : Mesh(mesh)
+  , Met(mesh.elements.size() * MaximumFaces, 0)
 {
   std::vector<std::vector<OpenFace>> ofElement(mesh.elements.size());
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(ofElement.size()),
@@ -112,7 +113,7 @@ FaceLocator::FaceLocator(const ElementMesh& mesh, double isovalue, const Paralle
   this->findOpposites(parallelFor);
 }
 
-std::vector<FaceLocator::OpenFace> FaceLocator::openFacesOf(int element, double isovalue) const
+std::vector<FaceLocator::OpenFace> FaceLocator::openFacesOf(int element, double isovalue)
 {
   const BernsteinForm form = this->Mesh.form(element);
   const DomainFacts& domain = facts(form.domain);
@@ -131,6 +132,7 @@ std::vector<FaceLocator::OpenFace> FaceLocator::openFacesOf(int element, double 
     const FaceHull hull = hullOf(form, lattice, domain.faces[f]);
     if (straddles(hull.range, isovalue))
     {
+      this->Met[faceSlot(element, f)] = 1;
       const WorldVector inward =
         inwardOf(mapAt(form, middleOf(domain, domain.faces[f])), domain.faces[f]);
       const double size = length(inward);
@@ -198,7 +200,7 @@ const FaceLocator::OpenFace* FaceLocator::find(int element, int face) const
   return found ? &*at : nullptr;
 }
 
-bool FaceLocator::mayGoOnIn(int element, int face, int other) const
+bool FaceLocator::mayContinueIn(int element, int face, int other) const
 {
   const OpenFace* from = this->find(element, face);
   return from &&

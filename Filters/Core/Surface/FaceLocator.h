@@ -31,14 +31,18 @@ public:
   FaceLocator(const ElementMesh& mesh, double isovalue, const ParallelFor& parallelFor);
 
   /// Whether another element may lie behind a face that has no neighbour.
-  bool mayGoOn(int element, int face) const { return this->find(element, face) != nullptr; }
+  bool mayContinue(int element, int face) const { return this->find(element, face) != nullptr; }
+
+  /// Whether the surface may meet a face that has no neighbour: the coefficients of the field on the face lie on both
+  /// sides of the isovalue. A surface that runs along a face without meeting it, however near, does not end there.
+  bool mayMeet(int element, int face) const { return this->Met[faceSlot(element, face)] != 0; }
 
   /// Whether the element `other` may lie behind a face that has no neighbour.
-  bool mayGoOnIn(int element, int face, int other) const;
+  bool mayContinueIn(int element, int face, int other) const;
 
   /// The place behind a face that is nearest to a point of the face. Of several elements the one with the smallest gap
   /// is chosen, or the first whose gap is zero to rounding.
-  /// \param tolerance largest gap, world units; gaps beyond ReachPerFace are never accepted
+  /// \param tolerance largest gap, world units; gaps beyond LargestGapPerDiagonal are never accepted
   /// \param evaluations is increased by the number of evaluations
   std::optional<LocatedPlace> locate(const WorldPoint& point, int element, int face,
     double tolerance, std::int64_t& evaluations) const;
@@ -49,7 +53,7 @@ public:
   /// Largest gap between two faces, in units of the smaller one's diagonal; chosen by experiment. Larger: what lies
   /// behind thin plates may be taken for a neighbour; smaller: the surface ends where curved faces of different
   /// elements approximate each other badly.
-  static constexpr double ReachPerFace = 0.1;
+  static constexpr double LargestGapPerDiagonal = 0.1;
 
 private:
   /// A face without neighbour that the surface can pass.
@@ -64,10 +68,10 @@ private:
     /// Indices in Faces of the faces opposite to it.
     std::vector<int> opposite;
 
-    double reach() const { return ReachPerFace * this->bounds.diagonal(); }
+    double reach() const { return LargestGapPerDiagonal * this->bounds.diagonal(); }
   };
 
-  std::vector<OpenFace> openFacesOf(int element, double isovalue) const;
+  std::vector<OpenFace> openFacesOf(int element, double isovalue);
   void findOpposites(const ParallelFor& parallelFor);
   const OpenFace* find(int element, int face) const;
   std::optional<LocatedPlace> locateIn(
@@ -76,6 +80,8 @@ private:
   const ElementMesh& Mesh;
   /// Open faces to which others are opposite, sorted by element and face.
   std::vector<OpenFace> Faces;
+  /// MaximumFaces entries an element, see mayMeet().
+  std::vector<char> Met;
   std::int64_t Evaluations = 0;
 };
 

@@ -22,7 +22,7 @@ struct ClipPlane
   double distance = 0.0;
   /// Curvature of the edge along the surface, 1/world units, positive where it bends towards the plane's normal; 0 at
   /// creases with a small dihedral angle.
-  double bend = 0.0;
+  double edgeCurvature = 0.0;
   /// Angle by which the surface turns at a crease, radians, see FaceJumps::dihedralAngles; pi at a boundary curve.
   float dihedralAngle = 0.0f;
   /// Face of the particle's element in which the crease lies; -1: a boundary curve.
@@ -51,12 +51,12 @@ struct Particle
   double jump = 0.0;
   /// Ratio of the splat's radius to the spacing, 1 at most: less where the particle stands alone on a component of the
   /// surface smaller than the spacing.
-  double shrink = 1.0;
+  double radiusPerSpacing = 1.0;
 
   /// Largest D h that particles can follow: that of six particles on a sphere, an octahedron with h = sqrt(2) r and
   /// D = sqrt(2)/r. Larger: undersampled places stay unnoticed; smaller: the user is warned of places that look right.
-  static constexpr double LargestBend = 2.0;
-  bool isUndersampled() const { return this->curvature.magnitude * this->spacing > LargestBend; }
+  static constexpr double LargestCurvatureTimesSpacing = 2.0;
+  bool isUndersampled() const { return this->curvature.magnitude * this->spacing > LargestCurvatureTimesSpacing; }
 };
 
 /// The particle of a place on the surface: without clip planes, jump and shrinking.

@@ -76,7 +76,7 @@ LevelSet faceLevels(const Jet& jet, const LocalMap& map, const Face& face)
   return { gradient, pulled(glm::dmat3(0.0), jet.second, map, gradient) };
 }
 
-WorldVector bendOfCrossing(const LevelSet& a, const LevelSet& b)
+WorldVector curvatureOfCrossing(const LevelSet& a, const LevelSet& b)
 {
   // Sine of the angle between the level sets below which they are tangent: the vector is divided by its square.
   constexpr double parallel = 1e-6;

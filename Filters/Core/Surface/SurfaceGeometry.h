@@ -75,7 +75,7 @@ LevelSet faceLevels(const Jet& jet, const LocalMap& map, const Face& face);
 
 /// Curvature vector of the curve in which two level sets cross, its second derivative by arc length: on a circle of
 /// radius r it points to the centre and has the length 1/r. Zero where the level sets are tangent to each other.
-WorldVector bendOfCrossing(const LevelSet& a, const LevelSet& b);
+WorldVector curvatureOfCrossing(const LevelSet& a, const LevelSet& b);
 
 /// From G = P F_xx P / |F_x| with P = I - n n^T (Kindlmann et al. 2003): its trace is k1 + k2 for the normal
 /// n = +grad F/|grad F|, its Frobenius norm sqrt(k1^2 + k2^2), so that no eigenvalue problem is solved.

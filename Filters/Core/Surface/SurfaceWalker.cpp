@@ -85,7 +85,7 @@ std::optional<SurfaceWalker::Behind> SurfaceWalker::behind(const Evaluated& here
   const Isosurface& surface = this->Surface;
   const int element = here.location.element;
   const bool mayEnd = surface.mayEnd(element, face);
-  if (mayEnd && !surface.isUndecided(element, face))
+  if (mayEnd && !surface.isOpenToBoth(element, face))
   {
     return std::nullopt;
   }
@@ -95,10 +95,10 @@ std::optional<SurfaceWalker::Behind> SurfaceWalker::behind(const Evaluated& here
     return std::nullopt;
   }
   const Behind there{ this->evaluate(place->location), place->face };
-  return goesOn(surface, here, face, there) ? std::optional<Behind>(there) : std::nullopt;
+  return continuesIn(surface, here, face, there) ? std::optional<Behind>(there) : std::nullopt;
 }
 
-bool SurfaceWalker::goesOn(
+bool SurfaceWalker::continuesIn(
   const Isosurface& surface, const Evaluated& here, int face, const Behind& there)
 {
   const double tolerance = surface.jumpTolerance(here.location.element, face);
@@ -106,28 +106,30 @@ bool SurfaceWalker::goesOn(
   const WorldVector& after = there.at.point.gradient;
   return !std::isfinite(tolerance) ||
     (jumpBetween(*surface.mesh, here, face, there) <= tolerance &&
-      dot(before, after) >= SameSheet * length(after) * length(before));
+      dot(before, after) >= SheetCosine * length(after) * length(before));
 }
 
 std::optional<SurfaceWalker::Behind> SurfaceWalker::behind(const Location& here, int face)
 {
-  const bool matters = this->Surface.isUndecided(here.element, face);
+  const bool matters = this->Surface.isOpenToBoth(here.element, face);
   return this->behind(matters ? this->evaluate(here) : Evaluated{ here, {} }, face);
 }
 
 bool SurfaceWalker::endsAt(const Evaluated& here, int face)
 {
   return isOnFace(*this->Surface.mesh, here.location, face) &&
-    this->Surface.mayEnd(here.location.element, face) && !this->behind(here, face);
+    this->Surface.mayEnd(here.location.element, face) &&
+    this->Surface.mayMeet(here.location.element, face) && !this->behind(here, face);
 }
 
-int SurfaceWalker::endCount(const Location& location)
+int SurfaceWalker::endFaceCount(const Location& location)
 {
   int count = 0;
   for (int f = 0; f < faceCountOf(*this->Surface.mesh, location); ++f)
   {
     count += isOnFace(*this->Surface.mesh, location, f) &&
-      this->Surface.mayEnd(location.element, f) && !this->behind(location, f);
+      this->Surface.mayEnd(location.element, f) && this->Surface.mayMeet(location.element, f) &&
+      !this->behind(location, f);
   }
   return count;
 }

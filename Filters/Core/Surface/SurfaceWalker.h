@@ -44,7 +44,7 @@ struct Isosurface
   }
 
   /// The same surface, which ends at every face at which it may.
-  Isosurface withWalls() const
+  Isosurface endingWhereItMay() const
   {
     Isosurface result = *this;
     result.endsWhereItMay = true;
@@ -58,11 +58,18 @@ struct Isosurface
   }
 
   /// Whether the surface may go on behind a face at some places of the face, and end at others.
-  bool isUndecided(int element, int face) const
+  bool isOpenToBoth(int element, int face) const
   {
     const bool joined = this->mesh->neighbor(element, face).element >= 0;
-    const bool open = joined || (this->locator && this->locator->mayGoOn(element, face));
+    const bool open = joined || (this->locator && this->locator->mayContinue(element, face));
     return open && !this->endsWhereItMay && this->mayEnd(element, face);
+  }
+
+  /// Whether the surface may meet a face, as far as that is known without a look at places on it.
+  bool mayMeet(int element, int face) const
+  {
+    return !this->locator || this->mesh->neighbor(element, face).element >= 0 ||
+      this->locator->mayMeet(element, face);
   }
 
   /// Whether there may be places on a face at which the surface ends.
@@ -77,7 +84,7 @@ struct Isosurface
 /// the field jumps; chosen by experiment. Surfaces with a larger angle end at boundary curves of their own, and their
 /// particles do not repel each other. Larger: the surface is cut open at creases; smaller: sheets are joined that only
 /// cross.
-constexpr double SameSheet = 0.5;
+constexpr double SheetCosine = 0.5;
 
 /// A place at which the field was evaluated.
 struct Evaluated
@@ -131,14 +138,14 @@ public:
 
   /// Whether the surface goes on from a place on a face to a place behind it: the jump is within the face's tolerance,
   /// and the normals are those of one sheet.
-  static bool goesOn(
+  static bool continuesIn(
     const Isosurface& surface, const Evaluated& here, int face, const Behind& there);
 
   /// Whether a place lies on a face of its element, and the surface ends there.
   bool endsAt(const Evaluated& here, int face);
 
   /// Number of faces of its element for which endsAt() a place holds.
-  int endCount(const Location& location);
+  int endFaceCount(const Location& location);
 
   /// Follows a world vector from a place through as many elements as it takes: at each face the rest of the vector,
   /// towards the same world target, is continued with the Jacobian of the next element. Where the surface ends at a

@@ -86,9 +86,9 @@ TEST(SplitAndDelete, FewerThanAHundredthChangeNothing)
       lattice.particles.movers[i].energy = 1e6;
     }
     Random random(1);
-    const bool goesOn = splitAndDelete(lattice.particles, random);
-    EXPECT_EQ(goesOn, changing > 2);
-    EXPECT_EQ(lattice.count(), goesOn ? count - changing : count);
+    const bool continuesIn = splitAndDelete(lattice.particles, random);
+    EXPECT_EQ(continuesIn, changing > 2);
+    EXPECT_EQ(lattice.count(), continuesIn ? count - changing : count);
   }
 }
 

@@ -125,7 +125,7 @@ TEST_P(BoundaryCurvesIn, OfASphereKnowTheWayOutAndTheirBend)
     const glm::dvec3 normal = x / sphereRadius;
     const glm::dvec3 outward = glm::normalize(pole - glm::dot(pole, normal) * normal);
     EXPECT_LT(glm::distance(p.side.outward.xyz, outward), 1e-6);
-    EXPECT_NEAR(p.side.bend, bend, 1e-5);
+    EXPECT_NEAR(p.side.edgeCurvature, bend, 1e-5);
     EXPECT_TRUE(p.patch.fixed);
     EXPECT_LT(glm::distance(p.patch.position, x), 10.0 * tolerance);
     EXPECT_EQ(p.patch.spacing, static_cast<float>(spacing));
@@ -222,7 +222,7 @@ TEST_P(BoundaryCurvesIn, OfAPlaneAreAPolygon)
       {
         along.push_back(t);
         corners += p.otherSide.exists();
-        EXPECT_NEAR(p.side.bend, 0.0, 1e-9);
+        EXPECT_NEAR(p.side.edgeCurvature, 0.0, 1e-9);
       }
     }
     std::sort(along.begin(), along.end());

@@ -64,7 +64,7 @@ TEST(ClipPlanes, AreAtCreasesWhereAParticleBehindCoversWhatIsCutOff)
       ++atRidge;
       EXPECT_NEAR(std::abs(p.clips[0].normal.xyz.x), 1.0, 1e-9);
       EXPECT_NEAR(p.clips[0].distance, std::abs(p.position.xyz.x), 1e-9);
-      EXPECT_NEAR(p.clips[0].bend, 0.0, 1e-9);
+      EXPECT_NEAR(p.clips[0].edgeCurvature, 0.0, 1e-9);
       EXPECT_NEAR(p.clips[0].dihedralAngle, 2.0 * std::atan(0.5), 1e-6);
       EXPECT_EQ(p.jump, 0.0);
     }
@@ -252,7 +252,7 @@ TEST(ClipPlanes, OfBentBoundariesTouchThemWhereTheyAreNearest)
       outer += r > 1.5;
       const ClipPlane& plane = p.clips[0];
       ASSERT_TRUE(plane.isBoundary());
-      EXPECT_NEAR(plane.bend, r < 1.5 ? 1.0 : -0.5, 1e-3);
+      EXPECT_NEAR(plane.edgeCurvature, r < 1.5 ? 1.0 : -0.5, 1e-3);
       EXPECT_LT(glm::distance(plane.normal.xyz, outward), 0.03 * spacing);
       EXPECT_NEAR(plane.distance, toBoundary, 0.002 * spacing);
     }
@@ -277,7 +277,7 @@ TEST(ClipPlanes, OfBentBoundariesFollowThemOnInclinedSurfaces)
       for (const double s : { -0.5 * spacing, 0.5 * spacing })
       {
         const glm::dvec3 x =
-          p.position.xyz + s * along + 0.5 * plane.bend * s * s * plane.normal.xyz;
+          p.position.xyz + s * along + 0.5 * plane.edgeCurvature * s * s * plane.normal.xyz;
         EXPECT_NEAR(glm::length(glm::dvec2(x)), 1.0, 0.005 * spacing);
         EXPECT_NEAR(x.z, slope * x.x, 1e-6);
       }
@@ -337,7 +337,7 @@ TEST(ClipPlanes, OfBentCreasesTouchThemWhereTheyAreNearest)
       ++beside;
       EXPECT_NEAR(radial, r < 2.0 ? 1.0 : -1.0, 1e-6);
       EXPECT_NEAR(plane.distance, std::abs(r - 2.0), 1e-4 * spacing);
-      EXPECT_NEAR(plane.bend, r < 2.0 ? -0.5 : 0.5, 0.01);
+      EXPECT_NEAR(plane.edgeCurvature, r < 2.0 ? -0.5 : 0.5, 0.01);
     }
   }
   EXPECT_GT(beside, 200);

@@ -132,7 +132,7 @@ TEST_P(FaceCrossingsIn, EndWhereValuesBelongToTheOtherSheet)
 {
   const ElementMesh mesh = meshOf(this->GetParam());
   SurfaceBox box = boxOf(this->GetParam());
-  box.ownValues = 0.125f;
+  box.largestOwnValue = 0.125f;
   box.valueUnit = 8.0;
   const auto crossings = crossingsOf(mesh, box);
   EXPECT_GE(crossings.size(), 6u);

@@ -146,7 +146,7 @@ TEST(FacePlanes, OfACreaseTouchTheCircleWhereItIsNearest)
       EXPECT_LT(glm::distance(plane.normal.xyz, outward), 1e-3);
       EXPECT_NEAR(plane.distance, distance, 1e-3 * spacing);
       // The Hessian of the face is that at the particle, on a circle of radius 2 - distance.
-      EXPECT_NEAR(plane.bend, -0.5, 0.3 * distance + 1e-3);
+      EXPECT_NEAR(plane.edgeCurvature, -0.5, 0.3 * distance + 1e-3);
       EXPECT_EQ(plane.face, outerFace);
       EXPECT_NEAR(plane.dihedralAngle, 0.5, 1e-6);
       EXPECT_FALSE(plane.isBoundary());
@@ -161,7 +161,7 @@ TEST(FacePlanes, OfASmallAngleAreFacesToFirstOrder)
   const ClipPlane plane = offered(mesh, 2.0 - 0.5 * spacing, 0.2, 0.5 * CreaseAngle).clips[0];
   ASSERT_TRUE(plane.exists());
   EXPECT_NEAR(plane.distance, 0.5 * spacing, 1e-3 * spacing);
-  EXPECT_EQ(plane.bend, 0.0);
+  EXPECT_EQ(plane.edgeCurvature, 0.0);
 }
 
 TEST(FacePlanes, AreNotThoseOfSmoothOrDistantFaces)

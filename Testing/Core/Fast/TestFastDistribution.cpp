@@ -215,7 +215,7 @@ TEST(FastDistribution, SaysBeforehandHowManyParticlesElementsTake)
     SCOPED_TRACE(open.name);
     const ElementMesh mesh = meshOf(Domain::Hexahedron, 2, open.surface.field);
     const std::vector<double> counts =
-      wantedParticles({ &mesh, 0.0, tolerance }, { spacing, 0.0 }, {}, {});
+      particlesPerElement({ &mesh, 0.0, tolerance }, { spacing, 0.0 }, {}, {});
     ASSERT_EQ(counts.size(), mesh.elements.size());
     const double sum = std::accumulate(counts.begin(), counts.end(), 0.0);
     // Each particle on a boundary curve counts half, and half of the area around it lies outside.
@@ -238,7 +238,7 @@ TEST(FastDistribution, KeepsAFirstSpacingThatGivesTheNumber)
   const ElementMesh mesh = meshOf(Domain::Hexahedron, 2, sphere({ 0, 0, 0 }, 0.6).field);
   constexpr double spacing = 0.0543;
   const std::vector<double> counts =
-    wantedParticles({ &mesh, 0.0, tolerance }, { spacing, 0.0 }, {}, {});
+    particlesPerElement({ &mesh, 0.0, tolerance }, { spacing, 0.0 }, {}, {});
   DistributionParameters parameters = withSpacing(1.0);
   parameters.particleCount = std::llround(std::accumulate(counts.begin(), counts.end(), 0.0));
   parameters.firstSpacing = spacing;

@@ -43,7 +43,7 @@ TEST_P(BoxesOfPieces, HaveThePlaneOfALinearFieldInTheirValues)
       EXPECT_EQ(box.middle.element, 0);
       EXPECT_EQ(box.middle.u.xyz, piece.middle().xyz);
       EXPECT_EQ(box.size, piece.worldSize());
-      EXPECT_EQ(box.ownValues, infinity);
+      EXPECT_EQ(box.largestOwnValue, infinity);
       double largest = 0.0;
       double radius = 0.0;
       for (std::size_t c = 0; c < corners; ++c)
@@ -95,7 +95,7 @@ TEST_P(BoxesOfPieces, AreCertifiedIfThePieceIs)
   piece.sheet = Monotony::Strict;
   const SurfaceBox box = boxOf(piece, tests);
   EXPECT_TRUE(box.certified);
-  EXPECT_FALSE(box.weakly);
+  EXPECT_FALSE(box.risesWeakly);
   EXPECT_FALSE(box.mayBeThin);
 }
 
@@ -112,7 +112,7 @@ TEST(PieceBoxes, AreWeakOnlyWhereTheFieldStandsStill)
     const SurfaceBox box = boxOf(piece, tests);
     EXPECT_TRUE(box.certified);
     EXPECT_TRUE(box.mayBeThin);
-    EXPECT_EQ(box.weakly, piece.middle().xyz.x < 0.5);
+    EXPECT_EQ(box.risesWeakly, piece.middle().xyz.x < 0.5);
   }
 }
 
@@ -176,7 +176,7 @@ TEST_P(BoxesOfPairs, HoldOneSheetEach)
         EXPECT_NEAR(box.values[c] * box.valueUnit, rise * apart * ahead, 0.05 * apart);
         EXPECT_GT(box.values[c] * rise * ahead, 0.0);
       }
-      EXPECT_NEAR(box.ownValues * box.valueUnit, 0.5 * apart * apart, 1e-6);
+      EXPECT_NEAR(box.largestOwnValue * box.valueUnit, 0.5 * apart * apart, 1e-6);
     }
     EXPECT_LT((boxes[0].middle.u.xyz.z - height) * (boxes[1].middle.u.xyz.z - height), 0.0);
   }

@@ -372,7 +372,7 @@ TEST(SurfaceBoxes, ABoxBesideAWallMayBeMuchLargerThanTheDistanceOfTheSurface)
     EXPECT_LT(boxes.size(), 30u) << domain;
     EXPECT_EQ(uncertifiedCount(boxes), 0) << domain;
     EXPECT_TRUE(
-      std::all_of(boxes.begin(), boxes.end(), [](const SurfaceBox& box) { return box.weakly; }))
+      std::all_of(boxes.begin(), boxes.end(), [](const SurfaceBox& box) { return box.risesWeakly; }))
       << domain;
   }
 }

@@ -117,7 +117,7 @@ void visitPlacesAtOpenFaces(const ElementMesh& mesh, const FaceLocator& locator,
     const auto& faces = facts(domain).faces;
     for (int f = 0; f < static_cast<int>(faces.size()); ++f)
     {
-      for (int n = 0; locator.mayGoOn(e, f) && n < 20; ++n)
+      for (int n = 0; locator.mayContinue(e, f) && n < 20; ++n)
       {
         ReferencePoint u = randomPoint(domain, random);
         const double margin = glm::dot(faces[f].inward.xyz, u.xyz) + faces[f].offset;
@@ -205,7 +205,7 @@ TEST(FaceLocator, HasNothingToDoWhereAllFacesMatch)
     {
       for (int f = 0; f < MaximumFaces; ++f)
       {
-        EXPECT_FALSE(locator.mayGoOn(e, f)) << domain;
+        EXPECT_FALSE(locator.mayContinue(e, f)) << domain;
       }
     }
   }
@@ -218,12 +218,12 @@ TEST(FaceLocator, KnowsOnlyFacesThatTheSurfacePasses)
   recipe.field = plane({ 0, 0, 1 }, 0.5).field;
   const ElementMesh mesh = hangingMesh(recipe, recipe);
   const FaceLocator locator(mesh, 0.0, {});
-  EXPECT_TRUE(locator.mayGoOn(0, 1));
+  EXPECT_TRUE(locator.mayContinue(0, 1));
   for (int e = 1; e < 5; ++e)
   {
     const bool upper = positionAt(mesh, { e, { { 0.5, 0.5, 0.5 } } }).z > 0.0;
-    EXPECT_EQ(locator.mayGoOn(e, 0), upper);
-    EXPECT_EQ(locator.mayGoOnIn(0, 1, e), upper);
+    EXPECT_EQ(locator.mayContinue(e, 0), upper);
+    EXPECT_EQ(locator.mayContinueIn(0, 1, e), upper);
   }
 }
 
@@ -257,8 +257,8 @@ TEST(FaceLocator, FindsNothingBesideASmallerFace)
   SurfaceWalker walker({ &mesh, 0.0, 0.0, &locator });
   EXPECT_FALSE(walker.endsAt(walker.evaluate({ 0, { { 1, 0.75, 0.75 } } }), 1));
   EXPECT_TRUE(walker.endsAt(walker.evaluate({ 0, { { 1, 0.25, 0.75 } } }), 1));
-  EXPECT_EQ(walker.endCount({ 0, { { 1, 0.75, 0.75 } } }), 0);
-  EXPECT_EQ(walker.endCount({ 0, { { 1, 0.25, 1.0 } } }), 2);
+  EXPECT_EQ(walker.endFaceCount({ 0, { { 1, 0.75, 0.75 } } }), 0);
+  EXPECT_EQ(walker.endFaceCount({ 0, { { 1, 0.25, 1.0 } } }), 2);
 }
 
 TEST(FaceLocator, PassesNoGapWiderThanTolerated)

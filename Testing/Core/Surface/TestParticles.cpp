@@ -37,7 +37,7 @@ TEST(Particle, AtAPlaceOfASphereKnowsTheSphere)
     // What the rooms above add is not there yet.
     EXPECT_FALSE(particle.clips[0].exists() || particle.clips[1].exists());
     EXPECT_EQ(particle.jump, 0.0);
-    EXPECT_EQ(particle.shrink, 1.0);
+    EXPECT_EQ(particle.radiusPerSpacing, 1.0);
   }
 }
 
