@@ -162,22 +162,24 @@ TEST(SpacingGrid, VisitsCoarserPointsThatHaveToLowerTheirSpacing)
 {
   const SpacedPoints points = slab(1500, 4.0);
   const SpacingGrid grid(points.positions, points.spacings, reach);
-  constexpr double slope = 0.25;
   std::size_t found = 0;
-  for (std::size_t i = 0; i < 1500; i += 3)
+  for (const double slope : { 0.25, 1.0, 3.0 })
   {
-    const double spacing = 0.3 * points.spacings[i];
-    const auto expected = byBruteForce(1500,
-      [&](std::size_t j)
-      {
-        const double distance = glm::distance(points.positions[i], points.positions[j]);
-        return points.spacings[j] > spacing + slope * distance &&
-          distance < reach * points.spacings[j];
-      });
-    found += expected.size();
-    expectAmong(expected,
-      visited(
-        [&](const auto& use) { grid.visitCoarser(points.positions[i], spacing, slope, use); }));
+    for (std::size_t i = 0; i < 1500; i += 3)
+    {
+      const double spacing = 0.3 * points.spacings[i];
+      const auto expected = byBruteForce(1500,
+        [&](std::size_t j)
+        {
+          const double distance = glm::distance(points.positions[i], points.positions[j]);
+          return points.spacings[j] > spacing + slope * distance &&
+            distance < reach * points.spacings[j];
+        });
+      found += expected.size();
+      expectAmong(expected,
+        visited(
+          [&](const auto& use) { grid.visitCoarser(points.positions[i], spacing, slope, use); }));
+    }
   }
   EXPECT_GT(found, 1000u);
 }
