@@ -24,7 +24,6 @@ namespace hop
 namespace
 {
 
-
 /// Where the progress of a group stands, as a fraction. The values only move the progress bar: they are roughly the
 /// shares of the time, chosen by experiment.
 struct ProgressAt
@@ -168,15 +167,15 @@ std::vector<RankShare> GroupRun::shareOut(const GridElements& elements, const Wo
   if (isShared && number > 0 &&
     static_cast<double>(number) <= sumOfRanks(static_cast<double>(particlesThatFit())))
   {
-    shares =
-      shareOutToRanks(number, isovalues.size(), SpacingSearch::FirstSpacingPerDiagonal * this->Scale.diagonal,
-        [&](std::size_t i, double spacing)
-        {
-          SurfaceCount wanted;
-          this->unlessAborted(
-            [&]() { wanted = this->countWanted(elements, isovalues[i], spacing, work); });
-          return wanted;
-        });
+    shares = shareOutToRanks(number, isovalues.size(),
+      SpacingSearch::FirstSpacingPerDiagonal * this->Scale.diagonal,
+      [&](std::size_t i, double spacing)
+      {
+        SurfaceCount wanted;
+        this->unlessAborted(
+          [&]() { wanted = this->countWanted(elements, isovalues[i], spacing, work); });
+        return wanted;
+      });
   }
   return shares;
 }

@@ -211,7 +211,7 @@ bool FastSystem::isFineEnough(const SurfaceBox& box, const SizingFunction& sizin
   const bool isThin = patch.curvatureMagnitude() * spacing > BoxDiagonal::ThinBend ||
     (box.risesWeakly && std::abs(anchor.offset) > MovingParticles::SeedOffset * spacing);
   const double perOwnSpacing = isThin ? BoxDiagonal::Thin
-    : box.risesWeakly                      ? BoxDiagonal::Weak
+    : box.risesWeakly                 ? BoxDiagonal::Weak
                                       : perSpacing;
   return box.size <= perOwnSpacing * spacing;
 }

@@ -151,7 +151,8 @@ public:
       {
         const Patch& patch = this->Patches[i];
         if (this->Energies[i] >= 0.0f && this->Energies[i] < largest &&
-          patch.curvatureMagnitude() * patch.spacing <= EnergyOfNumber::LargestCurvatureTimesSpacing)
+          patch.curvatureMagnitude() * patch.spacing <=
+            EnergyOfNumber::LargestCurvatureTimesSpacing)
         {
           places[i] = this->hole(i);
         }
@@ -224,7 +225,8 @@ private:
   double shareMissing(std::size_t i) const
   {
     const Patch& patch = this->Patches[i];
-    const bool bent = patch.curvatureMagnitude() * patch.spacing > EnergyOfNumber::LargestCurvatureTimesSpacing;
+    const bool bent =
+      patch.curvatureMagnitude() * patch.spacing > EnergyOfNumber::LargestCurvatureTimesSpacing;
     if (this->Energies[i] < 0.0f || this->Changed[i] || bent)
     {
       return 0.0;

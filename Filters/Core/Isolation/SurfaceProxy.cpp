@@ -187,7 +187,7 @@ void SurfaceProxy::findSmallestSpacing()
 }
 
 void SurfaceProxy::limitSpacings(
-  const std::vector<SpacingLimit>& limits, const ParallelFor& parallelFor)
+  const std::vector<SizingField::Limit>& limits, const ParallelFor& parallelFor)
 {
   if (!limits.empty())
   {

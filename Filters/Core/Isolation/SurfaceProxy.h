@@ -106,7 +106,6 @@ public:
   const std::vector<SurfaceBox>& boxes() const { return this->Boxes; }
   std::int64_t evaluations() const { return this->Evaluations; }
 
-
 private:
   struct WeighedTriangle
   {

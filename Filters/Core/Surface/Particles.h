@@ -56,7 +56,10 @@ struct Particle
   /// Largest D h that particles can follow: that of six particles on a sphere, an octahedron with h = sqrt(2) r and
   /// D = sqrt(2)/r. Larger: undersampled places stay unnoticed; smaller: the user is warned of places that look right.
   static constexpr double LargestCurvatureTimesSpacing = 2.0;
-  bool isUndersampled() const { return this->curvature.magnitude * this->spacing > LargestCurvatureTimesSpacing; }
+  bool isUndersampled() const
+  {
+    return this->curvature.magnitude * this->spacing > LargestCurvatureTimesSpacing;
+  }
 };
 
 /// The particle of a place on the surface: without clip planes, jump and shrinking.

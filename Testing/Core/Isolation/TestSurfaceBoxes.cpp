@@ -371,8 +371,8 @@ TEST(SurfaceBoxes, ABoxBesideAWallMayBeMuchLargerThanTheDistanceOfTheSurface)
     EXPECT_GT(boxes.size(), 0u) << domain;
     EXPECT_LT(boxes.size(), 30u) << domain;
     EXPECT_EQ(uncertifiedCount(boxes), 0) << domain;
-    EXPECT_TRUE(
-      std::all_of(boxes.begin(), boxes.end(), [](const SurfaceBox& box) { return box.risesWeakly; }))
+    EXPECT_TRUE(std::all_of(
+      boxes.begin(), boxes.end(), [](const SurfaceBox& box) { return box.risesWeakly; }))
       << domain;
   }
 }

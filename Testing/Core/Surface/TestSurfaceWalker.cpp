@@ -437,7 +437,8 @@ TEST(SurfaceWalker, PassesAFaceWhoseJumpIsWithinTheTolerance)
     EXPECT_EQ(walker.endsAt(here, 1), !passes);
     EXPECT_EQ(walker.endFaceCount(place), passes ? 0 : 1);
     EXPECT_EQ(walker.move(here, { { 0.2, 0, 0 } }).element, passes ? 1 : 0);
-    SurfaceWalker ending(Isosurface{ &mesh, 0.0, 1e-9, nullptr, &jumpTolerances }.endingWhereItMay());
+    SurfaceWalker ending(
+      Isosurface{ &mesh, 0.0, 1e-9, nullptr, &jumpTolerances }.endingWhereItMay());
     EXPECT_TRUE(ending.endsAt(here, 1));
   }
 }
