@@ -224,6 +224,7 @@ void Builder::dropDoubledGhosts(std::vector<double>& tolerances)
 {
   const std::vector<Element>& elements = this->Result.mesh.elements;
   std::vector<char> marks;
+  marks.reserve(elements.size());
   for (const Element& element : elements)
   {
     marks.push_back(!this->Blocks.isGhost(this->Blocks.locate(element.cell)));

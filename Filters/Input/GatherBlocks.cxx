@@ -43,8 +43,8 @@ GatheredBlocks gatherLeaves(vtkDataObjectTree* input, vtkDataObjectTree* output)
       continue;
     }
     name = name.empty() ? nameOfPieces : name;
-    name = "block " + std::to_string(node->GetCurrentFlatIndex()) +
-      (name.empty() ? "" : " '" + name + "'");
+    const std::string number = "block " + std::to_string(node->GetCurrentFlatIndex());
+    name = name.empty() ? number : number + " '" + name + "'";
     if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data))
     {
       const vtkNew<vtkPolyData> particles;

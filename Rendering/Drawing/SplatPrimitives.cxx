@@ -228,8 +228,8 @@ void SplatPrimitives::DrawPiece(const SplatDrawing& drawing, vtkIdType first, vt
   {
     // OpenGL takes the offset into a buffer as a pointer.
     // NOLINTNEXTLINE(performance-no-int-to-ptr)
-    glDrawElements(mode, count, GL_UNSIGNED_INT,
-      reinterpret_cast<const void*>(corners * first * sizeof(GLuint)));
+    const auto* offset = reinterpret_cast<const void*>(corners * first * sizeof(GLuint));
+    glDrawElements(mode, count, GL_UNSIGNED_INT, offset);
   }
   else
   {

@@ -337,9 +337,9 @@ def test_a_spacing_larger_than_the_surface_leaves_a_few_particles(good, spacing,
 
 
 def test_too_many_particles_are_refused(good):
-    particles, messages = support.run(good, "F", 1.0, Spacing=0.3, NumberOfParticles=10**12)
+    particles, messages = support.run(good, "F", 1.0, Spacing=0.3, NumberOfParticles=2 * 10**9)
     assert_empty(particles)
-    wanted = "there are to be 1000000000000 particles"
+    wanted = "there are to be 2000000000 particles"
     assert_one_error(messages, wanted, "limit", "smaller NumberOfParticles")
 
 

@@ -262,7 +262,7 @@ def test_default_array_and_isovalue_come_from_the_input(channel):
     # The middle, without what lies at either end of the range.
     low, high = np.quantile(support.array_of(support.output_of(channel), "pressure"), [0.01, 0.99])
     assert len(isovalue) > 0
-    np.testing.assert_allclose(isovalue, (low + high) / 2, rtol=1e-4)
+    np.testing.assert_allclose(isovalue, (low + high) / 2, atol=0.005 * (high - low))  # three digits
 
 
 @pytest.mark.parametrize("number", [37, 500, 1234])

@@ -95,7 +95,7 @@ result = {
     "two results": [described(block) for block in map(particles_of(two_results(), **even).GetBlock, (0, 1))],
     "aborted": [described(particles_of(piece, change=abort_here, **even))],
     "no array": [described(particles_of(without_array_here(), **even))],
-    "too many": [described(particles_of(piece, number=10**12))],
+    "too many": [described(particles_of(piece, number=2 * 10**9))],
     "spacing": [described(particles_of(piece, number=0, Spacing=0.1, **even))],
 }
 with open(f"{folder}/rank{rank}.json", "w") as file:

@@ -286,6 +286,7 @@ std::vector<std::int64_t> BoundaryTracer::cornersOf(const Location& location, in
   const ElementMesh& mesh = *this->Surface.mesh;
   const Face& which = mesh.face(location.element, face);
   std::vector<std::int64_t> numbers;
+  numbers.reserve(which.cornerCount);
   for (int c = 0; c < which.cornerCount; ++c)
   {
     numbers.push_back(mesh.elements[location.element].corners[which.corners[c]]);

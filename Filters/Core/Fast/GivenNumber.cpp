@@ -68,7 +68,7 @@ private:
 
 Buffer<Patch> NumberMatcher::keep(const std::vector<char>& kept)
 {
-  const Buffer<Patch> removed = marked(this->Moving.patches(), opposite(kept));
+  Buffer<Patch> removed = marked(this->Moving.patches(), opposite(kept));
   this->Moving.keep(kept);
   return removed;
 }

