@@ -43,12 +43,17 @@ void runInThreads(const ParallelFor& parallelFor, std::ptrdiff_t count, const Lo
 
 std::ptrdiff_t runAlone(std::ptrdiff_t count, const LoopBody& body)
 {
+  // All chosen by experiment.
   using Clock = std::chrono::steady_clock;
+  // About the time that threads take to start. Longer loops are given to them; were this smaller, threads would start
+  // for loops that are done before.
   constexpr std::chrono::microseconds startOfThreads{ 30 };
-  // From shorter times nothing follows: what comes first may take long because it comes first.
+  // Shorter times tell nothing about the rest of the loop: the first items may take long only because they come first.
   constexpr std::chrono::microseconds leastTime{ 10 };
+  // The first piece is this part of the loop, a thousandth; a larger one could take long itself.
   constexpr std::ptrdiff_t firstShare = 1000;
-  // Nor from easy pieces that later ones are easy.
+  // No piece is more than this part of the loop, a sixteenth: easy items at the beginning do not tell that later ones
+  // are easy.
   constexpr std::ptrdiff_t largestShare = 16;
   const auto start = Clock::now();
   std::ptrdiff_t done = 0;

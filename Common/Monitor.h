@@ -6,8 +6,8 @@
 namespace hop
 {
 
-/// How long work reports its progress and learns that it should stop. Called from the thread that
-/// started the work only.
+/// By this, work that takes long reports its progress and learns that it should stop. Called only from the thread that
+/// started the work.
 struct Monitor
 {
   /// Receives the fraction done, 0 to 1; returns false to ask for an early end.
@@ -16,25 +16,25 @@ struct Monitor
   bool proceed(double fraction) const { return !this->report || this->report(fraction); }
 };
 
-/// What runs over pieces of a loop, each from begin to end - 1.
+/// Runs a piece of a loop: the items from begin to end - 1.
 using LoopBody = std::function<void(std::ptrdiff_t begin, std::ptrdiff_t end)>;
 
-/// The seam to the caller's threads: runs body(begin, end) over pieces of [0, count), in any order
-/// and number. Results must not depend on either. Serial when empty.
+/// The seam to the caller's threads: runs body(begin, end) for pieces that make up [0, count). Results must depend
+/// neither on the order of the pieces nor on their number. Where it is empty, loops run in the thread that asks.
 using ParallelFor = std::function<void(std::ptrdiff_t count, const LoopBody& body)>;
 
-/// Runs a loop in the caller's threads, or here if there are none. What a piece of it throws is thrown here when all
-/// threads are done: none would outlive it.
+/// Runs a loop in the caller's threads, or here if there are none.
+/// \throw what a piece of it has thrown, when all threads are done: an exception must not leave a thread
 void runInThreads(const ParallelFor& parallelFor, std::ptrdiff_t count, const LoopBody& body);
 
-/// Runs a loop alone, in growing pieces, until all of it seems to take longer than threads do to start.
-/// \return where it has got to
+/// Runs a loop in this thread, in growing pieces, until all of it seems to take longer than threads take to start.
+/// \return how many items are done: the first ones
 std::ptrdiff_t runAlone(std::ptrdiff_t count, const LoopBody& body);
 
-/// Runs a loop alone as long as that is faster, the rest of it in the caller's threads.
+/// Runs a loop in this thread as long as that is faster, and the rest of it in the caller's threads.
 void runParallel(const ParallelFor& parallelFor, std::ptrdiff_t count, const LoopBody& body);
 
-/// For long work on one thread, now and then: the caller may end it as between loops.
+/// To be called now and then by long work in one thread: the caller may end it here, as it may between loops.
 inline void askCaller(const ParallelFor& parallelFor)
 {
   runInThreads(parallelFor, 0, [](std::ptrdiff_t, std::ptrdiff_t) {});

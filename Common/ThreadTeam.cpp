@@ -17,7 +17,7 @@ ThreadTeam::ThreadTeam(int size)
   }
   catch (const std::system_error&)
   {
-    // The system gives no more threads: those that are there do.
+    // The system gives no more threads: the team is as large as it has become.
   }
 }
 
@@ -34,7 +34,7 @@ ThreadTeam::~ThreadTeam()
   }
 }
 
-/// Runs pieces as long as there are some that nobody has taken.
+/// Runs pieces as long as there are any that no thread has taken.
 void ThreadTeam::Loop::take()
 {
   for (std::ptrdiff_t piece = this->next++; piece < this->pieces; piece = this->next++)
@@ -43,7 +43,7 @@ void ThreadTeam::Loop::take()
   }
 }
 
-/// As long as it is there, helpers may join a loop. None is left in it afterwards.
+/// While this object lives, helpers may join the loop; none is in it any more when it is gone.
 class ThreadTeam::Opening
 {
 public:
@@ -80,6 +80,8 @@ private:
 
 void ThreadTeam::run(std::ptrdiff_t count, const LoopBody& body)
 {
+  // Chosen by experiment. With fewer, threads wait for the last one where pieces take different times; with more, they
+  // spend their time taking pieces.
   constexpr std::ptrdiff_t piecesPerThread = 16;
   if (count <= 0)
   {

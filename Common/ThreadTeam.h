@@ -12,19 +12,19 @@
 namespace hop
 {
 
-/// Threads that wait for loops, for callers whose own threads are started anew for each loop: a run of
-/// ours has hundreds, many of them no longer than that takes.
+/// Threads that wait for loops, for callers whose own threads are started anew for each loop: a run has hundreds of
+/// loops, and many take no longer than the start of a thread.
 class ThreadTeam
 {
 public:
-  /// \param size threads that a loop runs in, the caller's own among them; at least 1
+  /// \param size threads that a loop runs in, the caller's own included; at least 1
   explicit ThreadTeam(int size);
   ~ThreadTeam();
   ThreadTeam(const ThreadTeam&) = delete;
   ThreadTeam& operator=(const ThreadTeam&) = delete;
 
-  /// Runs a loop, see ParallelFor. Loops within it, and those of a second caller meanwhile, run in the thread
-  /// that asks for them.
+  /// Runs a loop, see ParallelFor. Loops that are asked for meanwhile, by its own body or by a second caller, run in
+  /// the thread that asks.
   void run(std::ptrdiff_t count, const LoopBody& body);
 
 private:
@@ -44,7 +44,7 @@ private:
   std::mutex Mutex;
   std::condition_variable Change;
   std::atomic<bool> Busy{ false };
-  // Of these the mutex takes care.
+  // The members below are read and written only by the thread that holds the mutex.
   Loop* Open = nullptr;
   std::size_t LoopCount = 0;
   bool Ends = false;

@@ -24,8 +24,8 @@ std::string bestBackend()
 #endif
 }
 
-/// vtkSMPTools::For. STDThread of VTK 9.1 starts threads for every loop, and in all versions the caller's own
-/// does nothing meanwhile.
+/// Calls work(loops) with loops of vtkSMPTools::For, but of a ThreadTeam where the back end is STDThread: that of VTK
+/// 9.1 starts threads for every loop, and in all versions the caller's own thread does nothing meanwhile.
 void withLoops(const std::function<void(const hop::ParallelFor&)>& work)
 {
   if (std::string(vtkSMPTools::GetBackend()) == "STDThread")
@@ -47,7 +47,7 @@ void withThreads(const std::function<void(const hop::ParallelFor&)>& work)
     withLoops(work);
     return;
   }
-  // Debian's VTK starts so although it has STDThread.
+  // Debian's VTK begins with Sequential although it has STDThread.
   vtkSMPTools::Config config;
   config.Backend = bestBackend();
   vtkSMPTools::LocalScope(config, [&]() { withLoops(work); });

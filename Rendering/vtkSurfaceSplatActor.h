@@ -2,8 +2,8 @@
  * @class vtkSurfaceSplatActor
  * @brief an actor of vtkSurfaceSplatMapper whose sides may differ in opacity
  *
- * A vtkActor is opaque or translucent by its property alone. This one asks its backface property as well,
- * so that an opaque side is drawn among the opaque things and a translucent one among the translucent.
+ * A vtkActor is opaque or translucent by its property alone. This actor asks its backface property as well, so that an
+ * opaque side is drawn in the renderer's opaque pass and a translucent one in its translucent pass.
  */
 
 #ifndef vtkSurfaceSplatActor_h
@@ -19,7 +19,7 @@ public:
   vtkTypeMacro(vtkSurfaceSplatActor, vtkOpenGLActor);
 
   ///@{
-  /** Whether one of the sides, or some of the particles, are opaque, or translucent. */
+  /** Whether one of the sides, or some of the particles, are opaque or translucent. */
   vtkTypeBool HasOpaqueGeometry() override;
   vtkTypeBool HasTranslucentPolygonalGeometry() override;
   ///@}

@@ -1,7 +1,17 @@
-#include "vtkSurfaceSplatGL.h" // before everything that may include an OpenGL header
+#include "OpenGL/Functions.h" // before everything that may include an OpenGL header
 
 #include "vtkSurfaceSplatMapper.h"
 
+#include "Drawing/SplatDrawing.h"
+#include "Drawing/SplatPrimitives.h"
+#include "Drawing/SplatView.h"
+#include "Particles/ParticleColors.h"
+#include "Particles/Selection.h"
+#include "Particles/SplatBuffers.h"
+#include "Particles/SplatParticles.h"
+#include "Passes/PictureTiles.h"
+#include "Passes/SplatLayer.h"
+#include "Shading/ShaderText.h"
 #include "vtkCellData.h"
 #include "vtkFloatArray.h"
 #include "vtkHardwareSelector.h"
@@ -20,16 +30,6 @@
 #include "vtkScalarsToColors.h"
 #include "vtkShaderProgram.h"
 #include "vtkShaderProperty.h"
-#include "vtkSurfaceSplatBuffers.h"
-#include "vtkSurfaceSplatColors.h"
-#include "vtkSurfaceSplatDrawing.h"
-#include "vtkSurfaceSplatLayer.h"
-#include "vtkSurfaceSplatParticles.h"
-#include "vtkSurfaceSplatPrimitives.h"
-#include "vtkSurfaceSplatSelection.h"
-#include "vtkSurfaceSplatShaders.h"
-#include "vtkSurfaceSplatTiles.h"
-#include "vtkSurfaceSplatView.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -39,24 +39,48 @@
 
 namespace
 {
-using Source = vtkSurfaceSplatColoring::Source;
+using Source = hop::SplatColoring::Source;
 
-// The base class keeps a program for every kind of primitive. Those of triangles and of strips are lit
-// alike; the second one draws outlines if the surface is opaque, else the back layer.
+// The base class keeps a program for every kind of primitive. The programs of triangles and of strips are lit alike;
+// the one of strips draws outlines if the surface is opaque, otherwise the back layer.
 constexpr int Surface = vtkOpenGLPolyDataMapper::PrimitiveTris;
 constexpr int Extra = vtkOpenGLPolyDataMapper::PrimitiveTriStrips;
-// Outlines in front of the surface itself. Lines are lit where there are normals.
+// The program of lines draws outlines where the surface lies in front of itself. Lines are lit where there are normals.
 constexpr int Folds = vtkOpenGLPolyDataMapper::PrimitiveLines;
 
-// More are too slow to be drawn one after the other.
-constexpr int MaximumNumberOfLayeredSheets = 8;
+// Number of isovalues up to which each has translucent layers of its own. The time of a picture grows with the number;
+// with a smaller one inner surfaces are missing more often. Chosen by experiment.
+constexpr int MaximumNumberOfLayeredIsovalues = 8;
+
+/** Memory for the textures of the layers on the GPU. */
+struct LayerMemory
+{
+  /**
+   * Bytes of all layers at most: one GiB, a choice that no measurement made. With less memory isovalues share layers,
+   * and their splats are summed up anew in each pass of depth peeling; with more the driver may run out of memory.
+   */
+  static constexpr double MostBytes = 1024. * 1024. * 1024.;
+  /**
+   * Bytes of a front and a back layer per pixel, about. Either has three sums of 16 bytes, three depths and a number of
+   * 4 bytes each, and marks of 2 bytes.
+   */
+  static constexpr double BytesPerPixel = 128.;
+};
+
+// Radius of all particles without a radius array, as a share of their distance. Hexagons are covered from 0.577 =
+// 1 / sqrt(3) on; three quarters leave some room for unevenness. Smaller disks leave holes, larger ones stand out more.
+constexpr double FallbackRadiusShare = 0.75;
+
+// Difference of depths, in diameters of the mean splat, from which on neighbouring pixels show different parts of the
+// surface. Chosen by experiment: a smaller one takes slants for folds, a larger one misses folds that are near.
+constexpr double FoldJump = 5.;
 
 vtkOpenGLRenderWindow* WindowOf(vtkRenderer* renderer)
 {
   return vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
 }
 
-// Of those points that are finite.
+// Bounds of the points that are finite.
 void GetFiniteBounds(vtkPolyData* input, double bounds[6])
 {
   for (int axis = 0; axis < 3; ++axis)
@@ -66,11 +90,11 @@ void GetFiniteBounds(vtkPolyData* input, double bounds[6])
 }
 }
 
-// What is seen of one sheet.
-struct vtkSurfaceSplatMapper::SheetLayers
+// What is seen of one isovalue, or of all together.
+struct vtkSurfaceSplatMapper::IsovalueLayers
 {
-  vtkSurfaceSplatLayer Front{ vtkSurfaceSplatSide::Front };
-  vtkSurfaceSplatLayer Back{ vtkSurfaceSplatSide::Back }; // of translucent surfaces
+  hop::SplatLayer Front{ hop::LayerSide::Front };
+  hop::SplatLayer Back{ hop::LayerSide::Back }; // of translucent surfaces
 
   void ReleaseGraphicsResources(vtkWindow* window)
   {
@@ -81,15 +105,15 @@ struct vtkSurfaceSplatMapper::SheetLayers
 
 struct vtkSurfaceSplatMapper::Internals
 {
-  vtkSurfaceSplatBuffers Buffers;
-  vtkSurfaceSplatView View;
-  std::vector<std::unique_ptr<SheetLayers>> Layers;
-  const vtkSurfaceSplatDrawing* Drawing = nullptr; // while it goes on, as are the next two
-  vtkSurfaceSplatLayer* DrawnLayer = nullptr;
-  const vtkSurfaceSplatLayer* FrontLayer = nullptr; // of the same sheet
+  hop::SplatBuffers Buffers;
+  hop::SplatView View;
+  std::vector<std::unique_ptr<IsovalueLayers>> Layers;
+  const hop::SplatDrawing* Drawing = nullptr; // set while it goes on, as are the next two members
+  hop::SplatLayer* DrawnLayer = nullptr;
+  const hop::SplatLayer* FrontLayer = nullptr; // of the same isovalue
   int DrawnTiles = 0;
   bool Translucent = false;
-  vtkSurfaceSplatColoring Coloring;
+  hop::SplatColoring Coloring;
   bool HasBackface = false; // the shaders know of a backface property
   bool CannotSplat = false; // the driver has no floating-point targets
 
@@ -103,22 +127,22 @@ struct vtkSurfaceSplatMapper::Internals
   bool SaidNoNormals = false;
   bool SaidNoRadius = false;
 
-  // Those of a sheet. All have their own as far as memory goes, so that each pass of depth peeling finds them drawn.
-  SheetLayers& LayersOf(int sheet)
+  // The layers of an isovalue. As far as memory goes each isovalue has its own, so that each pass of depth peeling
+  // finds them drawn.
+  IsovalueLayers& LayersOf(int isovalue)
   {
-    constexpr double mostBytes = 1024. * 1024. * 1024.;
-    constexpr double bytesPerPixel = 128.; // of both layers, about
-    const double bytes = bytesPerPixel * this->View.GetWidth() * this->View.GetHeight();
-    const auto index =
-      static_cast<std::size_t>(std::min<double>(sheet, std::max(1., mostBytes / bytes) - 1.));
+    const double bytes =
+      LayerMemory::BytesPerPixel * this->View.GetWidth() * this->View.GetHeight();
+    const auto index = static_cast<std::size_t>(
+      std::min<double>(isovalue, std::max(1., LayerMemory::MostBytes / bytes) - 1.));
     while (this->Layers.size() <= index)
     {
-      this->Layers.push_back(std::make_unique<SheetLayers>());
+      this->Layers.push_back(std::make_unique<IsovalueLayers>());
     }
     return *this->Layers[index];
   }
 
-  // Leaves so many of them.
+  // Releases all layers but the first ones.
   void ReleaseLayers(std::size_t left, vtkWindow* window)
   {
     for (; this->Layers.size() > left; this->Layers.pop_back())
@@ -192,10 +216,8 @@ double vtkSurfaceSplatMapper::GetFallbackRadius(vtkPolyData* input)
   }
   double bounds[6];
   GetFiniteBounds(input, bounds);
-  const double distance =
-    vtkSurfaceSplatParticles::EstimateDistance(bounds, input->GetNumberOfPoints());
-  // Hexagons are covered from 0.577 of their distance on; three quarters leave some room for unevenness.
-  return distance > 0. ? 0.75 * distance : 1.;
+  const double distance = hop::SplatParticles::EstimateDistance(bounds, input->GetNumberOfPoints());
+  return distance > 0. ? FallbackRadiusShare * distance : 1.;
 }
 
 //------------------------------------------------------------------------------
@@ -297,11 +319,11 @@ void vtkSurfaceSplatMapper::UploadParticles(vtkRenderer* renderer, vtkPolyData* 
   {
     return;
   }
-  auto arrays = vtkSurfaceSplatArrays::FromPointData(input->GetPointData());
+  auto arrays = hop::ParticleArrays::FromPointData(input->GetPointData());
   arrays.Radii = this->GetRadiusArray(input);
   arrays.FallbackRadius = this->GetFallbackRadius(input);
   arrays.CellColors = this->GetCellColors(input);
-  vtkSurfaceSplatParticles particles = vtkSurfaceSplatParticles::FromPolyData(input, arrays);
+  hop::SplatParticles particles = hop::SplatParticles::FromPolyData(input, arrays);
   gpu.Buffers.Upload(WindowOf(renderer), particles);
   if (gpu.Buffers.GetNumberOfParticles() < particles.GetNumberOfParticles())
   {
@@ -348,8 +370,8 @@ bool vtkSurfaceSplatMapper::HasTranslucentCells(vtkPolyData* input)
 //------------------------------------------------------------------------------
 void vtkSurfaceSplatMapper::UploadColors(vtkRenderer* renderer, vtkActor* actor)
 {
-  // Only splats have something between the particles to look colours up for, and cells' own colours
-  // are not to be looked up.
+  // Colours are looked up between particles only, so that disks and points need none of it. Cells' own colours are
+  // no numbers to be looked up.
   vtkDataArray* cellColors =
     this->Internal->CellIds.empty() ? nullptr : this->GetCellColors(this->CurrentInput);
   const vtkTypeBool interpolate = this->InterpolateScalarsBeforeMapping;
@@ -358,7 +380,7 @@ void vtkSurfaceSplatMapper::UploadColors(vtkRenderer* renderer, vtkActor* actor)
   vtkUnsignedCharArray* colors = this->MapScalars(this->CurrentInput, 1.0, source);
   this->InterpolateScalarsBeforeMapping = interpolate;
 
-  vtkSurfaceSplatColoring coloring;
+  hop::SplatColoring coloring;
   coloring.OpacityIsInColors = cellColors != nullptr;
   coloring.OfScalars = colors || this->ColorCoordinates;
   if (this->ColorCoordinates)
@@ -389,17 +411,17 @@ void vtkSurfaceSplatMapper::ForgetShaders()
 }
 
 //------------------------------------------------------------------------------
-// The colour of every particle that scalars give; empty if they give none.
+// The colours that scalars give the particles. Empty if scalars give none.
 std::vector<unsigned char> vtkSurfaceSplatMapper::MappedColors(
   vtkUnsignedCharArray* colors, int source)
 {
-  constexpr int Cells = 1; // what MapScalars() says of the source
+  constexpr int Cells = 1; // what MapScalars() says where the scalars are from
   constexpr int Field = 2;
   const std::vector<vtkIdType>& ids =
     source == Cells ? this->Internal->CellIds : this->Internal->PointIds;
   const vtkIdType count = this->Internal->Buffers.GetNumberOfParticles();
   const bool single = source == Field && this->FieldDataTupleId >= 0;
-  return vtkSurfaceSplatGatherColors(
+  return hop::GatherColors(
     colors, single ? std::vector<vtkIdType>(count, this->FieldDataTupleId) : ids, count);
 }
 
@@ -411,8 +433,8 @@ bool vtkSurfaceSplatMapper::UploadMappedColors(
   Internals& internal = *this->Internal;
   if (cellColors)
   {
-    vtkSurfaceSplatReplaceColors(rgba, cellColors, internal.CellIds,
-      internal.Buffers.GetNumberOfParticles(), actor->GetProperty());
+    hop::ReplaceColors(rgba, cellColors, internal.CellIds, internal.Buffers.GetNumberOfParticles(),
+      actor->GetProperty());
   }
   if (rgba.empty())
   {
@@ -423,7 +445,7 @@ bool vtkSurfaceSplatMapper::UploadMappedColors(
 }
 
 //------------------------------------------------------------------------------
-// False if there are none.
+// False if there are no lookup coordinates.
 bool vtkSurfaceSplatMapper::UploadLookupCoordinates(vtkRenderer* renderer)
 {
   const vtkIdType count = this->Internal->Buffers.GetNumberOfParticles();
@@ -433,7 +455,7 @@ bool vtkSurfaceSplatMapper::UploadLookupCoordinates(vtkRenderer* renderer)
     return false;
   }
   this->Internal->Buffers.UploadColors(
-    WindowOf(renderer), vtkSurfaceSplatLookupTexels(coordinates, this->Internal->PointIds, count));
+    WindowOf(renderer), hop::LookupTexels(coordinates, this->Internal->PointIds, count));
 
   // The base class binds this texture, of one colour a column, whenever there is a ColorTextureMap.
   if (!this->InternalColorTexture)
@@ -457,8 +479,8 @@ void vtkSurfaceSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* act
   this->DrawingSelection = false;
   if (this->PointPicking)
   {
-    // For points the base class draws without depth, on top of the surface they belong to; splats
-    // are that surface, and the nearest one must win.
+    // The base class draws points without depth, on top of the surface that they belong to. Splats are the surface
+    // itself, and the nearest one must be seen.
     WindowOf(renderer)->GetState()->vtkglDepthMask(GL_TRUE);
   }
   double bounds[6];
@@ -474,7 +496,7 @@ void vtkSurfaceSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* act
     internal.HasBackface = hasBackface;
     this->ForgetShaders();
   }
-  const vtkSurfaceSplatDrawing drawing = this->DescribeDrawing(renderer, actor);
+  const hop::SplatDrawing drawing = this->DescribeDrawing(renderer, actor);
   internal.Drawing = &drawing;
   internal.Buffers.Activate();
   if (!this->DrawsSplats() || !this->DrawSplats(renderer, actor))
@@ -504,17 +526,18 @@ bool vtkSurfaceSplatMapper::DrawSplats(vtkRenderer* renderer, vtkActor* actor)
   {
     this->Internal->ReleaseLayers(1, renderer->GetRenderWindow());
   }
-  // Nested sheets shine through each other: each has layers of its own.
-  const int allSheets = this->Internal->Buffers.GetNumberOfSheets();
-  const int sheets = translucent && allSheets <= MaximumNumberOfLayeredSheets ? allSheets : 1;
-  for (int sheet = 0; sheet < sheets; ++sheet)
+  // Translucent surfaces of different isovalues shine through each other: each has layers of its own.
+  const int allIsovalues = this->Internal->Buffers.GetNumberOfIsovalues();
+  const int isovalues =
+    translucent && allIsovalues <= MaximumNumberOfLayeredIsovalues ? allIsovalues : 1;
+  for (int isovalue = 0; isovalue < isovalues; ++isovalue)
   {
-    vtkSurfaceSplatDrawing drawing = *this->Internal->Drawing;
-    if (sheets > 1)
+    hop::SplatDrawing drawing = *this->Internal->Drawing;
+    if (isovalues > 1)
     {
-      drawing.Sheet = sheet;
+      drawing.Isovalue = isovalue;
     }
-    SheetLayers& layers = this->Internal->LayersOf(sheet);
+    IsovalueLayers& layers = this->Internal->LayersOf(isovalue);
     if ((translucent && !layers.Back.Update(drawing)) || !layers.Front.Update(drawing))
     {
       vtkWarningMacro("This graphics driver cannot draw into floating-point textures: the "
@@ -524,7 +547,7 @@ bool vtkSurfaceSplatMapper::DrawSplats(vtkRenderer* renderer, vtkActor* actor)
       this->ForgetShaders();
       return false;
     }
-    // Far to near, for blending without depth peeling.
+    // The far layer is drawn first, for blending without depth peeling.
     if (translucent)
     {
       this->DrawLayer(layers.Back, layers.Front, renderer, actor);
@@ -535,10 +558,9 @@ bool vtkSurfaceSplatMapper::DrawSplats(vtkRenderer* renderer, vtkActor* actor)
 }
 
 //------------------------------------------------------------------------------
-vtkSurfaceSplatDrawing vtkSurfaceSplatMapper::DescribeDrawing(
-  vtkRenderer* renderer, vtkActor* actor)
+hop::SplatDrawing vtkSurfaceSplatMapper::DescribeDrawing(vtkRenderer* renderer, vtkActor* actor)
 {
-  vtkSurfaceSplatDrawing drawing;
+  hop::SplatDrawing drawing;
   const Source source = this->Internal->Coloring.From;
   drawing.ChooseParticles(renderer, actor, this->HasTranslucentCells(this->CurrentInput));
   drawing.Window = WindowOf(renderer);
@@ -556,8 +578,8 @@ vtkSurfaceSplatDrawing vtkSurfaceSplatMapper::DescribeDrawing(
 }
 
 //------------------------------------------------------------------------------
-void vtkSurfaceSplatMapper::DrawLayer(vtkSurfaceSplatLayer& layer, vtkSurfaceSplatLayer& frontLayer,
-  vtkRenderer* renderer, vtkActor* actor)
+void vtkSurfaceSplatMapper::DrawLayer(
+  hop::SplatLayer& layer, hop::SplatLayer& frontLayer, vtkRenderer* renderer, vtkActor* actor)
 {
   Internals& internal = *this->Internal;
   const bool front = &layer == &frontLayer;
@@ -568,16 +590,16 @@ void vtkSurfaceSplatMapper::DrawLayer(vtkSurfaceSplatLayer& layer, vtkSurfaceSpl
   }
   internal.DrawnLayer = &layer;
   internal.FrontLayer = &frontLayer;
-  // Outlines are mixed with what was drawn before, which makes sense for pictures of opaque things.
+  // Outlines are mixed with what was drawn before, which makes sense for opaque surfaces in pictures only.
   if (renderer->GetSelector() || internal.Translucent)
   {
     this->DrawResolved(front ? Surface : Extra,
-      vtkSurfaceSplatTiles::Inside | vtkSurfaceSplatTiles::Edges, renderer, actor);
+      hop::PictureTiles::Inside | hop::PictureTiles::Edges, renderer, actor);
   }
   else
   {
-    this->DrawResolved(Surface, vtkSurfaceSplatTiles::Inside, renderer, actor);
-    this->DrawResolved(Extra, vtkSurfaceSplatTiles::Edges, renderer, actor);
+    this->DrawResolved(Surface, hop::PictureTiles::Inside, renderer, actor);
+    this->DrawResolved(Extra, hop::PictureTiles::Edges, renderer, actor);
     this->DrawFolds(renderer, actor);
   }
   internal.DrawnLayer = nullptr;
@@ -591,12 +613,12 @@ void vtkSurfaceSplatMapper::DrawFolds(vtkRenderer* renderer, vtkActor* actor)
 {
   if (this->Internal->Drawing->FacesViewer || actor->GetProperty()->GetInterpolation() == VTK_FLAT)
   {
-    return; // VTK would not light them
+    return; // VTK would not light lines
   }
   vtkOpenGLState* state = WindowOf(renderer)->GetState();
   vtkOpenGLState::ScopedglDepthMask depthMask(state);
   state->vtkglDepthMask(GL_FALSE);
-  this->DrawResolved(Folds, vtkSurfaceSplatTiles::Folds, renderer, actor);
+  this->DrawResolved(Folds, hop::PictureTiles::Folds, renderer, actor);
 }
 
 //------------------------------------------------------------------------------
@@ -610,7 +632,7 @@ void vtkSurfaceSplatMapper::DrawResolved(
   {
     // A program that was just built has a new vertex array, which UpdateShaders() may leave unbound.
     helper.VAO->Bind();
-    vtkSurfaceSplatTiles(this->Internal->View).Draw();
+    hop::PictureTiles(this->Internal->View).Draw();
   }
 }
 
@@ -622,7 +644,7 @@ void vtkSurfaceSplatMapper::DrawPrimitives(vtkRenderer* renderer, vtkActor* acto
   if (primitives.Program)
   {
     primitives.VAO->Bind(); // see DrawResolved()
-    // Sides are those of normals, which the vertex stage knows; mirrored triangles turn theirs.
+    // The vertex stage culls by the sides of normals. The sides of triangles are swapped where an actor mirrors them.
     vtkOpenGLState* state = WindowOf(renderer)->GetState();
     vtkOpenGLState::ScopedglEnableDisable cullFace(state, GL_CULL_FACE);
     state->vtkglDisable(GL_CULL_FACE);
@@ -635,14 +657,14 @@ void vtkSurfaceSplatMapper::DrawPrimitives(vtkRenderer* renderer, vtkActor* acto
 }
 
 //------------------------------------------------------------------------------
-vtkSurfaceSplatShaders vtkSurfaceSplatMapper::DescribeShaders(vtkActor* actor) const
+hop::ShaderText vtkSurfaceSplatMapper::DescribeShaders(vtkActor* actor) const
 {
-  using Part = vtkSurfaceSplatShaders::Part;
+  using Part = hop::ShaderText::Part;
   const bool translucent = this->Internal->Translucent;
   const bool extra = this->LastBoundBO == &this->Primitives[Extra];
   const bool folds = this->LastBoundBO == &this->Primitives[Folds];
   vtkProperty* property = actor->GetProperty();
-  vtkSurfaceSplatShaders shaders;
+  hop::ShaderText shaders;
   shaders.DrawsSplats = this->DrawsSplats();
   shaders.DrawsPoints = this->Mode == Points;
   shaders.Drawn = folds ? Part::Folds
@@ -671,7 +693,7 @@ void vtkSurfaceSplatMapper::GetShaderTemplate(
 void vtkSurfaceSplatMapper::ReplaceShaderColor(
   ShaderMap shaders, vtkRenderer* renderer, vtkActor* actor)
 {
-  const vtkSurfaceSplatShaders ours = this->DescribeShaders(actor);
+  const hop::ShaderText ours = this->DescribeShaders(actor);
   ours.InsertColor(shaders[vtkShader::Fragment]);
   this->Superclass::ReplaceShaderColor(shaders, renderer, actor);
   ours.ReplaceSide(shaders[vtkShader::Fragment]);
@@ -719,7 +741,7 @@ void vtkSurfaceSplatMapper::ProcessSelectorPixelBuffers(
     pass == vtkHardwareSelector::CELL_ID_LOW24 || pass == vtkHardwareSelector::CELL_ID_HIGH24;
   if (cells && this->Internal->CellIds.empty())
   {
-    vtkSurfaceSplatSelectCells(this->CurrentInput, selector, pixels);
+    hop::SelectCells(this->CurrentInput, selector, pixels);
   }
   else
   {
@@ -733,20 +755,20 @@ void vtkSurfaceSplatMapper::SetMapperShaderParameters(
 {
   this->Superclass::SetMapperShaderParameters(cellBO, renderer, actor);
 
-  const vtkSurfaceSplatDrawing& drawing = *this->Internal->Drawing;
+  const hop::SplatDrawing& drawing = *this->Internal->Drawing;
   vtkShaderProgram* program = cellBO.Program;
   drawing.SetUniforms(program);
-  if (const vtkSurfaceSplatLayer* layer = this->Internal->DrawnLayer)
+  if (const hop::SplatLayer* layer = this->Internal->DrawnLayer)
   {
     const double diameter = 2. * drawing.RadiusScale * this->Internal->Buffers.GetMeanRadius() *
       this->Internal->View.GetScale();
     layer->SetSamplers(program, *this->Internal->FrontLayer);
-    // Pixels with surface have at least twice this summed weight, others none (see the visibility pass).
+    // Half the least summed weight of a pixel with surface. Pixels without surface have none.
     program->SetUniformf("splatLeastWeight",
-      static_cast<float>(0.5 * vtkSurfaceSplatPrimitives::GetLeastWeight(this->Sharpness)));
+      static_cast<float>(0.5 * hop::SplatPrimitives::GetLeastWeight(this->Sharpness)));
     program->SetUniformf("splatLayerDistance", static_cast<float>(diameter));
-    program->SetUniformf("splatJump", static_cast<float>(5. * diameter));
-    vtkSurfaceSplatTiles(this->Internal->View).SetUniforms(program, this->Internal->DrawnTiles);
+    program->SetUniformf("splatJump", static_cast<float>(FoldJump * diameter));
+    hop::PictureTiles(this->Internal->View).SetUniforms(program, this->Internal->DrawnTiles);
   }
   if (this->ColorByNormalDirection)
   {
@@ -787,9 +809,9 @@ void vtkSurfaceSplatMapper::SetPropertyShaderParameters(
 //------------------------------------------------------------------------------
 int vtkSurfaceSplatMapper::GetShiftedClippingPlanes(vtkActor* actor, float planes[6][4])
 {
-  const int count = std::min(this->GetNumberOfClippingPlanes(), 6); // the base class says so
+  const int count = std::min(this->GetNumberOfClippingPlanes(), 6); // the limit of the base class
   const std::array<double, 3>& origin = this->Internal->Buffers.GetOrigin();
-  GetModelToWorld(actor, this->TempMatrix4);
+  hop::GetModelToWorld(actor, this->TempMatrix4);
   for (int i = 0; i < count; ++i)
   {
     double plane[4];
@@ -806,7 +828,7 @@ void vtkSurfaceSplatMapper::SetCameraShaderParameters(
 {
   this->Superclass::SetCameraShaderParameters(cellBO, renderer, actor);
 
-  // Again with the shift of the particles.
+  // The base class's matrices know nothing of the particles' shift.
   vtkShaderProgram* program = cellBO.Program;
   program->SetUniformMatrix("MCDCMatrix", this->Internal->View.MCDC);
   if (program->IsUniformUsed("MCVCMatrix"))

@@ -6,9 +6,9 @@
  * its point normal, of the radius in the point array `RadiusArrayName`, in world units. There are
  * three modes:
  * - Splats: Gaussian surface splatting after M. Zwicker et al., *Surface Splatting*, 2001, and M.
- *   Botsch et al., *High-Quality Surface Splatting on Today's GPUs*, 2005. Per pixel, what the disks
- *   of the nearest surface know of depth, normal and scalar is averaged with Gaussian weights, and
- *   shaded then. The depth is corrected for the curvature between the disks.
+ *   Botsch et al., *High-Quality Surface Splatting on Today's GPUs*, 2005. At each pixel depth, normal and
+ *   scalar of the nearest surface's disks are averaged with Gaussian weights, and shaded then. The depth
+ *   is corrected for the curvature between the disks.
  * - Disks: each disk for itself, in one pass.
  * - Points: each particle as a point of the vtkProperty's PointSize.
  *
@@ -17,36 +17,38 @@
  * own. With InterpolateScalarsBeforeMapping (default: on) splats average scalars and look the colour
  * up per pixel, as long as the lookup table is not categorical; with a categorical one a pixel has
  * the colour of the particle that counts most there. Translucent splats have two layers, the nearest
- * and the farthest surface; where a point array `Isovalue` has up to eight values, those of each of them.
- * Opaque splats of different isovalues (up to 128) are not averaged, however near their surfaces are:
- * the nearest one is seen.
+ * and the farthest surface. Where a point array `Isovalue` has up to eight values, the particles of each
+ * isovalue have two layers of their own. Opaque splats of different isovalues (up to 128) are not averaged,
+ * however near their surfaces are: the nearest one is seen.
  *
- * Particles at the rim of a surface, or beside a kink of it, may carry up to two planes that cut
- * their disks off, so that rims end in a line and kinks stay sharp: point arrays `Clip_Normal` (3
- * components a plane: unit vector to the side that is cut off; zero: no plane) and `Clip_Distance` (1
- * component a plane: distance of the plane from the particle along that vector, >= 0, world units). A third
- * array, `Clip_Angle` (1 component a plane: by how many degrees the surface turns there; 180 where it ends),
- * lets splats fill gaps that others leave beyond planes: up to a third of a radius below 10 degrees, where the
- * surface is almost smooth, up to a seventh at kinks, not at rims. Without it all planes are rims. A fourth
- * one, `Clip_Curvature` (1 component a plane, 1 / world units), bends the line in which a plane cuts its disk to
- * a parabola, towards the plane's vector where it is positive.
+ * Particles beside a boundary curve or a crease of the surface may carry up to two planes that cut
+ * their disks off, so that the surface ends in a line and creases stay sharp:
+ * - `Clip_Normal`: 3 components a plane, unit vector to the side that is cut off; zero: no plane.
+ * - `Clip_Distance`: 1 component a plane, distance of the plane from the particle along the vector, >= 0,
+ *   world units.
+ * - `Clip_Angle`: 1 component a plane, dihedral angle of the surface there in degrees, between the normals of
+ *   both sides: 0 where it is smooth, 180 at a boundary curve. It lets splats fill gaps that others leave beyond
+ *   planes: by up to a third of a radius below 10 degrees, where the surface is almost smooth, by up to a seventh
+ *   at creases, and not at all from 90 degrees on. Without this array splats end at all planes.
+ * - `Clip_Curvature`: 1 component a plane, 1 / world units. It bends the line in which a plane cuts its disk to a
+ *   parabola, towards the plane's vector where it is positive.
  *
  * Where the surface bends much over one splat, particles that carry its shape operator are drawn as
  * pieces of paraboloids instead of disks: point array `Shape_Operator` (6 components, the symmetric
- * derivative of the unit normal along the surface: xx, yy, zz, xy, yz, xz; 1 / world units). They are
+ * derivative of the unit normal along the surface: xx, yy, zz, xy, yz, xz; 1 / world units). The paraboloids are
  * fitted to the particles around, as the surface may bend differently there.
  *
- * What is missing is borne: without point normals the disks face the viewer, without radii all have
- * the radius `Radius`; both are said in one warning. A particle with a normal, radius or position
+ * Without point normals the disks face the viewer; without radii all particles have the radius `Radius`. One
+ * warning says both. A particle with a normal, radius or position
  * that is zero, negative or not finite (positions may of course be zero) is skipped. Where the
  * graphics driver cannot draw into floating-point textures, splats are drawn as disks, with a
  * warning.
  *
  * Both sides of the surface are visible; backface culling of the vtkProperty leaves the outward one,
- * to which the normals point. A backface property of the vtkActor is that of the inward side, as it is of the
- * back faces of polygons: where scalars give the colours, or ColorByNormalDirection does, both sides have
- * them, and of the backface property only the opacity counts (for polygons not even that). Colours of
- * single particles (CellColorArrayName) are seen from outward then. With a vtkSurfaceSplatActor one side may be
+ * to which the normals point. A backface property of the vtkActor is the property of the inward side, as it is of
+ * the back faces of polygons: where scalars or ColorByNormalDirection give the colours, both sides have these
+ * colours, and only the opacity of the backface property counts (for polygons not even the opacity). Colours of
+ * single particles (CellColorArrayName) are then seen from outward only. With a vtkSurfaceSplatActor one side may be
  * opaque and the other translucent.
  *
  * Cell arrays colour the particles of polydata with vertex cells only. Representation, edges and line
@@ -62,9 +64,12 @@
 #include <memory> // for std::unique_ptr
 #include <vector> // for std::vector
 
-class vtkSurfaceSplatLayer;
-struct vtkSurfaceSplatDrawing;
-struct vtkSurfaceSplatShaders;
+namespace hop
+{
+class SplatLayer;
+struct SplatDrawing;
+struct ShaderText;
+}
 
 class VTKHIGHORDERPARTICLERENDERING_EXPORT vtkSurfaceSplatMapper : public vtkOpenGLPolyDataMapper
 {
@@ -96,7 +101,8 @@ public:
   /**
    * How steeply the weight of a splat falls from its middle to its rim: exp(-Sharpness (d / radius)^2)
    * at the distance d, lowered to be 0 at the rim. Small values smooth, large ones show the particles'
-   * own normals. The surface ends at the same place with all of them. In [0.1, 20]; default: 2.
+   * own normals. The surface ends at the same place with all sharpnesses, see SplatProfile. In [0.1, 20];
+   * default: 2.
    */
   vtkSetClampMacro(Sharpness, double, 0.1, 20.0);
   vtkGetMacro(Sharpness, double);
@@ -131,7 +137,7 @@ public:
   ///@{
   /**
    * Radius of all particles where the radius array is missing, in the units of the points. 0, the
-   * default, stands for one that covers the sides of the bounding box with that many disks.
+   * default, stands for the radius with which as many disks cover the sides of the bounding box.
    */
   vtkSetClampMacro(Radius, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Radius, double);
@@ -140,7 +146,7 @@ public:
   ///@{
   /**
    * Colour by the side that is seen, instead of by scalars or the property's colour:
-   * OutwardColor where the normal points to the viewer's side, else InwardColor. Default: off.
+   * OutwardColor where the normal points to the viewer's side, InwardColor elsewhere. Default: off.
    */
   vtkSetMacro(ColorByNormalDirection, bool);
   vtkGetMacro(ColorByNormalDirection, bool);
@@ -176,8 +182,8 @@ public:
   ///@}
 
   /**
-   * Bounds of the disks that an input would be drawn as: of all its points, whether cells use them
-   * or not, grown by the largest radius. Uninitialized bounds if there are no points.
+   * Bounds of the disks that an input would be drawn as: the bounds of all its points, whether cells use
+   * them or not, grown by the largest radius. Uninitialized bounds if there are no points.
    */
   void GetDiskBounds(vtkPolyData* input, double bounds[6]);
 
@@ -247,17 +253,17 @@ private:
 
   bool DrawsSplats() const;
   bool DrawSplats(vtkRenderer* renderer, vtkActor* actor);
-  void DrawLayer(vtkSurfaceSplatLayer& layer, vtkSurfaceSplatLayer& frontLayer,
-    vtkRenderer* renderer, vtkActor* actor);
+  void DrawLayer(
+    hop::SplatLayer& layer, hop::SplatLayer& frontLayer, vtkRenderer* renderer, vtkActor* actor);
   void DrawFolds(vtkRenderer* renderer, vtkActor* actor);
   void DrawResolved(int primitive, int tiles, vtkRenderer* renderer, vtkActor* actor);
   void ForgetShaders();
   void DrawPrimitives(vtkRenderer* renderer, vtkActor* actor);
-  vtkSurfaceSplatDrawing DescribeDrawing(vtkRenderer* renderer, vtkActor* actor);
-  vtkSurfaceSplatShaders DescribeShaders(vtkActor* actor) const;
+  hop::SplatDrawing DescribeDrawing(vtkRenderer* renderer, vtkActor* actor);
+  hop::ShaderText DescribeShaders(vtkActor* actor) const;
   int GetShiftedClippingPlanes(vtkActor* actor, float planes[6][4]);
 
-  struct SheetLayers;
+  struct IsovalueLayers;
   struct Internals; // what lives on the GPU
   std::unique_ptr<Internals> Internal;
 };

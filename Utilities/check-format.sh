@@ -11,5 +11,5 @@ if [ -z "$tool" ] || ! "$tool" --version | grep -q 'version 14\.'; then
 fi
 mode=(--dry-run --Werror)
 [ "${1:-}" != --fix ] || mode=(-i)
-find Filters Rendering Plugin Testing \( -name '*.h' -o -name '*.cxx' -o -name '*.cpp' \) -print0 |
+find Common Filters Rendering Plugin Testing \( -name '*.h' -o -name '*.cxx' -o -name '*.cpp' \) -print0 |
   xargs -0 --no-run-if-empty "$tool" "${mode[@]}"

@@ -35,7 +35,9 @@ check_rooms() {
 
 core_rooms=(Kernel Support Elements Surface Isolation Edges Fast Classic)
 check_rooms Filters/Core "${core_rooms[@]}"
+if grep -n 'include "Fast/' Filters/Core/Classic/*.*; then complain "the two distributions know each other"; fi
 check_rooms Filters Input Conversion Output Run
+check_rooms Rendering OpenGL Particles Drawing Passes Shading
 
 # The numerics include files of their own, of Common, of the standard library and of GLM only.
 for file in Common/*.* Filters/Core/*/*.*; do
@@ -44,6 +46,7 @@ for file in Common/*.* Filters/Core/*/*.*; do
     name=$(sed -E 's/.*include[[:space:]]*[<"]([^>"]+)[>"].*/\1/' <<<"$line")
     case $line in
       *\<glm/*) ;;
+      *\<intrin.h\>) [ "$file" = Filters/Core/Kernel/InstructionSet.cpp ] || complain "$file includes <$name>" ;; # MSVC's CPUID
       *\<*) [[ $name =~ ^[a-z_0-9]+$ ]] || complain "$file includes <$name>" ;;
       *) { [ -e "Filters/Core/$name" ] && [[ $file = Filters/* ]]; } || [ -e "$name" ] || complain "$file includes $name" ;;
     esac
@@ -56,7 +59,9 @@ while read -r line; do complain "the renderer knows the filter: $line"; done < <
       for folder in Filters Filters/Core; do [ ! -e "$folder/$name" ] || echo "$file includes $name"; done
     done
   done)
-if grep -rn 'include "vtkSurfaceSplat' Common Filters; then complain "the filter knows the renderer"; fi
+if grep -rnE 'include "(vtkSurfaceSplat|(OpenGL|Particles|Drawing|Passes|Shading)/)' Common Filters; then
+  complain "the filter knows the renderer"
+fi
 
 # A test stands in the room of the header that it is named after.
 for file in Testing/Core/*/Test*.cpp; do

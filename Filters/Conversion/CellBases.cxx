@@ -20,10 +20,14 @@
 #include <optional>
 #include <stdexcept>
 
+namespace hop
+{
+
 namespace
 {
 
-constexpr hop::Degrees degreesFromCount{ 0, 0, 0 };
+/// Stands for degrees that follow from the number of points.
+constexpr Degrees degreesFromCount{ 0, 0, 0 };
 
 bool isBezier(int cellType)
 {
@@ -37,8 +41,8 @@ bool isLagrange(int cellType)
     cellType == VTK_LAGRANGE_WEDGE;
 }
 
-/// The domain on which cells of a type are polynomial.
-std::optional<hop::Domain> domainOf(int cellType)
+/// The domain on which cells of a type are polynomial; none for types that are not supported.
+std::optional<Domain> domainOf(int cellType)
 {
   switch (cellType)
   {
@@ -52,33 +56,35 @@ std::optional<hop::Domain> domainOf(int cellType)
     case VTK_PYRAMID:
     case VTK_QUADRATIC_PYRAMID:
     case VTK_TRIQUADRATIC_PYRAMID:
-      return hop::Domain::Hexahedron;
+      return Domain::Hexahedron;
     case VTK_TETRA:
     case VTK_QUADRATIC_TETRA:
     case VTK_LAGRANGE_TETRAHEDRON:
     case VTK_BEZIER_TETRAHEDRON:
-      return hop::Domain::Tetrahedron;
+      return Domain::Tetrahedron;
     case VTK_WEDGE:
     case VTK_QUADRATIC_WEDGE:
     case VTK_QUADRATIC_LINEAR_WEDGE:
     case VTK_BIQUADRATIC_QUADRATIC_WEDGE:
     case VTK_LAGRANGE_WEDGE:
     case VTK_BEZIER_WEDGE:
-      return hop::Domain::Wedge;
+      return Domain::Wedge;
     default:
       return {};
   }
 }
 
-/// Lagrange cells whose points do not fill a lattice, but which VTK knows all the same.
+/// Whether a Lagrange cell has more nodes than its lattice: VTK's tetrahedron of 15 and wedge of 21 nodes have nodes in
+/// the middles of faces and of the cell.
 bool isEnriched(int cellType, vtkIdType points)
 {
   return (cellType == VTK_LAGRANGE_TETRAHEDRON && points == 15) ||
     (cellType == VTK_LAGRANGE_WEDGE && points == 21);
 }
 
-/// The degrees that the file gives for this cell; zeros if it leaves them to the number of points.
-hop::Degrees explicitDegrees(vtkUnstructuredGrid* grid, vtkIdType cell)
+/// The degrees that the grid gives for a cell, -1 for a degree out of range; zeros if they follow from the number of
+/// points.
+Degrees explicitDegrees(vtkUnstructuredGrid* grid, vtkIdType cell)
 {
   const int type = grid->GetCellType(cell);
   vtkDataArray* given =
@@ -90,44 +96,44 @@ hop::Degrees explicitDegrees(vtkUnstructuredGrid* grid, vtkIdType cell)
   double tuple[3];
   given->GetTuple(cell, tuple);
   const auto degree = [](double value)
-  { return value >= 0.0 && value <= hop::MaximumInputDegree ? static_cast<int>(value) : -1; };
+  { return value >= 0.0 && value <= MaximumInputDegree ? static_cast<int>(value) : -1; };
   return { degree(tuple[0]), degree(tuple[1]), degree(tuple[2]) };
 }
 
-/// The degree at which the domain has that many nodes, or the given degrees if they have.
-std::optional<hop::Degrees> fittingDegrees(
-  hop::Domain domain, const hop::Degrees& given, vtkIdType nodes)
+/// The degrees with which a cell on the domain has that many nodes: the given degrees if there are any, else equal
+/// ones. None if there are no such degrees.
+std::optional<Degrees> fittingDegrees(Domain domain, const Degrees& given, vtkIdType nodes)
 {
   if (given != degreesFromCount)
   {
     const auto [lowest, highest] = std::minmax_element(given.begin(), given.end());
-    return *lowest >= 1 && *highest <= hop::maximumInputDegree(domain) &&
-        hop::coefficientCount(domain, given) == nodes
-      ? std::optional<hop::Degrees>(given)
+    return *lowest >= 1 && *highest <= maximumInputDegree(domain) &&
+        coefficientCount(domain, given) == nodes
+      ? std::optional<Degrees>(given)
       : std::nullopt;
   }
-  for (int p = 1; p <= hop::maximumInputDegree(domain); ++p)
+  for (int p = 1; p <= maximumInputDegree(domain); ++p)
   {
-    if (hop::coefficientCount(domain, { p, p, p }) == nodes)
+    if (coefficientCount(domain, { p, p, p }) == nodes)
     {
-      return hop::Degrees{ p, p, p };
+      return Degrees{ p, p, p };
     }
   }
   return {};
 }
 
-/// Number of points of a cell type that has but one.
-/// \pre VTK has a class for it, as for all types that have a domain
+/// The number of points of cells of a type that always has the same number.
+/// \pre VTK has a class for the type; it has one for all types with a domain
 vtkIdType usualPointCount(int cellType)
 {
   return vtk::TakeSmartPointer(vtkGenericCell::InstantiateCell(cellType))->GetNumberOfPoints();
 }
 
-/// A cell of that kind, alone and with all points at the origin. VTK can be asked about its nodes
-/// whatever is wrong with the cells of the input.
-/// \param degrees of a cell that fills its lattice
+/// A grid with one cell of a kind and with all points at the origin. VTK can be asked about the cell's nodes, whatever
+/// is wrong with the cells of the input.
+/// \param degrees for cells whose nodes fill their lattice
 vtkSmartPointer<vtkUnstructuredGrid> gridOfOneCell(
-  int cellType, vtkIdType nodes, const std::optional<hop::Degrees>& degrees)
+  int cellType, vtkIdType nodes, const std::optional<Degrees>& degrees)
 {
   auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
   vtkNew<vtkPoints> points;
@@ -147,20 +153,25 @@ vtkSmartPointer<vtkUnstructuredGrid> gridOfOneCell(
   return grid;
 }
 
-std::vector<double> shapeFunctions(vtkCell* cell, const hop::ReferencePoint& u)
+/// The values of VTK's shape functions, one a node.
+std::vector<double> shapeFunctions(vtkCell* cell, const ReferencePoint& u)
 {
-  // VTK's cells write as many values as they have points, some a few more.
-  std::vector<double> weights(cell->GetNumberOfPoints() + 32);
-  const hop::ReferencePoint parametric = parametricCoordinates(cell->GetCellType(), u);
+  // VTK's cells write as many values as they have points; some write more. The reserve is ample.
+  constexpr int reserve = 32;
+  std::vector<double> weights(cell->GetNumberOfPoints() + reserve);
+  const ReferencePoint parametric = parametricCoordinates(cell->GetCellType(), u);
   cell->InterpolateFunctions(&parametric.xyz.x, weights.data());
   weights.resize(cell->GetNumberOfPoints());
   return weights;
 }
 
 /// Whether a basis gives back VTK's shape functions away from the points where it was sampled.
-bool reproduces(vtkCell* cell, const hop::NodalBasis& basis)
+bool reproduces(vtkCell* cell, const NodalBasis& basis)
 {
+  // Number of random points: polynomials that differ do not agree at all of them.
   constexpr int trials = 20;
+  // Largest difference of shape functions, whose values are about 1: far above rounding errors, far below the
+  // difference of polynomials of different degrees. Chosen by experiment.
   constexpr double tolerance = 1e-9;
   const int nodes = basis.nodeCount();
   std::vector<double> unit(static_cast<std::size_t>(nodes) * nodes, 0.0);
@@ -171,13 +182,13 @@ bool reproduces(vtkCell* cell, const hop::NodalBasis& basis)
   std::vector<double> coefficients(static_cast<std::size_t>(basis.coefficientCount()) * nodes);
   basis.toBernstein(unit.data(), nodes, coefficients.data());
   std::vector<double> bernstein(basis.coefficientCount());
-  hop::Random random(1);
+  Random random(1);
   for (int trial = 0; trial < trials; ++trial)
   {
-    // In every domain, simplices included.
-    const hop::ReferencePoint u{ glm::dvec3(
+    // Coordinates up to 1/3 are in every domain, simplices included.
+    const ReferencePoint u{ glm::dvec3(
       random.uniform() / 3.0, random.uniform() / 3.0, random.uniform() / 3.0) };
-    hop::evaluateBasis(basis.domain(), basis.degrees(), u, bernstein.data());
+    evaluateBasis(basis.domain(), basis.degrees(), u, bernstein.data());
     const std::vector<double> expected = shapeFunctions(cell, u);
     for (int node = 0; node < nodes; ++node)
     {
@@ -195,24 +206,25 @@ bool reproduces(vtkCell* cell, const hop::NodalBasis& basis)
   return true;
 }
 
-/// VTK's own shape functions in the Bernstein basis of the lowest degree that holds them.
-std::unique_ptr<const CellBasis> sampleBasis(vtkCell* cell, hop::Domain domain)
+/// VTK's own shape functions in the first of some Bernstein bases that holds them.
+std::unique_ptr<const CellBasis> sampleBasis(vtkCell* cell, Domain domain)
 {
-  constexpr hop::Degrees candidates[] = { { 1, 1, 1 }, { 2, 2, 1 }, { 2, 2, 2 }, { 3, 3, 3 },
+  // Degree 4 is that of the bubble in the middle of the tetrahedron of 15 nodes.
+  constexpr Degrees candidates[] = { { 1, 1, 1 }, { 2, 2, 1 }, { 2, 2, 2 }, { 3, 3, 3 },
     { 4, 4, 4 } };
-  for (const hop::Degrees& degrees : candidates)
+  for (const Degrees& degrees : candidates)
   {
-    if (domain == hop::Domain::Tetrahedron && degrees[0] != degrees[2])
+    if (domain == Domain::Tetrahedron && degrees[0] != degrees[2])
     {
       continue;
     }
     std::vector<double> samples;
-    for (const hop::LatticePoint& point : hop::latticePoints(domain, degrees))
+    for (const LatticePoint& point : latticePoints(domain, degrees))
     {
-      const std::vector<double> values = shapeFunctions(cell, hop::latticePosition(degrees, point));
+      const std::vector<double> values = shapeFunctions(cell, latticePosition(degrees, point));
       samples.insert(samples.end(), values.begin(), values.end());
     }
-    const hop::NodalBasis basis = hop::NodalBasis::sampled(domain, degrees, samples);
+    const NodalBasis basis = NodalBasis::sampled(domain, degrees, samples);
     if (reproduces(cell, basis))
     {
       return std::make_unique<const CellBasis>(CellBasis(basis, false));
@@ -223,7 +235,7 @@ std::unique_ptr<const CellBasis> sampleBasis(vtkCell* cell, hop::Domain domain)
 
 } // namespace
 
-CellBases::CellBases(hop::NodeSpacing spacing)
+CellBases::CellBases(NodeSpacing spacing)
   : Spacing(spacing)
 {
 }
@@ -242,19 +254,19 @@ const CellBasis* CellBases::basisOf(const CellKind& kind)
 std::unique_ptr<const CellBasis> CellBases::makeBasis(const CellKind& kind) const
 {
   const auto& [type, points, given] = kind;
-  const std::optional<hop::Domain> domain = domainOf(type);
-  // There are types of which VTK can make no cell.
+  const std::optional<Domain> domain = domainOf(type);
+  // VTK can make no cell of some types without a domain.
   if (!domain)
   {
     return nullptr;
   }
   const bool onLattice = (isLagrange(type) || isBezier(type)) && !isEnriched(type, points);
-  std::optional<hop::Degrees> degrees;
+  std::optional<Degrees> degrees;
   if (onLattice)
   {
     degrees = fittingDegrees(*domain, given, points);
   }
-  // VTK's cells do not survive a wrong number of points.
+  // VTK's cells crash with a wrong number of points.
   const bool fits =
     onLattice ? degrees.has_value() : isEnriched(type, points) || points == usualPointCount(type);
   if (!fits)
@@ -274,10 +286,10 @@ std::unique_ptr<const CellBasis> CellBases::makeBasis(const CellKind& kind) cons
 }
 
 std::unique_ptr<const CellBasis> CellBases::makeLatticeBasis(
-  vtkCell* vtk, hop::Domain domain, const hop::Degrees& degrees) const
+  vtkCell* vtk, Domain domain, const Degrees& degrees) const
 {
   const double* parametric = vtk->GetParametricCoords();
-  std::vector<hop::LatticePoint> order;
+  std::vector<LatticePoint> order;
   for (vtkIdType node = 0; parametric && node < vtk->GetNumberOfPoints(); ++node)
   {
     const auto onLattice = [&](int axis)
@@ -285,8 +297,8 @@ std::unique_ptr<const CellBasis> CellBases::makeLatticeBasis(
     order.push_back({ onLattice(0), onLattice(1), onLattice(2) });
   }
   return std::make_unique<const CellBasis>(isBezier(vtk->GetCellType())
-      ? CellBasis(hop::NodalBasis::bezier(domain, degrees, order), true)
-      : CellBasis(hop::NodalBasis::lagrange(domain, degrees, order, this->Spacing), false));
+      ? CellBasis(NodalBasis::bezier(domain, degrees, order), true)
+      : CellBasis(NodalBasis::lagrange(domain, degrees, order, this->Spacing), false));
 }
 
 BasisLookup::BasisLookup(CellBases& bases)
@@ -299,7 +311,7 @@ const CellBasis* BasisLookup::basisOf(vtkUnstructuredGrid* grid, vtkIdType cell)
 {
   const CellKind kind{ grid->GetCellType(cell), grid->GetCells()->GetCellSize(cell),
     explicitDegrees(grid, cell) };
-  // Cells of a kind mostly follow one another.
+  // Consecutive cells are mostly of the same kind.
   if (this->Latest == this->Known.end() || this->Latest->first != kind)
   {
     bool isNew = false;
@@ -312,13 +324,15 @@ const CellBasis* BasisLookup::basisOf(vtkUnstructuredGrid* grid, vtkIdType cell)
   return this->Latest->second;
 }
 
-hop::ReferencePoint parametricCoordinates(int cellType, const hop::ReferencePoint& u)
+ReferencePoint parametricCoordinates(int cellType, const ReferencePoint& u)
 {
   if (cellType != VTK_TRIQUADRATIC_PYRAMID)
   {
     return u;
   }
-  // Base at height 1/2, apex above its middle at height 1.
+  // The base stands at height 1/2, the apex above its middle at height 1.
   const glm::dvec2 shrunk = (1.0 - u.xyz.z) * glm::dvec2(u.xyz) + u.xyz.z * glm::dvec2(0.5, 0.5);
   return { { shrunk.x, shrunk.y, 0.5 + 0.5 * u.xyz.z } };
 }
+
+} // namespace hop

@@ -15,52 +15,55 @@
 class vtkCell;
 class vtkUnstructuredGrid;
 
+namespace hop
+{
+
 /// How the cells of one kind are rewritten as elements.
 struct CellBasis
 {
-  CellBasis(hop::NodalBasis nodal, bool isBezier)
+  CellBasis(NodalBasis nodal, bool isBezier)
     : basis(std::move(nodal))
     , jacobian(basis.domain(), basis.degrees())
     , bezier(isBezier)
   {
   }
 
-  hop::NodalBasis basis;
-  hop::JacobianTest jacobian;
-  /// Bezier: nodal values are Bernstein coefficients, and the grid's RationalWeights apply.
+  NodalBasis basis;
+  JacobianTest jacobian;
+  /// Whether nodal values are Bernstein coefficients, and the grid's RationalWeights apply.
   bool bezier = false;
 };
 
-/// What tells the kinds of cells apart: cell type, number of points, and degrees, zeros if those follow from
-/// the number of points.
-using CellKind = std::tuple<int, vtkIdType, hop::Degrees>;
+/// A kind of cells: VTK cell type, number of points, and degrees; zeros where the degrees follow from the number of
+/// points.
+using CellKind = std::tuple<int, vtkIdType, Degrees>;
 
-/// The bases of grids' cells: one a kind, shared by all cells of it. VTK stays the one authority on its
-/// cells: the order of the nodes of Lagrange and Bezier cells comes from their parametric coordinates, and
-/// the shape functions of all other cells are sampled from VTK's own InterpolateFunctions.
+/// The bases of grids' cells; all cells of a kind share one basis. VTK stays the only authority on its cells: the order
+/// of the nodes of Lagrange and Bezier cells comes from their parametric coordinates, and the shape functions of all
+/// other cells are sampled from VTK's own InterpolateFunctions.
 ///
-/// Pyramids live on the hexahedron's domain, as in VTK's parametric coordinates, where their shape
-/// functions are polynomial: its upper face collapses to the apex.
+/// Pyramids live on the hexahedron's domain, as in VTK's parametric coordinates: its upper face collapses to the apex.
+/// There their shape functions are polynomial.
 class CellBases
 {
 public:
-  explicit CellBases(hop::NodeSpacing spacing);
+  explicit CellBases(NodeSpacing spacing);
 
-  /// The basis of cells of a kind, or nullptr: the type is not supported, or the number of points does not
-  /// fit the degrees. For several threads.
+  /// The basis of the cells of a kind; nullptr if the type is not supported, or the number of points does not fit the
+  /// degrees. Several threads may call it at once.
   const CellBasis* basisOf(const CellKind& kind);
 
 private:
   std::unique_ptr<const CellBasis> makeBasis(const CellKind& kind) const;
   std::unique_ptr<const CellBasis> makeLatticeBasis(
-    vtkCell* vtk, hop::Domain domain, const hop::Degrees& degrees) const;
+    vtkCell* vtk, Domain domain, const Degrees& degrees) const;
 
-  hop::NodeSpacing Spacing;
+  NodeSpacing Spacing;
   std::mutex Mutex;
   std::map<CellKind, std::unique_ptr<const CellBasis>> Known;
 };
 
-/// Looks up the bases of one cell after the other. One a thread.
+/// Looks up the bases of one cell after the other. Each thread has a BasisLookup of its own.
 class BasisLookup
 {
 public:
@@ -68,7 +71,7 @@ public:
   BasisLookup(const BasisLookup&) = delete;
   BasisLookup& operator=(const BasisLookup&) = delete;
 
-  /// The basis of a cell, or nullptr.
+  /// The basis of a cell, or nullptr, see CellBases.
   const CellBasis* basisOf(vtkUnstructuredGrid* grid, vtkIdType cell);
 
 private:
@@ -77,6 +80,8 @@ private:
   std::map<CellKind, const CellBasis*>::iterator Latest;
 };
 
-/// VTK's parametric coordinates of a cell of that type at a reference point. They are the reference
-/// coordinates themselves except for the 19-node pyramid, whose own are those of a true pyramid.
-hop::ReferencePoint parametricCoordinates(int cellType, const hop::ReferencePoint& u);
+/// VTK's parametric coordinates, in a cell of a type, of a reference point. They are the reference coordinates
+/// themselves except in the 19-node pyramid, whose parametric coordinates describe a true pyramid.
+ReferencePoint parametricCoordinates(int cellType, const ReferencePoint& u);
+
+} // namespace hop

@@ -8,11 +8,14 @@
 
 #include <sstream>
 
+namespace hop
+{
+
 namespace
 {
 
-/// VTK's table of names has Lagrange and Bezier triangles and quadrilaterals the wrong way round, but
-/// it also knows the types of which no cell can be made.
+/// The class of a cell type. VTK's table of names confuses triangles and quadrilaterals of Lagrange and Bezier type, so
+/// it is asked only about types of which no cell can be made.
 std::string nameOfCellType(int type)
 {
   const auto cell = vtk::TakeSmartPointer(vtkGenericCell::InstantiateCell(type));
@@ -52,7 +55,8 @@ void CellCensus::count(Verdict verdict, vtkIdType cell, int cellType)
     case Verdict::Level:
       this->level.add(cell);
       break;
-    default:
+    case Verdict::Keep:
+    case Verdict::Hidden:
       break;
   }
 }
@@ -91,8 +95,8 @@ std::string CellCensus::describe() const
     describeCells(text, cells,
       "of type " + nameOfCellType(type) +
         " skipped: not a supported 3-D cell, or its number of points fits no degree up to " +
-        std::to_string(hop::maximumInputDegree(hop::Domain::Tetrahedron)) +
-        " (hexahedra: " + std::to_string(hop::maximumInputDegree(hop::Domain::Hexahedron)) + ")");
+        std::to_string(maximumInputDegree(Domain::Tetrahedron)) +
+        " (hexahedra: " + std::to_string(maximumInputDegree(Domain::Hexahedron)) + ")");
   }
   describeCells(text, this->brokenConnectivity, "skipped: point ids outside the grid");
   describeCells(text, this->notFinite,
@@ -104,3 +108,5 @@ std::string CellCensus::describe() const
   describeCells(text, this->folded, "kept, but partly inverted: the Jacobian changes its sign");
   return text.str();
 }
+
+} // namespace hop

@@ -5,27 +5,32 @@
 #include <map>
 #include <string>
 
-/// What is to become of a cell. All but Keep leave it out.
+namespace hop
+{
+
+/// What becomes of a cell. All verdicts but Keep leave it out. CellCensus explains the reasons.
 enum class Verdict : char
 {
   Keep,
+  /// The cell provably holds no surface.
   Drop,
   BrokenConnectivity,
   NotFinite,
   BadWeights,
   Level,
   Unsupported,
+  /// Hidden by vtkGhostType.
   Hidden
 };
 
-/// Cells that were left out, for one reason: how many, and the first.
+/// Cells that were left out for one reason: their number, and the first of them.
 struct SkippedCells
 {
   vtkIdType count = 0;
   vtkIdType first = -1;
 
   void add(vtkIdType cell) { this->add({ 1, cell }); }
-  /// \pre those cells follow on these
+  /// \pre the others come after these cells in the block
   void add(const SkippedCells& others)
   {
     this->first = this->count == 0 ? others.first : this->first;
@@ -33,12 +38,12 @@ struct SkippedCells
   }
 };
 
-/// What became of a block's cells; they are named by their numbers in the block.
+/// What became of a block's cells. Cells are named by their numbers in the block.
 struct CellCensus
 {
   /// Cells that provably hold none of the isosurfaces.
   vtkIdType dropped = 0;
-  /// By VTK cell type: no 3-D cell that the filter knows, or a point count that fits no degree.
+  /// By VTK cell type: cells that are no supported 3-D cells, or whose number of points fits no degree.
   std::map<int, SkippedCells> unsupported;
   /// Point ids outside the grid.
   SkippedCells brokenConnectivity;
@@ -48,17 +53,19 @@ struct CellCensus
   SkippedCells badWeights;
   /// The field is the same in the whole cell, and one of the isovalues: no surface.
   SkippedCells level;
-  /// Jacobian determinant zero wherever it was looked at.
+  /// The Jacobian determinant is zero everywhere, to rounding: no volume.
   SkippedCells collapsed;
-  /// Kept, but the Jacobian determinant changes its sign: partly inverted.
+  /// Kept cells whose Jacobian determinant changes its sign: partly inverted.
   SkippedCells folded;
 
-  /// Counts a cell that is left out; hidden ones are nobody's concern.
-  /// \param cellType of VTK
+  /// Counts a cell that is left out. Hidden cells are not counted: the file means them to be ignored.
+  /// \param cellType VTK's type of the cell
   void count(Verdict verdict, vtkIdType cell, int cellType);
-  /// Adds those of cells that follow on these.
+  /// Adds the census of cells that come after these in the block.
   void add(const CellCensus& others);
   vtkIdType skipped() const;
-  /// One text that names all that was skipped or is doubtful, empty if nothing.
+  /// A text that names all cells that were skipped or are doubtful; empty if there are none.
   std::string describe() const;
 };
+
+} // namespace hop

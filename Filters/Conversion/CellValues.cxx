@@ -11,21 +11,28 @@
 #include <algorithm>
 #include <cmath>
 
+namespace hop
+{
+
 namespace
 {
 
-/// Whether gradients can be squared, of magnitudes too, whose squares are contoured.
+/// Whether the numerics can compute with a nodal value; NaN is not usable.
 bool isUsable(double value)
 {
+  // The gradient of the square of a magnitude can still be squared: 1e75 to the fourth power is 1e300, below the
+  // largest double, 1.8e308. Larger values overflow.
   constexpr double largest = 1e75;
   return std::abs(value) <= largest;
 }
 
+/// Whether a weight is positive and finite.
 bool isGoodWeight(double weight)
 {
   return weight > 0.0 && std::isfinite(weight);
 }
 
+/// \return whether all ids are in the grid
 bool readIds(vtkUnstructuredGrid* grid, vtkIdType cell, CellValues& values)
 {
   cellPoints(grid->GetCells(), cell, values.count, values.ids, values.copiedIds);
@@ -34,6 +41,7 @@ bool readIds(vtkUnstructuredGrid* grid, vtkIdType cell, CellValues& values)
     [points](vtkIdType id) { return id >= 0 && id < points; });
 }
 
+/// \return whether all values are usable
 bool readField(const InputBlocks& blocks, vtkDataArray* scalars, CellValues& values)
 {
   const bool all = blocks.isMagnitude();
@@ -47,6 +55,8 @@ bool readField(const InputBlocks& blocks, vtkDataArray* scalars, CellValues& val
   return std::all_of(values.field.begin(), values.field.end(), isUsable);
 }
 
+/// \param weights nullptr where the cell is not rational
+/// \return whether all weights are good
 bool readWeights(vtkDataArray* weights, CellValues& values)
 {
   values.weights.clear();
@@ -79,3 +89,5 @@ Verdict readCell(
   }
   return readWeights(rationalWeights(block, cell), values) ? Verdict::Keep : Verdict::BadWeights;
 }
+
+} // namespace hop

@@ -9,25 +9,32 @@
 
 #include <vector>
 
-/// What is read of one cell. To be used again for the next one, so that memory is: one a thread.
+namespace hop
+{
+
+/// What is read of one cell. Each thread has one CellValues and uses its memory again for the next cell.
 struct CellValues
 {
+  /// Number of the cell's points.
   vtkIdType count = 0;
+  /// Ids of the points.
   const vtkIdType* ids = nullptr;
-  /// Where the ids are if the grid stores them otherwise.
+  /// Holds the ids if the grid stores them in another form.
   vtkNew<vtkIdList> copiedIds;
-  /// Of the field: one, or all of a vector's for its magnitude.
+  /// Components of the field: one, or all components of a vector whose magnitude is contoured.
   int components = 1;
-  /// Nodal values of the field, `components` a node.
+  /// Nodal values of the field: `components` numbers a node.
   std::vector<double> field;
-  /// Empty unless the cell is rational.
+  /// Nodal weights; empty unless the cell is rational.
   std::vector<double> weights;
 };
 
-/// The weights of a block's cells of one kind, nullptr where these are not rational.
+/// The point array with the weights of a block's cells of one kind; nullptr where these cells are not rational.
 vtkDataArray* rationalWeights(const InputBlock& block, const CellBasis& cell);
 
-/// Reads a cell's values, not its coordinates.
-/// \return Keep, or what is wrong with the cell; `values` are not complete then
+/// Reads a cell's ids, field and weights, not its coordinates.
+/// \return Keep, or what is wrong with the cell; then `values` are not complete
 Verdict readCell(
   const InputBlocks& blocks, const BlockCell& where, const CellBasis& cell, CellValues& values);
+
+} // namespace hop

@@ -12,6 +12,9 @@
 #include <limits>
 #include <numeric>
 
+namespace hop
+{
+
 namespace
 {
 
@@ -27,19 +30,23 @@ void addToRows(std::vector<double>& values, double factor, const std::vector<dou
   }
 }
 
-/// Coefficients that cannot be told from an isovalue take it: where the surface lies in a face of the element
-/// it would cross that to and fro by rounding errors.
-/// \param amplification of the nodal values' rounding errors, as they were before the origin was subtracted
+/// Sets coefficients that cannot be told from an isovalue to the isovalue: a surface in a face of the element would
+/// else cross the face to and fro by rounding errors.
+/// \param amplification by which the conversion enlarges the rounding errors of the nodal values; these errors belong
+/// to the values before the origin was subtracted
 void snapToIsovalues(
-  std::vector<hop::Coefficient>& coefficients, const FieldRange& range, double amplification)
+  std::vector<Coefficient>& coefficients, const FieldRange& range, double amplification)
 {
   const auto [lowest, highest] = std::minmax_element(coefficients.begin(), coefficients.end(),
-    [](const hop::Coefficient& a, const hop::Coefficient& b) { return a.w < b.w; });
+    [](const Coefficient& a, const Coefficient& b) { return a.w < b.w; });
+  // Largest change of a coefficient, as a fraction of the range of the element's coefficients: larger values would move
+  // the surface where the conversion enlarges rounding errors much. Chosen by experiment.
   constexpr double mostOfRange = 1e-8;
+  // Four rounding errors of the largest value.
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * amplification *
     std::max(std::abs(lowest->w + range.origin), std::abs(highest->w + range.origin));
   const double slack = std::min(rounding, mostOfRange * (highest->w - lowest->w));
-  for (hop::Coefficient& c : coefficients)
+  for (Coefficient& c : coefficients)
   {
     for (const double isovalue : range.isovalues)
     {
@@ -49,7 +56,7 @@ void snapToIsovalues(
   }
 }
 
-/// Rows of x, y, z and the field's components, one a node, times the weight if there is one.
+/// Rows of x, y, z and the field's components, one row a node, times the node's weight if there is one.
 std::vector<double> nodalRows(vtkUnstructuredGrid* grid, int nodes, const CellValues& values)
 {
   const int width = 3 + values.components;
@@ -71,10 +78,10 @@ std::vector<double> nodalRows(vtkUnstructuredGrid* grid, int nodes, const CellVa
   return nodal;
 }
 
-/// The Bernstein coefficients of those.
+/// The Bernstein coefficients of nodal rows, in rows of the same width.
 std::vector<double> controlRows(const CellBasis& cell, std::vector<double> nodal, int width)
 {
-  // The conversion enlarges rounding errors, so it is given differences from the first node.
+  // Differences from the first node are converted where the conversion enlarges rounding errors: they are smaller.
   std::vector<double> origin(width, 0.0);
   if (cell.basis.conversionNorm() > 1.0)
   {
@@ -87,7 +94,7 @@ std::vector<double> controlRows(const CellBasis& cell, std::vector<double> nodal
   return control;
 }
 
-/// Ones where the cell is not rational.
+/// Bernstein coefficients of the weights; ones where the cell is not rational.
 std::vector<double> controlWeights(const CellBasis& cell, const CellValues& values)
 {
   std::vector<double> weights(cell.basis.coefficientCount(), 1.0);
@@ -98,12 +105,13 @@ std::vector<double> controlWeights(const CellBasis& cell, const CellValues& valu
   return weights;
 }
 
-/// Control rows with one number for the field; a vector's sum only says whether it is finite.
-std::vector<hop::Coefficient> coefficientsOf(const std::vector<double>& control, int width)
+/// Control rows with one number for the field. For a vector this is the sum of its components, which only tells whether
+/// they are finite.
+std::vector<Coefficient> coefficientsOf(const std::vector<double>& control, int width)
 {
-  std::vector<hop::Coefficient> coefficients(control.size() / width);
+  std::vector<Coefficient> coefficients(control.size() / width);
   const double* row = control.data();
-  for (hop::Coefficient& c : coefficients)
+  for (Coefficient& c : coefficients)
   {
     c = { row[0], row[1], row[2], std::accumulate(row + 3, row + width, 0.0) };
     row += width;
@@ -111,16 +119,18 @@ std::vector<hop::Coefficient> coefficientsOf(const std::vector<double>& control,
   return coefficients;
 }
 
-hop::JacobianSign jacobianSign(const CellBasis& cell, const hop::BernsteinForm& form)
+JacobianSign jacobianSign(const CellBasis& cell, const BernsteinForm& form)
 {
-  // At the highest degrees the bound is far above what coordinates suffer that vary smoothly.
+  // Largest relative rounding error of coefficients that is allowed for. At the highest degrees the bound on the error
+  // is far above the errors of coordinates that vary smoothly; with it, sound elements would be taken for doubtful
+  // ones. Chosen by experiment.
   constexpr double largestRounding = 1e-6;
   return cell.jacobian.sign(form, std::min(cell.basis.conversionError(), largestRounding));
 }
 
 /// Writes the coefficients of one element.
-hop::JacobianSign convert(const InputBlocks& blocks, const CellBasis& cell, const FieldRange& range,
-  const hop::Element& element, hop::ElementMesh& mesh, CellValues& values)
+JacobianSign convert(const InputBlocks& blocks, const CellBasis& cell, const FieldRange& range,
+  const Element& element, ElementMesh& mesh, CellValues& values)
 {
   const BlockCell where = blocks.locate(element.cell);
   readCell(blocks, where, cell, values);
@@ -132,15 +142,15 @@ hop::JacobianSign convert(const InputBlocks& blocks, const CellBasis& cell, cons
   const std::vector<double> control =
     controlRows(cell, nodalRows(blocks[where.block].grid, cell.basis.nodeCount(), values), width);
   std::vector<double> weights = controlWeights(cell, values);
-  std::vector<hop::Coefficient> plain = coefficientsOf(control, width);
-  const hop::BernsteinForm form{ cell.basis.domain(), cell.basis.degrees(), plain.data(),
+  std::vector<Coefficient> plain = coefficientsOf(control, width);
+  const BernsteinForm form{ cell.basis.domain(), cell.basis.degrees(), plain.data(),
     element.rational ? weights.data() : nullptr };
-  const hop::JacobianSign sign = jacobianSign(cell, form);
+  const JacobianSign sign = jacobianSign(cell, form);
 
-  hop::Coefficient* coefficients = &mesh.coefficients[element.firstCoefficient];
+  Coefficient* coefficients = &mesh.coefficients[element.firstCoefficient];
   if (blocks.isMagnitude())
   {
-    weights = hop::squareField(form.domain, form.degrees, width, control, weights, coefficients);
+    weights = squareField(form.domain, form.degrees, width, control, weights, coefficients);
   }
   else
   {
@@ -159,12 +169,12 @@ hop::JacobianSign convert(const InputBlocks& blocks, const CellBasis& cell, cons
 
 } // namespace
 
-std::vector<hop::JacobianSign> convertCells(const InputBlocks& blocks,
-  const std::vector<const CellBasis*>& bases, const FieldRange& range, hop::ElementMesh& mesh,
-  const hop::ParallelFor& parallelFor)
+std::vector<JacobianSign> convertCells(const InputBlocks& blocks,
+  const std::vector<const CellBasis*>& bases, const FieldRange& range, ElementMesh& mesh,
+  const ParallelFor& parallelFor)
 {
-  std::vector<hop::JacobianSign> signs(mesh.elements.size());
-  hop::runParallel(parallelFor, static_cast<std::ptrdiff_t>(signs.size()),
+  std::vector<JacobianSign> signs(mesh.elements.size());
+  runParallel(parallelFor, static_cast<std::ptrdiff_t>(signs.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       CellValues values;
@@ -175,3 +185,5 @@ std::vector<hop::JacobianSign> convertCells(const InputBlocks& blocks,
     });
   return signs;
 }
+
+} // namespace hop

@@ -6,21 +6,25 @@
 
 #include <vector>
 
-/// Which values of the chosen scalar matter.
+namespace hop
+{
+
+/// How the values of the chosen scalar are changed when they are converted.
 struct FieldRange
 {
-  /// Coefficients that cannot be told from one of these take it.
+  /// A coefficient that cannot be told from one of these isovalues takes its value.
   const std::vector<double>& isovalues;
-  /// Is subtracted from the scalar; not from vectors whose magnitude is contoured.
+  /// See GridElements::origin.
   double origin = 0.0;
 };
 
-/// Writes the coefficients of all elements: homogeneous ones and their weights for rational cells, those of
-/// the squared magnitude where that is the field.
+/// Writes the coefficients of all elements. Rational cells receive homogeneous coefficients and weights; where a
+/// magnitude is contoured, the coefficients describe its square.
 /// \param bases of the elements' cells, one an element
-/// \param range tells what is done with the chosen scalar
-/// \param mesh elements that need no more but coefficients and corners, and room for the coefficients
-/// \return what the Jacobian determinant does, one an element
-std::vector<hop::JacobianSign> convertCells(const InputBlocks& blocks,
-  const std::vector<const CellBasis*>& bases, const FieldRange& range, hop::ElementMesh& mesh,
-  const hop::ParallelFor& parallelFor);
+/// \param mesh elements that lack only coefficients and corners, and room for the coefficients
+/// \return the sign of the Jacobian determinant, one an element
+std::vector<JacobianSign> convertCells(const InputBlocks& blocks,
+  const std::vector<const CellBasis*>& bases, const FieldRange& range, ElementMesh& mesh,
+  const ParallelFor& parallelFor);
+
+} // namespace hop

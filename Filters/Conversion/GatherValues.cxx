@@ -3,6 +3,9 @@
 #include "vtkArrayDispatch.h"
 #include "vtkDataArrayAccessor.h"
 
+namespace hop
+{
+
 namespace
 {
 
@@ -37,3 +40,5 @@ void gatherComponent(vtkDataArray* array, const vtkIdType* ids, vtkIdType count,
     gather(array); // not one of VTK's own kinds of arrays
   }
 }
+
+} // namespace hop

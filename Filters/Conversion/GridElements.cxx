@@ -13,10 +13,13 @@
 #include <limits>
 #include <set>
 
+namespace hop
+{
+
 namespace
 {
 
-/// Room in a mesh.
+/// Room that elements need in a mesh.
 struct Room
 {
   std::size_t elements = 0;
@@ -31,9 +34,11 @@ struct Room
   }
 };
 
-/// See GridElements::origin: the middle of all values where they differ little, whatever the isovalues.
+/// See GridElements::origin: the middle of the range of all values where the range is small, whatever the isovalues.
 double originOf(const InputBlocks& blocks)
 {
+  // Largest range, as a fraction of the middle value, at which the middle is subtracted: three digits are won. Where
+  // the range is larger there is less to win, and zero stays zero. Chosen by experiment.
   constexpr double little = 1e-3;
   double lowest = std::numeric_limits<double>::infinity();
   double highest = -lowest;
@@ -48,21 +53,31 @@ double originOf(const InputBlocks& blocks)
   return lowest <= highest && highest - lowest < little * std::abs(middle) ? middle : 0.0;
 }
 
-using Corners = decltype(hop::Element::corners);
+using Corners = decltype(Element::corners);
 
-/// For comparisons: copies of a cell may list them in other orders.
-Corners sortedCorners(const hop::Element& element)
+/// The corners in an order in which copies of a cell can be compared, which may list them differently.
+Corners sortedCorners(const Element& element)
 {
   Corners corners = element.corners;
   std::sort(corners.begin(), corners.end());
   return corners;
 }
 
+/// Fractions of the work that are done after its stages. They only move the progress bar; chosen by experiment.
+struct ConversionProgress
+{
+  static constexpr double Judged = 0.2;
+  static constexpr double Converted = 0.3;
+  static constexpr double CornersFound = 0.5;
+  static constexpr double CornersNumbered = 0.9;
+};
+
+/// Builds the elements of all blocks, stage by stage.
 class Builder
 {
 public:
-  Builder(const InputBlocks& blocks, hop::NodeSpacing spacing, const std::vector<double>& isovalues,
-    const hop::ParallelFor& parallelFor, const std::function<void(double)>& reached)
+  Builder(const InputBlocks& blocks, NodeSpacing spacing, const std::vector<double>& isovalues,
+    const ParallelFor& parallelFor, const std::function<void(double)>& reached)
     : Blocks(blocks)
     , Isovalues(isovalues)
     , Parallel(parallelFor)
@@ -80,42 +95,42 @@ private:
   void makeElements(const std::vector<JudgedCells>& ranges);
   Room roomFor(const JudgedCells& range) const;
   void makeElements(const JudgedCells& range, const Room& before);
-  hop::Degrees elementDegrees(const CellBasis& cell) const;
-  void dropCollapsed(const std::vector<hop::JacobianSign>& signs);
+  Degrees elementDegrees(const CellBasis& cell) const;
+  void dropCollapsed(const std::vector<JacobianSign>& signs);
   void dropDoubledGhosts(std::vector<double>& tolerances);
   void keep(const std::vector<char>& marks);
 
   const InputBlocks& Blocks;
   const std::vector<double>& Isovalues;
-  const hop::ParallelFor& Parallel;
+  const ParallelFor& Parallel;
   const std::function<void(double)>& Reached;
   GridElements Result;
 };
 
 GridElements Builder::build()
 {
-  hop::ElementMesh& mesh = this->Result.mesh;
+  ElementMesh& mesh = this->Result.mesh;
   this->makeElements(
     judgeCells(this->Blocks, this->Isovalues, *this->Result.kinds, this->Parallel));
-  this->Reached(0.2);
-  const std::vector<hop::JacobianSign> signs = convertCells(this->Blocks, this->Result.bases,
+  this->Reached(ConversionProgress::Judged);
+  const std::vector<JacobianSign> signs = convertCells(this->Blocks, this->Result.bases,
     { this->Isovalues, this->Result.origin }, mesh, this->Parallel);
-  this->Reached(0.3);
+  this->Reached(ConversionProgress::Converted);
   this->dropCollapsed(signs);
-  std::vector<double> tolerances = hop::cornerTolerances(mesh, this->Parallel);
-  this->Reached(0.5);
-  hop::numberCorners(mesh, tolerances, this->Parallel);
-  this->Reached(0.9);
+  std::vector<double> tolerances = cornerTolerances(mesh, this->Parallel);
+  this->Reached(ConversionProgress::CornersFound);
+  numberCorners(mesh, tolerances, this->Parallel);
+  this->Reached(ConversionProgress::CornersNumbered);
   this->dropDoubledGhosts(tolerances);
-  hop::findFaceNeighbors(mesh, tolerances, this->Parallel);
+  findFaceNeighbors(mesh, tolerances, this->Parallel);
   return std::move(this->Result);
 }
 
-/// Elements of the cells to keep, with room for their coefficients.
+/// Makes elements of the cells to keep, with room for their coefficients.
 void Builder::makeElements(const std::vector<JudgedCells>& ranges)
 {
   std::vector<Room> before(ranges.size());
-  hop::forAll(
+  forAll(
     this->Parallel, ranges.size(), [&](std::size_t r) { before[r] = this->roomFor(ranges[r]); });
   Room all;
   for (std::size_t r = 0; r < ranges.size(); ++r)
@@ -125,15 +140,16 @@ void Builder::makeElements(const std::vector<JudgedCells>& ranges)
     before[r] = start;
     this->Result.census[ranges[r].block].add(ranges[r].census);
   }
-  hop::ElementMesh& mesh = this->Result.mesh;
+  ElementMesh& mesh = this->Result.mesh;
   mesh.elements.resize(all.elements);
   this->Result.bases.resize(all.elements);
   mesh.coefficients.resize(all.coefficients);
   mesh.weights.resize(all.anyRational ? all.coefficients : 0);
-  hop::forAll(this->Parallel, ranges.size(),
+  forAll(this->Parallel, ranges.size(),
     [&](std::size_t r) { this->makeElements(ranges[r], before[r]); });
 }
 
+/// The room that the cells to keep of a range need.
 Room Builder::roomFor(const JudgedCells& range) const
 {
   Room room;
@@ -141,39 +157,40 @@ Room Builder::roomFor(const JudgedCells& range) const
   for (const KeptCell& kept : range.kept)
   {
     room.coefficients +=
-      hop::coefficientCount(kept.basis->basis.domain(), this->elementDegrees(*kept.basis));
+      coefficientCount(kept.basis->basis.domain(), this->elementDegrees(*kept.basis));
     room.anyRational =
       room.anyRational || rationalWeights(this->Blocks[range.block], *kept.basis) != nullptr;
   }
   return room;
 }
 
+/// \param before the room that the elements of earlier ranges need
 void Builder::makeElements(const JudgedCells& range, const Room& before)
 {
   std::size_t coefficient = before.coefficients;
   for (std::size_t i = 0; i < range.kept.size(); ++i)
   {
     const auto& [cell, basis] = range.kept[i];
-    hop::Element& element = this->Result.mesh.elements[before.elements + i];
+    Element& element = this->Result.mesh.elements[before.elements + i];
     element.domain = basis->basis.domain();
     element.degrees = this->elementDegrees(*basis);
     element.firstCoefficient = coefficient;
     element.rational = rationalWeights(this->Blocks[range.block], *basis) != nullptr;
     element.cell = this->Blocks.firstCell(range.block) + cell;
     this->Result.bases[before.elements + i] = basis;
-    coefficient += hop::coefficientCount(element.domain, element.degrees);
+    coefficient += coefficientCount(element.domain, element.degrees);
   }
 }
 
-/// Squares have twice the degree.
-hop::Degrees Builder::elementDegrees(const CellBasis& cell) const
+/// The degrees of a cell's element: squares have twice the degree.
+Degrees Builder::elementDegrees(const CellBasis& cell) const
 {
-  const hop::Degrees& d = cell.basis.degrees();
-  return this->Result.squared ? hop::Degrees{ 2 * d[0], 2 * d[1], 2 * d[2] } : d;
+  const Degrees& d = cell.basis.degrees();
+  return this->Result.squared ? Degrees{ 2 * d[0], 2 * d[1], 2 * d[2] } : d;
 }
 
-/// Takes out elements without volume and those whose coordinates are not finite.
-void Builder::dropCollapsed(const std::vector<hop::JacobianSign>& signs)
+/// Removes elements without volume or with coordinates that are not finite.
+void Builder::dropCollapsed(const std::vector<JacobianSign>& signs)
 {
   std::vector<char> marks(signs.size(), 1);
   for (std::size_t e = 0; e < signs.size(); ++e)
@@ -182,31 +199,33 @@ void Builder::dropCollapsed(const std::vector<hop::JacobianSign>& signs)
     CellCensus& census = this->Result.census[block];
     switch (signs[e])
     {
-      case hop::JacobianSign::NotFinite:
+      case JacobianSign::NotFinite:
         census.notFinite.add(cell);
         marks[e] = 0;
         break;
-      case hop::JacobianSign::Zero:
+      case JacobianSign::Zero:
         census.collapsed.add(cell);
         marks[e] = 0;
         break;
-      case hop::JacobianSign::Mixed:
+      case JacobianSign::Mixed:
         census.folded.add(cell);
         break;
-      default:
+      case JacobianSign::Positive:
+      case JacobianSign::Negative:
         break;
     }
   }
   this->keep(marks);
 }
 
-/// A ghost whose original, or another copy, is here too would claim the faces of its neighbours a
-/// second time: readers of files in pieces bring both together.
+/// Removes ghosts whose original, or another copy, is in the mesh too; readers of files in pieces bring both. Such a
+/// ghost would claim the faces of its neighbours a second time.
 void Builder::dropDoubledGhosts(std::vector<double>& tolerances)
 {
-  const std::vector<hop::Element>& elements = this->Result.mesh.elements;
+  const std::vector<Element>& elements = this->Result.mesh.elements;
   std::vector<char> marks;
-  for (const hop::Element& element : elements)
+  marks.reserve(elements.size());
+  for (const Element& element : elements)
   {
     marks.push_back(!this->Blocks.isGhost(this->Blocks.locate(element.cell)));
   }
@@ -227,21 +246,23 @@ void Builder::dropDoubledGhosts(std::vector<double>& tolerances)
     marks[e] = marks[e] || present.insert(sortedCorners(elements[e])).second;
   }
   this->keep(marks);
-  hop::keepMarked(tolerances, marks);
+  keepMarked(tolerances, marks);
 }
 
-/// Takes out elements without a mark.
+/// Removes elements without a mark.
 void Builder::keep(const std::vector<char>& marks)
 {
-  hop::keepMarked(this->Result.mesh.elements, marks);
-  hop::keepMarked(this->Result.bases, marks);
+  keepMarked(this->Result.mesh.elements, marks);
+  keepMarked(this->Result.bases, marks);
 }
 
 } // namespace
 
-GridElements buildGridElements(const InputBlocks& blocks, hop::NodeSpacing spacing,
-  const std::vector<double>& isovalues, const hop::ParallelFor& parallelFor,
+GridElements buildGridElements(const InputBlocks& blocks, NodeSpacing spacing,
+  const std::vector<double>& isovalues, const ParallelFor& parallelFor,
   const std::function<void(double)>& reached)
 {
   return Builder(blocks, spacing, isovalues, parallelFor, reached).build();
 }
+
+} // namespace hop

@@ -10,22 +10,26 @@
 #include <memory>
 #include <vector>
 
-/// Grids seen as elements: those that can hold one of the isosurfaces in Bernstein form, joined at
-/// their faces within and across blocks, and the bases by which further arrays can be evaluated on them.
+namespace hop
+{
+
+/// Grids as elements: the cells that can hold one of the isosurfaces, in Bernstein form and joined at their faces
+/// within and across blocks, with the bases to evaluate further arrays on them.
 struct GridElements
 {
-  /// Its elements name their cells by the number that InputBlocks gives them.
-  hop::ElementMesh mesh;
-  /// Of all kinds of cells.
+  /// Its elements name their cells by the numbers of InputBlocks.
+  ElementMesh mesh;
+  /// The bases of all kinds of cells.
   std::unique_ptr<CellBases> kinds;
-  /// One an element, of those.
+  /// The basis of each element, owned by `kinds`.
   std::vector<const CellBasis*> bases;
   /// Whether the mesh's field is the square of the chosen scalar: the magnitude of a vector is no
   /// polynomial, its square is, and |v| = c where |v|^2 = c^2.
   bool squared = false;
-  /// What is subtracted from the chosen scalar where it is large and changes little, as rounding would hide that.
+  /// Is subtracted from the chosen scalar where this is large and changes little: rounding errors would hide the
+  /// changes. 0 where a magnitude is contoured.
   double origin = 0.0;
-  /// One a block.
+  /// What became of the cells, one census a block.
   std::vector<CellCensus> census;
 
   /// Whether the chosen scalar can have a value at all: a magnitude is never negative.
@@ -39,8 +43,11 @@ struct GridElements
   }
 };
 
+/// Converts the cells of all blocks.
 /// \param isovalues of the chosen scalar, at least one
-/// \param reached is told what share of the work is done, 0 to 1; may throw to end it early
+/// \param reached receives the fraction of the work that is done, 0 to 1; may throw to end it early
 GridElements buildGridElements(
-  const InputBlocks& blocks, hop::NodeSpacing spacing, const std::vector<double>& isovalues,
-  const hop::ParallelFor& parallelFor, const std::function<void(double)>& reached = [](double) {});
+  const InputBlocks& blocks, NodeSpacing spacing, const std::vector<double>& isovalues,
+  const ParallelFor& parallelFor, const std::function<void(double)>& reached = [](double) {});
+
+} // namespace hop

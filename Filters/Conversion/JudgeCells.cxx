@@ -11,12 +11,17 @@
 #include <limits>
 #include <numeric>
 
+namespace hop
+{
+
 namespace
 {
 
-/// All cells, in order, not yet looked at.
+/// All cells in ranges, in ascending order, not yet judged.
 std::vector<JudgedCells> rangesOfCells(const InputBlocks& blocks)
 {
+  // Ranges are the pieces of work that threads take, and each has a list of kept cells. Fewer leave threads without
+  // work in the end; more, or smaller ones, cost more lists. Both numbers chosen by experiment.
   constexpr vtkIdType wantedRanges = 1024;
   constexpr vtkIdType mostCells = 4096;
   const vtkIdType cellsAtOnce =
@@ -40,7 +45,8 @@ bool isConstant(const CellValues& values)
     values.field.begin() + values.components, values.field.end(), values.field.begin());
 }
 
-/// \param vectors of so many components each
+/// The magnitude of the longest of some vectors.
+/// \param components of each vector; `vectors` lists them vector by vector
 double longestOf(const std::vector<double>& vectors, int components)
 {
   double longest2 = 0.0;
@@ -52,7 +58,7 @@ double longestOf(const std::vector<double>& vectors, int components)
   return std::sqrt(longest2);
 }
 
-/// For all threads together.
+/// Judges cells. All threads share one Judge.
 class Judge
 {
 public:
@@ -75,7 +81,8 @@ private:
 
   const InputBlocks& Blocks;
   const std::vector<double>& Isovalues;
-  /// One a block, or nullptr; grids look theirs up when first asked, which is nothing for threads.
+  /// The ghost array of each block, or nullptr. They are looked up before threads start, because a grid's first look-up
+  /// changes the grid.
   std::vector<vtkUnsignedCharArray*> Ghosts;
 };
 
@@ -97,7 +104,7 @@ void Judge::judge(JudgedCells& range, BasisLookup& bases, CellValues& values) co
   }
 }
 
-/// \param cell its basis, or nullptr
+/// \param cell the cell's basis, or nullptr
 Verdict Judge::judge(const BlockCell& where, const CellBasis* cell, CellValues& values) const
 {
   vtkUnsignedCharArray* ghosts = this->Ghosts[where.block];
@@ -121,10 +128,10 @@ Verdict Judge::judge(const BlockCell& where, const CellBasis* cell, CellValues& 
   return isConstant(values) ? Verdict::Level : Verdict::Keep;
 }
 
-/// Nodal values on both sides of an isovalue decide at once; else the convex hull of the Bernstein
-/// coefficients does, widened by the rounding errors of the conversion. A magnitude is no larger
-/// than the longest control vector, and no smaller either where the vector is constant. Positive weights
-/// change no hull.
+/// Whether the cell can hold one of the isosurfaces. It can if nodal values lie on both sides of an isovalue; otherwise
+/// the convex hull of the Bernstein coefficients decides, widened by the rounding errors of the conversion. A magnitude
+/// is at most that of the longest control vector, and equal to it where the vector is constant. Positive weights do not
+/// change the hull.
 bool Judge::canHoldSurface(const CellBasis& cell, const CellValues& values) const
 {
   const auto [lowest, highest] = std::minmax_element(values.field.begin(), values.field.end());
@@ -148,6 +155,7 @@ bool Judge::canHoldSurface(const CellBasis& cell, const CellValues& values) cons
   return this->straddles(isConstant(values) ? longest - margin : 0.0, longest + margin);
 }
 
+/// Whether an isovalue lies between the bounds.
 bool Judge::straddles(double lower, double upper) const
 {
   return std::any_of(this->Isovalues.begin(), this->Isovalues.end(),
@@ -157,11 +165,11 @@ bool Judge::straddles(double lower, double upper) const
 } // namespace
 
 std::vector<JudgedCells> judgeCells(const InputBlocks& blocks, const std::vector<double>& isovalues,
-  CellBases& kinds, const hop::ParallelFor& parallelFor)
+  CellBases& kinds, const ParallelFor& parallelFor)
 {
   std::vector<JudgedCells> ranges = rangesOfCells(blocks);
   const Judge judge(blocks, isovalues);
-  hop::runParallel(parallelFor, static_cast<std::ptrdiff_t>(ranges.size()),
+  runParallel(parallelFor, static_cast<std::ptrdiff_t>(ranges.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       CellValues values;
@@ -173,3 +181,5 @@ std::vector<JudgedCells> judgeCells(const InputBlocks& blocks, const std::vector
     });
   return ranges;
 }
+
+} // namespace hop

@@ -7,6 +7,9 @@
 
 #include <vector>
 
+namespace hop
+{
+
 /// A cell that can hold surface.
 struct KeptCell
 {
@@ -14,21 +17,23 @@ struct KeptCell
   const CellBasis* basis = nullptr;
 };
 
-/// Cells `begin` to `end` - 1 of a block, looked at by one thread, and what it found.
+/// Cells `begin` to `end` - 1 of a block, and what one thread found out about them.
 struct JudgedCells
 {
   std::size_t block = 0;
   vtkIdType begin = 0;
   vtkIdType end = 0;
-  /// In order.
+  /// In ascending order.
   std::vector<KeptCell> kept;
-  /// Of the others.
+  /// Of the cells that are not kept.
   CellCensus census;
 };
 
-/// Sorts out which cells can hold surface. Only values are read here, not coordinates.
+/// Finds the cells that can hold surface. Only values are read here, not coordinates.
 /// \param isovalues of the chosen scalar, at least one
-/// \param kinds those of the cells are added
-/// \return all cells, in order
+/// \param kinds receives the bases of the cells
+/// \return all cells in ranges, in ascending order
 std::vector<JudgedCells> judgeCells(const InputBlocks& blocks, const std::vector<double>& isovalues,
-  CellBases& kinds, const hop::ParallelFor& parallelFor);
+  CellBases& kinds, const ParallelFor& parallelFor);
+
+} // namespace hop

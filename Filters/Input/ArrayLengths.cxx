@@ -6,11 +6,15 @@
 #include "vtkPointData.h"
 #include "vtkUnstructuredGrid.h"
 
+namespace hop
+{
+
 namespace
 {
 
-/// "point array 'F' of block 1 (2 tuples for 8 points)" if it is too short.
-/// \param kind "point" or "cell", of which there are `wanted`
+/// "point array 'F' of block 1 (2 tuples for 8 points)" if the array is too short, else empty.
+/// \param kind "point" or "cell"
+/// \param wanted number of points or cells
 std::string describeIfShort(
   const InputBlock& block, vtkAbstractArray* array, const std::string& kind, vtkIdType wanted)
 {
@@ -22,7 +26,7 @@ std::string describeIfShort(
       (tuples == 1 ? " tuple for " : " tuples for ") + std::to_string(wanted) + " " + kind + "s)";
 }
 
-/// Takes the short arrays out of a copy of the block's attributes.
+/// Removes the short arrays from a copy of the block's attributes and adds their descriptions to `dropped`.
 void dropShort(const InputBlock& block, vtkDataSetAttributes* attributes, const std::string& kind,
   vtkIdType wanted, std::vector<std::string>& dropped)
 {
@@ -54,3 +58,5 @@ std::vector<std::string> dropShortArrays(InputBlock& block)
   block.grid = dropped.empty() ? block.grid : copy;
   return dropped;
 }
+
+} // namespace hop

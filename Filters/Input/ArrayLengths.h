@@ -2,10 +2,15 @@
 
 #include "Input/InputBlocks.h"
 
-/// Names and lengths of a block's scalars if they do not reach its last point; else empty.
+namespace hop
+{
+
+/// Name and length of a block's scalars if they have fewer tuples than the block has points; else empty.
 std::string describeShortScalars(const InputBlock& block);
 
-/// Takes all arrays out of a block that do not reach its last point or cell: its grid becomes a copy
-/// without them.
-/// \return their names and lengths
+/// Removes all arrays that have fewer tuples than the block has points or cells: the block's grid becomes a copy
+/// without these arrays.
+/// \return names and lengths of the removed arrays
 std::vector<std::string> dropShortArrays(InputBlock& block);
+
+} // namespace hop

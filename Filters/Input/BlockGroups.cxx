@@ -21,14 +21,17 @@
 #include <tuple>
 #include <utility>
 
+namespace hop
+{
+
 namespace
 {
 
 /// Blocks in ascending order.
 using Members = std::vector<std::size_t>;
 
-/// Where a cell of a block is: the mean of its first points, which are its corners. Copies of a grid
-/// agree in it to the last bit, and no two cells of one sound grid do.
+/// A cell's block, and its place: the mean of its first points, the corners among them. Copies of a cell have the same
+/// place to the last bit; different cells of one sound grid have different places.
 struct PlacedCell
 {
   std::array<double, 3> place{};
@@ -43,13 +46,13 @@ struct PlacedCell
     std::size_t sum = 0;
     for (const double x : this->place)
     {
-      sum = 31 * sum + std::hash<double>()(x);
+      sum = 31 * sum + std::hash<double>()(x); // an odd factor, as usual in polynomial hashes
     }
     return sum;
   }
 };
 
-/// Whether cells of a type have a volume.
+/// Tells which types of cells have a volume.
 class SolidTypes
 {
 public:
@@ -66,13 +69,13 @@ private:
   std::map<int, bool> Known;
 };
 
-/// Finds cells that several blocks have.
+/// Finds the cells that several blocks have in common.
 class SharedCells
 {
 public:
-  SharedCells(const InputBlocks& blocks, const hop::ParallelFor& parallelFor);
+  SharedCells(const InputBlocks& blocks, const ParallelFor& parallelFor);
 
-  /// All different sets of blocks that have one cell in common.
+  /// The sets of blocks that have a cell in common; each set once.
   std::set<Members> find() const;
 
 private:
@@ -81,13 +84,13 @@ private:
   bool othersReach(std::size_t block, const std::array<double, 3>& place) const;
 
   const InputBlocks& Blocks;
-  const hop::ParallelFor& Parallel;
-  /// For each block, the bounds of others that overlap it: only there can it share cells.
+  const ParallelFor& Parallel;
+  /// For each block, the bounds of the other blocks that overlap it: it can share cells only there.
   std::vector<std::vector<vtkBoundingBox>> Others;
   std::vector<vtkUnsignedCharArray*> Ghosts;
 };
 
-SharedCells::SharedCells(const InputBlocks& blocks, const hop::ParallelFor& parallelFor)
+SharedCells::SharedCells(const InputBlocks& blocks, const ParallelFor& parallelFor)
   : Blocks(blocks)
   , Parallel(parallelFor)
   , Others(blocks.size())
@@ -108,10 +111,10 @@ SharedCells::SharedCells(const InputBlocks& blocks, const hop::ParallelFor& para
   }
 }
 
-/// The mean of a cell's corners; no number where there are none or one is missing.
+/// The place of a cell; NaN where it has no points or one of them is not in the grid.
 std::array<double, 3> SharedCells::middleOf(const BlockCell& where, vtkIdList* room) const
 {
-  constexpr vtkIdType mostCorners = 8;
+  constexpr vtkIdType mostCorners = 8; // of a hexahedron; VTK lists the corners of a cell first
   vtkUnstructuredGrid* grid = this->Blocks[where.block].grid;
   vtkIdType count = 0;
   const vtkIdType* ids = nullptr;
@@ -136,7 +139,7 @@ std::array<double, 3> SharedCells::middleOf(const BlockCell& where, vtkIdList* r
   return middle;
 }
 
-/// Whether other blocks are where a cell of one of them is.
+/// Whether the bounds of another block hold the place of a cell.
 bool SharedCells::othersReach(std::size_t block, const std::array<double, 3>& place) const
 {
   const std::vector<vtkBoundingBox>& others = this->Others[block];
@@ -145,12 +148,12 @@ bool SharedCells::othersReach(std::size_t block, const std::array<double, 3>& pl
       [&](const vtkBoundingBox& box) { return box.ContainsPoint(place.data()) != 0; });
 }
 
-/// Cells with a volume that their block owns, in any order.
+/// The cells that may have copies in other blocks: cells with a volume that their block owns, in any order.
 std::vector<PlacedCell> SharedCells::placeCells() const
 {
   std::vector<PlacedCell> cells;
   std::mutex access;
-  hop::runParallel(this->Parallel, static_cast<std::ptrdiff_t>(this->Blocks.cellCount()),
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(this->Blocks.cellCount()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       std::vector<PlacedCell> found;
@@ -176,7 +179,7 @@ std::vector<PlacedCell> SharedCells::placeCells() const
   return cells;
 }
 
-/// Adds the sets of blocks of cells in one place.
+/// Sorts cells by place and adds, for every place, the set of blocks that have a cell there.
 template <class Iterator>
 void addSets(Iterator first, Iterator last, std::set<Members>& sets)
 {
@@ -187,7 +190,7 @@ void addSets(Iterator first, Iterator last, std::set<Members>& sets)
     const std::array<double, 3> place = first->place;
     for (; first != last && first->place == place; ++first)
     {
-      // All cells of a block may be in one place where coordinates were never written.
+      // All cells of a block are in one place where coordinates were never written.
       if (members.empty() || members.back() != first->block)
       {
         members.push_back(first->block);
@@ -202,14 +205,16 @@ void addSets(Iterator first, Iterator last, std::set<Members>& sets)
 
 std::set<Members> SharedCells::find() const
 {
+  // Mean number of cells that are sorted together; chosen by experiment. Fewer need more memory for bins, more make
+  // sorting slower and leave less work to other threads.
   constexpr std::size_t cellsPerBin = 16;
   const std::vector<PlacedCell> cells = this->placeCells();
   const std::size_t bins = cells.size() / cellsPerBin + 1;
-  const hop::Grouping binned = hop::groupedBy(
+  const Grouping binned = groupedBy(
     cells, bins, [bins](const PlacedCell& cell) { return cell.hash() % bins; }, this->Parallel);
   std::set<Members> sets;
   std::mutex access;
-  hop::runParallel(this->Parallel, static_cast<std::ptrdiff_t>(bins),
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(bins),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       std::set<Members> found;
@@ -229,9 +234,9 @@ std::set<Members> SharedCells::find() const
   return sets;
 }
 
-/// Pairs of blocks, the earlier one first, that have a cell in common.
+/// Pairs of blocks that have a cell in common; the earlier block comes first.
 std::set<std::pair<std::size_t, std::size_t>> blocksThatShareCells(
-  const InputBlocks& blocks, const hop::ParallelFor& parallelFor)
+  const InputBlocks& blocks, const ParallelFor& parallelFor)
 {
   std::set<std::pair<std::size_t, std::size_t>> pairs;
   for (const Members& members : SharedCells(blocks, parallelFor).find())
@@ -250,7 +255,7 @@ std::set<std::pair<std::size_t, std::size_t>> blocksThatShareCells(
 } // namespace
 
 std::vector<InputBlocks> groupWithoutSharedCells(
-  const InputBlocks& blocks, const hop::ParallelFor& parallelFor)
+  const InputBlocks& blocks, const ParallelFor& parallelFor)
 {
   const auto sharing = blocksThatShareCells(blocks, parallelFor);
   std::vector<Members> groups;
@@ -282,3 +287,5 @@ std::vector<InputBlocks> groupWithoutSharedCells(
   }
   return result;
 }
+
+} // namespace hop

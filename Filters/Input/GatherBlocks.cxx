@@ -11,6 +11,9 @@
 #include "vtkSmartPointer.h"
 #include "vtkUnstructuredGrid.h"
 
+namespace hop
+{
+
 namespace
 {
 
@@ -25,7 +28,7 @@ std::string nameOf(vtkDataObjectTreeIterator* node)
 GatheredBlocks gatherLeaves(vtkDataObjectTree* input, vtkDataObjectTree* output)
 {
   GatheredBlocks result;
-  // The leaves of a collection are pieces of what has a name.
+  // In a collection the partitioned data sets have names; its leaves, their pieces, have none.
   const bool isCollection = vtkPartitionedDataSetCollection::SafeDownCast(input) != nullptr;
   std::string nameOfPieces;
   const auto node = vtk::TakeSmartPointer(input->NewTreeIterator());
@@ -40,8 +43,8 @@ GatheredBlocks gatherLeaves(vtkDataObjectTree* input, vtkDataObjectTree* output)
       continue;
     }
     name = name.empty() ? nameOfPieces : name;
-    name = "block " + std::to_string(node->GetCurrentFlatIndex()) +
-      (name.empty() ? "" : " '" + name + "'");
+    const std::string number = "block " + std::to_string(node->GetCurrentFlatIndex());
+    name = name.empty() ? number : number + " '" + name + "'";
     if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data))
     {
       const vtkNew<vtkPolyData> particles;
@@ -72,3 +75,5 @@ GatheredBlocks gatherBlocks(vtkDataObject* input, vtkDataObject* output)
   outputTree->GetFieldData()->PassData(tree->GetFieldData());
   return gatherLeaves(tree, outputTree);
 }
+
+} // namespace hop

@@ -1,5 +1,6 @@
 #include "Input/InputBlocks.h"
 
+#include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
@@ -7,6 +8,9 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+namespace hop
+{
 
 InputBlocks::InputBlocks(std::vector<InputBlock> blocks, int component)
   : Blocks(std::move(blocks))
@@ -38,6 +42,12 @@ std::string InputBlocks::describe(std::int64_t number) const
   return "cell " + std::to_string(where.cell) + (name.empty() ? "" : " of " + name);
 }
 
+int componentOf(const std::vector<InputBlock>& blocks, int asked)
+{
+  const int components = blocks.empty() ? 1 : blocks[0].scalars->GetNumberOfComponents();
+  return components == 1 ? 0 : asked < components ? asked : InputBlocks::Magnitude;
+}
+
 bool isGhostCell(vtkUnsignedCharArray* ghosts, vtkIdType cell)
 {
   constexpr int notOwned = vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::REFINEDCELL |
@@ -66,3 +76,5 @@ vtkBoundingBox finiteBounds(vtkUnstructuredGrid* grid)
   }
   return box;
 }
+
+} // namespace hop

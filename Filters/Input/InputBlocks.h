@@ -13,7 +13,10 @@ class vtkPolyData;
 class vtkUnsignedCharArray;
 class vtkUnstructuredGrid;
 
-/// One grid of the input, and where its particles go.
+namespace hop
+{
+
+/// One grid of the input, and the output that receives its particles.
 struct InputBlock
 {
   vtkSmartPointer<vtkUnstructuredGrid> grid;
@@ -24,21 +27,21 @@ struct InputBlock
   std::string name;
 };
 
-/// A cell, by its block and its number there.
+/// A cell, given by its block and its number in the block.
 struct BlockCell
 {
   std::size_t block = 0;
   vtkIdType cell = 0;
 };
 
-/// Grids that are contoured as one mesh. Their cells are numbered through: those of the first block,
-/// then those of the second, and so on.
+/// Grids that are contoured as one mesh. Their cells are numbered through: first the cells of the first block, then the
+/// cells of the second, and so on.
 class InputBlocks
 {
 public:
   static constexpr int Magnitude = -1;
 
-  /// \param blocks all with scalars of as many components; none where only other ranks have some
+  /// \param blocks all with the same number of components; none where only other ranks have blocks
   /// \param component of the scalars, or Magnitude
   InputBlocks(std::vector<InputBlock> blocks, int component);
 
@@ -47,11 +50,11 @@ public:
   int component() const { return this->Component; }
   bool isMagnitude() const { return this->Component == Magnitude; }
   std::int64_t cellCount() const { return this->FirstCells.back(); }
-  /// The number of a block's first cell; that of block size() is the number of all cells.
+  /// The number of a block's first cell; for block size() the number of all cells.
   std::int64_t firstCell(std::size_t block) const { return this->FirstCells[block]; }
   /// \pre 0 <= number < cellCount()
   BlockCell locate(std::int64_t number) const;
-  /// isGhostCell of a cell.
+  /// See isGhostCell().
   bool isGhost(const BlockCell& cell) const;
   /// "cell 7", or "cell 7 of block 'wing'".
   std::string describe(std::int64_t number) const;
@@ -62,10 +65,16 @@ private:
   std::vector<std::int64_t> FirstCells;
 };
 
-/// Whether a cell is another piece's, is hidden, or has others in its place: then it is a neighbour, no more.
-/// What else `vtkGhostType` may say about a cell does not matter.
-/// \param ghosts the grid's, or nullptr
+/// The component of the blocks' scalars to contour by, or InputBlocks::Magnitude.
+/// \param asked number of components or more for the magnitude; scalars have but one component
+int componentOf(const std::vector<InputBlock>& blocks, int asked);
+
+/// Whether a cell belongs to another piece, is hidden, or was replaced by finer cells. Such a cell is a neighbour that
+/// owns no particles. Other bits of `vtkGhostType` are ignored.
+/// \param ghosts the grid's ghost array, or nullptr
 bool isGhostCell(vtkUnsignedCharArray* ghosts, vtkIdType cell);
 
-/// The bounds of a grid, without points whose coordinates are not finite.
+/// The bounds of the points of a grid with finite coordinates.
 vtkBoundingBox finiteBounds(vtkUnstructuredGrid* grid);
+
+} // namespace hop

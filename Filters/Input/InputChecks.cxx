@@ -15,16 +15,20 @@
 #include <sstream>
 #include <string>
 
+namespace hop
+{
+
 namespace
 {
 
-/// Diagonals of grids; volumes of larger ones do not fit into doubles.
+/// Largest bounding diagonal, world units. Its cube, 1e270, leaves room for sums of volumes below the largest double,
+/// 1.8e308; with larger diagonals determinants overflow.
 constexpr double largestDiagonal = 1e90;
 
-/// The array that was asked for.
+/// Which array was asked for.
 struct ArrayChoice
 {
-  /// Empty for the active one of a kind.
+  /// Empty for the active array of a kind.
   std::string name;
   int kind = vtkDataSetAttributes::SCALARS;
 
@@ -33,6 +37,7 @@ struct ArrayChoice
     return this->name.empty() ? data->GetAttribute(this->kind) : data->GetArray(this->name.c_str());
   }
 
+  /// "point array 'F'", or "active point array (Scalars)".
   /// \param association "point" or "cell"
   std::string describe(const std::string& association) const
   {
@@ -55,7 +60,7 @@ ArrayChoice choiceOf(vtkInformation* asked)
   return choice;
 }
 
-/// "The grid's point arrays: F, G.", of all grids.
+/// "The grid's point arrays: F, G.", with the arrays of all grids.
 std::string describePointArrays(const std::vector<InputBlock>& blocks)
 {
   std::vector<std::string> names;
@@ -74,7 +79,7 @@ std::string describePointArrays(const std::vector<InputBlock>& blocks)
   return "The grid's point arrays: " + listOf(names) + ".";
 }
 
-/// What makes no sense about the input or the choice of an array, whatever arrays there are.
+/// What is wrong with the kind of the input, or of the array that was asked for; empty if nothing is.
 UserMessages checkKinds(const GatheredBlocks& gathered, vtkInformation* asked)
 {
   if (gathered.blocks.empty() && !gathered.others.empty())
@@ -92,8 +97,8 @@ UserMessages checkKinds(const GatheredBlocks& gathered, vtkInformation* asked)
   return {};
 }
 
-/// The blocks with cells that have the chosen array of points, of as many components as in the first of
-/// them; names of the rest are added to `others`. An active array has to have the same name in all.
+/// The blocks with cells that have the chosen point array, with as many components as in the first of these blocks. The
+/// names of other blocks with cells are added to `others`. An active array has to have the same name in all blocks.
 std::vector<InputBlock> blocksWithScalars(
   const std::vector<InputBlock>& blocks, ArrayChoice choice, std::vector<std::string>& others)
 {
@@ -118,7 +123,7 @@ std::vector<InputBlock> blocksWithScalars(
   return found;
 }
 
-/// No block has the array: what to do.
+/// What to do where no block has the array.
 UserMessage describeMissing(const std::vector<InputBlock>& blocks, const ArrayChoice& choice)
 {
   const bool isCellArray = std::any_of(blocks.begin(), blocks.end(),
@@ -128,8 +133,8 @@ UserMessage describeMissing(const std::vector<InputBlock>& blocks, const ArrayCh
       "; choose one with ContourBy. " + describePointArrays(blocks) };
 }
 
-/// The blocks that have the array to contour by, with it. An error that says what to do where there is
-/// none, a warning where some take no part.
+/// The blocks that have the array to contour by, which becomes their scalars. An error says what to do where there is
+/// no such block, a warning names the blocks that take no part.
 std::vector<InputBlock> findScalars(
   const GatheredBlocks& gathered, const ArrayChoice& choice, UserMessages& messages)
 {
@@ -148,8 +153,8 @@ std::vector<InputBlock> findScalars(
   return found;
 }
 
-/// The blocks whose scalars reach their last point, without arrays that do not; an error and a warning name
-/// what is too short.
+/// The blocks whose scalars are long enough, without their other arrays that are too short. An error names the short
+/// scalars, a warning the other short arrays.
 std::vector<InputBlock> checkLengths(const std::vector<InputBlock>& blocks, UserMessages& messages)
 {
   std::vector<InputBlock> sound;
@@ -196,8 +201,7 @@ UserMessages checkIsovalues(const std::vector<double>& isovalues, const Gathered
     });
   const std::string advice = isChoice
     ? "set ContourBy and Isosurfaces. ParaView chooses them where the input was updated before "
-      "this "
-      "filter was made."
+      "this filter was made."
     : "the input has no cells with a point array that there could be one of.";
   return { { UserMessage::Warning, "There are no particles, as no isovalue is given; " + advice } };
 }
@@ -246,3 +250,5 @@ CheckedBlocks checkBlocks(const GatheredBlocks& gathered, vtkInformation* asked)
   }
   return checked;
 }
+
+} // namespace hop

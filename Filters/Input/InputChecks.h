@@ -7,24 +7,29 @@
 
 class vtkInformation;
 
-/// What to do where no isovalue is given; empty where there are some.
+namespace hop
+{
+
+/// Advice where no isovalue is given; else empty.
 UserMessages checkIsovalues(const std::vector<double>& isovalues, const GatheredBlocks& gathered);
 
-/// What is wrong with the filter's properties, whatever the input; empty where they are sound.
+/// What is wrong with the filter's properties, whatever the input; empty if nothing is.
 UserMessages checkParameters(
   const std::vector<double>& isovalues, double spacing, double angularDensity, double tolerance);
 
-/// What is wrong with the size of the whole grid.
-/// \param diagonal of its bounds
+/// What is wrong with the size of the whole grid; empty if nothing is.
+/// \param diagonal of the grid's bounds, world units
 UserMessages checkDiagonal(double diagonal);
 
-/// Blocks that can be contoured, and why others cannot.
+/// The blocks that can be contoured, and why the other blocks cannot.
 struct CheckedBlocks
 {
-  /// With the array to contour by, of as many components in each, and without arrays that are too short.
+  /// All have the array to contour by, with the same number of components, and no arrays that are too short.
   std::vector<InputBlock> sound;
   UserMessages messages;
 };
 
-/// \param asked names the array: vtkAlgorithm::GetInputArrayInformation
+/// \param asked vtkAlgorithm::GetInputArrayInformation, which names the array to contour by
 CheckedBlocks checkBlocks(const GatheredBlocks& gathered, vtkInformation* asked);
+
+} // namespace hop

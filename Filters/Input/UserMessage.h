@@ -3,7 +3,10 @@
 #include <string>
 #include <vector>
 
-/// What a user is to be told. The filter tells it: observers of errors and warnings listen there.
+namespace hop
+{
+
+/// A text for the user. The filter itself passes it on: observers of errors and warnings listen to the filter.
 struct UserMessage
 {
   enum Kind
@@ -15,8 +18,10 @@ struct UserMessage
   std::string text;
 };
 
-/// In the order in which they are to be told.
+/// In the order in which the user is told.
 using UserMessages = std::vector<UserMessage>;
 
 /// "a, b, c and 2 more", or "none".
 std::string listOf(const std::vector<std::string>& names);
+
+} // namespace hop

@@ -1,5 +1,6 @@
 #include "Output/ParticlePacker.h"
 
+#include "Output/OutputArrays.h"
 #include "Output/PointArrays.h"
 #include "Support/SortedBy.h"
 
@@ -24,35 +25,33 @@
 #include <string>
 #include <utility>
 
+namespace hop
+{
+
 namespace
 {
 
-const std::set<std::string> ownPointArrays{ "Normals", "Radius", "Mean_Curvature",
-  "Gauss_Curvature", "Shape_Operator", "Residual", "Clip_Normal", "Clip_Distance", "Clip_Angle",
-  "Clip_Curvature", "Jump", "Isovalue", "vtkOriginalCellIds", "ParametricCoordinates" };
-const std::set<std::string> ownFieldArrays{ "Evaluations", "Iterations", "ElementsDropped",
-  "CellsSkipped", "BoxesUnresolved", "SingularPoints", "ParticlesRejected", "ParticlesUndersampled",
-  "UnresolvedCellIds" };
-
-/// Whether an array's values mean something between the nodes; ids, ghost marks and weights do not.
+/// Whether an array is a field, with values between the nodes; ids, ghost marks and weights are none.
 bool isField(vtkPointData* data, vtkDataArray* array)
 {
   const std::string name = array && array->GetName() ? array->GetName() : "";
   const bool isLabel = array == data->GetGlobalIds() || array == data->GetPedigreeIds() ||
     array == data->GetRationalWeights() || name == vtkDataSetAttributes::GhostArrayName() ||
-    name == "vtkOriginalPointIds" || name == "vtkOriginalCellIds";
+    name == "vtkOriginalPointIds" || name == CellIdsArray;
   return !name.empty() && !isLabel;
 }
 
+/// Whether the output has an array of its own in the place of a point array.
 bool isReplaced(const InputBlock& block, vtkDataArray* array)
 {
   const std::string name = array->GetName();
-  // The values of a contoured array are those of the output's array of that name.
-  const bool isKnown =
-    array == block.scalars && array->GetNumberOfComponents() == 1 && name == "Isovalue";
-  return isOwnPointArray(name) && !isKnown;
+  // The contoured array has the isovalue at every particle, which is what the output's own array holds.
+  const bool isSame =
+    array == block.scalars && array->GetNumberOfComponents() == 1 && name == IsovalueArray;
+  return isOwnPointArray(name) && !isSame;
 }
 
+/// Adds the names of the block's arrays that are not passed on.
 void addReplaced(const InputBlock& block, std::set<std::string>& names)
 {
   vtkPointData* points = block.grid->GetPointData();
@@ -64,25 +63,54 @@ void addReplaced(const InputBlock& block, std::set<std::string>& names)
       names.insert(std::string("point array '") + array->GetName() + "'");
     }
   }
-  for (const std::string& name : ownFieldArrays)
+  for (const ReportArray& array : reportArrays())
   {
-    if (block.grid->GetFieldData()->HasArray(name.c_str()))
+    if (block.grid->GetFieldData()->HasArray(array.name))
     {
-      names.insert("field array '" + name + "'");
+      names.insert(std::string("field array '") + array.name + "'");
     }
   }
 }
 
+/// Sums the reports of all isovalues.
+/// \param begin, end the cells of the block are those from begin to end - 1
+BlockReport reportOf(const std::vector<IsovalueParticles>& isovalues, const CellCensus& census,
+  std::int64_t begin, std::int64_t end)
+{
+  BlockReport result{ {}, census, {} };
+  DistributionReport& sum = result.sum;
+  std::set<std::int64_t> undecided;
+  for (const IsovalueParticles& some : isovalues)
+  {
+    const DistributionReport& report = some.distribution.report;
+    sum.evaluations += report.evaluations;
+    sum.iterations += report.iterations;
+    sum.boxesUndecided += report.boxesUndecided;
+    sum.singularPoints += report.singularPoints;
+    undecided.insert(report.undecidedCells.begin(), report.undecidedCells.end());
+    sum.particlesRejected += report.particlesRejected;
+    sum.particlesUndersampled += report.particlesUndersampled;
+  }
+  const auto last = undecided.lower_bound(end);
+  for (auto cell = undecided.lower_bound(begin); cell != last; ++cell)
+  {
+    result.undecidedCells.push_back(*cell - begin);
+  }
+  return result;
+}
+
+/// Writes the particles of one block.
 class Packer
 {
 public:
   Packer(const InputBlocks& blocks, std::size_t block, const GridElements& elements,
-    std::vector<ParticleRow> rows, hop::Interruptible& work)
+    std::vector<ParticleRow> rows, Interruptible& work)
     : Blocks(blocks)
     , Grid(blocks[block].grid)
     , Scalars(blocks[block].scalars)
     , FirstCell(blocks.firstCell(block))
     , Elements(elements)
+    , Cells(blocks, block, elements)
     , Census(elements.census[block])
     , Work(work)
     , Output(blocks[block].particles)
@@ -97,35 +125,29 @@ private:
   void addVertices();
   void addOwnArrays();
   void addPointArrays();
-  void addCellIds();
   void addCellArrays();
-  void copyCellData(vtkIdType begin, vtkIdType end);
+  void copyCellData(const vtkIdType* cellIds, vtkIdType begin, vtkIdType end);
   void addReport(const std::vector<IsovalueParticles>& isovalues);
-  vtkSmartPointer<vtkDoubleArray> newArray(const std::string& name, int components) const;
-  template <class Write>
-  vtkSmartPointer<vtkDoubleArray> addArray(
-    const std::string& name, int components, const Write& write);
+  template <class Array>
+  vtkSmartPointer<Array> newArray(const std::string& name, int components) const;
+  template <class Array, class Write>
+  vtkSmartPointer<Array> addArray(const std::string& name, int components, const Write& write);
   template <class Write>
   void fillWith(const Write& write);
   void fillRows();
   vtkIdType rowCount() const { return static_cast<vtkIdType>(this->Rows.size()); }
-  vtkIdType cellOf(const ParticleRow& row) const
-  {
-    return this->Elements.mesh.elements[row.particle->location.element].cell - this->FirstCell;
-  }
 
   const InputBlocks& Blocks;
   vtkUnstructuredGrid* Grid;
   vtkDataArray* Scalars;
   std::int64_t FirstCell;
   const GridElements& Elements;
+  const RowCells Cells;
   const CellCensus& Census;
-  hop::Interruptible& Work;
+  Interruptible& Work;
   vtkPolyData* Output;
   std::vector<ParticleRow> Rows;
-  /// Of each row; in the output.
-  vtkIdType* CellIds = nullptr;
-  /// What writes rows begin to end - 1 of some array.
+  /// Each writes rows begin to end - 1 of one array.
   std::vector<std::function<void(std::ptrdiff_t begin, std::ptrdiff_t end)>> Writers;
   std::vector<EvaluatedArray> Evaluated;
 };
@@ -136,13 +158,12 @@ void Packer::pack(const std::vector<IsovalueParticles>& isovalues)
   this->addVertices();
   this->addPointArrays();
   this->addOwnArrays();
-  this->addCellIds();
   this->fillRows();
   this->addCellArrays();
   this->addReport(isovalues);
 }
 
-/// Has write(row number, row) called for every row when rows are filled.
+/// Lets fillRows() call write(row number, row) for every row.
 template <class Write>
 void Packer::fillWith(const Write& write)
 {
@@ -156,11 +177,12 @@ void Packer::fillWith(const Write& write)
     });
 }
 
-/// All arrays at once, a few rows at a time, so that each particle is fetched from memory once.
+/// Fills all arrays at once, a few rows at a time, so that each particle is fetched from memory once.
 void Packer::fillRows()
 {
+  // Fewer rows cost more calls; particles of many more rows leave the cache between two arrays. Chosen by experiment.
   constexpr std::ptrdiff_t rowsAtOnce = 128;
-  hop::runParallel(std::ref(this->Work), this->rowCount(),
+  runParallel(std::ref(this->Work), this->rowCount(),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       for (; begin < end; begin += rowsAtOnce)
@@ -203,9 +225,10 @@ void Packer::addVertices()
 }
 
 /// A point array of the output, yet to be filled.
-vtkSmartPointer<vtkDoubleArray> Packer::newArray(const std::string& name, int components) const
+template <class Array>
+vtkSmartPointer<Array> Packer::newArray(const std::string& name, int components) const
 {
-  auto array = vtkSmartPointer<vtkDoubleArray>::New();
+  auto array = vtkSmartPointer<Array>::New();
   array->SetName(name.c_str());
   array->SetNumberOfComponents(components);
   array->SetNumberOfTuples(this->rowCount());
@@ -213,13 +236,12 @@ vtkSmartPointer<vtkDoubleArray> Packer::newArray(const std::string& name, int co
   return array;
 }
 
-/// A point array whose rows are filled by write(row, double*).
-template <class Write>
-vtkSmartPointer<vtkDoubleArray> Packer::addArray(
-  const std::string& name, int components, const Write& write)
+/// A point array whose rows are filled by write(row, pointer to its first component).
+template <class Array, class Write>
+vtkSmartPointer<Array> Packer::addArray(const std::string& name, int components, const Write& write)
 {
-  const auto array = this->newArray(name, components);
-  double* values = array->GetPointer(0);
+  auto array = this->newArray<Array>(name, components);
+  auto* values = array->GetPointer(0);
   this->fillWith([values, components, write](std::ptrdiff_t i, const ParticleRow& row)
     { write(row, values + i * components); });
   return array;
@@ -227,81 +249,32 @@ vtkSmartPointer<vtkDoubleArray> Packer::addArray(
 
 void Packer::addOwnArrays()
 {
-  const auto writeVector = [](const glm::dvec3& v, double* out) { std::copy_n(&v.x, 3, out); };
-  const auto normals = this->addArray("Normals", 3,
-    [=](const ParticleRow& row, double* out) { writeVector(row.particle->normal.xyz, out); });
-  this->Output->GetPointData()->SetNormals(normals);
-  this->addArray("Radius", 1,
-    [](const ParticleRow& row, double* out)
-    { *out = row.particle->shrink * row.particle->spacing; });
-  this->addArray("Mean_Curvature", 1,
-    [](const ParticleRow& row, double* out) { *out = row.particle->curvature.mean; });
-  this->addArray("Gauss_Curvature", 1,
-    [](const ParticleRow& row, double* out) { *out = row.particle->curvature.gauss; });
-  this->addArray("Shape_Operator", 6,
-    [](const ParticleRow& row, double* out)
+  for (const ParticleArray& array : particleArrays())
+  {
+    if (const auto* reals = std::get_if<RowWriter<double>>(&array.write))
     {
-      const glm::dmat3& shape = row.particle->curvature.shape;
-      const double components[] = { shape[0][0], shape[1][1], shape[2][2], shape[0][1], shape[1][2],
-        shape[0][2] }; // VTK's order of symmetric tensors
-      std::copy(std::begin(components), std::end(components), out);
-    });
-  this->addArray(
-    "Residual", 1, [](const ParticleRow& row, double* out) { *out = row.particle->residual; });
-  this->addArray("Clip_Normal", 6,
-    [=](const ParticleRow& row, double* out)
+      this->addArray<vtkDoubleArray>(array.name, array.components,
+        [this, write = *reals](const ParticleRow& row, double* out)
+        { write(row, this->Cells, out); });
+    }
+    else if (const auto* ids = std::get_if<RowWriter<vtkIdType>>(&array.write))
     {
-      writeVector(row.particle->clips[0].normal.xyz, out);
-      writeVector(row.particle->clips[1].normal.xyz, out + 3);
-    });
-  this->addArray("Clip_Distance", 2,
-    [](const ParticleRow& row, double* out)
-    {
-      out[0] = row.particle->clips[0].distance;
-      out[1] = row.particle->clips[1].distance;
-    });
-  this->addArray("Clip_Angle", 2,
-    [](const ParticleRow& row, double* out)
-    {
-      out[0] = glm::degrees(row.particle->clips[0].dihedralAngle);
-      out[1] = glm::degrees(row.particle->clips[1].dihedralAngle);
-    });
-  this->addArray("Clip_Curvature", 2,
-    [](const ParticleRow& row, double* out)
-    {
-      out[0] = row.particle->clips[0].bend;
-      out[1] = row.particle->clips[1].bend;
-    });
-  this->addArray("Jump", 1, [](const ParticleRow& row, double* out) { *out = row.particle->jump; });
-  this->addArray("Isovalue", 1, [](const ParticleRow& row, double* out) { *out = row.isovalue; });
-  // Places on a face may have left the domain by a rounding error.
-  this->addArray("ParametricCoordinates", 3,
-    [=](const ParticleRow& row, double* out)
-    {
-      const hop::ReferencePoint u{ glm::clamp(row.particle->location.u.xyz, 0.0, 1.0) };
-      writeVector(parametricCoordinates(this->Grid->GetCellType(this->cellOf(row)), u).xyz, out);
-    });
+      this->addArray<vtkIdTypeArray>(array.name, array.components,
+        [this, write = *ids](const ParticleRow& row, vtkIdType* out)
+        { write(row, this->Cells, out); });
+    }
+  }
+  this->Output->GetPointData()->SetActiveNormals(NormalsArray);
 }
 
-void Packer::addCellIds()
-{
-  vtkNew<vtkIdTypeArray> cells;
-  cells->SetName("vtkOriginalCellIds");
-  cells->SetNumberOfValues(this->rowCount());
-  this->CellIds = cells->GetPointer(0);
-  this->fillWith(
-    [this](std::ptrdiff_t i, const ParticleRow& row) { this->CellIds[i] = this->cellOf(row); });
-  this->Output->GetPointData()->AddArray(cells);
-}
-
-/// Every numeric point array that means something between the nodes.
+/// Adds every numeric point array of the grid that is a field.
 void Packer::addPointArrays()
 {
   vtkPointData* source = this->Grid->GetPointData();
   for (int a = 0; a < source->GetNumberOfArrays(); ++a)
   {
     vtkDataArray* array = source->GetArray(a);
-    if (!isField(source, array) || ownPointArrays.count(array->GetName()) > 0)
+    if (!isField(source, array) || isOwnPointArray(array->GetName()))
     {
       continue;
     }
@@ -310,14 +283,14 @@ void Packer::addPointArrays()
     vtkSmartPointer<vtkDoubleArray> values;
     if (array == this->Scalars && components == 1)
     {
-      // As Contour: this array is the isovalue, not the isovalue with noise of the tolerance's size.
-      values =
-        this->addArray(name, 1, [](const ParticleRow& row, double* out) { *out = row.isovalue; });
+      // Contour does the same: the array holds the isovalue, without noise of the tolerance's size.
+      values = this->addArray<vtkDoubleArray>(
+        name, 1, [](const ParticleRow& row, double* out) { *out = row.isovalue; });
       this->Output->GetPointData()->SetScalars(values);
     }
     else
     {
-      values = this->newArray(name, components);
+      values = this->newArray<vtkDoubleArray>(name, components);
       this->Evaluated.push_back({ array, values->GetPointer(0) });
     }
     for (int c = 0; c < components; ++c)
@@ -332,79 +305,60 @@ void Packer::addCellArrays()
   vtkCellData* source = this->Grid->GetCellData();
   vtkCellData* target = this->Output->GetCellData();
   target->CopyGlobalIdsOff();          // several particles share a cell: its id is no id of theirs
-  target->CopyHigherOrderDegreesOff(); // particles have none
+  target->CopyHigherOrderDegreesOff(); // vertices have no degrees
   target->CopyFieldOff(vtkDataSetAttributes::GhostArrayName());
   target->CopyAllocate(source, this->rowCount());
+  const vtkIdType* cellIds =
+    vtkIdTypeArray::SafeDownCast(this->Output->GetPointData()->GetArray(CellIdsArray))
+      ->GetPointer(0);
+  // Rows between two questions whether to end early: fewer cost more calls, more delay an abort. Chosen by experiment.
   constexpr vtkIdType rowsAtOnce = 65536;
   for (vtkIdType begin = 0; begin < this->rowCount(); begin += rowsAtOnce)
   {
     this->Work.ask();
-    this->copyCellData(begin, std::min(this->rowCount(), begin + rowsAtOnce));
+    this->copyCellData(cellIds, begin, std::min(this->rowCount(), begin + rowsAtOnce));
   }
 }
 
-void Packer::copyCellData(vtkIdType begin, vtkIdType end)
+/// Copies the cell data of rows begin to end - 1.
+void Packer::copyCellData(const vtkIdType* cellIds, vtkIdType begin, vtkIdType end)
 {
   vtkNew<vtkIdList> cells;
   vtkNew<vtkIdList> rows;
   cells->SetNumberOfIds(end - begin);
   rows->SetNumberOfIds(end - begin);
-  std::copy(this->CellIds + begin, this->CellIds + end, cells->GetPointer(0));
+  std::copy(cellIds + begin, cellIds + end, cells->GetPointer(0));
   std::iota(rows->GetPointer(0), rows->GetPointer(0) + (end - begin), begin);
   this->Output->GetCellData()->CopyData(this->Grid->GetCellData(), cells, rows);
 }
 
 void Packer::addReport(const std::vector<IsovalueParticles>& isovalues)
 {
-  this->Output->GetFieldData()->PassData(this->Grid->GetFieldData());
-  hop::DistributionReport sum;
-  std::set<std::int64_t> undecided;
-  for (const IsovalueParticles& some : isovalues)
-  {
-    const hop::DistributionReport& report = some.distribution.report;
-    sum.evaluations += report.evaluations;
-    sum.iterations += report.iterations;
-    sum.boxesUndecided += report.boxesUndecided;
-    sum.singularPoints += report.singularPoints;
-    undecided.insert(report.undecidedCells.begin(), report.undecidedCells.end());
-    sum.particlesRejected += report.particlesRejected;
-    sum.particlesUndersampled += report.particlesUndersampled;
-  }
-  const auto addCount = [this](const char* name, vtkIdType value)
+  vtkFieldData* target = this->Output->GetFieldData();
+  target->PassData(this->Grid->GetFieldData());
+  const BlockReport report = reportOf(
+    isovalues, this->Census, this->FirstCell, this->FirstCell + this->Grid->GetNumberOfCells());
+  for (const ReportArray& row : reportArrays())
   {
     vtkNew<vtkIdTypeArray> array;
-    array->SetName(name);
-    array->InsertNextValue(value);
-    this->Output->GetFieldData()->AddArray(array);
-  };
-  addCount("Evaluations", sum.evaluations);
-  addCount("Iterations", sum.iterations);
-  addCount("ElementsDropped", this->Census.dropped);
-  addCount("CellsSkipped", this->Census.skipped());
-  addCount("BoxesUnresolved", sum.boxesUndecided);
-  addCount("SingularPoints", sum.singularPoints);
-  addCount("ParticlesRejected", sum.particlesRejected);
-  addCount("ParticlesUndersampled", sum.particlesUndersampled);
-
-  vtkNew<vtkIdTypeArray> cells;
-  cells->SetName("UnresolvedCellIds");
-  const auto end = undecided.lower_bound(this->FirstCell + this->Grid->GetNumberOfCells());
-  for (auto cell = undecided.lower_bound(this->FirstCell); cell != end; ++cell)
-  {
-    cells->InsertNextValue(*cell - this->FirstCell);
+    array->SetName(row.name);
+    for (const vtkIdType value : row.values(report))
+    {
+      array->InsertNextValue(value);
+    }
+    target->AddArray(array);
   }
-  this->Output->GetFieldData()->AddArray(cells);
 }
 
-/// Adds the rows of one isovalue, sorted by element so that neighbours in memory share one, to those of
-/// their blocks.
-void addRows(const InputBlocks& blocks, const hop::ElementMesh& mesh, const IsovalueParticles& some,
-  hop::Interruptible& work, std::vector<std::vector<ParticleRow>>& rowsOfBlocks)
+/// Adds the particles of one isovalue to the rows of their blocks, sorted by element: neighbours in memory then share
+/// an element.
+void addRows(const InputBlocks& blocks, const ElementMesh& mesh, const IsovalueParticles& some,
+  Interruptible& work, std::vector<std::vector<ParticleRow>>& rowsOfBlocks)
 {
-  const hop::Buffer<hop::Particle>& particles = some.distribution.particles;
-  const hop::Grouping ofElements = hop::groupedBy(
+  const Buffer<Particle>& particles = some.distribution.particles;
+  const Grouping ofElements = groupedBy(
     particles, mesh.elements.size(),
-    [](const hop::Particle& particle) { return particle.location.element; }, std::ref(work));
+    [](const Particle& particle) { return particle.location.element; }, std::ref(work));
   for (std::size_t e = 0; e < mesh.elements.size(); ++e)
   {
     const BlockCell where = blocks.locate(mesh.elements[e].cell);
@@ -418,11 +372,6 @@ void addRows(const InputBlocks& blocks, const hop::ElementMesh& mesh, const Isov
 
 } // namespace
 
-bool isOwnPointArray(const std::string& name)
-{
-  return ownPointArrays.count(name) > 0;
-}
-
 std::vector<std::string> replacedArrays(const std::vector<InputBlock>& blocks)
 {
   std::set<std::string> names;
@@ -434,7 +383,7 @@ std::vector<std::string> replacedArrays(const std::vector<InputBlock>& blocks)
 }
 
 void packParticles(const InputBlocks& blocks, const GridElements& elements,
-  const std::vector<IsovalueParticles>& isovalues, hop::Interruptible& work)
+  const std::vector<IsovalueParticles>& isovalues, Interruptible& work)
 {
   std::vector<std::vector<ParticleRow>> rows(blocks.size());
   for (const IsovalueParticles& some : isovalues)
@@ -449,3 +398,5 @@ void packParticles(const InputBlocks& blocks, const GridElements& elements,
     Packer(blocks, b, elements, std::move(rows[b]), work).pack(isovalues);
   }
 }
+
+} // namespace hop

@@ -7,24 +7,27 @@
 #include <string>
 #include <vector>
 
+namespace hop
+{
+
 /// Particles of one isovalue.
 struct IsovalueParticles
 {
   double isovalue = 0.0;
-  hop::Distribution distribution;
+  Distribution distribution;
 };
 
 /// Writes particles as vtkPolyData, one a block: points, vertex cells, the particles' own arrays, the
 /// point arrays of the block's grid evaluated and its cell arrays copied. Particles in ghost cells are
 /// left out: they belong to another rank. See vtkHighOrderParticleIsosurface for names and meaning of
 /// the arrays.
-/// \throw hop::Interrupted if work's monitor asks for an early end; the outputs are unfinished then
+/// \throw Interrupted if work's monitor asks for an early end; the outputs are unfinished then
 void packParticles(const InputBlocks& blocks, const GridElements& elements,
-  const std::vector<IsovalueParticles>& isovalues, hop::Interruptible& work);
+  const std::vector<IsovalueParticles>& isovalues, Interruptible& work);
 
-/// Whether packParticles() makes a point array of that name itself.
-bool isOwnPointArray(const std::string& name);
-
-/// What packParticles() does not pass on, as the output has an array of its own of that name: "point array
-/// 'Radius'", each once. Arrays that mean nothing on the surface, as ids, do not count.
+/// Names the arrays of the input that packParticles() does not pass on because the output has an array of its own with
+/// this name: "point array 'Radius'", each once. Arrays without a meaning on the surface, ids for instance, are left
+/// out.
 std::vector<std::string> replacedArrays(const std::vector<InputBlock>& blocks);
+
+} // namespace hop

@@ -13,20 +13,25 @@
 
 #include <algorithm>
 
+namespace hop
+{
+
 namespace
 {
 
-/// The evaluators take so many components at once: elsewhere they are x, y, z and f.
+/// Number of components that the evaluators of the core take at once: elsewhere these are x, y, z and the field.
 constexpr int groupSize = 4;
 
-/// Where a component of some array goes.
+/// The place of a component in an output array.
 struct Target
 {
+  /// Of the first row.
   double* values = nullptr;
+  /// Doubles from one row to the next.
   int stride = 0;
 };
 
-/// One a thread.
+/// Evaluates all arrays at some rows. Each thread has an evaluator of its own.
 class ArrayEvaluator
 {
 public:
@@ -47,7 +52,7 @@ public:
     }
   }
 
-  /// Rows begin to end - 1.
+  /// Evaluates rows begin to end - 1.
   void evaluate(std::ptrdiff_t begin, std::ptrdiff_t end)
   {
     while (begin < end)
@@ -69,11 +74,11 @@ private:
   int width() const { return static_cast<int>(this->Targets.size()); }
   int elementOf(std::ptrdiff_t row) const { return this->Rows[row].particle->location.element; }
 
-  /// Bernstein coefficients of all arrays, one row of components a coefficient.
+  /// Converts all arrays to Bernstein form on an element: one row of components a coefficient.
   void convert(int element)
   {
-    const hop::Element& e = this->Elements.mesh.elements[element];
-    const hop::NodalBasis& basis = this->Elements.bases[element]->basis;
+    const Element& e = this->Elements.mesh.elements[element];
+    const NodalBasis& basis = this->Elements.bases[element]->basis;
     const int nodes = basis.nodeCount();
     vtkIdType count = 0;
     const vtkIdType* ids = nullptr;
@@ -102,9 +107,10 @@ private:
     }
   }
 
-  /// Places of the next rows that share an element, as many as are evaluated at once.
+  /// Collects the places of the next rows that share an element, as many as are evaluated at once.
   void collectPoints(std::ptrdiff_t begin, std::ptrdiff_t end)
   {
+    // Fewer rows cost more calls of the kernels, more need more memory for their values. Chosen by experiment.
     constexpr std::ptrdiff_t batchSize = 64;
     const int element = this->elementOf(begin);
     this->Points.clear();
@@ -117,12 +123,12 @@ private:
     }
   }
 
-  /// Components first, first + 1, ... at the points collected, for the rows from `begin` on.
+  /// Evaluates up to groupSize components, from `first` on, at the collected points, for the rows from `begin` on.
   void evaluateGroup(int element, int first, std::ptrdiff_t begin)
   {
-    const hop::NodalBasis& basis = this->Elements.bases[element]->basis;
+    const NodalBasis& basis = this->Elements.bases[element]->basis;
     const int components = std::min(groupSize, this->width() - first);
-    this->Group.assign(basis.coefficientCount(), hop::Coefficient(0.0));
+    this->Group.assign(basis.coefficientCount(), Coefficient(0.0));
     for (std::size_t i = 0; i < this->Group.size(); ++i)
     {
       const double weight = this->Weights.empty() ? 1.0 : this->Weights[i];
@@ -131,13 +137,13 @@ private:
         this->Group[i][c] = weight * this->Coefficients[i * this->width() + first + c];
       }
     }
-    hop::evaluateGradients({ basis.domain(), basis.degrees(), this->Group.data(),
-                             this->Weights.empty() ? nullptr : this->Weights.data() },
+    evaluateGradients({ basis.domain(), basis.degrees(), this->Group.data(),
+                        this->Weights.empty() ? nullptr : this->Weights.data() },
       this->Points.data(), static_cast<int>(this->Points.size()), this->Jets);
     for (int c = 0; c < components; ++c)
     {
       const Target& target = this->Targets[first + c];
-      const double* values = this->Jets.row(hop::quantity::value, c);
+      const double* values = this->Jets.row(quantity::value, c);
       for (int n = 0; n < this->Jets.size(); ++n)
       {
         target.values[(begin + n) * target.stride] = values[n];
@@ -149,29 +155,32 @@ private:
   const GridElements& Elements;
   const std::vector<EvaluatedArray>& Arrays;
   const std::vector<ParticleRow>& Rows;
-  /// One a component of all arrays.
+  /// One target a component of all arrays.
   std::vector<Target> Targets;
   vtkNew<vtkIdList> CopiedIds;
   std::vector<double> Nodal;
   std::vector<double> Coefficients;
   std::vector<double> Weights;
-  std::vector<hop::ReferencePoint> Points;
+  std::vector<ReferencePoint> Points;
+  /// One past the last row that collectPoints() took.
   std::ptrdiff_t BatchEnd = 0;
-  std::vector<hop::Coefficient> Group;
-  hop::JetBatch Jets;
+  std::vector<Coefficient> Group;
+  JetBatch Jets;
 };
 
 } // namespace
 
 void evaluatePointArrays(const InputBlocks& blocks, const GridElements& elements,
   const std::vector<EvaluatedArray>& arrays, const std::vector<ParticleRow>& rows,
-  const hop::ParallelFor& parallelFor)
+  const ParallelFor& parallelFor)
 {
   if (arrays.empty())
   {
     return;
   }
-  hop::runParallel(parallelFor, static_cast<std::ptrdiff_t>(rows.size()),
+  runParallel(parallelFor, static_cast<std::ptrdiff_t>(rows.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     { ArrayEvaluator(blocks, elements, arrays, rows).evaluate(begin, end); });
 }
+
+} // namespace hop

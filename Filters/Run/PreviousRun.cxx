@@ -1,15 +1,24 @@
 #include "Run/PreviousRun.h"
 
+#include "vtkCellArray.h"
+#include "vtkDataArray.h"
+#include "vtkPoints.h"
+#include "vtkUnstructuredGrid.h"
+
 #include <algorithm>
 #include <cmath>
+
+namespace hop
+{
 
 namespace
 {
 
-/// Spacings that follow from the bounds of a moving mesh change a little.
+/// Largest relative change of the spacing at which particles go on: automatic spacings change a little with the bounds
+/// of a moving mesh. Larger changes want another number of particles. Chosen by experiment.
 constexpr double largestChangeOfSpacing = 0.1;
 
-bool sameRequest(const hop::DistributionParameters& a, const hop::DistributionParameters& b)
+bool sameRequest(const DistributionParameters& a, const DistributionParameters& b)
 {
   return std::abs(a.sizing.spacing / b.sizing.spacing - 1.0) <= largestChangeOfSpacing &&
     a.sizing.angularDensity == b.sizing.angularDensity && a.quality == b.quality &&
@@ -27,21 +36,45 @@ bool RunOrigin::continues(const RunOrigin& before) const
     this->nodeSpacing == before.nodeSpacing && sameRequest(this->parameters, before.parameters);
 }
 
-std::vector<hop::Location> PreviousRun::startOf(
-  std::size_t index, const RunOrigin& origin, const hop::ElementMesh& mesh) const
+RunOrigin originOf(const InputBlocks& blocks)
+{
+  RunOrigin origin;
+  const char* name = blocks[0].scalars->GetName();
+  origin.array = name ? name : "";
+  origin.component = blocks.component();
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+  {
+    // The grid itself is a new copy each time that ParaView's pipeline looks at it.
+    vtkUnstructuredGrid* grid = blocks[b].grid;
+    for (vtkObject* part : { static_cast<vtkObject*>(grid->GetPoints()),
+           static_cast<vtkObject*>(grid->GetCells()), static_cast<vtkObject*>(blocks[b].scalars) })
+    {
+      origin.dataTime =
+        std::max<std::uint64_t>(origin.dataTime, part ? part->GetMTime() : vtkMTimeType(0));
+    }
+    origin.cells += grid->GetNumberOfCells();
+    origin.points += grid->GetNumberOfPoints();
+  }
+  return origin;
+}
+
+std::vector<Location> PreviousRun::startOf(
+  std::size_t index, const RunOrigin& origin, const ElementMesh& mesh) const
 {
   if (index >= this->Surfaces.size() || !origin.continues(this->Surfaces[index].origin))
   {
     return {};
   }
-  return hop::findPlaces(mesh, this->Surfaces[index].places);
+  return findPlaces(mesh, this->Surfaces[index].places);
 }
 
-void PreviousRun::remember(std::size_t index, const RunOrigin& origin, const hop::ElementMesh& mesh,
-  const hop::Distribution& distribution, const hop::ParallelFor& parallelFor)
+void PreviousRun::remember(std::size_t index, const RunOrigin& origin, const ElementMesh& mesh,
+  const Distribution& distribution, const ParallelFor& parallelFor)
 {
   this->Surfaces.resize(std::max(this->Surfaces.size(), index + 1));
   this->Surfaces[index] = distribution.report.aborted
     ? Surface{}
-    : Surface{ origin, hop::cellPlaces(mesh, distribution.particles, parallelFor) };
+    : Surface{ origin, cellPlaces(mesh, distribution.particles, parallelFor) };
 }
+
+} // namespace hop

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "Elements/NodalBasis.h"
+#include "Input/InputBlocks.h"
 #include "Surface/DistributionParameters.h"
 #include "Surface/Particles.h"
 #include "Surface/WarmStart.h"
@@ -8,38 +10,44 @@
 #include <string>
 #include <vector>
 
-/// What one isosurface was made of. From one run to the next its particles go on if only the isovalue or
-/// the data changed.
+namespace hop
+{
+
+/// What one isosurface was made of. Its particles go on in the next run if only the isovalue or the data changed.
 struct RunOrigin
 {
   double isovalue = 0.0;
-  /// When the data changed last.
+  /// Modification time of the data.
   std::uint64_t dataTime = 0;
-  /// Name and component of the array.
+  /// Name of the contoured array.
   std::string array;
   int component = 0;
-  /// Of the input.
+  /// Numbers of cells and points of the input.
   std::int64_t cells = 0;
   std::int64_t points = 0;
-  int nodeSpacing = 0;
-  hop::DistributionParameters parameters;
+  NodeSpacing nodeSpacing = NodeSpacing::Uniform;
+  DistributionParameters parameters;
 
-  /// Whether particles of `before` may go on in this run. They may not where nothing changed: the same
+  /// Whether particles of the isosurface `before` may go on in this one. They may not where nothing changed: the same
   /// input and properties give the same particles.
   bool continues(const RunOrigin& before) const;
 };
 
-/// Where the particles of the last run stood, isosurface by isosurface; 32 bytes a particle.
+/// What the data say about the isosurfaces of a mesh; isovalue, node spacing and parameters are left as they are.
+/// \pre blocks.size() > 0
+RunOrigin originOf(const InputBlocks& blocks);
+
+/// The places of the particles of the last run, isosurface by isosurface; 32 bytes a particle.
 class PreviousRun
 {
 public:
-  /// Where particles of isosurface `index` may go on, in the mesh at hand; empty if it starts anew.
-  std::vector<hop::Location> startOf(
-    std::size_t index, const RunOrigin& origin, const hop::ElementMesh& mesh) const;
+  /// The places, in the mesh at hand, from which particles of isosurface `index` go on; empty if it starts anew.
+  std::vector<Location> startOf(
+    std::size_t index, const RunOrigin& origin, const ElementMesh& mesh) const;
 
-  /// Takes the place of what was known of that isosurface; nothing is kept of an aborted run.
-  void remember(std::size_t index, const RunOrigin& origin, const hop::ElementMesh& mesh,
-    const hop::Distribution& distribution, const hop::ParallelFor& parallelFor);
+  /// Replaces what was known of isosurface `index`; nothing is kept of an aborted run.
+  void remember(std::size_t index, const RunOrigin& origin, const ElementMesh& mesh,
+    const Distribution& distribution, const ParallelFor& parallelFor);
 
   void forget() { this->Surfaces.clear(); }
 
@@ -47,7 +55,9 @@ private:
   struct Surface
   {
     RunOrigin origin;
-    hop::Buffer<hop::CellPlace> places;
+    Buffer<CellPlace> places;
   };
   std::vector<Surface> Surfaces;
 };
+
+} // namespace hop

@@ -1,5 +1,7 @@
 #include "Run/Ranks.h"
 
+#include "Surface/SpacingSearch.h"
+
 #include "vtkBoundingBox.h"
 #include "vtkCommunicator.h"
 #include "vtkMultiProcessController.h"
@@ -9,11 +11,11 @@
 #include <numeric>
 #include <utility>
 
-namespace
+namespace hop
 {
 
-constexpr int spacingTries = 8;
-constexpr double closeEnough = 0.01;
+namespace
+{
 
 /// That of several ranks, or none.
 vtkMultiProcessController* controllerOfRanks()
@@ -22,8 +24,8 @@ vtkMultiProcessController* controllerOfRanks()
   return controller && controller->GetNumberOfProcesses() > 1 ? controller : nullptr;
 }
 
-/// A number for each surface, from every rank: one list a surface, in the order of ranks. From the lists
-/// all ranks compute the same to the last bit, which sums by MPI do not promise.
+/// Gathers one number a surface from every rank: one list a surface, in the order of ranks. From these lists all ranks
+/// compute the same sums to the last bit, which MPI's own sums do not promise.
 std::vector<std::vector<double>> gather(const std::vector<double>& local)
 {
   vtkMultiProcessController* controller = controllerOfRanks();
@@ -47,7 +49,8 @@ double sum(const std::vector<double>& numbers)
   return std::accumulate(numbers.begin(), numbers.end(), 0.0);
 }
 
-/// Whole numbers in the ratio of the weights, with that sum; all zero if no weight is positive.
+/// Splits a number into whole numbers in the ratio of the weights, by largest remainders; all are zero if no weight is
+/// positive.
 std::vector<std::int64_t> split(std::int64_t number, const std::vector<double>& weights)
 {
   const double all = sum(weights);
@@ -78,29 +81,20 @@ std::vector<std::int64_t> split(std::int64_t number, const std::vector<double>& 
 /// One isosurface on its way to the spacing at which all ranks together want as many particles as asked for.
 struct CommonSpacing
 {
-  double spacing = 0.0;
-  bool isFound = false;
+  hop::SpacingSearch search;
   /// Wanted at that spacing.
-  WantedParticles here;
+  SurfaceCount here;
   std::vector<double> ofRanks;
-
-  /// Another spacing, if this one does not do. On a flat surface the number goes with 1/s^2.
-  void improve(std::int64_t number)
-  {
-    const double ratio = sum(this->ofRanks) / static_cast<double>(number);
-    this->isFound = this->isFound || !(ratio > 0.0) || std::abs(ratio - 1.0) < closeEnough;
-    this->spacing *= this->isFound ? 1.0 : std::sqrt(ratio);
-  }
 };
 
-void gatherWanted(std::vector<CommonSpacing>& surfaces, const WantedAt& wanted)
+void gatherWanted(std::vector<CommonSpacing>& surfaces, const CountAt& wanted)
 {
   std::vector<double> owned;
   for (std::size_t i = 0; i < surfaces.size(); ++i)
   {
-    if (!surfaces[i].isFound)
+    if (!surfaces[i].search.isOver())
     {
-      surfaces[i].here = wanted(i, surfaces[i].spacing);
+      surfaces[i].here = wanted(i, surfaces[i].search.spacing());
     }
     owned.push_back(surfaces[i].here.owned);
   }
@@ -113,21 +107,18 @@ void gatherWanted(std::vector<CommonSpacing>& surfaces, const WantedAt& wanted)
 
 /// Whether to go on follows from what was gathered: all ranks come to the same end.
 std::vector<CommonSpacing> findSpacings(
-  std::int64_t number, std::size_t surfaces, double firstSpacing, const WantedAt& wanted)
+  std::int64_t number, std::size_t surfaces, double firstSpacing, const CountAt& wanted)
 {
-  CommonSpacing first;
-  first.spacing = firstSpacing;
-  std::vector<CommonSpacing> found(surfaces, first);
-  const auto isFound = [](const CommonSpacing& surface) { return surface.isFound; };
-  gatherWanted(found, wanted);
-  for (int n = 1; n < spacingTries && !std::all_of(found.begin(), found.end(), isFound); ++n)
+  std::vector<CommonSpacing> found(surfaces, { { number, firstSpacing }, {}, {} });
+  const auto isOver = [](const CommonSpacing& surface) { return surface.search.isOver(); };
+  do
   {
+    gatherWanted(found, wanted);
     for (CommonSpacing& surface : found)
     {
-      surface.improve(number);
+      surface.search.update(sum(surface.ofRanks));
     }
-    gatherWanted(found, wanted);
-  }
+  } while (!std::all_of(found.begin(), found.end(), isOver));
   return found;
 }
 
@@ -166,7 +157,7 @@ double sumOfRanks(double local)
 }
 
 std::vector<RankShare> shareOutToRanks(
-  std::int64_t number, std::size_t surfaces, double firstSpacing, const WantedAt& wanted)
+  std::int64_t number, std::size_t surfaces, double firstSpacing, const CountAt& wanted)
 {
   vtkMultiProcessController* controller = controllerOfRanks();
   const std::vector<CommonSpacing> found = findSpacings(number, surfaces, firstSpacing, wanted);
@@ -177,7 +168,10 @@ std::vector<RankShare> shareOutToRanks(
     const double perWanted = all > 0.0 ? static_cast<double>(number) / all : 0.0;
     const std::int64_t owned =
       split(number, surface.ofRanks)[controller ? controller->GetLocalProcessId() : 0];
-    shares.push_back({ owned + std::llround(perWanted * surface.here.ghosts), surface.spacing });
+    shares.push_back(
+      { owned + std::llround(perWanted * surface.here.ghosts), surface.search.spacing() });
   }
   return shares;
 }
+
+} // namespace hop

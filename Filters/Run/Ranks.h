@@ -7,26 +7,31 @@
 
 class vtkBoundingBox;
 
-// What ranks agree on. Every rank has to call each of these, as often and in the same order as all others: also
-// one without data, with an error, or that is to stop.
+namespace hop
+{
 
-/// The box around all boxes of all ranks.
+// What MPI ranks agree on. Every rank has to call these functions equally often and in the same order, also a rank
+// without data, with an error, or one that is to stop.
+
+/// The box around the boxes of all ranks.
 vtkBoundingBox overAllRanks(const vtkBoundingBox& local);
 
+/// The largest of the ranks' numbers.
 std::size_t largestOfRanks(std::size_t local);
 
+/// The sum of the ranks' numbers, the same to the last bit on all ranks.
 double sumOfRanks(double local);
 
 /// How many particles a rank's part of an isosurface wants.
-struct WantedParticles
+struct SurfaceCount
 {
   double owned = 0.0;
-  /// In ghost cells: they belong to another rank.
+  /// Particles in ghost cells, which belong to another rank.
   double ghosts = 0.0;
 };
 
 /// What this rank's part of a surface wants at a spacing; does not throw.
-using WantedAt = std::function<WantedParticles(std::size_t surface, double spacing)>;
+using CountAt = std::function<SurfaceCount(std::size_t surface, double spacing)>;
 
 /// What a rank is to give of an isosurface.
 struct RankShare
@@ -47,4 +52,6 @@ bool isOneOfRanks();
 /// \param firstSpacing to try, the same on all ranks
 /// \return one share a surface
 std::vector<RankShare> shareOutToRanks(
-  std::int64_t number, std::size_t surfaces, double firstSpacing, const WantedAt& wanted);
+  std::int64_t number, std::size_t surfaces, double firstSpacing, const CountAt& wanted);
+
+} // namespace hop

@@ -6,35 +6,40 @@
 #include <cmath>
 #include <sstream>
 
+namespace hop
+{
+
 namespace
 {
 
+/// Fraction of undersampled particles above which there is a warning, and which the recommended spacing leaves; the
+/// text says 1%. Smaller values warn of a few particles at a tip, larger ones hide visible flaws. Chosen by experiment.
 constexpr double warnUndersampledShare = 0.01;
 
-/// The spacing at which all but so small a share of the particles would follow the surface, evenly spread.
-double resolvingSpacing(const hop::Buffer<hop::Particle>& particles)
+/// The spacing at which all but this fraction of the particles would follow the surface, if spread evenly.
+double resolvingSpacing(const Buffer<Particle>& particles)
 {
-  std::vector<double> bends;
-  bends.reserve(particles.size());
-  for (const hop::Particle& particle : particles)
+  std::vector<double> curvatures;
+  curvatures.reserve(particles.size());
+  for (const Particle& particle : particles)
   {
-    bends.push_back(particle.curvature.magnitude);
+    curvatures.push_back(particle.curvature.magnitude);
   }
   const auto above =
-    static_cast<std::ptrdiff_t>(warnUndersampledShare * static_cast<double>(bends.size()));
-  const auto rank = static_cast<std::ptrdiff_t>(bends.size()) - 1 - above;
-  std::nth_element(bends.begin(), bends.begin() + rank, bends.end());
-  return hop::Particle::LargestBend / bends[rank];
+    static_cast<std::ptrdiff_t>(warnUndersampledShare * static_cast<double>(curvatures.size()));
+  const auto rank = static_cast<std::ptrdiff_t>(curvatures.size()) - 1 - above;
+  std::nth_element(curvatures.begin(), curvatures.begin() + rank, curvatures.end());
+  return Particle::LargestCurvatureTimesSpacing / curvatures[rank];
 }
 
-/// What a user has to change for fewer particles.
+/// What a user has to choose for fewer particles.
 const char* fewerParticles(std::int64_t numberOfParticles)
 {
   return numberOfParticles > 0 ? "a smaller NumberOfParticles" : "a larger Spacing";
 }
 
-/// What a user has to change for particles that follow the surface's bends.
-std::string moreParticles(const hop::Distribution& distribution, std::int64_t numberOfParticles)
+/// What a user has to choose for particles that follow the curvature of the surface.
+std::string moreParticles(const Distribution& distribution, std::int64_t numberOfParticles)
 {
   if (numberOfParticles > 0)
   {
@@ -46,13 +51,13 @@ std::string moreParticles(const hop::Distribution& distribution, std::int64_t nu
   return text.str();
 }
 
-std::string describeError(const hop::DistributionReport& report, std::int64_t numberOfParticles)
+std::string describeError(const DistributionReport& report, std::int64_t numberOfParticles)
 {
   return report.error + ", which is what memory holds. Choose " +
     fewerParticles(numberOfParticles) + ".";
 }
 
-std::string describeUndecided(const InputBlocks& blocks, const hop::DistributionReport& report)
+std::string describeUndecided(const InputBlocks& blocks, const DistributionReport& report)
 {
   std::ostringstream text;
   text
@@ -65,8 +70,7 @@ std::string describeUndecided(const InputBlocks& blocks, const hop::Distribution
   return text.str();
 }
 
-std::string describeUndersampled(
-  const hop::Distribution& distribution, std::int64_t numberOfParticles)
+std::string describeUndersampled(const Distribution& distribution, std::int64_t numberOfParticles)
 {
   const std::size_t count = distribution.particles.size();
   const std::int64_t undersampled = distribution.report.particlesUndersampled;
@@ -116,7 +120,7 @@ UserMessages reviewCells(const InputBlocks& blocks, const std::vector<CellCensus
   return { { UserMessage::Warning, "Not every cell is as it should be:" + remarks } };
 }
 
-UserMessages reviewDistribution(const InputBlocks& blocks, const hop::Distribution& distribution,
+UserMessages reviewDistribution(const InputBlocks& blocks, const Distribution& distribution,
   double isovalue, std::int64_t numberOfParticles)
 {
   UserMessages messages;
@@ -126,7 +130,7 @@ UserMessages reviewDistribution(const InputBlocks& blocks, const hop::Distributi
     whole << "Isovalue " << isovalue << ": " << text;
     messages.push_back({ kind, whole.str() });
   };
-  const hop::DistributionReport& report = distribution.report;
+  const DistributionReport& report = distribution.report;
   if (!report.error.empty())
   {
     add(UserMessage::Error, describeError(report, numberOfParticles));
@@ -148,3 +152,5 @@ UserMessages reviewDistribution(const InputBlocks& blocks, const hop::Distributi
   }
   return messages;
 }
+
+} // namespace hop

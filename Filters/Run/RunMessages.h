@@ -10,18 +10,24 @@
 #include <string>
 #include <vector>
 
-// Advice depends on the filter's NumberOfParticles: where it is positive, Spacing is ignored.
+namespace hop
+{
 
-/// A run that ended in an exception.
+// `numberOfParticles` is the filter's NumberOfParticles. The advice depends on it: where it is positive, Spacing is
+// ignored.
+
+/// Tells of a run that ended in an exception.
 UserMessage describeFailure(const std::exception& failure, std::int64_t numberOfParticles);
 
-/// Which arrays are not passed on.
+/// Tells which arrays are not passed on.
 UserMessages reviewArrays(const std::vector<InputBlock>& blocks);
 
-/// Which cells are not as they should be.
-/// \param census one a block
+/// Tells which cells are not as they should be.
+/// \param census one census a block
 UserMessages reviewCells(const InputBlocks& blocks, const std::vector<CellCensus>& census);
 
-/// What a distribution could not do.
-UserMessages reviewDistribution(const InputBlocks& blocks, const hop::Distribution& distribution,
+/// Tells what a distribution could not do.
+UserMessages reviewDistribution(const InputBlocks& blocks, const Distribution& distribution,
   double isovalue, std::int64_t numberOfParticles);
+
+} // namespace hop

@@ -15,8 +15,12 @@
 namespace
 {
 
+/// Values that a rank sends at most: one for each thousandth, with both ends. More make quantiles of several ranks more
+/// exact, fewer coarser.
 constexpr std::size_t mostSamples = 1001;
-/// Of longer arrays only so many values are looked at, as nobody wants to wait for a default.
+
+/// About the number of values that a rank looks at in longer arrays: sorting more would delay the default isovalue in
+/// the panel, fewer could miss small regions. Chosen by experiment.
 constexpr vtkIdType mostLookedAt = 1'000'000;
 
 } // namespace
@@ -26,7 +30,7 @@ vtkStandardNewMacro(vtkPVQuantileInformation);
 vtkPVQuantileInformation::vtkPVQuantileInformation() = default;
 vtkPVQuantileInformation::~vtkPVQuantileInformation() = default;
 
-/// Adds every step-th value of the component, or magnitude where there is no such component, if finite.
+/// Adds every step-th value of the component if it is finite; of the magnitude where there is no such component.
 void vtkPVQuantileInformation::AddValues(
   vtkDataArray* array, vtkIdType step, std::vector<double>& values) const
 {
@@ -103,7 +107,7 @@ double vtkPVQuantileInformation::GetQuantile(double share)
   {
     all += sample.second;
   }
-  // Each sample stands in the middle of its weight: of n equal ones sample share (n - 1) is wanted.
+  // Each sample stands in the middle of its weight: of n samples with equal weights, number share * (n - 1) is wanted.
   const double wanted = share * all * (1.0 - 1.0 / static_cast<double>(this->Samples.size()));
   double passed = 0.0;
   for (const auto& [value, weight] : this->Samples)

@@ -2,11 +2,11 @@
  * @class vtkPVQuantileInformation
  * @brief quantiles of a point array, gathered where the values are
  *
- * The value below which a given share of an array's finite values lies: of all blocks, on whatever ranks of
- * whatever server they are. Each rank hands over at most 1,001 of its values, evenly spaced by rank in
- * order, so that little travels, and looks at every n-th only if there are more than a million. On one rank
- * quantiles of shares that are thousandths are exact up to there; on several they are off by less than a
- * thousandth of a rank's values.
+ * A quantile is the value below which a given share of an array's finite values lies, over all blocks on all ranks of
+ * the server. Each MPI rank sends at most 1,001 of its values, evenly spaced in the sorted list, so that little
+ * travels. Of more than a million values a rank looks at every n-th only. With one rank and up to a million values,
+ * quantiles of shares that are thousandths are exact; with several ranks they are off by less than a thousandth of a
+ * rank's values.
  */
 #ifndef vtkPVQuantileInformation_h
 #define vtkPVQuantileInformation_h
@@ -29,8 +29,8 @@ public:
 
   ///@{
   /**
-   * What to look at: an output port of the source, a point array, and its component, or one past the last
-   * for the magnitude. Of an array with one component that one is taken, whatever is asked for.
+   * Which values are looked at: an output port of the source, a point array, and a component; the number of components,
+   * or more, stands for the magnitude. For an array with one component, Component is ignored.
    */
   vtkSetMacro(Port, int);
   vtkSetMacro(ArrayName, std::string);
@@ -43,12 +43,12 @@ public:
   bool HasValues() const { return !this->Samples.empty(); }
 
   /**
-   * The value below which that share of all values lies, 0 to 1. There must be values.
+   * The value below which a share of all values lies; the share is 0 to 1. There must be values.
    */
   double GetQuantile(double share);
 
   /**
-   * Takes its values from what a vtkAlgorithm has made.
+   * Takes the values from the output of a vtkAlgorithm.
    */
   void CopyFromObject(vtkObject* algorithm) override;
   void AddInformation(vtkPVInformation* other) override;
@@ -70,7 +70,7 @@ private:
   int Port = 0;
   std::string ArrayName;
   int Component = 0;
-  /// A value, and for how many it stands.
+  /// Values, each with the number of values for which it stands.
   std::vector<std::pair<double, double>> Samples;
 };
 

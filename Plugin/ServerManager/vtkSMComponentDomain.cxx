@@ -11,7 +11,7 @@ namespace
 {
 
 constexpr const char* magnitude = "Magnitude"; // as in vtkSMNumberOfComponentsDomain
-/// No array has as many components.
+/// Number of the magnitude of an array that is not known: no array has as many components.
 constexpr int magnitudeOfAny = VTK_INT_MAX;
 
 } // namespace
@@ -24,7 +24,7 @@ vtkSMComponentDomain::~vtkSMComponentDomain() = default;
 void vtkSMComponentDomain::Update(vtkSMProperty* property)
 {
   DeferDomainModifiedEvents once(this);
-  // The superclass keeps those of the array before where it does not find one.
+  // Where the superclass finds no array, it keeps the entries of the previous one.
   this->RemoveAllEntries();
   this->Superclass::Update(property);
   if (this->GetNumberOfEntries() == 0)
@@ -48,7 +48,7 @@ void vtkSMComponentDomain::OfferUsualNames()
   this->DomainModified();
 }
 
-/// Entries cannot be changed, only listed again.
+/// Gives the magnitude the property's value, if this is larger. Entries cannot be changed, so all are listed again.
 void vtkSMComponentDomain::NumberMagnitudeAsChosen()
 {
   const int components = this->GetEntryValueForText(magnitude);
@@ -58,6 +58,7 @@ void vtkSMComponentDomain::NumberMagnitudeAsChosen()
     return;
   }
   std::vector<std::string> names;
+  names.reserve(components);
   for (int component = 0; component < components; ++component)
   {
     names.emplace_back(this->GetEntryTextForValue(component));

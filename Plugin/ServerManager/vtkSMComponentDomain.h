@@ -3,12 +3,12 @@
  * @brief the components of an array and its magnitude, by names that are known before the array is
  *
  * vtkSMNumberOfComponentsDomain is empty until the input has run, and refuses the names that Python state files and
- * traces give before: `Component = 'Y'`. This one offers X, Y, Z and Magnitude as long as it does not know the
- * array, and no name at all, which is what the only component of a scalar is called. What other components are called,
- * as those of tensors, cannot be known: their numbers are accepted.
+ * traces use earlier: `Component = 'Y'`. As long as the array is not known, this domain offers X, Y, Z, Magnitude, and
+ * the empty name, which the only component of a scalar has. Names of other components, of tensors for instance, cannot
+ * be known; their numbers are accepted.
  *
- * The magnitude has the number of components for its number, as in vtkSMNumberOfComponentsDomain, or the
- * property's own value, if that is larger: it was given for the magnitude of an array not known yet, or of another one.
+ * The number of the magnitude is the number of components, as in vtkSMNumberOfComponentsDomain, or the property's own
+ * value, if this is larger: it was chosen as the magnitude of an array not known yet, or of another array.
  */
 #ifndef vtkSMComponentDomain_h
 #define vtkSMComponentDomain_h
@@ -24,7 +24,7 @@ public:
   vtkTypeMacro(vtkSMComponentDomain, vtkSMNumberOfComponentsDomain);
 
   /**
-   * Lists the components of the chosen array, or those that arrays usually have.
+   * Lists the components of the chosen array, or the usual components where there is no array.
    */
   void Update(vtkSMProperty* property) override;
 

@@ -27,7 +27,7 @@ bool isConstant(vtkPVArrayInformation* array)
   return true;
 }
 
-/// Whether a point array of that name looks like one that has isosurfaces.
+/// Whether a point array looks like a field that has isosurfaces.
 bool isField(vtkPVDataInformation* input, const std::string& name)
 {
   vtkPVArrayInformation* array = input->GetArrayInformation(name.c_str(), vtkDataObject::POINT);
@@ -49,8 +49,8 @@ vtkSMFieldListDomain::~vtkSMFieldListDomain() = default;
 
 int vtkSMFieldListDomain::SetDefaultValues(vtkSMProperty* property, bool useUnchecked)
 {
-  // Scripts set the active source as input before the one they name, be it particles that were made before. Left
-  // without a choice they get the default of their own input.
+  // ParaView first connects a new filter to the active source, which may be particles, and then to the input that the
+  // script names. Without a choice for the active source, the filter receives the default of the named input.
   vtkPVDataInformation* input = this->GetInputInformation();
   if (!input || !input->HasDataSetType(VTK_UNSTRUCTURED_GRID))
   {

@@ -2,11 +2,11 @@
  * @class vtkSMFieldListDomain
  * @brief a list of arrays whose default is a field, if there is one
  *
- * vtkSMArrayListDomain chooses the active scalars or the first array by name, which may be one that has
- * no isosurface worth a look. This one passes over arrays that are constant, hold integers (ids, ranks,
- * ghost levels), are the weights of rational cells, deal.II's `subdomain`, or have the name of one that the
- * filter itself makes, as long as there is another point array. All arrays stay in the list. There is no
- * default for an input without an unstructured grid.
+ * vtkSMArrayListDomain chooses the active scalars or the first array by name, which may have no isosurface worth a
+ * look. As long as there is another point array, this domain does not choose arrays that are constant, hold integers
+ * (ids, ranks, ghost levels) or the weights of rational cells, deal.II's `subdomain`, and arrays with names of the
+ * filter's own output arrays. All arrays stay in the list. There is no default for an input without an unstructured
+ * grid.
  */
 #ifndef vtkSMFieldListDomain_h
 #define vtkSMFieldListDomain_h

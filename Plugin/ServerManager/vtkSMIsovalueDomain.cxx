@@ -51,7 +51,9 @@ vtkSMIsovalueDomain::~vtkSMIsovalueDomain() = default;
 
 int vtkSMIsovalueDomain::SetDefaultValues(vtkSMProperty* property, bool useUnchecked)
 {
-  constexpr double leftOut = 0.01; // at either end
+  // Share of the values that is left out at either end. Larger shares hide small regions of extreme values, smaller
+  // ones let a few wrong values decide. Chosen by experiment.
+  constexpr double leftOut = 0.01;
   vtkNew<vtkPVQuantileInformation> values;
   this->LookAtValues(values);
   if (!values->HasValues())
@@ -67,8 +69,8 @@ int vtkSMIsovalueDomain::SetDefaultValues(vtkSMProperty* property, bool useUnche
   return 1;
 }
 
-/// Gathers the values of the chosen array. Where every rank runs the same script each would see its own
-/// values only, and choose another isovalue: there nobody looks.
+/// Gathers the values of the chosen array. Where every MPI rank runs the same script nothing is gathered: each rank
+/// would see only its own values and choose another isovalue.
 void vtkSMIsovalueDomain::LookAtValues(vtkPVQuantileInformation* values)
 {
   vtkSMUncheckedPropertyHelper input(this->GetRequiredProperty("Input"));

@@ -30,7 +30,7 @@ void vtkSMSpacingDomain::Update(vtkSMProperty* property)
 
 int vtkSMSpacingDomain::SetDefaultValues(vtkSMProperty* property, bool useUnchecked)
 {
-  constexpr double shareOfRange = 0.1;
+  constexpr double shareOfRange = 0.1; // leaves room for larger spacings on the slider
   if (!this->GetMaximumExists(0))
   {
     return 0;

@@ -1,13 +1,13 @@
 /**
  * @class vtkSMSpacingDomain
- * @brief a range of spacings, from bounds; nothing for an input which was not read yet or has no end
+ * @brief a range of spacings that follows from the input's bounds; empty where the bounds are unknown or not finite
  *
- * The range, which is that of the slider, is 0 to a share of the longest side of the bounds, in XML
- * `mode="scaled_extent"` and `scale_factor`; the default is a tenth of that share.
+ * The range of the slider is 0 to a share of the longest side of the bounds, in XML `mode="scaled_extent"` and
+ * `scale_factor`. The default is a tenth of the largest spacing.
  *
- * vtkSMBoundsDomain takes the bounds of such an input, which are empty, for real ones and gives a
- * length that means nothing: negative up to ParaView 5.13, 0.01 in 6.1. This one stays empty instead, so
- * that the property keeps the default of its own, with which the filter finds the length when it runs.
+ * Where the input was not read yet, vtkSMBoundsDomain computes with empty bounds and gives a length without meaning:
+ * negative up to ParaView 5.13, 0.01 in 6.1. This domain stays empty instead. The property then keeps its own default,
+ * with which the filter finds the spacing when it runs.
  */
 #ifndef vtkSMSpacingDomain_h
 #define vtkSMSpacingDomain_h
@@ -22,12 +22,12 @@ public:
   vtkTypeMacro(vtkSMSpacingDomain, vtkSMBoundsDomain);
 
   /**
-   * No range where the bounds of the input are not known, or not finite.
+   * Sets the range; there is none where the bounds of the input are not known, or not finite.
    */
   void Update(vtkSMProperty* property) override;
 
   /**
-   * Sets the property to the default; 0, and leaves it alone, where there is no range.
+   * Sets the property to the default and returns 1; where there is no range, leaves it alone and returns 0.
    */
   int SetDefaultValues(vtkSMProperty* property, bool useUnchecked) override;
 

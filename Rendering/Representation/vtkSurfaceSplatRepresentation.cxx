@@ -1,5 +1,6 @@
 #include "vtkSurfaceSplatRepresentation.h"
 
+#include "SplatInput.h"
 #include "vtkAlgorithm.h"
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
@@ -12,7 +13,6 @@
 #include "vtkRenderer.h"
 #include "vtkScalarsToColors.h"
 #include "vtkSurfaceSplatActor.h"
-#include "vtkSurfaceSplatInput.h"
 #include "vtkSurfaceSplatMapper.h"
 #include "vtkTransform.h"
 
@@ -22,7 +22,8 @@ vtkStandardNewMacro(vtkSurfaceSplatRepresentation);
 
 namespace
 {
-// While the camera moves and the view asks for a level of detail, about this many are drawn.
+// Number of particles that are drawn, about, while the camera moves and the view asks for a level of detail. Chosen by
+// experiment: more make the picture slower, fewer make it coarser.
 constexpr vtkIdType InteractiveParticles = 50000;
 }
 
@@ -32,11 +33,11 @@ vtkSurfaceSplatRepresentation::vtkSurfaceSplatRepresentation()
   , ArraysToColorBy(Particles)
 {
   this->Actor->SetMapper(this->Mapper);
-  // Of those that an input has.
-  this->Mapper->SetPointIdArrayName(vtkSurfaceSplatInput::BlockPointIdName);
-  this->Mapper->SetCellIdArrayName(vtkSurfaceSplatInput::BlockCellIdName);
-  this->Mapper->SetCompositeIdArrayName(vtkSurfaceSplatInput::BlockIndexName);
-  this->Mapper->SetCellColorArrayName(vtkSurfaceSplatInput::BlockColorName);
+  // Inputs need not have these arrays.
+  this->Mapper->SetPointIdArrayName(hop::SplatInput::BlockPointIdName);
+  this->Mapper->SetCellIdArrayName(hop::SplatInput::BlockCellIdName);
+  this->Mapper->SetCompositeIdArrayName(hop::SplatInput::BlockIndexName);
+  this->Mapper->SetCellColorArrayName(hop::SplatInput::BlockColorName);
   this->SetMapScalars(1);
   // As ParaView's other representations have them; vtkProperty has other defaults.
   this->SetPointSize(2.);
@@ -61,9 +62,9 @@ int vtkSurfaceSplatRepresentation::RequestData(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   const bool hasInput = inputs[0]->GetNumberOfInformationObjects() == 1;
-  this->Particles = vtkSurfaceSplatInput::AsParticles(
+  this->Particles = hop::SplatInput::AsParticles(
     hasInput ? vtkDataObject::GetData(inputs[0], 0) : nullptr, this->Blocks);
-  this->ArraysToColorBy = vtkSurfaceSplatInput::WithoutBlockIds(this->Particles);
+  this->ArraysToColorBy = hop::SplatInput::WithoutBlockIds(this->Particles);
   return this->Superclass::RequestData(request, inputs, outputs);
 }
 
@@ -160,18 +161,19 @@ void vtkSurfaceSplatRepresentation::UpdateColoring()
       break;
     case vtkDataObject::FIELD_ASSOCIATION_NONE:
       // Merged blocks have one number a cell.
-      this->Mapper->SetScalarMode(name == std::string(vtkSurfaceSplatInput::BlockNumberName)
+      this->Mapper->SetScalarMode(name == std::string(hop::SplatInput::BlockNumberName)
           ? VTK_SCALAR_MODE_USE_CELL_FIELD_DATA
           : VTK_SCALAR_MODE_USE_FIELD_DATA);
       this->Mapper->SetFieldDataTupleId(0);
       break;
-    default:
+    case vtkDataObject::FIELD_ASSOCIATION_POINTS:
+    default: // particles have no other arrays
       this->Mapper->SetScalarMode(VTK_SCALAR_MODE_USE_POINT_FIELD_DATA);
   }
 }
 
 //------------------------------------------------------------------------------
-// All that the sides have in common.
+// Gives the backface property all that both sides have in common.
 void vtkSurfaceSplatRepresentation::UpdateBackface()
 {
   vtkProperty* property = this->Actor->GetProperty();

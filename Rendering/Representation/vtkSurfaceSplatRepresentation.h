@@ -5,18 +5,17 @@
  *
  * Takes polydata and other point sets, or composites of them, whose blocks are drawn as one surface.
  * While the camera moves, if the view asks for a level of detail, some of the particles stand for all.
- * Particles carry point normals and, in a point array, radii; see the mapper for what happens
- * without.
+ * Particles carry point normals and, in a point array, radii; vtkSurfaceSplatMapper says what happens without them.
  */
 
 #ifndef vtkSurfaceSplatRepresentation_h
 #define vtkSurfaceSplatRepresentation_h
 
+#include "SplatInput.h"                               // for hop::SplatInput::Blocks
 #include "vtkHighOrderParticleRepresentationModule.h" // for export macro
 #include "vtkNew.h"                                   // for vtkNew
 #include "vtkPVDataRepresentation.h"
-#include "vtkSmartPointer.h"      // for vtkSmartPointer
-#include "vtkSurfaceSplatInput.h" // for vtkSurfaceSplatInput::Blocks
+#include "vtkSmartPointer.h" // for vtkSmartPointer
 
 class vtkPolyData;
 class vtkProperty;
@@ -65,8 +64,8 @@ public:
 
   ///@{
   /**
-   * Colour (RGB in [0, 1]) and opacity of those blocks of a composite that the selector names, instead
-   * of colours by an array and of the representation's own. Default: none.
+   * Colour (RGB in [0, 1]) and opacity of the blocks of a composite that the selector names. They come before colours
+   * by an array and before the representation's own. Default: none.
    */
   void SetBlockColor(const char* selector, double r, double g, double b);
   void RemoveAllBlockColors();
@@ -75,21 +74,21 @@ public:
   ///@}
 
   /**
-   * How many numbers blocks of a composite have in the field array vtkBlockColors, by which they may be coloured,
-   * until numbers begin again with 0. Default: 7.
+   * How many different numbers the blocks of a composite have in the field array vtkBlockColors, by which they may be
+   * coloured. Further blocks begin again with 0. Default: 7.
    */
   void SetBlockColorsDistinctValues(int count);
 
   /**
-   * 400: both sides alike; 401: only the outward one; 402: only the inward one; less: the inward side has the
-   * colours and the opacity below. Default: 400.
+   * ParaView's numbers. 400: both sides are drawn alike; 401: only the outward side is drawn; 402: only the inward
+   * side; a smaller number: the inward side has the colours and the opacity below. Default: 400.
    */
   void SetBackfaceRepresentation(int sides);
 
   ///@{
   /**
-   * Of the inward side, as vtkProperty's. Where an array gives the colours, both sides have them. By
-   * default white and opaque.
+   * Colours and opacity of the inward side, as in vtkProperty. Where an array gives the colours, both sides have its
+   * colours. By default white and opaque.
    */
   void SetBackfaceAmbientColor(double r, double g, double b);
   void SetBackfaceDiffuseColor(double r, double g, double b);
@@ -145,9 +144,9 @@ private:
   vtkNew<vtkSurfaceSplatMapper> Mapper;
   vtkNew<vtkSurfaceSplatActor> Actor;
   vtkNew<vtkProperty> Backface;
-  vtkSurfaceSplatInput::Blocks Blocks;
+  hop::SplatInput::Blocks Blocks;
   vtkSmartPointer<vtkPolyData> Particles;       // of this process; empty where it has no data
-  vtkSmartPointer<vtkPolyData> ArraysToColorBy; // the same as far as users care
+  vtkSmartPointer<vtkPolyData> ArraysToColorBy; // the same without arrays that are not for users
 };
 
 #endif

@@ -31,13 +31,14 @@ int cellType(Domain domain, CellKind kind)
 {
   switch (domain)
   {
+    case Domain::Hexahedron:
+      return kind == CellKind::Bezier ? VTK_BEZIER_HEXAHEDRON : VTK_LAGRANGE_HEXAHEDRON;
     case Domain::Tetrahedron:
       return kind == CellKind::Bezier ? VTK_BEZIER_TETRAHEDRON : VTK_LAGRANGE_TETRAHEDRON;
     case Domain::Wedge:
       return kind == CellKind::Bezier ? VTK_BEZIER_WEDGE : VTK_LAGRANGE_WEDGE;
-    default:
-      return kind == CellKind::Bezier ? VTK_BEZIER_HEXAHEDRON : VTK_LAGRANGE_HEXAHEDRON;
   }
+  unknownDomain();
 }
 
 /// What VTK stores at a node: the polynomial's value there, or the coefficient that belongs to it.

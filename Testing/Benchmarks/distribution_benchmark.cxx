@@ -117,7 +117,7 @@ void findSpacing(Request& request)
 /// The stages of the filter, one after the other.
 struct Stages
 {
-  GridElements elements;
+  hop::GridElements elements;
   hop::Isosurface surface;
   hop::Distribution distribution;
   Seconds setup, isolation, distributing, packing;
@@ -137,24 +137,24 @@ Seconds fastestOn(int threads, int repetitions, const std::function<void()>& wor
   return fastest(threads, repetitions, work);
 }
 
-InputBlocks blocksOf(const Request& request, vtkPolyData* output)
+hop::InputBlocks blocksOf(const Request& request, vtkPolyData* output)
 {
   vtkDataArray* array = request.grid->GetPointData()->GetArray(request.array.c_str());
-  return InputBlocks({ { request.grid, array, output, "" } }, 0);
+  return hop::InputBlocks({ { request.grid, array, output, "" } }, 0);
 }
 
 void runStages(const Request& request, Stages& stages)
 {
   const vtkNew<vtkPolyData> output;
-  const InputBlocks blocks = blocksOf(request, output);
+  const hop::InputBlocks blocks = blocksOf(request, output);
   constexpr double tolerancePerDiagonal = 1e-10; // the filter's default
   const auto onTwoThreads = [](const std::function<void(const hop::ParallelFor&)>& work)
   { return fastestOn(2, 1, [&] { withThreads(work); }); };
   stages.setup = onTwoThreads(
     [&](const hop::ParallelFor& parallelFor)
     {
-      stages.elements =
-        buildGridElements(blocks, hop::NodeSpacing::Uniform, { request.isovalue }, parallelFor);
+      stages.elements = hop::buildGridElements(
+        blocks, hop::NodeSpacing::Uniform, { request.isovalue }, parallelFor);
     });
   stages.surface = { &stages.elements.mesh, stages.elements.fieldIsovalue(request.isovalue),
     tolerancePerDiagonal * vtkBoundingBox(request.grid->GetBounds()).GetDiagonalLength() };
@@ -175,7 +175,8 @@ void runStages(const Request& request, Stages& stages)
     {
       const hop::Monitor noMonitor;
       hop::Interruptible work(noMonitor, parallelFor);
-      packParticles(blocks, stages.elements, { { request.isovalue, stages.distribution } }, work);
+      hop::packParticles(
+        blocks, stages.elements, { { request.isovalue, stages.distribution } }, work);
     });
 }
 
@@ -402,14 +403,14 @@ void measureStock(const Request& request, Record& record)
 void measureSampled(const Request& request, Record& record)
 {
   const vtkNew<vtkPolyData> unused;
-  const InputBlocks blocks = blocksOf(request, unused);
+  const hop::InputBlocks blocks = blocksOf(request, unused);
   vtkNew<vtkContour3DLinearGrid> contour;
   contour->MergePointsOn();
   const double before = presentMegabytes();
   const auto work = [&](const hop::ParallelFor& parallelFor)
   {
-    const GridElements elements =
-      buildGridElements(blocks, hop::NodeSpacing::Uniform, { request.isovalue }, parallelFor);
+    const hop::GridElements elements =
+      hop::buildGridElements(blocks, hop::NodeSpacing::Uniform, { request.isovalue }, parallelFor);
     contour->SetInputData(hop::testing::subdividedGrid(elements.mesh, request.pieces, parallelFor));
     contour->SetValue(0, elements.fieldIsovalue(request.isovalue));
     contour->Update();

@@ -54,11 +54,13 @@ Timings measure(vtkUnstructuredGrid* grid, vtkDataArray* array, double isovalue,
   const hop::ParallelFor& parallelFor)
 {
   Timings result;
-  const InputBlocks blocks({ { grid, array, nullptr, "" } }, 0);
-  GridElements elements;
+  const hop::InputBlocks blocks({ { grid, array, nullptr, "" } }, 0);
+  hop::GridElements elements;
   result.elements = bestSeconds(repetitions,
-    [&]() {
-      elements = buildGridElements(blocks, hop::NodeSpacing::Uniform, { isovalue }, parallelFor);
+    [&]()
+    {
+      elements =
+        hop::buildGridElements(blocks, hop::NodeSpacing::Uniform, { isovalue }, parallelFor);
     });
   result.kept = elements.mesh.elements.size();
   const double wantedSize = 0.03 * grid->GetLength();

@@ -13,7 +13,7 @@ OF_THE_SOURCE = (
     "TETRA", "HEXAHEDRON", "WEDGE", "PYRAMID",
     "QUADRATIC_TETRA", "QUADRATIC_HEXAHEDRON", "QUADRATIC_WEDGE", "QUADRATIC_PYRAMID", "TRIQUADRATIC_PYRAMID",
 )  # fmt: skip
-# Those it does not know: the linear type of the same corners, and the class.
+# Types that it does not know: the linear type with the same corners, and the class.
 BY_HAND = {
     "VOXEL": ("HEXAHEDRON", model.vtkVoxel),
     "BIQUADRATIC_QUADRATIC_HEXAHEDRON": ("HEXAHEDRON", model.vtkBiQuadraticQuadraticHexahedron),
@@ -57,8 +57,8 @@ def point_ids(cell):
 
 
 def fill_in_nodes(linear, cell_type, kind):
-    """The same cells with the nodes that another type of the same corners has on edges, faces and
-    inside. They share none."""
+    """The same cells as cells of another type with the same corners: with its nodes on edges, on faces and inside.
+    Cells share no nodes."""
     points, cells = [], []
     for cell in range(linear.GetNumberOfCells()):
         corners = support.points_of(linear)[ids_of(linear, cell)]
@@ -74,12 +74,12 @@ def nodes_between(corners, cell):
     count = cell.GetNumberOfPoints()
     for n in range(count):
         cell.GetPointIds().SetId(n, n)
-    # Whatever is neither on an edge nor on a face stands in the middle.
+    # A node that is neither on an edge nor on a face stands in the middle.
     nodes = np.tile(corners.mean(axis=0), (count, 1))
     nodes[: len(corners)] = corners
     faces = [point_ids(cell.GetFace(f)) for f in range(cell.GetNumberOfFaces())]
     edges = [point_ids(cell.GetEdge(e)) for e in range(cell.GetNumberOfEdges())]
-    for ids in faces + edges:  # edges last: nodes of faces that stand on edges are put right
+    for ids in faces + edges:  # edges last: they correct nodes of faces that stand on edges
         middle = corners[[i for i in ids if i < len(corners)]].mean(axis=0)
         for i in ids:
             if i >= len(corners):
@@ -88,7 +88,7 @@ def nodes_between(corners, cell):
 
 
 def anisotropic_grid(name, degrees):
-    """One cell of a tensor type whose degrees differ, and the array that says so."""
+    """One cell of a tensor type with different degrees, which an array of the grid gives."""
     kind = model.vtkLagrangeHexahedron if name.endswith("HEXAHEDRON") else model.vtkLagrangeWedge
     p, q, r = degrees
     lattice = [

@@ -1,7 +1,7 @@
 """What every Python test shares: the built plugin, loaded once, and the paths of the data.
 
-Run through ctest, which names the plugin (HOP_PLUGIN) and the folders of data (HOP_DATA,
-HOP_SHARED_DATA) in the environment.
+Run through ctest, which names the plugin (HOP_PLUGIN) and the folder of data (HOP_DATA) in the environment.
+HOP_SHARED_DATA may name a second folder of data: see Testing/Data/README.md.
 """
 
 import os
@@ -40,12 +40,14 @@ def data():
 
 @pytest.fixture(scope="session")
 def shared_data():
-    """shared_data('name.vtu'): path of a file too large for the repository; skips the test without it."""
+    """shared_data('name.vtu'): path of a file in the folder HOP_SHARED_DATA; skips the test without it."""
 
     def find(name):
         folder = os.environ.get("HOP_SHARED_DATA", "")
-        if not folder or not (Path(folder) / name).is_file():
-            pytest.skip(f"{name} is not in HOP_SHARED_DATA ('{folder}')")
+        if not folder:
+            pytest.skip(f"{name} is not part of the repository, and HOP_SHARED_DATA names no folder that has it")
+        if not (Path(folder) / name).is_file():
+            pytest.skip(f"{name} is not in the folder that HOP_SHARED_DATA names: {folder}")
         return _path_in(folder, name)
 
     return find

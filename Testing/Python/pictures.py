@@ -1,4 +1,4 @@
-"""Shared by the tests that look at pictures."""
+"""Helpers for the tests that look at pictures."""
 
 import numpy as np
 from paraview.vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -17,7 +17,7 @@ def read_png(path):
 
 
 def background_share(pixels):
-    """Share of the pixels that have the colour of most of them."""
+    """Share of the pixels that have the most frequent colour."""
     colors, counts = np.unique(pixels.reshape(-1, 3), axis=0, return_counts=True)
     return counts.max() / counts.sum()
 

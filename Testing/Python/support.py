@@ -1,9 +1,10 @@
-"""Shared by the tests of the filter: run it on a file or on a grid, look at what it wrote and said,
-and ask VTK's own cells, contour and locator for a second opinion."""
+"""Helpers for the tests of the filter: run it on a file or on a grid, look at its output and messages, and ask VTK's
+own cells, contour and locator for a second opinion."""
 
 import os
 
 import numpy as np
+from highorderparticles import vtkHighOrderParticleIsosurface
 from paraview import simple
 from paraview.vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.util.misc import calldata_type
@@ -16,7 +17,7 @@ from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkContourFilter, vtkFea
 
 
 class Messages:
-    """Collects what an algorithm says, so that a test can hold it against what it should say."""
+    """Collects the errors and warnings of an algorithm."""
 
     def __init__(self, algorithm):
         self.errors = []
@@ -32,8 +33,8 @@ class Messages:
 
 
 def environment_of_ranks():
-    """The environment for an MPI program. This process may be one itself; its children must not take themselves for
-    its ranks."""
+    """The environment for an MPI program, without the variables by which its processes would take themselves for ranks
+    of this process."""
     environment = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_", "PMIX_", "PRTE_"))}
     return {**environment, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
@@ -47,7 +48,7 @@ def read(path):
 
 
 def source_of(data):
-    """A data object that exists only here, as a source for filters."""
+    """A source for filters with a data object of this process."""
     source = simple.TrivialProducer()
     source.GetClientSideObject().SetOutput(data)
     source.UpdatePipeline()
@@ -79,7 +80,7 @@ def run(data, array, isovalues, **properties):
 
 
 def run_quietly(data, array, isovalues, **properties):
-    """Runs the filter, which must have nothing to complain about; returns its output."""
+    """Runs the filter, which must give no error or warning; returns its output."""
     output, messages = run(data, array, isovalues, **properties)
     said = messages.errors + messages.warnings
     assert said == [], "\n".join(said)
@@ -103,18 +104,33 @@ def array_of(data, name, association="point"):
 
 
 def array_names(attributes):
-    return {attributes.GetArrayName(i) for i in range(attributes.GetNumberOfArrays())}
+    return set(array_list(attributes))
+
+
+def array_list(attributes):
+    return [attributes.GetArrayName(i) for i in range(attributes.GetNumberOfArrays())]
+
+
+def own_arrays(association):
+    """{name: number of components} of the arrays that the filter says every output has, in their order; association:
+    vtkDataObject.POINT or FIELD."""
+    table = vtkHighOrderParticleIsosurface
+    return {
+        table.GetOutputArrayName(i): table.GetOutputArrayNumberOfComponents(i)
+        for i in range(table.GetNumberOfOutputArrays())
+        if table.GetOutputArrayAssociation(i) == association
+    }
 
 
 def reported(particles, name):
-    """A number of the report in the field data."""
+    """One number of the report in the field data."""
     array = particles.GetFieldData().GetArray(name)
     assert array is not None, f"no '{name}' in the report"
     return array.GetValue(0)
 
 
 def contents(particles):
-    """Everything that a particle has, as bytes, for comparisons bit for bit."""
+    """Points and point arrays as bytes, for comparisons bit for bit."""
     data = particles.GetPointData()
     arrays = {name: array_of(particles, name).tobytes() for name in array_names(data)}
     return {"points": points_of(particles).tobytes(), **arrays}
@@ -186,8 +202,8 @@ def evaluate_by_vtk(grid, particles, names):
 
 
 def nearest_neighbors(particles, candidates=10):
-    """Distance of every particle to the nearest one of its own sheet (normals less than 90 degrees
-    apart), in units of the harmonic mean of the spacings that both want; infinite where there is none."""
+    """Distance of every particle to the nearest particle of its own sheet (normals less than 90 degrees apart), in
+    units of the harmonic mean of the spacings that both want; infinite where there is no such particle."""
     points, normals, wanted = points_of(particles), array_of(particles, "Normals"), array_of(particles, "Radius")
     locator = vtkStaticPointLocator()
     locator.SetDataSet(particles)
@@ -205,8 +221,8 @@ def nearest_neighbors(particles, candidates=10):
 
 
 def distances_to(particles, points, unit=None):
-    """Distance of each point to the particle nearest to it; if asked for, of distances in units of an array of the
-    particle."""
+    """Distance of each point to its nearest particle. With `unit`, the name of an array, distances are in units of the
+    particle's value."""
     locator = vtkStaticPointLocator()
     locator.SetDataSet(particles)
     locator.BuildLocator()
@@ -224,8 +240,8 @@ def distances_to(particles, points, unit=None):
 
 
 def sample_surface(grid, name, isovalue, count, seed=1):
-    """Points of the true surface, found by VTK's own cells: by bisection between two random places of
-    a random cell that lie on different sides of it."""
+    """Points of the true surface, found with VTK's own cells: by bisection between two random places of a random cell
+    that lie on different sides of the surface."""
     dice = np.random.default_rng(seed)
     field = array_of(grid, name).astype(float) - isovalue
     samples = []
@@ -241,7 +257,7 @@ def sample_surface(grid, name, isovalue, count, seed=1):
 
 
 def bisect_in_cell(cell, nodal, dice):
-    """One point at which the polynomial of these nodal values is 0, or none."""
+    """A list with one point at which the polynomial of these nodal values is 0, or an empty list."""
     weights, position = np.zeros(len(nodal)), np.zeros(3)
 
     def value(u):
@@ -283,14 +299,14 @@ def stock_contour(grid, name, isovalue):
     return triangles.GetOutput()
 
 
-def rim_of(triangles):
+def boundary_length(triangles):
     """Length of the edges that have a triangle on one side only."""
-    rim = vtkFeatureEdges()
-    rim.SetInputData(triangles)
-    rim.FeatureEdgesOff()
-    rim.NonManifoldEdgesOff()
-    rim.Update()
-    edges = rim.GetOutput()
+    boundary = vtkFeatureEdges()
+    boundary.SetInputData(triangles)
+    boundary.FeatureEdgesOff()
+    boundary.NonManifoldEdgesOff()
+    boundary.Update()
+    edges = boundary.GetOutput()
     ends = vtk_to_numpy(edges.GetLines().GetConnectivityArray()).reshape(-1, 2)
     points = points_of(edges)
     return np.linalg.norm(points[ends[:, 0]] - points[ends[:, 1]], axis=1).sum()
@@ -303,10 +319,10 @@ def area_of(triangles):
     return mass.GetSurfaceArea()
 
 
-def hexagonal_count(area, spacing, rim=0.0):
-    """How many particles at that spacing an even, hexagonal packing puts on an area; those on its
-    rim have half of their own area outside."""
-    return area / (np.sqrt(3) / 2 * spacing**2) + rim / (2 * spacing)
+def hexagonal_count(area, spacing, boundary=0.0):
+    """How many particles a hexagonal packing of a spacing puts on an area with a boundary of a length; particles on the
+    boundary have half of their own area outside."""
+    return area / (np.sqrt(3) / 2 * spacing**2) + boundary / (2 * spacing)
 
 
 # Grids made here
@@ -337,7 +353,7 @@ def grid_of_cells(points, cells):
 
 
 def cells_of(grid, ids):
-    """These cells of a grid as one of their own, in this order, with the array u and nodes of their own."""
+    """A grid of some cells of a grid, in the order of their ids; each cell has its own nodes, with the array u."""
     cells, nodes = [], []
     for id in ids:
         cell = grid.GetCell(int(id))

@@ -24,7 +24,7 @@ def ball(points):
 
 
 def row_of_cells(name="LAGRANGE_HEXAHEDRON", degrees=(2, 2, 2), count=4):
-    """Cells side by side, none touching another, each with its own ball."""
+    """Cells side by side that share no points, each with its own ball."""
     parts = []
     for n in range(count):
         grid = cells.anisotropic_grid(name, degrees)
@@ -37,8 +37,8 @@ def row_of_cells(name="LAGRANGE_HEXAHEDRON", degrees=(2, 2, 2), count=4):
 
 
 def expect_skipped(grid, bad, reason, isovalue=ISOVALUE):
-    """The cells `bad` are named in one warning; all others give what they give in a healthy grid."""
-    # Poles of the balls touch no side of a box that halving makes.
+    """One warning names the cells `bad`; all other cells give what they give in a sound grid."""
+    # No pole of a ball touches the side of a box that halving makes.
     particles, messages = support.run(grid, "f", isovalue, Spacing=SPACING)
     assert messages.errors == []
     assert len(messages.warnings) == 1
@@ -131,9 +131,9 @@ def cubes(name, change=lambda points: points):
 
 
 def run_and_check(grid, kept, folded=()):
-    """Particles lie on the polynomials of the cells `kept`, and of no others. Returns them and what was said
-    of cells. Where a cell folds over, its map does not move (det J = 0), so that places on the surface in
-    the world may be off in the field: the world gradient is infinite."""
+    """Particles lie on the polynomials of the cells `kept`, and of no others. Returns the particles and the messages
+    about cells. Where a cell folds over, its map does not move (det J = 0): the world gradient is infinite, and the
+    field at places on the surface may be off."""
     particles, messages = support.run(grid, "f", PLANE, Spacing=SPACING)
     assert messages.errors == []
     points = support.points_of(particles)
@@ -215,7 +215,7 @@ def test_degrees_that_contradict_any_type(name):
 def test_flat_cells_of_every_type(name):
     grid, each = cubes(name, lambda points: points * [1, 1, 0] + [0, 0, 0.5])
     _, warnings = run_and_check(grid, set(range(3 * each)) - set(range(each, 2 * each)))
-    # Cells that hold no surface are not looked at.
+    # Cells without surface are not judged.
     flat = [c for c in range(each, 2 * each) if holds_surface(grid, c)]
     expect_one_warning(warnings, "without volume", len(flat), flat[0])
 
@@ -230,7 +230,7 @@ def test_left_handed_cells_of_every_type_are_harmless(name):
 
 
 def fold(points):
-    """Turns x back in a part of the cube."""
+    """Reverses x in a part of the cube."""
     x, y, z = points.T
     return np.c_[x - 1.6 * x * y * z, y, z]
 

@@ -77,7 +77,7 @@ def test_a_mesh_in_two_blocks_has_the_particles_of_the_whole(whole, composite):
 
 
 def test_particles_keep_their_distance_across_blocks(whole):
-    """Three slabs, that is, other cells first: other particles, but as many, as evenly spaced."""
+    """Three slabs have their cells in another order: other particles, but the same number, equally even."""
     across = middles_of(whole)[:, 0]
     owner = np.digitize(across, np.quantile(across, [1 / 3, 2 / 3]))
     slabs = [cells_of(whole, np.flatnonzero(owner == slab)) for slab in range(3)]
@@ -86,7 +86,7 @@ def test_particles_keep_their_distance_across_blocks(whole):
     apart, expected = nearest_neighbors(output), nearest_neighbors(alone)
     assert apart.min() > expected.min() - 0.1
     assert np.quantile(apart, 0.01) == pytest.approx(np.quantile(expected, 0.01), abs=0.03)
-    # No rim along the interfaces: one by one the slabs have more particles than the bound above allows.
+    # There are no boundary curves at the interfaces: contoured one by one, the slabs have more particles than that.
     one_by_one = sum(run_quietly(slab, **SURFACE).GetNumberOfPoints() for slab in slabs)
     assert one_by_one > 1.015 * alone.GetNumberOfPoints()
 
@@ -106,7 +106,7 @@ def test_ghost_cells_of_neighbouring_blocks_are_sampled_once(whole):
 
 
 def test_several_results_on_one_grid_have_surfaces_of_their_own(whole):
-    """As an ensemble brings them: same cells, fields of their own."""
+    """The blocks of an ensemble: the same cells, each time with other fields."""
     shifted = vtkUnstructuredGrid()
     shifted.DeepCopy(whole)
     add_point_array(shifted, "u", array_of(whole, "u") + 0.01)
@@ -118,7 +118,7 @@ def test_several_results_on_one_grid_have_surfaces_of_their_own(whole):
 
 
 def test_many_cells_in_one_place_are_sorted_quickly(whole):
-    """As in a block whose coordinates were never written."""
+    """Cells of a block whose coordinates were never written."""
     heap = grid_of_cells(np.zeros((8, 3)), [(VTK_HEXAHEDRON, range(8))] * 100_000)
     add_point_array(heap, "u", np.zeros(8))
     begin = time.monotonic()
@@ -208,7 +208,7 @@ def test_bad_cells_are_named_with_their_block(whole):
 
 
 def test_weights_apply_to_the_block_that_has_them(data):
-    """Planes in a rational Bezier pipe and in a box beside it: any wrong weight would bend them."""
+    """Planes in a rational Bezier pipe and in a box beside it: a wrong weight would bend them."""
     pipe = vtkUnstructuredGrid()
     pipe.DeepCopy(output_of(read(data("yeti_pipe_bezier_rational_p423.vtu"))))
     assert pipe.GetPointData().GetRationalWeights() is not None

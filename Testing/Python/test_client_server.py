@@ -35,7 +35,7 @@ simple.Disconnect()
 """
 
 
-# Of several ranks only the first runs it.
+# Where there are several ranks, only the first runs this script.
 RANKS = """
 import sys
 from paraview import simple
@@ -122,8 +122,8 @@ def test_client_and_server_agree_with_a_session_without(plugin, data, server, tm
         assert differing.mean() < 0.001, f"drawn by the {name}"
 
 
-# On the first file all values are in three pieces, on the second all are on one rank; where a few values of a
-# field lie far off, the middle of its whole range is another.
+# The first file has its values in three pieces, the second all on one rank. A few values far off must not move the
+# default isovalue, as they move the middle of the whole range.
 @pytest.mark.parametrize("file", ["dealii_shell_p3_00.pvtu", "mfem_dg_advection_0.vtu"])
 def test_ranks_agree_on_the_default_isovalue(plugin, data, tmp_path, file):
     for program in ("mpirun", "pvbatch"):

@@ -18,7 +18,7 @@ TESTED = {}
 
 @pytest.fixture(autouse=True)
 def fresh_session():
-    """Only what a test made is deleted: resetting the session after each of so many aborts ParaView."""
+    """Deletes only what a test made: ParaView aborts when its session is reset after each of so many tests."""
     yield
     for proxy in list(simple.GetSources().values()):
         simple.Delete(proxy)
@@ -45,7 +45,7 @@ def with_wave(grid):
 
 
 def middle_of(grid, name="f"):
-    """An isovalue that is none of the nodal values' own."""
+    """An isovalue that differs from all nodal values."""
     values = support.array_of(grid, name)
     return 0.47 * values.min() + 0.53 * values.max()
 
@@ -230,7 +230,7 @@ def test_components_and_magnitude_of_a_vector(name, order, component):
     particles = support.run_quietly(grid, "v", isovalue, Component=component, Spacing=0.08)
     assert particles.GetNumberOfPoints() > 50
     v = analytic_vector(support.points_of(particles))
-    # As many as there are components, or more: the magnitude.
+    # The number of components, or more, stands for the magnitude.
     chosen = np.linalg.norm(v, axis=1) if component >= 3 else v[:, component]
     np.testing.assert_allclose(chosen, isovalue, atol=1e-8, rtol=0)
     np.testing.assert_allclose(support.array_of(particles, "v"), v, atol=1e-10, rtol=0)
@@ -273,7 +273,7 @@ def test_gauss_lobatto_nodes(order):
     assert particles.GetNumberOfPoints() > 200
     radius = np.linalg.norm(support.points_of(particles) - 0.4, axis=1)
     np.testing.assert_allclose(radius, 0.3, atol=1e-9, rtol=0)
-    # Where the nodes really stand, positions are the parametric coordinates.
+    # With the true places of the nodes, positions are the parametric coordinates.
     np.testing.assert_allclose(
         support.array_of(particles, "ParametricCoordinates"), support.points_of(particles), atol=1e-9
     )
@@ -281,8 +281,8 @@ def test_gauss_lobatto_nodes(order):
 
 
 def test_a_file_with_gauss_lobatto_nodes(data):
-    """The spectral element solver's shell: with the right nodes cells meet, with the wrong ones the
-    field is another one."""
+    """A spectral element solver's shell: with the right places of the nodes cells meet, with wrong places the field is
+    another one."""
     reader = support.read(data("trixi_adv_sphere_hex_p3.vtu"))
     spacing = support.longest_side(support.output_of(reader)) / 40
     uniform, _ = support.run(reader, "scalar", 1.28, Spacing=spacing)
@@ -472,7 +472,8 @@ def test_plates_far_from_the_origin_keep_their_thickness(axis):
 
 @pytest.mark.parametrize("degree", [2, 3, 5, 6])
 def test_a_surface_in_the_faces_at_the_end_of_the_mesh_is_covered_up_to_its_edges(degree):
-    """Conversion to Bernstein coefficients leaves rounding errors there, which are no rims."""
+    """The conversion to Bernstein coefficients leaves rounding errors in the faces, which must not become boundary
+    curves."""
     nodes = support.points_of(cells.anisotropic_grid("LAGRANGE_HEXAHEDRON", (degree,) * 3))
     corners = np.array(list(np.ndindex(3, 3, 3)), dtype=float)
     points = (corners[:, None] + nodes[None]).reshape(-1, 3)

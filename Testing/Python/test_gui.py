@@ -98,7 +98,7 @@ def test_a_user_finds_the_filter_and_sees_the_surface(plugin, data, screen, tmp_
     assert np.unique(view[surface], axis=0).shape[0] > 1000, "shaded, and coloured by curvature"
 
 
-# Runs in ParaView's window: the same filter twice, of which the first run is meant to be aborted.
+# Runs in ParaView's window: the same filter twice; the first run is to be aborted.
 ABORTED = """
 import json, os, time
 from paraview.simple import *

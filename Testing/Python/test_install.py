@@ -18,7 +18,7 @@ print({NAME}(Input=UnstructuredCellTypes()).GetXMLLabel())
 
 
 def install(prefix, root=""):
-    """Install into prefix, as it will be called on a machine whose root directory is here called root."""
+    """Installs into prefix, the path on a machine whose root directory is `root` here."""
     subprocess.run([os.environ["HOP_CMAKE"], "--install", os.environ["HOP_BUILD"], "--prefix", str(prefix)],
                    env={**os.environ, "DESTDIR": str(root)}, capture_output=True, check=True)
 

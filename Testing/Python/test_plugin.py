@@ -1,6 +1,7 @@
 """The plugin as ParaView sees it: its name, its proxies, their labels, menu and defaults."""
 
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -46,6 +47,18 @@ def test_plugin_is_loaded_under_its_name(plugin):
     assert plugin.name == NAME + ".so"
 
 
+def test_the_plugin_is_described_once():
+    """ParaView builds the folder of the file that describes the plugin; the file itself is the one at the top."""
+    project = Path(__file__).resolve().parents[2]
+    description = project / "paraview.plugin"
+    assert (project / "Plugin/paraview.plugin").resolve() == description
+    version = re.search(r"project\(\w+ VERSION ([\d.]+)", (project / "CMakeLists.txt").read_text())[1]
+    known = servermanager.vtkSMProxyManager.GetProxyManager().GetPluginManager().GetLocalInformation()
+    i = next(i for i in range(known.GetNumberOfPlugins()) if known.GetPluginName(i) == NAME)
+    assert known.GetPluginVersion(i) == version
+    assert re.sub(r"\s+", " ", known.GetDescription(i)).strip() in re.sub(r"\s+", " ", description.read_text())
+
+
 def test_filter_has_its_label_and_its_place_in_the_filters_menu():
     proxy = new_proxy("filters", NAME)
     assert proxy.GetXMLLabel() == "High-Order Particle Isosurface"
@@ -70,7 +83,7 @@ def filter_on(**arrays):
 
 
 def test_contour_by_starts_with_a_field():
-    """ParaView's list goes by the alphabet, and takes the first."""
+    """ParaView's own domain takes the first array of the alphabet."""
     ramp = np.linspace(0.0, 1.0, 8)
     labels = {"GlobalNodeId": np.arange(8), "RationalWeights": ramp + 1, "a_constant": np.ones(8), "subdomain": ramp}
     proxy = filter_on(**labels, temperature=2 * ramp)
@@ -126,7 +139,7 @@ def test_one_odd_value_does_not_move_the_default_isovalue():
 
 
 def test_another_filter_on_a_reader_has_the_same_defaults():
-    """Though the particles of the first one are the active source when it is made."""
+    """Also where the particles of the first filter are the active source."""
     reader = filter_on(u=np.linspace(0.0, 7.0, 8)).Input
     first, second = (simple.HighOrderParticleIsosurface(Input=reader) for _ in range(2))
     simple.SetActiveSource(first)
@@ -164,7 +177,7 @@ def unread(source):
 
 @pytest.mark.parametrize("components", [2, 3, 6, 9])
 def test_components_have_names_before_their_array_is_known(components):
-    """As Python state files give them: that of a scalar has none."""
+    """Names as Python state files give them: the component of a scalar has the empty name."""
     vectors = np.linspace(0.0, 1.0, 8)[:, None] * np.arange(1.0, components + 1)
     known = filter_on(v=vectors)
     known.Component = "Magnitude"
@@ -225,7 +238,7 @@ def test_the_slider_of_the_spacing_reaches_beyond_its_default():
 
 @pytest.mark.parametrize("bad", [np.inf, -np.inf])
 def test_no_spacing_comes_from_bounds_that_are_not_finite(bad):
-    """One cell of two is wrong; the other has its particles at once."""
+    """One cell of two is wrong; the other has particles with the default properties."""
     corners = np.array([[i, j, k] for k in (0, 1) for i, j in ((0, 0), (1, 0), (1, 1), (0, 1))], dtype=float)
     points = np.concatenate([corners, corners])
     points[8:10, 0] = bad, -bad
@@ -254,7 +267,7 @@ def test_representation_is_offered_for_particles():
     assert "Surface Splats" in representation.GetProperty("Representation").Available
 
 
-# What PrintSelf does not call by the name of the XML's command.
+# Settings that PrintSelf does not call by the name of the XML's command.
 PRINTED_AS = {
     "MapScalars": "ColorMode",
     "BackfaceRepresentation": "BackfaceCulling",
@@ -263,7 +276,7 @@ PRINTED_AS = {
 
 
 def names_with_defaults(group, name):
-    """What PrintSelf should call the settings that the XML has defaults of."""
+    """PrintSelf's names of the settings that have defaults in the XML."""
     definitions = proxy_manager().GetProxyDefinitionManager()
     definition = definitions.GetCollapsedProxyDefinition(group, name, None, True)
     elements = [definition.GetNestedElement(i) for i in range(definition.GetNumberOfNestedElements())]

@@ -1,5 +1,5 @@
-"""A number of particles that several MPI ranks share: deal.II's shell in three pieces, on four ranks, so that one of
-them has no data at all."""
+"""A number of particles that several MPI ranks share: deal.II's shell in three pieces, on four ranks, so that one rank
+has no data at all."""
 
 import json
 import shutil
@@ -13,8 +13,8 @@ RANKS = 4
 NUMBER = 1000
 VALUES = [0.3, 0.4]
 
-# Every rank runs it and writes, case by case, what it has of each isosurface in each block: how many particles, and
-# the smallest and largest Radius.
+# Every rank runs this script and writes, case by case, what it has of each isosurface in each block: the number of
+# particles, and the smallest and largest Radius.
 SCRIPT = """
 import json, sys
 from paraview import servermanager, simple
@@ -95,7 +95,7 @@ result = {
     "two results": [described(block) for block in map(particles_of(two_results(), **even).GetBlock, (0, 1))],
     "aborted": [described(particles_of(piece, change=abort_here, **even))],
     "no array": [described(particles_of(without_array_here(), **even))],
-    "too many": [described(particles_of(piece, number=10**12))],
+    "too many": [described(particles_of(piece, number=2 * 10**9))],
     "spacing": [described(particles_of(piece, number=0, Spacing=0.1, **even))],
 }
 with open(f"{folder}/rank{rank}.json", "w") as file:
@@ -127,7 +127,7 @@ def counts(block):
 
 
 def radii(block, value):
-    """All smallest and largest ones."""
+    """All smallest and largest radii."""
     return [radius for of_rank in block for radius in of_rank[value][1:] if radius is not None]
 
 
@@ -144,7 +144,7 @@ def test_particles_stand_as_dense_on_all_ranks(ranks, data):
     (with_spacing,) = ranks["spacing"]
     for value in range(len(VALUES)):
         assert len(set(radii(block, value))) == 1
-        # As many as the spacing that was found asks for.
+        # The number that the common spacing asks for.
         expected = [0.1**2 / radii(block, value)[0] ** 2 * n for n in counts(with_spacing)[value]]
         assert counts(block)[value] == pytest.approx(expected, rel=0.1)
 
@@ -154,7 +154,7 @@ def test_classic_gives_the_number_too(ranks):
     for case in ("classic", "bent classic"):
         (block,) = ranks[case]
         assert all(0.99 * NUMBER <= sum(some) <= NUMBER for some in counts(block))
-    # Ranks have the same shares with either method.
+    # Ranks have the same shares with both methods.
     for some, of_fast in zip(*(counts(ranks[case][0]) for case in ("classic", "even"))):
         assert some == pytest.approx(of_fast, abs=0.01 * NUMBER)
 

@@ -13,25 +13,25 @@ TOLERANCE = 1e-10  # the filter's default; no particle may be farther from the s
 
 @dataclass(frozen=True)
 class Case:
-    """A file, an isosurface of it, and how well particles can stand on it (measured with four seeds, and a
-    margin)."""
+    """A file, an isosurface of it, and limits on the evenness of its particles: measured with four seeds, plus a
+    margin."""
 
     file: str
     array: str
     isovalue: float
-    # Spacing: the longest side of the file divided by this.
+    # The spacing is the longest side of the grid divided by this number.
     per_side: int = 60
-    # Values differ between neighbouring cells: the surface has seams, where sheets overlap or gape.
+    # The field jumps between neighbouring cells: there the two parts of the surface overlap or gape.
     jumps: bool = False
-    # The surface bends faster than the spacing somewhere, and the filter says so.
+    # Somewhere the surface bends faster than the spacing can follow, and the filter says so.
     undersampled: bool = False
-    # Pieces of surface smaller than the spacing, as between jumps, hold particles closer than it.
-    # In units of the spacing. Hexagonal packing: nearest neighbour 1, farthest point of the surface
-    # from its particle 0.577.
+    # Least distance of two particles, least distance that 99 of 100 particles keep from their neighbours, and largest
+    # distance of a point of the surface from its particle, in units of the spacing: 1, 1 and 0.577 in a hexagonal
+    # packing. Pieces of the surface smaller than the spacing, between jumps for instance, hold particles closer.
     nearest: float = 0.6
-    nearest_of_most: float = 0.75  # 99 of 100
+    nearest_of_most: float = 0.75
     coverage: float = 0.72
-    # Share of the surface that may lie farther off: slivers between jumps, smaller than the spacing.
+    # Share of the surface that may be farther from its particle: slivers between jumps.
     slivers: float = 0.0
     # Too large for the repository.
     shared: bool = False
@@ -156,17 +156,17 @@ def test_no_place_of_the_surface_is_left_bare(run):
 
 def test_there_are_as_many_particles_as_the_area_asks_for(run):
     surface = support.stock_contour(run.grid, run.case.array, run.case.isovalue)
-    area, rim = support.area_of(surface), support.rim_of(surface)
-    without_rim = support.hexagonal_count(area, run.spacing)
-    with_rim = support.hexagonal_count(area, run.spacing, rim)
-    # At jumps the contour's own seams count as rim, which they are only where the surface gapes.
-    fewest = without_rim if run.case.jumps else with_rim
-    assert 0.95 * fewest <= run.count <= 1.05 * with_rim
+    area, boundary = support.area_of(surface), support.boundary_length(surface)
+    inside_only = support.hexagonal_count(area, run.spacing)
+    with_boundary = support.hexagonal_count(area, run.spacing, boundary)
+    # At jumps the contour has a boundary everywhere, the particles' surface only where it gapes.
+    fewest = inside_only if run.case.jumps else with_boundary
+    assert 0.95 * fewest <= run.count <= 1.05 * with_boundary
 
 
 @pytest.mark.parametrize("spacing", [0.04, 0.05, 0.06, 0.08])
 def test_no_particle_is_lost_where_the_field_jumps_a_little(data, spacing):
-    # Near such faces either side takes the surface for that of the other.
+    # Near small jumps either side takes the surface of the other side for its own.
     reader = support.read(data("mfem_cylinder_hex_prism_p3.vtu"))
     particles, many = (
         support.run_quietly(reader, "pressure", 0.2, Spacing=distance, AngularDensity=0)
@@ -176,11 +176,11 @@ def test_no_particle_is_lost_where_the_field_jumps_a_little(data, spacing):
     assert support.distances_to(particles, support.points_of(many)).max() <= 0.8 * spacing
 
 
-# As they come when nothing but the isovalue is chosen: closer where the surface bends
+# Default properties: closer where the surface bends
 
 
-# The nearest pair, that of 99 of 100, and the farthest place from all, in units of the spacings wanted, where
-# they are not 0.75, 0.8 and 0.85.
+# Case.nearest, nearest_of_most and coverage, in units of the spacings that particles want, where these limits are not
+# 0.75, 0.8 and 0.85.
 AT_DEFAULTS = {
     "dolfinx_tet_p3.vtu": (0.45, 0.7, 0.85),
     "pyfr_cylinder_5040hex_696prism_p3.vtu": (0.15, 0.6, 0.9),
@@ -218,7 +218,7 @@ def test_radius_one_in_the_torus_is_a_cylinder_of_revolution(data):
     assert np.abs(distance - 1).max() <= interpolation_error
     outward = np.c_[points[:, :2] / distance[:, None], np.zeros(len(points))]
     np.testing.assert_allclose(support.array_of(particles, "Normals"), -outward, atol=2e-3)
-    # The values grow outward: seen from the lower side the cylinder is hollow.
+    # Values grow outwards: seen from the side of lower values, the cylinder is hollow.
     np.testing.assert_allclose(support.array_of(particles, "Mean_Curvature"), -0.5, atol=0.02)
     np.testing.assert_allclose(support.array_of(particles, "Gauss_Curvature"), 0.0, atol=0.02)
 
@@ -239,7 +239,7 @@ def test_zero_of_the_layer_is_nearly_a_sphere(data):
 def test_particles_cross_the_faces_of_refined_elements(data, method, least):
     reader = support.read(data("mfem_amr_hanging_hex_p3.vtu"))
     particles = support.run_quietly(reader, "u", 0.0, Spacing=0.03, Method=method)
-    # The mesh is a cube without one of its eighths: there alone the surface ends.
+    # The mesh is a cube without one of its eighths: the surface ends only there.
     away = support.points_of(particles).max(axis=1) > 0.12
     assert 0.7 < away.mean() < 1.0
     assert support.nearest_neighbors(particles)[away].min() >= least

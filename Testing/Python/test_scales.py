@@ -21,7 +21,7 @@ def box_of_cells(cell_type, blocks, order=1):
 @pytest.mark.parametrize("cell_type", [VTK_LAGRANGE_HEXAHEDRON, VTK_LAGRANGE_WEDGE])
 @pytest.mark.parametrize("amplitude", [1e-1, 1e-2, 1e-3])
 def test_small_changes_of_a_large_value(cell_type, amplitude):
-    """As pressure in pascals."""
+    """Values like pressures in pascals."""
     grid = box_of_cells(cell_type, (4, 4, 4), 2)
     x = support.points_of(grid) - 2.0
     change = np.sum(x**2, axis=1) - 2.0
@@ -41,7 +41,7 @@ def test_small_changes_of_a_large_value(cell_type, amplitude):
 @pytest.mark.parametrize("layers", [1, 2])
 @pytest.mark.parametrize("thickness", [0.03, 0.1])
 def test_plates_thinner_than_the_spacing(cell_type, layers, thickness):
-    """Their two sides are not what lies behind each other. The surface is a strip across twelve cells."""
+    """The two sides of a thin cell are not neighbours of each other. The surface is a strip across twelve cells."""
     grid = box_of_cells(cell_type, (12, 12, layers))
     x = support.points_of(grid) * [1.0, 1.0, thickness / layers]
     cells.set_points(grid, x)

@@ -27,14 +27,14 @@ simple.SaveScreenshot({picture!r}, view, ImageResolution=[300, 300])
 
 
 def trace_item(name, **arguments):
-    """A step for the trace that is running, if one is: what the GUI's own code makes where a user acts."""
+    """A step for the running trace, if there is one, as the GUI's own code makes it where a user acts."""
     tracing = servermanager.vtkSMTrace.GetActiveTracer() is not None
     return smtrace._create_trace_item_internal(name, kwargs=arguments) if tracing else None
 
 
 @contextmanager
 def apply_button(proxy):
-    """What the properties panel does around a change: without it a trace does not see the change."""
+    """Does what the properties panel does around a change: without it a trace does not see the change."""
     item = trace_item("PropertiesModified", proxy=proxy.SMProxy)
     yield
     if item:
@@ -42,7 +42,7 @@ def apply_button(proxy):
 
 
 def make_session(data):
-    """What a user does: open a file, apply the filter, colour the surface, turn it."""
+    """Does what a user does: opens a file, applies the filter, colours the surface, rotates it."""
     reader = simple.XMLUnstructuredGridReader(registrationName="file", FileName=[data("mfem_hex1_p8.vtu")])
     reader.UpdatePipeline()
     surface = simple.HighOrderParticleIsosurface(registrationName="surface", Input=reader)
@@ -127,7 +127,7 @@ def test_state_files_bring_the_session_back(plugin, data, expected, kind):
     expected.compare()
 
 
-# The component is to keep its name when its array is known.
+# The component has to keep its name when its array becomes known.
 VECTOR_EPILOGUE = """
 from paraview import simple
 surface = simple.FindSource("surface")
@@ -151,7 +151,7 @@ def make_vector_session(data, component, isovalue):
 
 
 def script_of(kind, make_session, folder):
-    """Calls make_session(); its result, and a script that brings the session back."""
+    """Calls make_session(); returns its result and a script that brings the session back."""
     if kind == "trace":
         smtrace.start_trace()
         try:

@@ -27,7 +27,7 @@ def test_every_step_of_a_series_is_what_its_file_is_alone(data):
 
 
 def write_in_pieces(grid, owner, folder, ghosts):
-    """A .pvtu of as many pieces as there are owners, each, with ghosts, with the cells around it."""
+    """A .pvtu with one piece an owner; with ghosts, each piece has the cells around it too."""
     middles, reach = middles_of(grid), 0.3 * longest_side(grid)
     names = []
     for piece in np.unique(owner):
@@ -67,7 +67,7 @@ def test_nothing_is_sampled_twice_where_pieces_meet(data, tmp_path):
         for ghosts in (False, True))
     assert bare.GetNumberOfPoints() == pytest.approx(whole.GetNumberOfPoints(), rel=0.02)
     assert np.array_equal(points_of(overlapping), points_of(bare))
-    # A sheet sampled twice would have its particles anywhere between each other.
+    # Two sets of particles on one surface would stand at any distance from each other.
     apart, together = nearest_neighbors(bare), nearest_neighbors(whole)
     assert np.quantile(apart, 0.01) == pytest.approx(np.quantile(together, 0.01), abs=0.1)
     assert len(np.unique(points_of(bare), axis=0)) == bare.GetNumberOfPoints()
@@ -80,5 +80,5 @@ def test_a_solvers_file_in_three_pieces(data, method):
     assert particles.GetNumberOfPoints() > 1500
     assert len(np.unique(points_of(particles), axis=0)) == particles.GetNumberOfPoints()
     apart = nearest_neighbors(particles)
-    # Doubled sheets would have half of all particles at a small distance from another's.
+    # Where a surface is covered twice, half of all particles are close to a particle of the other set.
     assert np.mean(apart < 0.4) < 0.02

@@ -208,7 +208,7 @@ def test_any_representation_of_back_faces_means_the_surface(view, picture, neste
 
 
 def compare_with_polygons(source, view, picture, settings, color, array):
-    """Both show `color` in the middle, or, without one, the same."""
+    """Both show `color` in the middle or, if it is not given, the same colour."""
     seen = []
     for representation in ("Surface", "Surface Splats"):
         display = show(source, view)
@@ -314,7 +314,7 @@ for i, pieces in enumerate([[], [a], [b, c], [d]]):
 @pytest.mark.parametrize("distinct", [2, 7])
 @pytest.mark.parametrize("tree", TREES)
 def test_blocks_have_the_colours_of_their_numbers(view, picture, tree, distinct):
-    """As their triangles have where they are coloured by vtkBlockColors."""
+    """Colours by vtkBlockColors, as triangles of the same blocks have them."""
     places = [(x, 0, z) for z in (-0.5, 0.5) for x in (-0.5, 0.5)]
     blocks = simple.ProgrammableFilter(Input=[particles(place) for place in places], OutputDataSetType=tree)
     blocks.Script = TREES[tree]

@@ -16,7 +16,7 @@ def hexahedron(data):
 
 
 def stayed(before, after, distance):
-    """Share of the particles before that have one after within that distance."""
+    """Share of the earlier particles that have a later particle within the distance."""
     locator = vtkStaticPointLocator()
     locator.SetDataSet(after)
     locator.BuildLocator()
@@ -28,7 +28,7 @@ def expect_as_good(particles, scratch):
     count, wanted = particles.GetNumberOfPoints(), scratch.GetNumberOfPoints()
     assert count == pytest.approx(wanted, rel=0.03)
     assert array_of(particles, "Residual").max() <= 1e-9
-    # The single nearest pair, 0.60 to 0.80 at any isovalue, is chance from scratch as well.
+    # The distance of the nearest pair alone, 0.60 to 0.80 at any isovalue, is chance in runs from scratch as well.
     assert nearest_neighbors(particles).min() > 0.55
     for quantile in (0.02, 0.1, 0.5):
         asked, other = (np.quantile(nearest_neighbors(some), quantile) for some in (particles, scratch))
@@ -47,7 +47,7 @@ def test_an_isovalue_is_followed(hexahedron):
         if before is not None:
             shares.append([stayed(before, after, 0.25 * SPACING) for after in (particles, scratch)])
         before = particles
-    # The surface itself moves, at some steps by more than that.
+    # The surface itself moves, in some steps by more than this distance.
     followed, by_chance = np.mean(shares, axis=0)
     assert followed > 1.5 * by_chance
     assert messages.errors + messages.warnings == []
@@ -108,7 +108,7 @@ def test_several_isovalues_go_on_each_by_itself(hexahedron):
     surface.Isosurfaces = [0.21, 0.4]
     particles = output_of(surface)
     expect_as_good(particles, run_quietly(hexahedron, "u", [0.21, 0.4], Spacing=SPACING))
-    # The one that did not change is the same again.
+    # The isosurface that did not change is the same again.
     alone = run_quietly(hexahedron, "u", 0.4, Spacing=SPACING)
     at_second = array_of(particles, "Isovalue") == 0.4
     assert np.array_equal(points_of(particles)[at_second], points_of(alone))

@@ -34,7 +34,7 @@ def test_the_filter_gives_what_its_proxy_gives(data):
 
 
 def vector_field(path):
-    """With active scalars and active vectors that are not the same."""
+    """A grid whose active scalars and active vectors are different arrays."""
     reader = vtkXMLUnstructuredGridReader()
     reader.SetFileName(path)
     reader.Update()

@@ -84,11 +84,11 @@ void AddShapeOfSphere(vtkPolyData* particles, double radius)
     glm::dvec3 x;
     particles->GetPoint(i, &x.x);
     const glm::dvec3 n = glm::normalize(x);
-    const double turn[6] = { 1. - n.x * n.x, 1. - n.y * n.y, 1. - n.z * n.z, -n.x * n.y, -n.y * n.z,
-      -n.x * n.z };
+    const double shapeOfUnitSphere[6] = { 1. - n.x * n.x, 1. - n.y * n.y, 1. - n.z * n.z,
+      -n.x * n.y, -n.y * n.z, -n.x * n.z };
     for (int c = 0; c < 6; ++c)
     {
-      shape->InsertNextValue(turn[c] / radius);
+      shape->InsertNextValue(shapeOfUnitSphere[c] / radius);
     }
   }
   particles->GetPointData()->AddArray(shape);
@@ -307,7 +307,7 @@ void ForEachPlaceOnSphere(const SplatScene& scene,
 }
 
 void ExpectClippingPlaneCuts(
-  SplatScene& scene, const SplatView& view, glm::dvec3 centre, double margin, double tolerance)
+  SplatScene& scene, const SceneView& view, glm::dvec3 centre, double margin, double tolerance)
 {
   scene.LookFrom(view.Direction, view.Parallel);
   // Keeps what lies 0.2 or more towards the viewer's upper right, whatever the view.

@@ -31,16 +31,16 @@ vtkSmartPointer<vtkPolyData> Disks(
 // Adds one vertex cell a point: `order[cell]` is the point of the cell, or the cell's number.
 void AddVertexCells(vtkPolyData* particles, const std::vector<vtkIdType>& order = {});
 
-// Adds shape operators: how the normals of a sphere around the origin turn.
+// Adds the shape operators of a sphere around the origin.
 void AddShapeOfSphere(vtkPolyData* particles, double radius);
 
 // Where a scene is looked at from.
-struct SplatView
+struct SceneView
 {
   glm::dvec3 Direction;
   bool Parallel;
 
-  friend std::ostream& operator<<(std::ostream& os, const SplatView& view)
+  friend std::ostream& operator<<(std::ostream& os, const SceneView& view)
   {
     return os << (view.Parallel ? "parallel" : "perspective") << " from " << view.Direction.x << " "
               << view.Direction.y << " " << view.Direction.z;
@@ -52,7 +52,8 @@ class SplatScene
 public:
   static constexpr int Size = 256; // pixels, both ways
 
-  // The mode is Disks until a test chooses another one. All positions that a scene gives or takes are relative to `centre`.
+  // The mode is Disks until a test chooses another one. All positions that a scene gives or takes are relative to
+  // `centre`.
   explicit SplatScene(vtkPolyData* particles, glm::dvec3 centre = glm::dvec3(0.));
   ~SplatScene();
 
@@ -112,9 +113,9 @@ private:
   std::vector<unsigned char> Color;
 };
 
-// Of the spheres that tests draw: particles on them, and where they are looked at from.
+// Number of particles on the spheres that tests draw, and where the spheres are looked at from.
 constexpr int Count = 5000;
-inline const SplatView SphereViews[] = { { { 0., 0., 1. }, false }, { { 0., 0., 1. }, true },
+inline const SceneView SphereViews[] = { { { 0., 0., 1. }, false }, { { 0., 0., 1. }, true },
   { { -1., 2., 0.5 }, false }, { { 0.3, -1., -2. }, true } };
 
 // Pixels that see a sphere at more than this cosine are away from its outline.
@@ -128,7 +129,7 @@ void ForEachPlaceOnSphere(const SplatScene& scene,
 // Cuts the unit sphere by a clipping plane. What lies before it by more than `margin` is to be seen, at
 // most `tolerance` from the sphere, what lies behind it by as much is not. `centre` is the scene's.
 void ExpectClippingPlaneCuts(
-  SplatScene& scene, const SplatView& view, glm::dvec3 centre, double margin, double tolerance);
+  SplatScene& scene, const SceneView& view, glm::dvec3 centre, double margin, double tolerance);
 
 // One disk, seen from both sides, covers so many pixels, and none if backfaces are culled and its
 // normal points away.

@@ -118,11 +118,11 @@ SurfaceCase NamedFileCase(const std::string& name, double spacing)
     name.substr(first + 1, second - first - 1), std::stod(name.substr(second + 1)), spacing);
 }
 
-SurfaceCase KinkCase(double spacing)
+SurfaceCase CreaseCase(double spacing)
 {
   const hop::testing::Field half = hop::testing::sphere({ 0.35, 0., 0. }, 0.6).field;
   return AnalyticCase(
-    "kink", 4, 2,
+    "crease", 4, 2,
     [&half](const glm::dvec3& x) {
       return half({ std::abs(x.x), x.y, x.z });
     },
@@ -140,13 +140,13 @@ SurfaceCase MakeSurfaceCase(const std::string& name, double spacing)
   {
     return AnalyticCase(name, 4, 4, hop::testing::torus(0.6, 0.25).field, spacing);
   }
-  if (name == "rim")
+  if (name == "boundary")
   {
     return AnalyticCase(name, 4, 2, hop::testing::sphere({ 0., 0., 0.7 }, 0.8).field, spacing);
   }
-  if (name == "kink")
+  if (name == "crease")
   {
-    return KinkCase(spacing);
+    return CreaseCase(spacing);
   }
   if (name == "hexahedron")
   {
@@ -161,8 +161,8 @@ SurfaceCase MakeSurfaceCase(const std::string& name, double spacing)
 
 const std::vector<std::string>& SurfaceCaseNames()
 {
-  static const std::vector<std::string> names = { "sphere", "torus", "rim", "kink", "hexahedron",
-    "cylinder" };
+  static const std::vector<std::string> names = { "sphere", "torus", "boundary", "crease",
+    "hexahedron", "cylinder" };
   return names;
 }
 

@@ -20,14 +20,14 @@ struct SurfaceCase
   double Spacing = 0.;
 };
 
-// "sphere", "torus", "rim" (a sphere that leaves the domain), "kink" (two spheres that meet in one,
-// their fields joined at element faces), "hexahedron" (one of order 8), "cylinder" (flow around one).
-// Particles beside rim and kink carry the planes there. Any other name is FILE.vtu:ARRAY:ISOVALUE.
+// "sphere", "torus", "boundary" (a sphere that leaves the domain, with a boundary curve), "crease" (two spheres that
+// meet in a crease, their fields joined at element faces), "hexahedron" (one of order 8), "cylinder" (flow around one).
+// Particles beside boundary curve and crease carry the planes there. Any other name is FILE.vtu:ARRAY:ISOVALUE.
 // Throws std::invalid_argument if it is not, or if the file cannot be read or has no such array.
 // The spacing is a share of the longest side of the grid, as the filter's own default is.
 SurfaceCase MakeSurfaceCase(const std::string& name, double spacing = 0.01);
 
-// The names of those that need no file of their own.
+// The names of the cases that are no files.
 const std::vector<std::string>& SurfaceCaseNames();
 
 // Stock Contour's triangles of the same grid, with smooth normals.

@@ -117,13 +117,13 @@ SurfacePicture DrawSurface(vtkPolyDataMapper* mapper, const PictureCamera& camer
 SurfacePicture CastSurface(const SurfaceCase& surface, const PictureCamera& camera)
 {
   vtkDataArray* array = surface.Grid->GetPointData()->GetArray(surface.Array.c_str());
-  const InputBlocks blocks({ { surface.Grid, array, nullptr, "" } }, 0);
+  const hop::InputBlocks blocks({ { surface.Grid, array, nullptr, "" } }, 0);
   SurfacePicture picture;
   withThreads(
     [&](const hop::ParallelFor& parallelFor)
     {
-      const GridElements elements =
-        buildGridElements(blocks, hop::NodeSpacing::Uniform, { surface.Isovalue }, parallelFor);
+      const hop::GridElements elements = hop::buildGridElements(
+        blocks, hop::NodeSpacing::Uniform, { surface.Isovalue }, parallelFor);
       picture.Seen = hop::testing::castRays(elements.mesh, surface.Isovalue, camera, parallelFor);
     });
   for (int i = 0; i < camera.size * camera.size; ++i)

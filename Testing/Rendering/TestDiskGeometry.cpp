@@ -19,11 +19,11 @@ constexpr double DiskRadius = 0.04; // 0.74 of the spacing of 5,000 particles on
 // A disk touches the sphere in its middle and is this far outside at its rim.
 const double RimHeight = std::sqrt(1. + DiskRadius * DiskRadius) - 1.;
 
-class DisksOnSphere : public testing::TestWithParam<SplatView>
+class DisksOnSphere : public testing::TestWithParam<SceneView>
 {
 };
 
-// The sphere's pixels must be on the sphere, at most a rim's height outside, and none missing.
+// The sphere's pixels must be on the sphere, at most as far outside as a disk's rim, and none missing.
 void ExpectUnitSphere(const SplatScene& scene)
 {
   ForEachPlaceOnSphere(scene,

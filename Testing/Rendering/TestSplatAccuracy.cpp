@@ -65,7 +65,7 @@ TEST(SplatAccuracy, SurfaceSeenEdgeOnIsAsNearAsElsewhere)
 
 INSTANTIATE_TEST_SUITE_P(Cases, SplatAccuracyOf,
   testing::Values(Bounds{ "sphere", 0.995, 0.99, 0.99, 40. },
-    Bounds{ "torus", 0.995, 0.99, 0.99, 40. }, Bounds{ "rim", 0.995, 0.99, 0.99, 40. },
-    Bounds{ "kink", 0.995, 0.99, 0.99, 40. }, Bounds{ "hexahedron", 0.995, 0.99, 0.99, 40. },
+    Bounds{ "torus", 0.995, 0.99, 0.99, 40. }, Bounds{ "boundary", 0.995, 0.99, 0.99, 40. },
+    Bounds{ "crease", 0.995, 0.99, 0.99, 40. }, Bounds{ "hexahedron", 0.995, 0.99, 0.99, 40. },
     Bounds{ "cylinder", 0.995, 0.99, 0.99, 40. }),
   [](const testing::TestParamInfo<Bounds>& which) { return which.param.Name; });

@@ -1,11 +1,11 @@
-// The planes that particles carry, where the surface ends or turns: what is cut off, and what fills gaps.
+// The planes that particles carry beside boundary curves and creases: what is cut off, and what fills gaps.
 #include "SplatScene.h"
 
+#include "Particles/SplatParticles.h"
 #include "vtkDoubleArray.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkSurfaceSplatMapper.h"
-#include "vtkSurfaceSplatParticles.h"
 
 #include <gtest/gtest.h>
 
@@ -92,7 +92,7 @@ TEST(SplatClip, EdgesMayBeCurved)
     { 0.6, -0.9 });
 }
 
-TEST(SplatClip, CurvaturesThatAreNoNumbersAreThoseOfLines)
+TEST(SplatClip, CurvaturesThatAreNoNumbersAreOfLines)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   ExpectCut({ 1., 0., 0. }, { 0.2 }, [](glm::dvec3 p) { return p.x < 0.2; }, { nan });
@@ -110,7 +110,7 @@ namespace
 {
 constexpr double Radius = 0.8;
 
-// Two disks that would meet at x = 0, each with a plane that lies that far before it.
+// Two disks that would meet at x = 0, each with a plane at the distance `before` before it.
 vtkSmartPointer<vtkPolyData> Roof(double degrees, double before, bool hasAngles = true)
 {
   const double half = glm::radians(0.5 * degrees);
@@ -177,17 +177,17 @@ TEST(SplatClip, WhereTheSurfaceIsAlmostSmoothSplatsHardlyStandOut)
   {
     ++top;
   }
-  const double beyondRidge = Radius * vtkSurfaceSplatParticles::OverlapAt(9.);
+  const double beyondRidge = Radius * hop::SplatParticles::OverlapAt(9.);
   EXPECT_NEAR(pixel * (SplatScene::Size / 2 - top),
     (0.25 + beyondRidge) * std::tan(glm::radians(4.5)), 2. * pixel);
   EXPECT_LT(beyondRidge, 0.4 * Radius);
 }
 
-TEST(SplatClip, AtKinksSplatsFillSmallGapsAndStaySharp)
+TEST(SplatClip, AtCreasesSplatsFillSmallGapsAndStaySharp)
 {
   for (const double degrees : { 12., 60., 80. })
   {
-    const double overlap = Radius * vtkSurfaceSplatParticles::OverlapAt(degrees);
+    const double overlap = Radius * hop::SplatParticles::OverlapAt(degrees);
     EXPECT_GT(overlap, 0.) << degrees;
     EXPECT_LT(overlap, 0.16 * Radius) << degrees;
     const auto gap = [&](double before)
@@ -198,19 +198,19 @@ TEST(SplatClip, AtKinksSplatsFillSmallGapsAndStaySharp)
   }
 }
 
-TEST(SplatClip, NothingIsFilledAtSharpKinksAndRimsNorWithoutAngles)
+TEST(SplatClip, NothingIsFilledAtSharpCreasesAndBoundariesNorWithoutAngles)
 {
   for (const double degrees : { 91., 150., 180. })
   {
-    EXPECT_EQ(vtkSurfaceSplatParticles::OverlapAt(degrees), 0.) << degrees;
+    EXPECT_EQ(hop::SplatParticles::OverlapAt(degrees), 0.) << degrees;
   }
   EXPECT_NEAR(GapOf(Roof(120., 0.2), vtkSurfaceSplatMapper::Splats, 120., 0.2), 0.2, Pixel);
   EXPECT_NEAR(GapOf(Roof(4., 0.2, false), vtkSurfaceSplatMapper::Splats, 4., 0.2), 0.2, Pixel);
 }
 
-TEST(SplatClip, AnglesThatAreNoNumbersAreThoseOfRims)
+TEST(SplatClip, AnglesThatAreNoNumbersAreOfBoundaries)
 {
-  EXPECT_EQ(vtkSurfaceSplatParticles::OverlapAt(std::numeric_limits<double>::quiet_NaN()), 0.);
+  EXPECT_EQ(hop::SplatParticles::OverlapAt(std::numeric_limits<double>::quiet_NaN()), 0.);
 }
 
 TEST(SplatClip, DisksGoOnWhereTheSurfaceIsAlmostSmooth)

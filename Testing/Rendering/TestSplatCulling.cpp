@@ -1,6 +1,9 @@
 // Splats that are left out as others hide them: many, and none that is seen.
 #include "SplatScene.h"
 
+#include "Common/SplatProfile.h"
+
+#include "Drawing/Culling.h"
 #include "vtkActor.h"
 #include "vtkDoubleArray.h"
 #include "vtkNew.h"
@@ -8,7 +11,6 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
-#include "vtkSurfaceSplatCulling.h"
 #include "vtkSurfaceSplatMapper.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -22,9 +24,9 @@
 
 namespace
 {
-using vtkSurfaceSplatCulling::Camera;
-using vtkSurfaceSplatCulling::FindVisible;
-using vtkSurfaceSplatCulling::Splats;
+using hop::Culling::Camera;
+using hop::Culling::FindVisible;
+using hop::Culling::Splats;
 
 constexpr int Pixels = 256;
 constexpr double Distance = 4.;
@@ -60,8 +62,8 @@ struct Sphere
 
   Splats AsSplats() const
   {
-    return { this->CentreRadius.data(), this->Normal.data(), nullptr, 1, 1.f, 0.75f, 1.f, 0.93f,
-      1 };
+    return { this->CentreRadius.data(), this->Normal.data(), nullptr, 1, 1.f, 0.75f, 1.f,
+      static_cast<float>(hop::splatReach()), 1 };
   }
 
   std::vector<float> CentreRadius;
@@ -122,12 +124,12 @@ TEST(SplatCulling, TakesEveryStridethOfARange)
 TEST(SplatCulling, IsForMatricesThatStretchNothing)
 {
   const glm::mat4 turned = glm::rotate(glm::mat4(1.f), 0.7f, { 1.f, 2.f, 3.f });
-  EXPECT_TRUE(vtkSurfaceSplatCulling::IsSimilarity(glm::scale(turned, glm::vec3(1e-6f))));
-  EXPECT_TRUE(vtkSurfaceSplatCulling::IsSimilarity(glm::scale(turned, { 5.f, -5.f, 5.f })));
-  EXPECT_FALSE(vtkSurfaceSplatCulling::IsSimilarity(glm::scale(turned, { 1.f, 1.f, 1.01f })));
+  EXPECT_TRUE(hop::Culling::IsSimilarity(glm::scale(turned, glm::vec3(1e-6f))));
+  EXPECT_TRUE(hop::Culling::IsSimilarity(glm::scale(turned, { 5.f, -5.f, 5.f })));
+  EXPECT_FALSE(hop::Culling::IsSimilarity(glm::scale(turned, { 1.f, 1.f, 1.01f })));
   glm::mat4 sheared = turned;
   sheared[1] += 0.01f * sheared[0];
-  EXPECT_FALSE(vtkSurfaceSplatCulling::IsSimilarity(sheared));
+  EXPECT_FALSE(hop::Culling::IsSimilarity(sheared));
 }
 
 namespace
@@ -184,7 +186,7 @@ Picture PictureOf(SplatScene& scene)
 
 // With a clipping plane, even one that cuts nothing, every splat is drawn.
 void ExpectTheSameWithAllSplats(
-  vtkPolyData* particles, const SplatView& view, double distance, double halfHeight)
+  vtkPolyData* particles, const SceneView& view, double distance, double halfHeight)
 {
   SplatScene scene(particles);
   scene.Mapper->SetModeToSplats();
@@ -211,7 +213,7 @@ void ExpectTheSameFromAllSides(
 {
   for (const vtkSmartPointer<vtkPolyData>& particles : clouds)
   {
-    for (const SplatView& view : SphereViews)
+    for (const SceneView& view : SphereViews)
     {
       for (const Lens& lens : lenses)
       {

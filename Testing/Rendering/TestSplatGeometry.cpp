@@ -19,11 +19,11 @@ namespace
 {
 constexpr double Spacing = 0.0539; // of 5,000 particles on the unit sphere; the filter's radius
 
-class SplatsOnSphere : public testing::TestWithParam<SplatView>
+class SplatsOnSphere : public testing::TestWithParam<SceneView>
 {
 };
 
-void UseSplats(SplatScene& scene, SplatView view)
+void UseSplats(SplatScene& scene, SceneView view)
 {
   scene.Mapper->SetModeToSplats();
   scene.LookFrom(view.Direction, view.Parallel);
@@ -128,11 +128,11 @@ INSTANTIATE_TEST_SUITE_P(Views, SplatsOnSphere, testing::ValuesIn(SphereViews));
 
 TEST(SplatGeometry, SplatsBendWithTheSurface)
 {
-  // Two hundred particles make a sphere whose normals turn by 15 degrees from one to the next. The
+  // Two hundred particles make a sphere whose normals differ by 15 degrees from one to the next. The
   // outline and the depth are the sphere's only if splats are no flat disks.
   constexpr double spacing = 0.269;
-  const SplatView views[] = { { { 0.3, -0.5, 1. }, false }, { { 0.3, -0.5, 1. }, true } };
-  for (const SplatView& view : views)
+  const SceneView views[] = { { { 0.3, -0.5, 1. }, false }, { { 0.3, -0.5, 1. }, true } };
+  for (const SceneView& view : views)
   {
     double worst[2] = { 0., 0. }; // flat, bent; share of a spacing
     int different[2] = { 0, 0 };  // pixels at the outline
@@ -168,10 +168,10 @@ TEST(SplatGeometry, SplatsBendWithTheSurface)
   }
 }
 
-TEST(SplatGeometry, SplatsEndWhereTheyHaveTurnedBy45Degrees)
+TEST(SplatGeometry, SplatsEndWhereTheirNormalsDifferBy45Degrees)
 {
-  // One particle alone on a sphere a quarter as large as its splat: a paraboloid that has turned by 45
-  // degrees at one radius of the sphere from the axis, half of that below the particle.
+  // One particle alone on a sphere a quarter as large as its splat: a paraboloid whose normal differs
+  // by 45 degrees at one radius of the sphere from the axis, half a radius below the particle.
   constexpr double radius = 0.25;
   constexpr double pixel = 2.6 / SplatScene::Size;
   vtkSmartPointer<vtkPolyData> particle = Disks({ { 0., 0., radius } }, { { 0., 0., 1. } }, 1.);

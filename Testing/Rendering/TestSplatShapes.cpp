@@ -1,6 +1,6 @@
 // How splats bend: shape operators fitted to the particles around.
-#include "vtkSurfaceSplatParticles.h"
-#include "vtkSurfaceSplatShapes.h"
+#include "Particles/FitShapes.h"
+#include "Particles/SplatParticles.h"
 
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ Profile Edge()
     [](double x) { return x > 0. ? -0.3 : 0.; }, [](double) { return 0.; } };
 }
 
-void Append(vtkSurfaceSplatParticles& particles, const Profile& profile, double x, double y)
+void Append(hop::SplatParticles& particles, const Profile& profile, double x, double y)
 {
   const double slope = profile.Slope(x);
   const double length = std::hypot(1., slope);
@@ -63,9 +63,9 @@ void Append(vtkSurfaceSplatParticles& particles, const Profile& profile, double 
 // Five by five particles; the one in the middle, number 12, at x = 0.
 constexpr vtkIdType Middle = 12;
 
-vtkSurfaceSplatParticles ParticlesOn(const Profile& profile)
+hop::SplatParticles ParticlesOn(const Profile& profile)
 {
-  vtkSurfaceSplatParticles particles;
+  hop::SplatParticles particles;
   for (int row = -2; row <= 2; ++row)
   {
     for (int column = -2; column <= 2; ++column)
@@ -76,7 +76,7 @@ vtkSurfaceSplatParticles ParticlesOn(const Profile& profile)
   return particles;
 }
 
-double BendOfMiddle(const vtkSurfaceSplatParticles& particles)
+double BendOfMiddle(const hop::SplatParticles& particles)
 {
   return particles.Shape[8 * Middle];
 }
@@ -96,9 +96,9 @@ double LargestError(const Profile& profile, double bend)
 
 TEST(SplatShapes, OfACircleAreNearlyItsOwn)
 {
-  vtkSurfaceSplatParticles particles = ParticlesOn(Circle());
+  hop::SplatParticles particles = ParticlesOn(Circle());
   const double own = BendOfMiddle(particles);
-  vtkSurfaceSplatFitShapes(particles);
+  hop::FitShapes(particles);
   // A parabola that stays near the circle bends a little more than it.
   EXPECT_GT(BendOfMiddle(particles), own);
   EXPECT_LT(BendOfMiddle(particles), 1.1 * own);
@@ -111,49 +111,49 @@ TEST(SplatShapes, OfACircleAreNearlyItsOwn)
 
 TEST(SplatShapes, FitBothSidesWhereTheCurvatureJumps)
 {
-  vtkSurfaceSplatParticles particles = ParticlesOn(HalfFlat());
+  hop::SplatParticles particles = ParticlesOn(HalfFlat());
   const double own = BendOfMiddle(particles);
-  vtkSurfaceSplatFitShapes(particles);
+  hop::FitShapes(particles);
   EXPECT_LT(LargestError(HalfFlat(), BendOfMiddle(particles)), 0.6 * LargestError(HalfFlat(), own));
 }
 
 TEST(SplatShapes, DoNotBendAroundAnEdgeThatParticlesKnowOf)
 {
-  vtkSurfaceSplatParticles unaware = ParticlesOn(Edge());
-  vtkSurfaceSplatFitShapes(unaware);
+  hop::SplatParticles unaware = ParticlesOn(Edge());
+  hop::FitShapes(unaware);
   EXPECT_GT(BendOfMiddle(unaware), 0.5);
 
-  vtkSurfaceSplatParticles aware = ParticlesOn(Edge());
+  hop::SplatParticles aware = ParticlesOn(Edge());
   aware.Clip.assign(12 * aware.GetNumberOfParticles(), 0.f);
   aware.Clip[12 * Middle] = 1.f; // x > 0 is cut off
-  vtkSurfaceSplatParticles filling = aware;
-  vtkSurfaceSplatFitShapes(aware);
+  hop::SplatParticles filling = aware;
+  hop::FitShapes(aware);
   EXPECT_NEAR(BendOfMiddle(aware), 0., 1e-5);
 
   // Where the surface is almost smooth, neighbours behind count less.
-  filling.Clip[12 * Middle + 8] = vtkSurfaceSplatParticles::OverlapAt(5.);
-  vtkSurfaceSplatFitShapes(filling);
+  filling.Clip[12 * Middle + 8] = hop::SplatParticles::OverlapAt(5.);
+  hop::FitShapes(filling);
   EXPECT_LT(BendOfMiddle(filling), 0.8 * BendOfMiddle(unaware));
   EXPECT_GT(BendOfMiddle(filling), 0.1 * BendOfMiddle(unaware));
 }
 
 TEST(SplatShapes, DoNotSeeAnotherSheet)
 {
-  vtkSurfaceSplatParticles alone = ParticlesOn(Circle());
-  vtkSurfaceSplatParticles two = alone;
+  hop::SplatParticles alone = ParticlesOn(Circle());
+  hop::SplatParticles two = alone;
   Profile above = Circle();
   above.Height = [](double x) { return Circle().Height(x) + Spacing; };
   Append(two, above, 0., 0.);
-  vtkSurfaceSplatFitShapes(alone);
-  vtkSurfaceSplatFitShapes(two);
+  hop::FitShapes(alone);
+  hop::FitShapes(two);
   EXPECT_FLOAT_EQ(BendOfMiddle(alone), BendOfMiddle(two));
 }
 
 TEST(SplatShapes, OfAParticleWithoutNeighborsAreItsOwn)
 {
-  vtkSurfaceSplatParticles particles;
+  hop::SplatParticles particles;
   Append(particles, Circle(), 0., 0.);
-  vtkSurfaceSplatFitShapes(particles);
+  hop::FitShapes(particles);
   EXPECT_FLOAT_EQ(particles.Shape[0], 4.f);
   EXPECT_FLOAT_EQ(particles.Shape[1], 0.f);
 }
@@ -161,14 +161,14 @@ TEST(SplatShapes, OfAParticleWithoutNeighborsAreItsOwn)
 TEST(SplatShapes, AreFoundInTimeWhateverTheRadii)
 {
   // Radii of a hundred spacings: looking at all that they hold takes minutes.
-  vtkSurfaceSplatParticles particles;
+  hop::SplatParticles particles;
   for (int i = 0; i < 40000; ++i)
   {
     Append(particles, Circle(), 1e-3 * (i % 200 - 100), 1e-3 * (i / 200));
     particles.CentreRadius.back() = 0.1f;
   }
   const auto start = std::chrono::steady_clock::now();
-  vtkSurfaceSplatFitShapes(particles);
+  hop::FitShapes(particles);
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
   constexpr int middle = 100 * 200 + 100;
   EXPECT_NEAR(particles.Shape[8 * middle], 4., 0.01);
@@ -176,20 +176,20 @@ TEST(SplatShapes, AreFoundInTimeWhateverTheRadii)
 
 TEST(SplatShapes, OfParticlesInOnePlaceAreTheirOwn)
 {
-  vtkSurfaceSplatParticles particles;
+  hop::SplatParticles particles;
   for (int i = 0; i < 1000; ++i)
   {
     Append(particles, Circle(), 0., 0.);
   }
-  vtkSurfaceSplatFitShapes(particles);
+  hop::FitShapes(particles);
   EXPECT_FLOAT_EQ(particles.Shape[0], 4.f);
 }
 
 TEST(SplatShapes, OfParticlesThatAreNotDrawnStayAsTheyAre)
 {
-  vtkSurfaceSplatParticles particles = ParticlesOn(HalfFlat());
+  hop::SplatParticles particles = ParticlesOn(HalfFlat());
   particles.CentreRadius[4 * Middle + 3] = 0.f;
   const double own = BendOfMiddle(particles);
-  vtkSurfaceSplatFitShapes(particles);
+  hop::FitShapes(particles);
   EXPECT_EQ(BendOfMiddle(particles), own);
 }

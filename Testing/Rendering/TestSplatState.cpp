@@ -178,18 +178,18 @@ int CountDifferent(const SplatScene& a, const SplatScene& b)
 TEST(SplatState, TranslucentIsosurfacesAreSplattedOnceAPicture)
 {
   constexpr int count = 20000;
-  constexpr int sheets = 3;
+  constexpr int spheres = 3;
   vtkNew<vtkAppendPolyData> all;
-  for (int sheet = 1; sheet <= sheets; ++sheet)
+  for (int sphere = 1; sphere <= spheres; ++sphere)
   {
-    const double radius = sheet / static_cast<double>(sheets);
-    const auto sphere = FibonacciSphere(count, radius, radius * Spacing);
+    const double radius = sphere / static_cast<double>(spheres);
+    const auto particles = FibonacciSphere(count, radius, radius * Spacing);
     vtkNew<vtkDoubleArray> isovalues;
     isovalues->SetName("Isovalue");
     isovalues->SetNumberOfTuples(count);
     isovalues->Fill(radius);
-    sphere->GetPointData()->AddArray(isovalues);
-    all->AddInputData(sphere);
+    particles->GetPointData()->AddArray(isovalues);
+    all->AddInputData(particles);
   }
   all->Update();
   SplatScene scene(all->GetOutput());
@@ -209,8 +209,8 @@ TEST(SplatState, TranslucentIsosurfacesAreSplattedOnceAPicture)
   glGetQueryObjectuiv(query, GL_QUERY_RESULT, &primitives);
   glDeleteQueries(1, &query);
   // Two passes for each of two layers, and tiles of the picture each time.
-  EXPECT_GE(primitives, GLuint{ 4 * sheets * count });
-  EXPECT_LT(primitives, GLuint{ 5 * sheets * count });
+  EXPECT_GE(primitives, GLuint{ 4 * spheres * count });
+  EXPECT_LT(primitives, GLuint{ 5 * spheres * count });
 }
 
 // From picture to picture the surface fills less of the window, or another part of it.

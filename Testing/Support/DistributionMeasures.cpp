@@ -15,8 +15,9 @@ namespace
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double degreesPerRadian = 57.295779513082321;
-/// A neighbour on the same sheet does not lie more than this off the common tangent plane, in
-/// spacings; a chord of a surface of constant curvature not at all.
+/// Largest distance of a neighbour on the same sheet from the mean of both tangent planes, in spacings. On a surface of
+/// constant curvature it is zero. Larger: the next sheet of a thin body may count; smaller: neighbours at creases are
+/// lost.
 constexpr double sheetThickness = 0.5;
 
 PointGrid gridOf(const Buffer<Particle>& particles)
@@ -32,7 +33,7 @@ PointGrid gridOf(const Buffer<Particle>& particles)
   return PointGrid(std::move(points), cellSize);
 }
 
-/// Distance beyond which there is no particle from wherever one looks for it.
+/// Diagonal of the particles' bounding box: no particle is farther from another.
 double diameter(const Buffer<Particle>& particles)
 {
   glm::dvec3 lower(infinity), upper(-infinity);
@@ -51,7 +52,7 @@ struct FlatNeighbor
   int index = -1;
 };
 
-/// Those that may share a triangle with the particle, the nearest first.
+/// Neighbours that may share a triangle with the particle, the nearest first.
 std::vector<FlatNeighbor> flatNeighbors(
   const Buffer<Particle>& particles, const PointGrid& grid, std::size_t i)
 {
@@ -89,10 +90,10 @@ struct CellCorner
   int neighbor = -1;
 };
 
-/// What of a convex cell lies nearer to the origin than to a neighbour.
+/// The part of a convex cell that is nearer to the origin than to a neighbour.
 std::vector<CellCorner> clip(const std::vector<CellCorner>& cell, const FlatNeighbor& neighbor)
 {
-  // Bisectors that only touch a corner cut nothing off, whatever the rounding.
+  // Bisectors that pass through a corner cut nothing off, whatever the rounding; square of spacings.
   constexpr double rounding = 1e-9;
   const auto beyond = [&](const CellCorner& corner)
   { return glm::dot(corner.place - 0.5 * neighbor.place, neighbor.place) - rounding; };
@@ -115,7 +116,7 @@ std::vector<CellCorner> clip(const std::vector<CellCorner>& cell, const FlatNeig
   return rest;
 }
 
-/// The particles around one, counterclockwise; -1 where it is open.
+/// The particles around one particle, counterclockwise; -1 for a side on which its cell is open.
 std::vector<int> voronoiNeighbors(const std::vector<FlatNeighbor>& neighbors)
 {
   constexpr double r = Star::OpenRadius;
@@ -178,7 +179,7 @@ Star starOf(const Buffer<Particle>& particles, const PointGrid& grid, std::size_
   return star;
 }
 
-/// Standard deviation over mean, without those of particles that stand alone.
+/// Standard deviation over mean, without distances beyond two spacings: particles that stand alone.
 double variationOf(const std::vector<double>& nearest)
 {
   constexpr double alone = 2.0;

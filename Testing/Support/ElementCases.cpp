@@ -11,13 +11,14 @@ std::ostream& operator<<(std::ostream& out, Domain domain)
 {
   switch (domain)
   {
+    case Domain::Hexahedron:
+      return out << "Hexahedron";
     case Domain::Tetrahedron:
       return out << "Tetrahedron";
     case Domain::Wedge:
       return out << "Wedge";
-    default:
-      return out << "Hexahedron";
   }
+  unknownDomain();
 }
 
 } // namespace hop

@@ -16,7 +16,7 @@ std::ostream& operator<<(std::ostream& out, Domain domain);
 namespace hop::testing
 {
 
-/// A kind of element: what tests of the numerics go through.
+/// A kind of element, over which tests of the numerics run.
 struct ElementCase
 {
   Domain domain = Domain::Hexahedron;

@@ -42,7 +42,7 @@ std::vector<int> PointGrid::within(const glm::dvec3& place, double radius) const
   const glm::dvec3 sides = glm::ceil(glm::dvec3(2.0 * radius / this->CellSize)) + 1.0;
   if (!(sides.x * sides.y * sides.z <= static_cast<double>(this->Cells.size())))
   {
-    // All cells are fewer than those that the ball would touch.
+    // There are fewer cells in all than the ball's bounding box holds.
     for (const auto& entry : this->Cells)
     {
       collect(entry.second);

@@ -8,8 +8,8 @@
 namespace hop::testing
 {
 
-/// Points by cubic cells, to look up those around a place. Apart from the grids of the distributions,
-/// so that measures do not share their mistakes.
+/// Points sorted into cubic cells, for searches around a place. It shares no code with the grids of the distributions,
+/// so that measures do not repeat their mistakes.
 class PointGrid
 {
 public:

@@ -47,9 +47,12 @@ glm::dvec3 PictureCamera::toEye(const glm::dvec3& point) const
 namespace
 {
 
+/// Largest size of a surface box, pixels. Larger: Newton's method may miss a sheet; smaller: boxes take longer to find.
 constexpr double BoxPixels = 3.0;
-/// Slits between elements up to this many pixels wide, on either side, are closed.
+/// Slits between elements are closed up to this width on either side, pixels. Larger: outlines of surfaces that end at
+/// faces grow; smaller: single pixels show what is behind a slit.
 constexpr double SlitPixels = 0.2;
+/// Steps of Newton's method after which a start is given up.
 constexpr int MaximumSteps = 20;
 
 bool isInBall(const SurfaceBox& box, const ReferencePoint& u, double scale)
@@ -69,12 +72,12 @@ double distanceBeyond(Domain domain, const ReferencePoint& u, const LocalMap& ma
   return insideMargin(domain, u) > -1e-9 ? 0.0 : beyond;
 }
 
-/// Where a ray meets the surface of an element, continued beyond it.
+/// Where a ray meets the surface of an element, which is continued beyond the element.
 struct Root
 {
   SeenPoint seen;
   int element = -1;
-  /// How far outside of the element.
+  /// How far outside of the element, world units; 0 inside.
   double beyond = 0.0;
 };
 
@@ -117,28 +120,28 @@ struct Pixel
 {
   SeenPoint nearest;
   /// The nearest root just outside of its element.
-  Root miss;
+  Root outside;
 };
 
 /// Keeps the nearest root. Fields that differ a little at a face leave a slit between the ends of the
-/// surface there, much narrower than a pixel, through which single rays pass: a ray that just misses
-/// the surface of two elements at about the same depth meets it.
+/// surface there, much narrower than a pixel, through which single rays pass: a ray that passes two elements'
+/// surfaces just beyond their ends, at about the same depth, meets the surface.
 void keep(const Root& root, double slit, Pixel& pixel)
 {
-  const bool inSlit = root.beyond > 0.0 && pixel.miss.element >= 0 &&
-    pixel.miss.element != root.element &&
-    std::abs(pixel.miss.seen.depth - root.seen.depth) < 5.0 * slit;
+  const bool inSlit = root.beyond > 0.0 && pixel.outside.element >= 0 &&
+    pixel.outside.element != root.element &&
+    std::abs(pixel.outside.seen.depth - root.seen.depth) < 5.0 * slit;
   if ((root.beyond == 0.0 || inSlit) && root.seen.depth < pixel.nearest.depth)
   {
     pixel.nearest = root.seen;
   }
-  if (root.beyond > 0.0 && root.seen.depth < pixel.miss.seen.depth)
+  if (root.beyond > 0.0 && root.seen.depth < pixel.outside.seen.depth)
   {
-    pixel.miss = root;
+    pixel.outside = root;
   }
 }
 
-/// Keeps what any of the starts leads to.
+/// Keeps the roots to which the starts lead.
 void look(const ElementMesh& mesh, double isovalue, const PictureCamera::Ray& ray,
   const SurfaceBox& box, const std::vector<ReferencePoint>& starts, double slit, Pixel& pixel)
 {

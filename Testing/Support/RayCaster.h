@@ -8,18 +8,19 @@
 namespace hop::testing
 {
 
-/// A camera that looks at a centre: what one pixel of a square picture sees.
+/// A camera that looks at a centre, and its square picture.
 struct PictureCamera
 {
   glm::dvec3 centre{ 0.0 };
   /// Unit vector from the centre to the eye.
   glm::dvec3 back{ 0.0, 0.0, 1.0 };
+  /// Whether the projection is parallel, not perspective.
   bool parallel = false;
-  /// From the eye to the centre.
+  /// From the eye to the centre, world units.
   double distance = 4.0;
-  /// What half the picture shows, at the centre.
+  /// Half the height of the picture, at the centre's depth, world units.
   double halfHeight = 1.3;
-  /// Pixels, both ways.
+  /// Pixels along each side.
   int size = 512;
 
   glm::dvec3 right() const;
@@ -34,7 +35,7 @@ struct PictureCamera
     /// Length 1 along the camera's axis, so that a ray's parameter is the depth before the eye.
     glm::dvec3 direction;
   };
-  /// Through a place of the picture, in pixels from its lower left corner; middles of pixels lie at
+  /// The ray through a place of the picture, in pixels from its lower left corner; middles of pixels lie at
   /// halves.
   Ray ray(double x, double y) const;
   /// Where in the picture a point is seen.
@@ -43,10 +44,10 @@ struct PictureCamera
   glm::dvec3 toEye(const glm::dvec3& point) const;
 };
 
-/// What is seen at a pixel.
+/// The point of the surface that is seen at a pixel.
 struct SeenPoint
 {
-  /// Along the camera's axis; infinite where nothing is seen.
+  /// Depth along the camera's axis, world units; infinite where no surface is seen.
   double depth = std::numeric_limits<double>::infinity();
   /// Unit normal -grad F/|grad F|.
   glm::dvec3 normal{ 0.0 };
@@ -54,11 +55,11 @@ struct SeenPoint
   bool covered() const { return this->depth < std::numeric_limits<double>::infinity(); }
 };
 
-/// The isosurface of the elements' own polynomials as the camera sees it, a ray a pixel: slow and
+/// The isosurface of the elements' own polynomials as the camera sees it, one ray a pixel: slow and
 /// exact, without any triangle. A ray meets the surface where Newton's method in reference
-/// coordinates and depth finds F = isovalue, from starts in every surface box (SurfaceBoxes.h), of
-/// some pixels' size, that the ray may pass. Slits between elements, where their fields differ a little,
-/// are closed up to a fifth of a pixel on either side.
+/// coordinates and depth finds F = isovalue, from starts in every surface box (SurfaceBoxes.h) that the ray may pass;
+/// boxes have the size of a few pixels. Slits between elements whose fields differ a little are closed up to a fifth
+/// of a pixel on either side.
 /// \return size * size pixels, lower left first
 std::vector<SeenPoint> castRays(const ElementMesh& mesh, double isovalue,
   const PictureCamera& camera, const ParallelFor& parallelFor);

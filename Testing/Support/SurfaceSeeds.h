@@ -13,7 +13,7 @@ std::vector<Location> surfaceSeeds(
 /// Number of boxes that are not certified.
 std::ptrdiff_t uncertifiedCount(const std::vector<SurfaceBox>& boxes);
 
-/// Where a place of the mesh lies in the world.
+/// World position of a place of the mesh.
 glm::dvec3 positionAt(const ElementMesh& mesh, const Location& location);
 
 } // namespace hop::testing

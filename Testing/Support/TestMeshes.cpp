@@ -11,7 +11,7 @@ namespace hop::testing
 namespace
 {
 
-/// Linear shape functions of the corners, by which straight elements are filled with nodes.
+/// The point of a straight element: linear shape functions of its corners.
 glm::dvec3 linearMap(Domain domain, const std::vector<glm::dvec3>& corners, const ReferencePoint& u)
 {
   std::vector<double> weights(corners.size());
@@ -30,14 +30,15 @@ std::vector<std::vector<int>> partsOfCube(Domain domain)
 {
   switch (domain)
   {
+    case Domain::Hexahedron:
+      return { { 0, 1, 2, 3, 4, 5, 6, 7 } };
     case Domain::Tetrahedron:
       return { { 0, 1, 2, 6 }, { 0, 2, 3, 6 }, { 0, 3, 7, 6 }, { 0, 7, 4, 6 }, { 0, 4, 5, 6 },
         { 0, 5, 1, 6 } };
     case Domain::Wedge:
       return { { 0, 1, 2, 4, 5, 6 }, { 0, 2, 3, 4, 6, 7 } };
-    default:
-      return { { 0, 1, 2, 3, 4, 5, 6, 7 } };
   }
+  unknownDomain();
 }
 
 /// Values of the three quadratic B-splines over one span, t in [0,1].
@@ -225,17 +226,19 @@ int boundaryFaceCount(const ElementMesh& mesh, const Location& location)
 
 ReferencePoint insidePoint(Domain domain, glm::dvec3 t)
 {
-  if (domain == Domain::Hexahedron)
-  {
-    return { t };
-  }
-  // Roots make the points fill the simplex evenly.
-  const double third = domain == Domain::Tetrahedron ? std::cbrt(t.z) : 1.0;
+  // Roots make the points fill the simplices evenly.
   const double a = std::sqrt(t.x);
-  const glm::dvec3 flat(a * (1.0 - t.y), a * t.y, 0.0);
-  return domain == Domain::Tetrahedron
-    ? ReferencePoint{ third * glm::dvec3(flat.x, flat.y, 1.0 - a) }
-    : ReferencePoint{ { flat.x, flat.y, t.z } };
+  const glm::dvec2 onTriangle(a * (1.0 - t.y), a * t.y);
+  switch (domain)
+  {
+    case Domain::Hexahedron:
+      return { t };
+    case Domain::Tetrahedron:
+      return { std::cbrt(t.z) * glm::dvec3(onTriangle, 1.0 - a) };
+    case Domain::Wedge:
+      return { { onTriangle, t.z } };
+  }
+  unknownDomain();
 }
 
 } // namespace hop::testing

@@ -19,14 +19,14 @@ struct MeshRecipe
   int cells = 2;
   /// World position of a point of the straight cube; the elements interpolate it at their nodes.
   Map map = [](const glm::dvec3& x) { return x; };
-  /// Field as a function of world position, interpolated likewise.
+  /// Field as a function of world position, interpolated at the nodes too.
   Field field = [](const glm::dvec3& x) { return x.x; };
 };
 
 /// The mesh with its face neighbours found.
 ElementMesh makeMesh(const MeshRecipe& recipe);
 
-/// As of ElementMesh.h, with one tolerance for all elements.
+/// findFaceNeighbors() of ElementMesh.h with one tolerance for all elements.
 void findFaceNeighbors(ElementMesh& mesh, double tolerance);
 
 /// One element of the given corners (in the order of facts(domain).corners), straight-sided before
@@ -42,12 +42,12 @@ ElementMesh referenceMesh(Domain domain, int degree, const Field& field);
 void appendBox(
   ElementMesh& mesh, const MeshRecipe& recipe, const glm::dvec3& lower, const glm::dvec3& upper);
 
-/// Two halves of the cube [-1,1]^3 whose faces at x = 0 do not match: on the left as `left` says, in
-/// one box, on the right as `right` says, in 2 x 2 boxes. Face neighbours are found.
+/// The cube [-1,1]^3 in two halves whose faces at x = 0 do not match: the left half is one box of the recipe `left`,
+/// the right half 2 x 2 boxes of the recipe `right`. Face neighbours are found.
 ElementMesh hangingMesh(const MeshRecipe& left, const MeshRecipe& right);
 
 /// The paper's teardrop, x^4 (x + 1) / 2 = y^2 + z^2, in a box of 2 x 2 x 2 elements that a quadratic B-spline
-/// map bends: it ends in a needle, which is nothing but a point where x = 0.
+/// map bends. It ends in a needle, whose thickness vanishes at x = 0.
 ElementMesh teardropMesh();
 
 /// A smooth bend of the cube, invertible, that moves points by up to `amount`.
@@ -57,7 +57,7 @@ Map wavyMap(double amount);
 inline const std::array<Domain, 3> allDomains{ Domain::Hexahedron, Domain::Tetrahedron,
   Domain::Wedge };
 
-/// On how many faces without neighbour of its element a place lies.
+/// Number of faces without neighbour on which a place lies.
 int boundaryFaceCount(const ElementMesh& mesh, const Location& location);
 
 /// A point inside the domain from three numbers in [0,1).

@@ -5,8 +5,8 @@
 namespace hop::testing
 {
 
-/// A ParallelFor on threads of its own that deals out small pieces in whatever order the threads
-/// ask for them: results that depend on order or number of the pieces come out differently.
+/// A ParallelFor on threads of its own that deals out small pieces in the order in which threads
+/// ask for them: results that depend on the order or number of pieces differ from run to run.
 ParallelFor threadedFor(int threads);
 
 } // namespace hop::testing

@@ -18,6 +18,8 @@ endif ()
 
 option(BUILD_SHARED_LIBS "Build the VTK modules as shared libraries" ON)
 option(HOP_WITH_PARAVIEW "Build the plugin for ParaView; OFF: filter and mapper for VTK alone" ON)
+option(HOP_CORE_ONLY "Build the numerics and their tests alone, without VTK and ParaView" OFF)
+option(HOP_GNU_VECTORS "Compute with the vector types of GCC and Clang; OFF: with plain C++, as other compilers do" ON)
 option(BUILD_TESTING "Build the tests" ON)
 option(BUILD_BENCHMARKS "Build the benchmarks of the numerics (needs Google Benchmark and BUILD_TESTING)" OFF)
 option(WARNINGS_AS_ERRORS "Stop at the first compiler warning, as CI does" OFF)
@@ -26,7 +28,18 @@ if (BUILD_TESTING)
   enable_testing()
 endif ()
 
+# Not tried yet with MSVC: what the code takes for granted of a compiler. Files are UTF-8, names are looked up as the
+# standard says, objects may have many sections (each instance of a template is one).
+if (MSVC)
+  add_compile_options(/utf-8 /permissive- /Zc:__cplusplus /bigobj)
+  add_compile_definitions(NOMINMAX)
+endif ()
+
 # Warnings for one target of ours; ParaView's own headers are not held to them.
 function (target_strict_warnings target)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow $<$<BOOL:${WARNINGS_AS_ERRORS}>:-Werror>)
+  if (MSVC) # and clang-cl, to which -Wall means all warnings that there are
+    target_compile_options(${target} PRIVATE /W4 $<$<BOOL:${WARNINGS_AS_ERRORS}>:/WX>)
+  else ()
+    target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow $<$<BOOL:${WARNINGS_AS_ERRORS}>:-Werror>)
+  endif ()
 endfunction ()

@@ -17,18 +17,44 @@ namespace hop
 namespace
 {
 
-// The paper's constants.
-constexpr double steadyChange = 0.0015;
-constexpr int sweepsPerNeighborList = 5;
+/// When the system has settled, and when neighbours are looked up. From the paper.
+struct Steady
+{
+  /// Relative change of the whole energy over SweepsPerList sweeps; the paper has it from one sweep to the next.
+  /// Larger: particles stop before they stand evenly; smaller: many more sweeps.
+  static constexpr double Change = 0.0015;
+  /// Sweeps with the same lists of neighbours. More: particles leave the lists' range in the meantime.
+  static constexpr int SweepsPerList = 5;
+};
 
-// Ends that the paper leaves open.
-constexpr int maximumSweeps = 60;
-constexpr int maximumSplitAndDeleteRounds = 40;
-constexpr int maximumCoarseRounds = 8;
-constexpr int mostExchanges = 4;
-constexpr double coarsestSpacingPerExtent = 0.1;
-constexpr double boxSizePerSpacing = 3.0;
-constexpr double smallestBoxPerExtent = 1.0 / 400.0;
+/// Largest numbers of repetitions, where the paper names none. Chosen by experiment. A run that uses up the rounds of
+/// its last level is reported as not converged.
+struct Largest
+{
+  /// Sweeps until the energy is steady.
+  static constexpr int Sweeps = 60;
+  /// Rounds of split and delete at the last level, and at coarser ones, which need not be perfect.
+  static constexpr int Rounds = 40;
+  static constexpr int CoarseRounds = 8;
+  /// Exchanges of overlapping particles for others where a number is given.
+  static constexpr int Exchanges = 4;
+};
+
+/// Where the hierarchy of spacings and the seeds start. Chosen by experiment.
+struct Start
+{
+  /// The coarsest spacing is at most this, in units of the extent of the seeds, unless the spacing asked for is larger.
+  /// Larger: some level is too coarse for the surface's shape; smaller: fewer levels, and more sweeps at the first.
+  static constexpr double SpacingPerExtent = 0.1;
+  /// Largest diagonal of the boxes of seeds, in units of the spacing. Larger: fewer seeds, and holes to fill by splits.
+  static constexpr double BoxPerSpacing = 3.0;
+  /// But no box need be smaller than this, in units of the mesh's diagonal: finer levels get their particles by splits.
+  static constexpr double BoxPerExtent = 1.0 / 400.0;
+};
+
+/// Largest relative change of the spacing at once, where it follows the energy. Chosen by experiment. Larger: the
+/// spacing overshoots while particles have not spread yet; smaller: more sweeps.
+constexpr double largestSpacingChange = 0.1;
 
 class ClassicSystem
 {
@@ -41,7 +67,7 @@ public:
     , Surface(located(surface, this->Locator))
     , Parameters(parameters)
     , Particles(this->Surface, parameters.sizing, this->Parallel)
-    , Dice(parameters.seed)
+    , RandomNumbers(parameters.seed)
   {
   }
 
@@ -51,16 +77,16 @@ private:
   static Isosurface located(Isosurface surface, const FaceLocator& locator);
   std::vector<ClassicParticle> makeSeeds();
   bool countIsGiven() const { return this->Parameters.particleCount > 0; }
-  double wantedCount() const { return static_cast<double>(this->Parameters.particleCount); }
+  double givenCount() const { return static_cast<double>(this->Parameters.particleCount); }
   int chooseLevels(double extent);
-  int followGivenNumber();
+  int matchGivenNumber();
   bool tooMany(int levels);
   bool makeLevels(const std::vector<ClassicParticle>& seeds);
   void exchange();
-  bool settleOnce(bool fixedNumber);
+  bool sweepUntilSteady(bool fixedNumber);
   void relaxLevel(int maximumRounds, bool fixedNumber);
   Distribution finish();
-  bool settle(const ClassicParticle& mover, SurfaceWalker& walker, Particle& particle) const;
+  bool toTolerance(const ClassicParticle& mover, SurfaceWalker& walker, Particle& particle) const;
 
   Interruptible Work;
   ParallelFor Parallel;
@@ -68,7 +94,7 @@ private:
   Isosurface Surface;
   DistributionParameters Parameters;
   ClassicParticles Particles;
-  Random Dice;
+  Random RandomNumbers;
   DistributionReport Report;
 };
 
@@ -94,69 +120,71 @@ std::vector<ClassicParticle> ClassicSystem::makeSeeds()
 {
   const ElementMesh& mesh = *this->Surface.mesh;
   const double boxSize = std::max(
-    boxSizePerSpacing * this->Particles.sizing.spacing, smallestBoxPerExtent * meshExtent(mesh));
+    Start::BoxPerSpacing * this->Particles.sizing.spacing, Start::BoxPerExtent * meshExtent(mesh));
   const std::vector<SurfaceBox> boxes =
     findSurfaceBoxes(mesh, this->Surface.isovalue, boxSize, this->Parallel);
   reportUndecided(this->Surface, boxes, this->Report);
   return this->Particles.seedsOf(boxes);
 }
 
-/// Sweeps until the energy is steady. With a fixed number of particles the spacing changes meanwhile until their
-/// mean energy is the ideal one.
-/// \return whether it is
-bool ClassicSystem::settleOnce(bool fixedNumber)
+/// Sweeps until the energy is steady. With a fixed number of particles the spacing changes meanwhile, so that their
+/// mean energy becomes the ideal one.
+/// \return whether the energy is steady
+bool ClassicSystem::sweepUntilSteady(bool fixedNumber)
 {
   double last = 0.0;
   bool steady = false;
-  for (int n = 0; n < maximumSweeps && !steady; ++n)
+  for (int n = 0; n < Largest::Sweeps && !steady; ++n)
   {
-    if (n % sweepsPerNeighborList == 0)
+    if (n % Steady::SweepsPerList == 0)
     {
       if (fixedNumber && n > 0)
       {
-        this->Particles.sizing.spacing *=
-          1.0 - std::clamp(excessEnergy(this->Particles.movers), -0.1, 0.1);
+        this->Particles.sizing.spacing *= 1.0 -
+          std::clamp(
+            excessEnergy(this->Particles.movers), -largestSpacingChange, largestSpacingChange);
       }
       this->Particles.renewNeighbors();
     }
     this->Work.ask();
     const double energy = sweepOnce(this->Particles, this->Parallel);
     ++this->Report.iterations;
-    if ((n + 1) % sweepsPerNeighborList == 0)
+    if ((n + 1) % Steady::SweepsPerList == 0)
     {
-      steady = std::abs(energy - last) <= steadyChange * energy;
+      steady = std::abs(energy - last) <= Steady::Change * energy;
       last = energy;
     }
   }
   return steady;
 }
 
-/// Relaxes, and changes the population unless the number of particles is fixed, until settled.
+/// Relaxes until the system has settled. Unless the number of particles is fixed, particles are split and deleted.
 void ClassicSystem::relaxLevel(int maximumRounds, bool fixedNumber)
 {
   this->Report.converged = true;
   bool balanced = false;
   for (int round = 0; round < maximumRounds; ++round)
   {
-    const bool steady = this->settleOnce(fixedNumber);
-    if (fixedNumber ? steady : !splitAndDelete(this->Particles, this->Dice))
+    const bool steady = this->sweepUntilSteady(fixedNumber);
+    if (fixedNumber ? steady : !splitAndDelete(this->Particles, this->RandomNumbers))
     {
       if (fixedNumber || balanced)
       {
         return;
       }
-      insertAndDelete(this->Particles, this->Dice);
+      reachIdealEnergy(this->Particles, this->RandomNumbers);
       balanced = true;
     }
   }
   this->Report.converged = false;
 }
 
-/// Sets the coarsest spacing; how many times it is to be halved.
+/// Sets the coarsest spacing.
+/// \return number of times that it is to be halved
 int ClassicSystem::chooseLevels(double extent)
 {
   int levels = 0;
-  while (this->Particles.sizing.spacing * 2.0 <= coarsestSpacingPerExtent * extent)
+  while (this->Particles.sizing.spacing * 2.0 <= Start::SpacingPerExtent * extent)
   {
     this->Particles.sizing.spacing *= 2.0;
     ++levels;
@@ -164,12 +192,12 @@ int ClassicSystem::chooseLevels(double extent)
   return levels;
 }
 
-/// Where a number of particles is given, the spacing that goes with it, judged by those of the coarsest: on a flat
-/// surface the number goes with 1/s^2.
-/// \return how many times the coarsest is to be halved
-int ClassicSystem::followGivenNumber()
+/// Sets the coarsest spacing so that, halved some times, it goes with the given number of particles: it follows from
+/// the number of particles there are, as on a flat surface that is proportional to 1/s^2.
+/// \return number of times that the spacing is to be halved
+int ClassicSystem::matchGivenNumber()
 {
-  const double ratio = this->wantedCount() / static_cast<double>(this->Particles.movers.size());
+  const double ratio = this->givenCount() / static_cast<double>(this->Particles.movers.size());
   const int levels = std::max(0, static_cast<int>(std::floor(0.5 * std::log2(ratio))));
   this->Particles.sizing.spacing /= std::sqrt(ratio) * std::pow(0.5, levels);
   return levels;
@@ -178,7 +206,7 @@ int ClassicSystem::followGivenNumber()
 bool ClassicSystem::tooMany(int levels)
 {
   const double expected = this->countIsGiven()
-    ? this->wantedCount()
+    ? this->givenCount()
     : static_cast<double>(this->Particles.movers.size()) * std::pow(4.0, levels);
   this->Report.error = this->Parameters.refusal(expected);
   return !this->Report.error.empty();
@@ -195,15 +223,15 @@ bool ClassicSystem::makeLevels(const std::vector<ClassicParticle>& seeds)
     {
       const double oldSpacing = this->Particles.sizing.spacing;
       this->Particles.sizing.spacing *= 0.5;
-      splitByFour(this->Particles, oldSpacing, this->Dice);
+      splitByFour(this->Particles, oldSpacing, this->RandomNumbers);
     }
     this->Particles.addUncovered(seeds);
-    this->relaxLevel(level < levels ? maximumCoarseRounds : maximumSplitAndDeleteRounds, false);
+    this->relaxLevel(level < levels ? Largest::CoarseRounds : Largest::Rounds, false);
     // The biased coin may have taken the last particles of a component smaller than the spacing.
     this->Particles.addUncovered(seeds);
     if (level == 0)
     {
-      levels = this->countIsGiven() ? this->followGivenNumber() : levels;
+      levels = this->countIsGiven() ? this->matchGivenNumber() : levels;
       if (this->tooMany(levels))
       {
         return false;
@@ -214,14 +242,14 @@ bool ClassicSystem::makeLevels(const std::vector<ClassicParticle>& seeds)
   return true;
 }
 
-/// Makes particles as many as are given, and puts others in the place of those that overlap.
+/// Makes particles as many as the given number, and exchanges overlapping ones for others.
 void ClassicSystem::exchange()
 {
-  for (int n = 0; n < mostExchanges && (n == 0 || dropOverlapping(this->Particles)); ++n)
+  for (int n = 0; n < Largest::Exchanges && (n == 0 || dropOverlapping(this->Particles)); ++n)
   {
-    forceCount(
-      this->Particles, static_cast<std::size_t>(this->Parameters.particleCount), this->Dice);
-    this->relaxLevel(maximumSplitAndDeleteRounds, true);
+    setCount(this->Particles, static_cast<std::size_t>(this->Parameters.particleCount),
+      this->RandomNumbers);
+    this->relaxLevel(Largest::Rounds, true);
   }
 }
 
@@ -239,8 +267,9 @@ Distribution ClassicSystem::run()
   return this->finish();
 }
 
-/// Takes a particle at rest to the tolerance asked for, and looks at the surface there.
-bool ClassicSystem::settle(
+/// Takes a particle at rest to the tolerance asked for, and evaluates the surface there.
+/// \return whether it converged
+bool ClassicSystem::toTolerance(
   const ClassicParticle& mover, SurfaceWalker& walker, Particle& particle) const
 {
   Evaluated at;
@@ -249,10 +278,8 @@ bool ClassicSystem::settle(
     return false;
   }
   at = walker.evaluateCurved(at.location);
-  const Curvature bend = curvature(at.point.gradient, at.hessian);
-  particle = { at.location, at.point.map.position, surfaceNormal(at.point.gradient), bend,
-    std::abs(at.point.value) / length(at.point.gradient), this->Particles.sizing.at(bend.magnitude),
-    {}, 0.0 };
+  const Curvature curved = curvature(at.point.gradient, at.hessian);
+  particle = particleAt(at.location, at.point, curved, this->Particles.sizing.at(curved.magnitude));
   return true;
 }
 
@@ -262,7 +289,7 @@ Distribution ClassicSystem::finish()
   const std::vector<ClassicParticle>& movers = this->Particles.movers;
   const std::size_t count = this->Report.error.empty() ? movers.size() : 0;
   result.particles.resize(count);
-  std::vector<char> settled(count, 0);
+  std::vector<char> converged(count, 0);
   std::vector<std::int64_t> cost(count, 0);
   runParallel(this->Parallel, static_cast<std::ptrdiff_t>(count),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
@@ -270,11 +297,11 @@ Distribution ClassicSystem::finish()
       for (std::ptrdiff_t i = begin; i < end; ++i)
       {
         SurfaceWalker walker(this->Surface);
-        settled[i] = this->settle(movers[i], walker, result.particles[i]);
+        converged[i] = this->toTolerance(movers[i], walker, result.particles[i]);
         cost[i] = walker.evaluations();
       }
     });
-  keepMarked(result.particles, settled);
+  keepMarked(result.particles, converged);
   this->Report.particlesRejected =
     this->Particles.rejected() + static_cast<std::int64_t>(count - result.particles.size());
   this->Report.evaluations += std::accumulate(

@@ -12,10 +12,18 @@ namespace hop
 namespace
 {
 
+/// Factor by which the neighbour lists reach beyond the range of interaction, as particles move while lists last.
+/// Chosen by experiment. Larger: longer lists; smaller: neighbours that come near are overlooked for some sweeps.
 constexpr double listSlack = 1.25;
-/// While particles move they lie on the surface to this fraction of their spacing, or to the
-/// tolerance asked for if that is larger.
+
+/// Distance from the surface, in units of the smallest spacing, to which particles are projected while they move,
+/// unless the tolerance asked for is larger. Chosen by experiment. Larger: energies feel the distance from the surface;
+/// smaller: more Newton steps.
 constexpr double movingTolerance = 1e-4;
+
+/// Factor of a box's diagonal within which Newton's method has to find the surface from the box's middle. Chosen by
+/// experiment. Larger: seeds of other components; smaller: the line between two corners is searched more often.
+constexpr double seedTravelPerBox = 2.0;
 
 Isosurface whileMoving(Isosurface surface, const SizingFunction& sizing)
 {
@@ -24,7 +32,8 @@ Isosurface whileMoving(Isosurface surface, const SizingFunction& sizing)
   return surface;
 }
 
-/// Neighbours that hexagonal packing can have around a particle on that many boundary faces.
+/// Energy of the neighbours that hexagonal packing can have around a particle on a number of boundary faces: 6 inside,
+/// 4 on a face, 2 on an edge, 1 in a corner.
 double idealEnergyOnBoundary(int boundaryFaces)
 {
   constexpr double neighbors[] = { 6.0, 4.0, 2.0, 1.0 };
@@ -48,7 +57,7 @@ ClassicParticles::ClassicParticles(
 {
 }
 
-/// Puts a place on the surface and notes what the distribution needs to know there.
+/// Projects a place onto the surface, and evaluates there what the distribution needs.
 bool ClassicParticles::place(
   const Location& start, double maximumTravel, SurfaceWalker& walker, ClassicParticle& mover) const
 {
@@ -57,7 +66,7 @@ bool ClassicParticles::place(
     return false;
   }
   mover.normal = surfaceNormal(mover.at.point.gradient);
-  mover.ideal = idealEnergyOnBoundary(walker.endCount(mover.at.location));
+  mover.ideal = idealEnergyOnBoundary(walker.endFaceCount(mover.at.location));
   mover.curvature = 0.0;
   if (this->sizing.angularDensity > 0.0)
   {
@@ -75,12 +84,12 @@ bool ClassicParticles::displace(
     length(to.position() - from.position()) <= farthest && dot(to.normal, from.normal) > 0.0;
 }
 
-/// By Newton's method from the middle of the box, or, should that lead away from it, on the line
-/// between two of its corners.
+/// Finds a point of the surface by Newton's method from the middle of the box or, if that leads away from the box, on
+/// the line between two of its corners.
 bool ClassicParticles::seed(
   const SurfaceBox& box, SurfaceWalker& walker, ClassicParticle& mover, std::int64_t& cost) const
 {
-  const bool found = this->place(box.middle, 2.0 * box.size, walker, mover);
+  const bool found = this->place(box.middle, seedTravelPerBox * box.size, walker, mover);
   if ((found && isAtBox(box, mover.at.location)) || !box.straddles)
   {
     return found;
@@ -172,7 +181,7 @@ double ClassicParticles::scaledDistance(const ClassicParticle& a, const ClassicP
     this->sizing.range(0.5 * (a.curvature + b.curvature));
 }
 
-double ClassicParticles::bendAt(const ClassicParticle& mover)
+double ClassicParticles::curvatureAt(const ClassicParticle& mover)
 {
   const Evaluated at = this->Walker.evaluateCurved(mover.at.location);
   return curvature(at.point.gradient, at.hessian).magnitude;

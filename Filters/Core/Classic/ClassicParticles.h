@@ -11,51 +11,56 @@
 namespace hop
 {
 
-/// A particle of the paper's scheme on its way.
+/// A particle of the paper's scheme, while it moves.
 struct ClassicParticle
 {
-  /// Step lengths in units of h^2; the paper divides and multiplies lambda by ten. In hexagonal packing
-  /// the second derivative of the energy along the surface is about 4.5/h^2: a Newton step is 0.22.
+  /// Step lengths lambda in units of h^2; the paper divides and multiplies them by ten. In hexagonal packing the second
+  /// derivative of the energy along the surface is about 4.5/h^2, so that a Newton step has lambda = 0.22. A larger
+  /// LargestLambda overshoots; a smaller one takes more sweeps.
   static constexpr double InitialLambda = 0.2;
   static constexpr double LargestLambda = 0.2;
+  /// With the energy not falling even so, the particle stays where it is. Chosen by experiment: a ten-thousandth of h
+  /// a unit of force.
   static constexpr double SmallestLambda = 1e-4;
 
   Evaluated at;
   WorldVector normal;
+  /// Curvature magnitude, 1/world units; zero where the spacing does not depend on it.
   double curvature = 0.0;
   double lambda = InitialLambda;
-  /// Energy of hexagonal packing around it; less on a boundary curve.
+  /// Energy of hexagonal packing around it; less on a boundary curve, where neighbours are missing.
   double ideal = 0.0;
   double energy = 0.0;
 
   const WorldPoint& position() const { return this->at.point.map.position; }
 };
 
-/// The particles of the paper's scheme: they stay on the surface, nearly, while they move.
+/// The particles of the paper's scheme. While they move they stay near the surface.
 class ClassicParticles
 {
 public:
   ClassicParticles(
     const Isosurface& surface, const SizingFunction& sizing, ParallelFor parallelFor);
 
-  /// The spacing wanted now.
+  /// At the present level.
   SizingFunction sizing;
   std::vector<ClassicParticle> movers;
-  /// Those near each particle, as of the last renewNeighbors().
+  /// The particles near each particle, as of the last renewNeighbors().
   NeighborLists neighbors;
 
   /// A particle for every box from which Newton's method finds the surface.
   std::vector<ClassicParticle> seedsOf(const std::vector<SurfaceBox>& boxes);
 
-  /// Adds the seeds around which, within their own spacing, no particle lies on the same sheet.
+  /// Adds each seed that has no particle of the same orientation within its spacing.
   void addUncovered(const std::vector<ClassicParticle>& seeds);
 
   /// Adds a particle at a distance from another, in a direction (radians) of its tangent plane.
   /// \return false if it could not be put on the surface
   bool addBeside(const ClassicParticle& parent, double distance, double angle);
 
-  /// The same particle after a step in world space; false if it could not be put on the surface within
-  /// `farthest` of where it was, or turned over to another sheet.
+  /// Moves a particle by a step in world space, and back to the surface.
+  /// \param to the particle there
+  /// \return false if that failed, ended more than `farthest` from the start, or on a sheet that is turned away
   bool displace(
     const ClassicParticle& from, const WorldVector& step, double farthest, ClassicParticle& to);
 
@@ -65,10 +70,10 @@ public:
   double scaledDistance(const ClassicParticle& a, const ClassicParticle& b) const;
 
   /// Curvature magnitude, whether or not the spacing follows it.
-  double bendAt(const ClassicParticle& mover);
+  double curvatureAt(const ClassicParticle& mover);
 
   std::int64_t evaluations() const { return this->SeedCost + this->Walker.evaluations(); }
-  /// Given up because they could not be put on the surface.
+  /// Number of particles given up because they could not be put on the surface.
   std::int64_t rejected() const { return this->Rejected; }
 
 private:

@@ -7,10 +7,20 @@ namespace hop
 namespace
 {
 
-/// Particles moved before the caller may end the work.
+/// Particles that are moved before the caller may end the work. More: it waits longer; fewer: more time goes into
+/// asking.
 constexpr std::size_t particlesAtOnce = 1024;
-/// Forces along the surface, in units of 1/h, that move nothing.
+
+/// Force along the surface, in units of 1/h, below which a particle is at rest. Chosen by experiment. Larger: particles
+/// stop early; smaller: steps shorter than the projection's tolerance are tried.
 constexpr double leastForce = 1e-6;
+
+/// Factors of the step length lambda after a step that lowers the energy and one that does not. From the paper.
+struct LambdaFactor
+{
+  static constexpr double Grow = 10.0;
+  static constexpr double Shrink = 0.1;
+};
 
 struct EnergyAndForce
 {
@@ -18,7 +28,7 @@ struct EnergyAndForce
   WorldVector force;
 };
 
-/// Energy of particle i, were it where `trial` is, and the force -dE/dx on it (eq. 3).
+/// Energy of particle i if it were in the place of `trial`, and the force -dE/dx on it (eq. 3).
 EnergyAndForce interact(
   const ClassicParticles& particles, std::size_t i, const ClassicParticle& trial)
 {
@@ -36,7 +46,7 @@ EnergyAndForce interact(
     WorldVector apart = trial.position() - other.position();
     if (!(length(apart) > 0.0))
     {
-      // Any direction will do, if the two do not choose the same.
+      // In one place any direction will do, if the two particles take opposite ones.
       const double way = i < static_cast<std::size_t>(lists.neighbor[n]) ? 1.0 : -1.0;
       apart = { way * orthogonalTo(trial.normal.xyz) };
     }
@@ -47,6 +57,7 @@ EnergyAndForce interact(
   return sum;
 }
 
+/// Moves particle i by the first of ever shorter steps that lowers its energy.
 void relax(ClassicParticles& particles, std::size_t i)
 {
   const ClassicParticle start = particles.movers[i];
@@ -58,7 +69,8 @@ void relax(ClassicParticles& particles, std::size_t i)
   {
     return;
   }
-  for (double lambda = start.lambda; lambda >= ClassicParticle::SmallestLambda; lambda *= 0.1)
+  for (double lambda = start.lambda; lambda >= ClassicParticle::SmallestLambda;
+       lambda *= LambdaFactor::Shrink)
   {
     WorldVector step = (lambda * h * h) * tangential;
     step = std::min(1.0, h / length(step)) * step;
@@ -71,7 +83,7 @@ void relax(ClassicParticles& particles, std::size_t i)
     if (energy < here.energy)
     {
       trial.energy = energy;
-      trial.lambda = std::min(ClassicParticle::LargestLambda, 10.0 * lambda);
+      trial.lambda = std::min(ClassicParticle::LargestLambda, LambdaFactor::Grow * lambda);
       particles.movers[i] = trial;
       return;
     }

@@ -5,9 +5,9 @@
 namespace hop
 {
 
-/// Moves one particle after the other against the gradient of its energy (eq. 3), with a step length of its own
-/// that grows and shrinks as its energy falls or does not, no farther than h.
-/// \return the energy of all of them, before
+/// Moves one particle after the other against the gradient of its energy (eq. 3), no farther than h. Each has a step
+/// length of its own, which grows when the energy falls and shrinks otherwise.
+/// \return the sum of the energies that particles have before or, if they move, after their step
 double sweepOnce(ClassicParticles& particles, const ParallelFor& parallelFor);
 
 } // namespace hop

@@ -11,18 +11,46 @@ namespace hop
 namespace
 {
 
-// The paper's constants.
-constexpr double splitBelow = -0.35;
-constexpr double deleteAbove = 0.75;
-constexpr double settledShare = 0.01;
+/// The paper's biased coin. A particle's bias is U (E - E_ideal)/E_ideal, U uniform in [0, 1).
+struct BiasedCoin
+{
+  /// Bias below which a particle is split. Nearer to zero: more are split, also in an even packing.
+  static constexpr double SplitBelow = -0.35;
+  /// Bias above which a particle is deleted. Nearer to zero: more are deleted.
+  static constexpr double DeleteAbove = 0.75;
+  /// The system has settled when fewer than this share of the particles change. Larger: it settles sooner, and less
+  /// evenly.
+  static constexpr double SettledShare = 0.01;
+};
 
-/// Where curvature times spacing exceeds this, neighbours cannot pack hexagonally: particles there
-/// come and go for ever, so they do not keep the system from counting as settled.
-constexpr double bentTooFar = 1.0;
-/// Scaled distance of particles that nothing will part any more, as in a corner of the domain.
+/// Curvature magnitude times spacing beyond which neighbours cannot pack hexagonally. Particles there come and go for
+/// ever, and do not keep the system from having settled. Chosen by experiment. Larger: some systems never settle;
+/// smaller: they settle with defects where they bend.
+constexpr double largestBend = 1.0;
+
+/// Scaled distance r at which particles overlap: nothing will part them any more, as in a corner of the domain. Chosen
+/// by experiment. Larger: pairs are deleted that would part; smaller: doubled particles remain.
 constexpr double overlapDistance = 0.1;
-/// Energy, in units of that of hexagonal packing, beyond which it says nothing about the number of particles.
-constexpr double largestExcess = 2.5;
+
+/// Energy, in units of the ideal one, beyond which it says nothing about the number of particles. Chosen by experiment.
+/// Larger: one pair that cannot part lowers the number everywhere.
+constexpr double largestEnergy = 2.5;
+
+/// Largest relative change of the number of particles at once. Chosen by experiment. Larger: first order no longer
+/// holds; smaller: more rounds.
+constexpr double largestChange = 0.2;
+
+/// Distance of a new particle from the one that is split, in units of the spacing: after a split, where the sweeps part
+/// the two, and where four take the place of one, which have about a spacing each. Chosen by experiment.
+struct ChildDistance
+{
+  static constexpr double OfSplit = 0.5;
+  static constexpr double OfFour = 0.9;
+};
+
+/// Attempts to add a particle for each one asked for: some cannot be put on the surface. Chosen by experiment; the
+/// number stays too small where they do not suffice.
+constexpr std::size_t attemptsPerParticle = 10;
 
 enum class Fate : char
 {
@@ -33,11 +61,11 @@ enum class Fate : char
 
 bool bendsTooFar(ClassicParticles& particles, const ClassicParticle& mover)
 {
-  const double bend = particles.bendAt(mover);
-  return bend * particles.sizing.at(bend) > bentTooFar;
+  const double curvature = particles.curvatureAt(mover);
+  return curvature * particles.sizing.at(curvature) > largestBend;
 }
 
-/// Whether a particle of lower index lies all but in the same place.
+/// Whether particle i overlaps one of lower index.
 bool overlapsEarlier(const ClassicParticles& particles, std::size_t i)
 {
   const NeighborLists& lists = particles.neighbors;
@@ -52,12 +80,14 @@ bool overlapsEarlier(const ClassicParticles& particles, std::size_t i)
     });
 }
 
-double anyDirection(Random& dice)
+double anyDirection(Random& random)
 {
-  return 2.0 * Pi * dice.uniform();
+  return 2.0 * Pi * random.uniform();
 }
 
-void follow(const std::vector<Fate>& fates, ClassicParticles& particles, Random& dice)
+/// Deletes and splits particles.
+/// \param fates one for each particle
+void apply(const std::vector<Fate>& fates, ClassicParticles& particles, Random& random)
 {
   const std::vector<ClassicParticle> before = std::move(particles.movers);
   particles.movers.clear();
@@ -69,15 +99,15 @@ void follow(const std::vector<Fate>& fates, ClassicParticles& particles, Random&
     }
     if (fates[i] == Fate::Split)
     {
-      const double distance = 0.5 * particles.sizing.at(before[i].curvature);
-      particles.addBeside(before[i], distance, anyDirection(dice));
+      const double distance = ChildDistance::OfSplit * particles.sizing.at(before[i].curvature);
+      particles.addBeside(before[i], distance, anyDirection(random));
     }
   }
 }
 
 } // namespace
 
-bool splitAndDelete(ClassicParticles& particles, Random& dice)
+bool splitAndDelete(ClassicParticles& particles, Random& random)
 {
   const std::vector<ClassicParticle>& movers = particles.movers;
   std::vector<Fate> fates(movers.size(), Fate::Stay);
@@ -86,8 +116,10 @@ bool splitAndDelete(ClassicParticles& particles, Random& dice)
   for (std::size_t i = 0; i < movers.size(); ++i)
   {
     const ClassicParticle& m = movers[i];
-    const double bias = dice.uniform() * (m.energy - m.ideal) / m.ideal;
-    fates[i] = bias < splitBelow ? Fate::Split : bias > deleteAbove ? Fate::Delete : Fate::Stay;
+    const double bias = random.uniform() * (m.energy - m.ideal) / m.ideal;
+    fates[i] = bias < BiasedCoin::SplitBelow ? Fate::Split
+      : bias > BiasedCoin::DeleteAbove       ? Fate::Delete
+                                             : Fate::Stay;
     changes += fates[i] != Fate::Stay && !bendsTooFar(particles, m);
     if (overlapsEarlier(particles, i))
     {
@@ -95,11 +127,11 @@ bool splitAndDelete(ClassicParticles& particles, Random& dice)
       overlaps = true;
     }
   }
-  if (!overlaps && changes < settledShare * static_cast<double>(movers.size()))
+  if (!overlaps && changes < BiasedCoin::SettledShare * static_cast<double>(movers.size()))
   {
     return false;
   }
-  follow(fates, particles, dice);
+  apply(fates, particles, random);
   return true;
 }
 
@@ -112,21 +144,23 @@ double excessEnergy(const std::vector<ClassicParticle>& movers)
   double ideal = 0.0;
   for (const ClassicParticle& m : movers)
   {
-    // One pair that cannot part would outweigh all others.
-    energy += std::min(m.energy, largestExcess * m.ideal);
+    // A pair that cannot part would outweigh all other particles.
+    energy += std::min(m.energy, largestEnergy * m.ideal);
     ideal += m.ideal;
   }
   return ideal > 0.0 ? (energy / ideal - 1.0) / slope : 0.0;
 }
 
-void insertAndDelete(ClassicParticles& particles, Random& dice)
+void reachIdealEnergy(ClassicParticles& particles, Random& random)
 {
-  const double change = std::clamp(-2.0 * excessEnergy(particles.movers), -0.2, 0.2);
+  // The number is proportional to 1/s^2: twice the relative change of the spacing.
+  const double change =
+    std::clamp(-2.0 * excessEnergy(particles.movers), -largestChange, largestChange);
   const double count = (1.0 + change) * static_cast<double>(particles.movers.size());
-  forceCount(particles, static_cast<std::size_t>(std::llround(count)), dice);
+  setCount(particles, static_cast<std::size_t>(std::llround(count)), random);
 }
 
-void forceCount(ClassicParticles& particles, std::size_t count, Random& dice)
+void setCount(ClassicParticles& particles, std::size_t count, Random& random)
 {
   std::vector<ClassicParticle>& movers = particles.movers;
   std::vector<std::size_t> byEnergy(movers.size());
@@ -142,14 +176,15 @@ void forceCount(ClassicParticles& particles, std::size_t count, Random& dice)
     keepMarked(movers, kept);
     return;
   }
-  for (std::size_t tries = 0; movers.size() < count && tries < 10 * count; ++tries)
+  for (std::size_t tries = 0; movers.size() < count && tries < attemptsPerParticle * count; ++tries)
   {
     const ClassicParticle parent = movers[byEnergy[tries % byEnergy.size()]];
-    particles.addBeside(parent, 0.5 * particles.sizing.at(parent.curvature), anyDirection(dice));
+    particles.addBeside(
+      parent, ChildDistance::OfSplit * particles.sizing.at(parent.curvature), anyDirection(random));
   }
 }
 
-void splitByFour(ClassicParticles& particles, double oldSpacing, Random& dice)
+void splitByFour(ClassicParticles& particles, double oldSpacing, Random& random)
 {
   SizingFunction oldSizing = particles.sizing;
   oldSizing.spacing = oldSpacing;
@@ -159,11 +194,11 @@ void splitByFour(ClassicParticles& particles, double oldSpacing, Random& dice)
     const ClassicParticle parent = particles.movers[i];
     const double h = particles.sizing.at(parent.curvature);
     const double ratio = oldSizing.at(parent.curvature) / h;
-    const int children = static_cast<int>(ratio * ratio - 1.0 + dice.uniform());
-    const double start = anyDirection(dice);
+    const int children = static_cast<int>(ratio * ratio - 1.0 + random.uniform());
+    const double start = anyDirection(random);
     for (int child = 0; child < children; ++child)
     {
-      particles.addBeside(parent, 0.9 * h, start + 2.0 * Pi * child / children);
+      particles.addBeside(parent, ChildDistance::OfFour * h, start + 2.0 * Pi * child / children);
     }
   }
 }

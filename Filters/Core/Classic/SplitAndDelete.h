@@ -6,27 +6,30 @@
 namespace hop
 {
 
-/// Splits lonely particles and deletes crowded ones by a biased coin, and overlapping ones always.
-/// \return whether enough wanted to that the system has to settle again
-bool splitAndDelete(ClassicParticles& particles, Random& dice);
+/// Splits particles with little energy and deletes particles with much by the paper's biased coin; deletes overlapping
+/// particles always.
+/// \return whether so many changed that the system has to settle again; if not, none did
+bool splitAndDelete(ClassicParticles& particles, Random& random);
 
-/// By how much the mean energy exceeds the ideal one, as a relative change of spacing: in hexagonal
-/// packing dE/ds = -6 E'(beta) beta / s.
+/// Share by which the spacing has to fall so that the mean energy becomes the ideal one, to first order; negative where
+/// it has to rise. In hexagonal packing dE/ds = -6 E'(beta) beta / s.
 double excessEnergy(const std::vector<ClassicParticle>& movers);
 
-/// The biased coin is content while every energy is above 0.65 of the ideal one: evenly so with an
-/// eighth too few particles. This takes the population to where the mean energy is ideal.
-void insertAndDelete(ClassicParticles& particles, Random& dice);
+/// Splits or deletes so many particles that the mean energy becomes ideal, to first order. The biased coin splits no
+/// particle whose energy is above 0.65 of the ideal one: an even packing with up to an eighth too few particles stays
+/// as it is.
+void reachIdealEnergy(ClassicParticles& particles, Random& random);
 
-/// Splits the loneliest or deletes the most crowded until there are exactly `count`.
-void forceCount(ClassicParticles& particles, std::size_t count, Random& dice);
+/// Splits the particles with the least energy, or deletes the particles with the most, until there are `count`.
+void setCount(ClassicParticles& particles, std::size_t count, Random& random);
 
-/// After the spacing was halved: each particle becomes four on a flat surface, fewer where
-/// curvature keeps the spacing.
-void splitByFour(ClassicParticles& particles, double oldSpacing, Random& dice);
+/// Splits particles after the spacing was lowered: into four each on a flat surface where it was halved, into fewer
+/// where the spacing follows the curvature.
+/// \param oldSpacing of the sizing function, before
+void splitByFour(ClassicParticles& particles, double oldSpacing, Random& random);
 
-/// Of particles that lie all but in the same place, deletes all but the first.
-/// \return whether there were any
+/// Deletes particles that overlap one before them.
+/// \return whether there were such particles
 bool dropOverlapping(ClassicParticles& particles);
 
 } // namespace hop

@@ -3,7 +3,9 @@
 #include "Edges/BoundaryTracer.h"
 #include "Edges/FaceCrossings.h"
 #include "Edges/FacePlanes.h"
+#include "Edges/ParticleGrid.h"
 #include "Edges/SampleComparison.h"
+#include "Support/KeepFirst.h"
 #include "Support/KeepMarked.h"
 #include "Support/SpacingGrid.h"
 #include "Surface/ActiveFaces.h"
@@ -17,24 +19,44 @@ namespace hop
 namespace
 {
 
-/// Chords of traced boundary curves, in units of the spacing.
-constexpr double chordPerSpacing = 0.75;
-/// So near to the surface a crossing tells whether it ends there.
-constexpr double crossingPerSpacing = 0.2;
-/// It does not where, as far as samples tell, the sides miss each other by less than this, in units of the
-/// spacing. Other hints lead to a boundary curve that is overlooked.
-constexpr double clearJump = 0.25;
+/// How boundary curves are found and followed: lengths in units of the spacing wanted nearby. Chosen by experiment.
+struct Tracing
+{
+  /// Largest chord. Longer ones cost fewer evaluations, but particles are placed on a cubic between the ends of a
+  /// chord, and start farther from the curve.
+  static constexpr double Chord = 0.75;
+  /// Largest distance from the surface, by which a vertex may miss it: particles are taken to the tolerance later.
+  static constexpr double Tolerance = 1e-2;
+  /// Within this distance of the surface a crossing tells whether the surface ends there. A larger one believes values
+  /// and slopes too far off; with a smaller one more starts are put onto the surface in vain.
+  static constexpr double CrossingReach = 0.2;
+  /// Largest jump, as far as samples tell, at which the two sides of a face are taken to meet: a crossing with less is
+  /// no hint of a boundary curve. Curves that begin at such a place are found by their other hints. A smaller one costs
+  /// evaluations; a larger one overlooks curves along small jumps.
+  static constexpr double MeetingJump = 0.25;
+  /// Largest distance on the way from a hint to the curve. A larger one may lead to another curve.
+  static constexpr double LongestWay = 4.0;
+};
 
-/// Particles of one surface are never as near as this, in units of the spacing.
-constexpr double sameSurface = 0.6;
+/// When two particles are too near to each other, in units of the spacing of the later one. Chosen by experiment.
+struct Nearness
+{
+  /// On one sheet. Evenly spaced curves keep nearly one spacing; less than this stand corners that are close to each
+  /// other, and curves that run side by side. More drops particles of short stretches between corners, less leaves
+  /// pairs.
+  static constexpr double OnOneSheet = 0.6;
+  /// Where two sheets meet at a sharp edge, and each has a curve of its own.
+  static constexpr double AtSharpEdge = 0.3;
+};
 
-/// Chords need not lie on the surface as exactly as particles.
+/// The surface for the tracer. Chords need not lie on it as exactly as particles.
 Isosurface roughly(Isosurface surface, double spacing)
 {
-  surface.tolerance = std::max(surface.tolerance, 1e-2 * spacing);
+  surface.tolerance = std::max(surface.tolerance, Tracing::Tolerance * spacing);
   return surface;
 }
 
+/// The surface as it would be if it passed every jump.
 Isosurface seamless(Isosurface surface)
 {
   surface.jumpTolerances = nullptr;
@@ -45,7 +67,7 @@ Isosurface seamless(Isosurface surface)
 struct BoundaryHint
 {
   FaceCrossing crossing;
-  /// The spacing wanted nearby.
+  /// Wanted nearby, world units.
   double spacing = 0.0;
 };
 
@@ -55,11 +77,11 @@ struct BoundaryPlace
   Location location;
   /// Of the element; -1 where it is yet to be found.
   int face = -1;
-  /// A spacing wanted nearby.
+  /// Wanted nearby, world units.
   double spacing = 0.0;
 };
 
-/// Out of the surface along it, at a face of the element; zero where it is parallel to that.
+/// Unit vector along the surface that leaves the element by a face; zero where the surface is parallel to the face.
 WorldVector outwardAt(const ElementMesh& mesh, const Evaluated& at, int face)
 {
   const glm::dvec3 normal = surfaceNormal(at.point.gradient).xyz;
@@ -69,7 +91,7 @@ WorldVector outwardAt(const ElementMesh& mesh, const Evaluated& at, int face)
   return { glm::length(along) > 0.0 ? -glm::normalize(along) : glm::dvec3(0.0) };
 }
 
-/// Makes particles of such places; one a thread.
+/// Makes particles of places; one finisher a thread.
 class BoundaryFinisher
 {
 public:
@@ -85,7 +107,7 @@ public:
   }
 
   /// \return whether there is a boundary curve
-  bool finish(const BoundaryPlace& place, BoundaryParticle& boundary);
+  bool finish(const BoundaryPlace& place, BoundaryParticle& result);
 
   std::int64_t evaluations() const
   {
@@ -93,7 +115,16 @@ public:
   }
 
 private:
-  bool lookBehind(const BoundaryPoint& point, double& jump, int& otherWall);
+  /// What lies behind the boundary faces of a point.
+  struct Beyond
+  {
+    /// F - c on the other side; zero where there is none.
+    double jump = 0.0;
+    /// In a corner, the other face with nothing behind it; else -1.
+    int otherFace = -1;
+  };
+
+  std::optional<Beyond> lookBehind(const BoundaryPoint& point);
   BoundarySide sideAt(int face, const Evaluated& at, const Jet& jet) const;
 
   const Isosurface& Surface;
@@ -101,7 +132,7 @@ private:
   const SurfaceProxy& Proxy;
   const SizingFunction& Sizing;
   BoundaryTracer Exact;
-  /// Goes on wherever there is something to go on in.
+  /// Passes every face that has something behind it.
   SurfaceWalker Passer;
 };
 
@@ -116,7 +147,7 @@ public:
     , Sizing(sizing)
     , Samples(*surface.mesh, proxy)
     , Tracer(roughly(surface, proxy.smallestSpacing()), BoundaryTracer::Points::Rough)
-    , Walker(surface.withWalls())
+    , Walker(surface.endingWhereItMay())
   {
   }
 
@@ -130,7 +161,7 @@ private:
   double spacingAt(const BoundaryPoint& point);
   ReferencePoint between(const BoundaryPoint& from, const BoundaryPoint& to, double t) const;
   void finish(const ParallelFor& parallelFor);
-  bool isTooNear(int i, int j) const;
+  bool isTooNear(std::size_t i, std::size_t j) const;
   void thinOut(const ParallelFor& parallelFor);
 
   Isosurface Surface;
@@ -144,6 +175,7 @@ private:
   BoundaryCurves Result;
 };
 
+/// The spacing wanted at a point.
 double BoundarySampler::spacingAt(const BoundaryPoint& point)
 {
   if (this->Sizing.angularDensity == 0.0)
@@ -155,7 +187,7 @@ double BoundarySampler::spacingAt(const BoundaryPoint& point)
     static_cast<float>(curvature(at.point.gradient, at.hessian).magnitude));
 }
 
-/// Those of each box.
+/// The hints of each box.
 std::vector<std::vector<BoundaryHint>> BoundarySampler::findHints(
   const ParallelFor& parallelFor) const
 {
@@ -170,7 +202,7 @@ std::vector<std::vector<BoundaryHint>> BoundarySampler::findHints(
         mesh, box, [&](int face) { return this->Surface.mayEnd(box.middle.element, face); },
         [&](const FaceCrossing& crossing)
         {
-          if (!this->Samples.meet(crossing, sample, clearJump))
+          if (!this->Samples.meet(crossing, sample, Tracing::MeetingJump))
           {
             hints[b].push_back(
               { crossing, sample.found ? sample.patch.spacing : this->Sizing.spacing });
@@ -180,21 +212,23 @@ std::vector<std::vector<BoundaryHint>> BoundarySampler::findHints(
   return hints;
 }
 
+/// Traces the curve that a hint leads to, unless there is none or it is traced, and places particles on it.
 void BoundarySampler::follow(const BoundaryHint& hint)
 {
   const FaceCrossing& crossing = hint.crossing;
   const double nearby = hint.spacing;
-  if (this->Tracer.hasPassed(crossing) ||
-    this->Tracer.goesOnAt(crossing, crossingPerSpacing * nearby))
+  if (this->Tracer.isTraced(crossing) ||
+    this->Tracer.goesOnAt(crossing, Tracing::CrossingReach * nearby))
   {
     return;
   }
-  const auto start = this->Tracer.project(crossing.location, crossing.face, 4.0 * nearby);
-  if (!start || this->Tracer.hasPassed(*start) || !this->Tracer.isOnBoundary(*start))
+  const auto start =
+    this->Tracer.project(crossing.location, crossing.face, Tracing::LongestWay * nearby);
+  if (!start || this->Tracer.isTraced(*start) || !this->Tracer.isOnBoundary(*start))
   {
     return;
   }
-  this->sample(this->Tracer.trace(*start, chordPerSpacing * nearby));
+  this->sample(this->Tracer.trace(*start, Tracing::Chord * nearby));
 }
 
 /// Cuts a boundary curve at its corners, and samples stretch by stretch.
@@ -222,8 +256,9 @@ void BoundarySampler::sample(BoundaryTrace trace)
   }
 }
 
-/// On the cubic of Hermite between two points of a boundary curve in one element, or on the line where that would leave
-/// the face.
+/// A place on Hermite's cubic between two points of a boundary curve in one element, or on the line between the points
+/// where the cubic would leave the face.
+/// \param t share of the way, 0 to 1
 ReferencePoint BoundarySampler::between(
   const BoundaryPoint& from, const BoundaryPoint& to, double t) const
 {
@@ -241,7 +276,9 @@ ReferencePoint BoundarySampler::between(
   return from.face == to.face && insideMargin(domain, onCubic) > -OnFace ? onCubic : onLine;
 }
 
-/// Particles at equal distances, in units of the spacing wanted, from the first vertex on.
+/// Places particles along a stretch without corners, at equal distances in units of the spacing wanted there, the first
+/// one on the first vertex.
+/// \param withEnd also one on the last vertex
 void BoundarySampler::sampleStretch(Span<BoundaryVertex> vertices, bool withEnd)
 {
   std::vector<double> sums{ 0.0 };
@@ -280,33 +317,31 @@ void BoundarySampler::sampleStretch(Span<BoundaryVertex> vertices, bool withEnd)
   }
 }
 
-bool BoundaryFinisher::finish(const BoundaryPlace& place, BoundaryParticle& boundary)
+bool BoundaryFinisher::finish(const BoundaryPlace& place, BoundaryParticle& result)
 {
   const auto point = this->Exact.project(place.location, place.face, place.spacing);
+  const auto beyond = point ? this->lookBehind(*point) : std::nullopt;
   Anchor anchor;
-  int otherWall = -1;
-  if (!point || !this->lookBehind(*point, boundary.particle.jump, otherWall) ||
-    !anchorPatch(point->at, anchor, boundary.patch))
+  if (!beyond || !anchorPatch(point->at, anchor, result.patch))
   {
     return false;
   }
   const FieldPoint& field = point->at.point;
-  boundary.patch.spacing =
-    this->Proxy.spacingAt(boundary.patch.position, boundary.patch.curvatureMagnitude());
-  boundary.patch.fixed = true;
-  const WorldVector normal = surfaceNormal(field.gradient);
-  boundary.particle = { point->at.location, field.map.position, normal,
-    curvature(field.gradient, point->at.hessian), std::abs(field.value) / length(field.gradient),
-    this->Sizing.angularDensity == 0.0 ? this->Sizing.spacing : boundary.patch.spacing, {},
-    boundary.particle.jump };
+  result.patch.spacing =
+    this->Proxy.spacingAt(result.patch.position, result.patch.curvatureMagnitude());
+  result.patch.fixed = true;
+  result.particle =
+    particleAt(point->at.location, field, curvature(field.gradient, point->at.hessian),
+      this->Sizing.angularDensity == 0.0 ? this->Sizing.spacing : result.patch.spacing);
+  result.particle.jump = beyond->jump;
   const Jet& jet = this->Exact.jetAt(*point);
-  offerFaces(this->Surface, this->Jumps, jet, field, boundary.particle);
-  boundary.side = this->sideAt(point->face, point->at, jet);
-  boundary.otherSide = this->sideAt(otherWall, point->at, jet);
+  offerFaces(this->Surface, this->Jumps, jet, field, result.particle);
+  result.side = this->sideAt(point->face, point->at, jet);
+  result.otherSide = this->sideAt(beyond->otherFace, point->at, jet);
   return true;
 }
 
-/// Where the surface ends at a face; nothing at no face.
+/// How the surface ends at a face; nothing for no face.
 BoundarySide BoundaryFinisher::sideAt(int face, const Evaluated& at, const Jet& jet) const
 {
   if (face < 0)
@@ -315,21 +350,19 @@ BoundarySide BoundaryFinisher::sideAt(int face, const Evaluated& at, const Jet& 
   }
   const WorldVector outward = outwardAt(*this->Surface.mesh, at, face);
   const LevelSet field{ at.point.gradient, at.hessian };
-  const LevelSet wall =
+  const LevelSet margin =
     faceLevels(jet, at.point.map, this->Surface.mesh->face(at.location.element, face));
-  return { face, outward, dot(bendOfCrossing(field, wall), outward) };
+  return { face, outward, dot(curvatureOfCrossing(field, margin), outward) };
 }
 
-/// F - c on the other side of the faces on which a point lies; zero where there is no other side.
-/// \param otherWall another face with nothing behind it, in corners; else -1
-/// \return whether the surface ends there
-bool BoundaryFinisher::lookBehind(const BoundaryPoint& point, double& jump, int& otherWall)
+/// Looks behind all boundary faces on which a point lies.
+/// \return nothing where the surface goes on behind the point's own face
+std::optional<BoundaryFinisher::Beyond> BoundaryFinisher::lookBehind(const BoundaryPoint& point)
 {
   const Location& location = point.at.location;
   const ElementMesh& mesh = *this->Surface.mesh;
   const auto& faces = facts(mesh.elements[location.element].domain).faces;
-  jump = 0.0;
-  otherWall = -1;
+  Beyond result;
   for (int f = 0; f < static_cast<int>(faces.size()); ++f)
   {
     if (faceMargin(faces[f], location.u) >= OnFace || !this->Surface.mayEnd(location.element, f))
@@ -337,68 +370,67 @@ bool BoundaryFinisher::lookBehind(const BoundaryPoint& point, double& jump, int&
       continue;
     }
     const auto behind = this->Passer.behind(point.at, f);
-    jump = behind ? behind->at.point.value : jump;
-    otherWall = behind || f == point.face ? otherWall : f;
+    result.jump = behind ? behind->at.point.value : result.jump;
+    result.otherFace = behind || f == point.face ? result.otherFace : f;
     if (!behind || f != point.face)
     {
       continue;
     }
-    // Behind a face that is not joined it may lie too far off.
+    // What is found behind a face that the mesh does not join may lie too far off to count.
     const bool joined = mesh.neighbor(location.element, f).element >= 0;
-    if (joined ? SurfaceWalker::goesOn(this->Surface, point.at, f, *behind)
+    if (joined ? SurfaceWalker::continuesIn(this->Surface, point.at, f, *behind)
                : !this->Exact.isOnBoundary(point))
     {
-      return false;
+      return std::nullopt;
     }
   }
-  return true;
+  return result;
 }
 
+/// Makes particles of all places.
 void BoundarySampler::finish(const ParallelFor& parallelFor)
 {
-  Buffer<BoundaryParticle>& boundaries = this->Result.particles;
-  boundaries.resize(this->Places.size());
-  std::vector<char> found(boundaries.size());
+  Buffer<BoundaryParticle>& particles = this->Result.particles;
+  particles.resize(this->Places.size());
+  std::vector<char> found(particles.size());
   std::atomic<std::int64_t> evaluations{ 0 };
-  runParallel(parallelFor, static_cast<std::ptrdiff_t>(boundaries.size()),
+  runParallel(parallelFor, static_cast<std::ptrdiff_t>(particles.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       BoundaryFinisher finisher(this->Surface, this->Jumps, this->Proxy, this->Sizing);
       for (std::ptrdiff_t n = begin; n < end; ++n)
       {
-        found[n] = finisher.finish(this->Places[n], boundaries[n]);
+        found[n] = finisher.finish(this->Places[n], particles[n]);
       }
       evaluations += finisher.evaluations();
     });
-  keepMarked(boundaries, found);
+  keepMarked(particles, found);
   this->Result.evaluations += evaluations;
 }
 
-/// Whether two particles are as near as particles of one surface never are. Where two sheets meet at a sharp
-/// edge they may be nearer.
-bool BoundarySampler::isTooNear(int i, int j) const
+bool BoundarySampler::isTooNear(std::size_t i, std::size_t j) const
 {
-  constexpr double sharpEdge = 0.3;
   const BoundaryParticle& a = this->Result.particles[i];
   const BoundaryParticle& b = this->Result.particles[j];
   const double cosine = dot(a.particle.normal, b.particle.normal);
-  const double near = cosine > SameSheet ? sameSurface : sharpEdge;
+  const double near = cosine > SheetCosine ? Nearness::OnOneSheet : Nearness::AtSharpEdge;
   return cosine > 0.0 && glm::distance(a.patch.position, b.patch.position) < near * a.patch.spacing;
 }
 
-/// Of particles that are too near to each other the first stays. If they look at each other, the surface goes
-/// on there.
+/// Of particles that are too near to each other the first stays. If the surface ends at both on the two sides of a
+/// slit, it goes on there, and the one that stays ends at no face.
 void BoundarySampler::thinOut(const ParallelFor& parallelFor)
 {
-  Buffer<BoundaryParticle>& boundaries = this->Result.particles;
+  Buffer<BoundaryParticle>& particles = this->Result.particles;
   const SpacedPoints points(
-    boundaries.size(), [&](std::size_t i) { return boundaries[i].patch.position; },
-    [&](std::size_t i) { return boundaries[i].patch.spacing; }, parallelFor);
-  const SpacingGrid grid(points.positions, points.spacings, sameSurface, 0.5, parallelFor);
-  const auto visitEarlier = [&](int i, const auto& use)
+    particles.size(), [&](std::size_t i) { return particles[i].patch.position; },
+    [&](std::size_t i) { return particles[i].patch.spacing; }, parallelFor);
+  const SpacingGrid grid(
+    points.positions, points.spacings, Nearness::OnOneSheet, CellsPerReach, parallelFor);
+  const auto visitEarlier = [&](std::size_t i, const auto& use)
   {
     grid.visit(points.positions[i], points.spacings[i],
-      [&](int j)
+      [&](std::size_t j)
       {
         if (j < i && this->isTooNear(i, j))
         {
@@ -406,33 +438,30 @@ void BoundarySampler::thinOut(const ParallelFor& parallelFor)
         }
       });
   };
-  std::vector<char> kept(boundaries.size(), 1);
-  forAll(parallelFor, boundaries.size(),
-    [&](std::size_t i) { visitEarlier(static_cast<int>(i), [&](int) { kept[i] = 0; }); });
-  std::vector<char> seam(boundaries.size(), 0);
-  // The few that are near to another, one by one.
-  for (int i = 0; i < static_cast<int>(boundaries.size()); ++i)
+  const std::size_t count = particles.size();
+  const std::vector<char> kept =
+    keepFirst(std::vector<char>(count, 1), count, parallelFor, visitEarlier);
+  std::vector<char> closesSlit(count, 0);
+  for (std::size_t i = 0; i < count; ++i)
   {
     if (!kept[i])
     {
-      kept[i] = 1;
       visitEarlier(i,
-        [&](int j)
+        [&](std::size_t j)
         {
-          kept[i] = kept[i] && !kept[j];
-          seam[j] = seam[j] ||
-            (kept[j] && dot(boundaries[i].side.outward, boundaries[j].side.outward) < -0.5);
+          closesSlit[j] =
+            closesSlit[j] || (kept[j] && lookAtEachOther(particles[i].side, particles[j].side));
         });
     }
   }
-  for (std::size_t i = 0; i < boundaries.size(); ++i)
+  for (std::size_t i = 0; i < count; ++i)
   {
-    if (seam[i])
+    if (closesSlit[i])
     {
-      boundaries[i].side = {};
+      particles[i].side = {};
     }
   }
-  keepMarked(boundaries, kept);
+  keepMarked(particles, kept);
 }
 
 BoundaryCurves BoundarySampler::run(const ParallelFor& parallelFor)

@@ -7,43 +7,51 @@
 namespace hop
 {
 
-/// Where the surface ends at a wall.
+/// How the surface ends at a boundary face.
 struct BoundarySide
 {
   /// Of the particle's element.
   int face = -1;
-  /// Unit vector along the surface, out of where it ends; zero where it goes on all the same, less than
-  /// particles' distance away.
+  /// Unit vector along the surface, out of it across the boundary curve. Zero where there is no end: the surface goes
+  /// on less than a spacing away.
   WorldVector outward;
-  /// By which the boundary curve bends outwards, 1/radius; negative around islands.
-  double bend = 0.0;
+  /// Curvature of the boundary curve along the surface, 1/radius, positive where the curve bends outwards: negative
+  /// where the surface is convex there, positive around holes in it.
+  double edgeCurvature = 0.0;
 
   bool exists() const { return dot(this->outward, this->outward) > 0.0; }
 };
 
-/// A particle on the boundary curve of the surface.
+/// Whether the surface ends on both sides of a slit: the ways out are more than 120 degrees apart.
+inline bool lookAtEachOther(const BoundarySide& a, const BoundarySide& b)
+{
+  return dot(a.outward, b.outward) < -0.5;
+}
+
+/// A particle on a boundary curve of the surface.
 struct BoundaryParticle
 {
   Particle particle;
-  /// Anchored to the wall and fixed.
+  /// Anchored to the boundary face and fixed.
   Patch patch;
   BoundarySide side;
-  /// In corners of its element, at the other wall.
+  /// In a corner of the boundary curve, at the other boundary face, if that is one of the same element.
   BoundarySide otherSide;
 };
 
-/// The boundary curves {F = c} on faces at which the surface ends: they pass from face to face around the edges of
-/// the mesh, always with the domain on the same side. They are closed curves, but for those along jumps
-/// that fade, and beside elements that cover a part of a face.
+/// Particles on the boundary curves {F = c} of the surface, which run on the faces at which it ends. The curves pass
+/// from face to face around the edges of the mesh, always with the domain on the same side. They are closed, but for
+/// curves along jumps that fade, and beside elements that cover a part of a face.
 struct BoundaryCurves
 {
   Buffer<BoundaryParticle> particles;
   std::int64_t evaluations = 0;
 };
 
-/// Follows every boundary curve that the boxes of the proxy show, and places particles on it, evenly at the
-/// spacing that the surface wants there, and on its corners. Where two curves run side by side (on the two
-/// sides of a jump that is hardly wider than the surface may pass), only one keeps its particles.
+/// Follows every boundary curve that the boxes of the proxy show, and places particles on it: one on each of its
+/// corners, and between corners evenly at the spacing that the surface wants. Where two curves run side by side (on the
+/// two sides of a jump hardly wider than the largest that the surface passes), only one keeps its particles.
+/// \param surface with the jump tolerances of `jumps`
 BoundaryCurves findBoundaryCurves(const Isosurface& surface, const FaceJumps& jumps,
   const SurfaceProxy& proxy, const SizingFunction& sizing, const ParallelFor& parallelFor);
 

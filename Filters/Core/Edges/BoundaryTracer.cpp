@@ -8,21 +8,45 @@ namespace hop
 namespace
 {
 
-/// Cosine of the largest turn from chord to chord, and of the turn that makes a corner.
-constexpr double leastCosine = 0.9;
-constexpr double cornerCosine = 0.94;
-/// A boundary curve that cannot be followed by chords that short, in units of the step, ends: all but tangent to its
-/// face it is not known to be there.
-constexpr double smallestChord = 1.0 / 32.0;
-/// Where the surface goes on beyond its face, a boundary curve ends that near to where it does.
-constexpr double fadingChord = 1.0 / 4.0;
-constexpr int mostStuck = 8;
-/// A chord passes a point that is nearer to it than this, in units of its length.
-constexpr double nearness = 0.2;
-/// Surface and face turned less against each other than this have no boundary curve: the surface lies in the face, and
-/// what crosses is rounding errors.
-constexpr double liesInFace = 1e-6;
-/// What rounding leaves between a face and places on it that were located.
+/// Which angles a trace tells apart. The cosines were chosen by experiment.
+struct TraceAngles
+{
+  /// Cosine of the largest angle between the tangents at the two ends of a chord: 26 degrees. A chord that bends more
+  /// is tried again at half its length. Nearer to 1 chords are shorter and cost more evaluations; farther from 1
+  /// vertices and tangents tell less of the curve between them.
+  static constexpr double LeastCosine = 0.9;
+  /// Cosine of the smallest angle at an edge of the mesh that makes a corner: 20 degrees. A particle stands on every
+  /// corner. Nearer to 1 slight corners tie particles down where they stand less evenly; farther from 1 corners are
+  /// cut off.
+  static constexpr double CornerCosine = 0.94;
+  /// Sine of the smallest angle between the surface and a face that it leaves. With less the surface lies in the face,
+  /// and what crosses is rounding errors. A larger one loses boundary curves where surface and face are nearly tangent.
+  static constexpr double LeastSine = 1e-6;
+};
+
+/// How long chords are: lengths in units of the step asked for. Chosen by experiment.
+struct ChordLengths
+{
+  /// A boundary curve that cannot be followed by chords this short ends: all but tangent to its face it is not known to
+  /// be there. Shorter ones cost evaluations at every dead end; longer ones give up at sharp bends.
+  static constexpr double Shortest = 1.0 / 32.0;
+  /// Where the surface goes on beyond its face, a boundary curve ends within this distance of the place at which the
+  /// surface begins to go on. Shorter ones cost evaluations.
+  static constexpr double ShortestAtFade = 1.0 / 4.0;
+  /// A chord is tried at this many times the length of the chord before. More leads to more failed tries.
+  static constexpr double Growth = 1.5;
+  /// A chord shorter than this does not move: it passes from element to element in a corner of the mesh.
+  static constexpr double Standstill = 1e-9;
+  /// After so many chords in a row that do not move, a trace ends: it would go round for ever. Fewer than the elements
+  /// around a corner could end a trace that gets on.
+  static constexpr int MostStandstills = 8;
+  /// A chord passes a point that is nearer to it than this, in units of its own length. More takes another boundary
+  /// curve close by for the same one; less than what the curve bends away from its chords traces it twice.
+  static constexpr double PassShare = 0.2;
+};
+
+/// What rounding leaves between a face and places on it that the locator found, in half-space values of the face
+/// (faceMargin(), of order one).
 constexpr double locatedOnFace = 1e-6;
 
 double distanceToSegment(const glm::dvec3& x, const glm::dvec3& a, const glm::dvec3& b)
@@ -36,7 +60,7 @@ double distanceToSegment(const glm::dvec3& x, const glm::dvec3& a, const glm::dv
 /// Whether two lines in a plane cross or touch, to what single precision leaves.
 bool meet(const std::array<glm::dvec3, 2>& a, const std::array<glm::dvec3, 2>& b)
 {
-  constexpr double rounding = 1e-6;
+  constexpr double rounding = 1e-6; // of places in reference space, which are of order one
   const auto lieApart =
     [](const std::array<glm::dvec3, 2>& before, const std::array<glm::dvec3, 2>& behind)
   {
@@ -74,7 +98,7 @@ BoundaryChords::Chord::Chord(const BoundaryPoint& from, const BoundaryPoint& to)
 {
   const Location& first = from.at.location;
   const Location& last = to.at.location;
-  // A chord that leaves its element is known by its first place there.
+  // Of a chord that leaves its element only the first place lies in the element's reference space.
   this->places = { first.u.xyz, (last.element == first.element ? last : first).u.xyz };
 }
 
@@ -87,7 +111,7 @@ bool BoundaryChords::pass(const BoundaryPoint& point) const
       [&](const Chord& chord)
       {
         const auto& [a, b] = chord.positions;
-        return distanceToSegment(x, a, b) <= nearness * glm::distance(a, b) &&
+        return distanceToSegment(x, a, b) <= ChordLengths::PassShare * glm::distance(a, b) &&
           dot(chord.gradient, point.at.point.gradient) > 0.0;
       });
 }
@@ -100,22 +124,25 @@ bool BoundaryChords::cross(int element, int face, const std::array<glm::dvec3, 2
       [&ends](const Chord& chord) { return meet(chord.places, ends); });
 }
 
-/// The face at which the surface may end on which a place lies, the preferred one if it is among them; -1
-/// if none.
-int BoundaryTracer::wallOf(const Location& location, int preferred) const
+int BoundaryTracer::faceCount(const Location& location) const
 {
-  const auto onWall = [&](int f) {
+  return static_cast<int>(
+    facts(this->Surface.mesh->elements[location.element].domain).faces.size());
+}
+
+/// The boundary face on which a place lies, the preferred one if the place lies on several; -1 if there is none.
+int BoundaryTracer::boundaryFaceOf(const Location& location, int preferred) const
+{
+  const auto liesOn = [&](int f) {
     return this->Surface.mayEnd(location.element, f) && isOnFace(*this->Surface.mesh, location, f);
   };
-  if (preferred >= 0 && onWall(preferred))
+  if (preferred >= 0 && liesOn(preferred))
   {
     return preferred;
   }
-  const auto count =
-    static_cast<int>(facts(this->Surface.mesh->elements[location.element].domain).faces.size());
-  for (int f = 0; f < count; ++f)
+  for (int f = 0; f < this->faceCount(location); ++f)
   {
-    if (onWall(f))
+    if (liesOn(f))
     {
       return f;
     }
@@ -123,14 +150,14 @@ int BoundaryTracer::wallOf(const Location& location, int preferred) const
   return -1;
 }
 
-bool BoundaryTracer::goesOnAt(const FaceCrossing& crossing, double nearest)
+bool BoundaryTracer::goesOnAt(const FaceCrossing& crossing, double farthest)
 {
-  if (!this->Surface.isUndecided(crossing.location.element, crossing.face))
+  if (!this->Surface.isOpenToBoth(crossing.location.element, crossing.face))
   {
     return false;
   }
   const Evaluated at = this->Passer.evaluate(crossing.location);
-  return std::abs(at.point.value) <= nearest * length(at.point.gradient) &&
+  return std::abs(at.point.value) <= farthest * length(at.point.gradient) &&
     !this->Passer.endsAt(at, crossing.face);
 }
 
@@ -153,31 +180,33 @@ std::optional<BoundaryPoint> BoundaryTracer::project(
   {
     return std::nullopt;
   }
-  const int wall = this->wallOf(at.location, at.location.element == start.element ? face : -1);
-  if (wall < 0)
+  const int found =
+    this->boundaryFaceOf(at.location, at.location.element == start.element ? face : -1);
+  if (found < 0)
   {
     return std::nullopt;
   }
-  ActiveFaces walls;
-  walls.add(wall);
-  return BoundaryPoint{ this->polished(at, walls), wall };
+  ActiveFaces held;
+  held.add(found);
+  return BoundaryPoint{ this->polished(at, held), found };
 }
 
-/// Rough points after more of Newton's method along a face or two. Only steps so long that the field may
-/// have changed are evaluated at their end: where the surface all but touches the face they can be.
-Evaluated BoundaryTracer::polished(Evaluated at, const ActiveFaces& walls)
+/// A rough point after more of Newton's method along the faces that hold it. Steps are long where the surface is nearly
+/// tangent to a face, and the field may have changed there: only at the end of a long step it is evaluated.
+Evaluated BoundaryTracer::polished(Evaluated at, const ActiveFaces& held)
 {
-  constexpr double longStep = 2.0; // in units of the tolerance
-  constexpr int mostSteps = 4;
+  constexpr double longStep =
+    2.0; // in units of the tolerance; chosen by experiment, a smaller one costs evaluations
+  constexpr int mostSteps = 4; // where that is not enough, the point stays as it is
   const Domain domain = this->Surface.mesh->elements[at.location.element].domain;
   for (int n = 0; this->IsRough && n < mostSteps; ++n)
   {
     FieldPoint& point = at.point;
-    const ReferenceVector steepest = pullAlong(domain, walls, point.map, point.gradient);
+    const ReferenceVector steepest = pullAlong(domain, held, point.map, point.gradient);
     const WorldVector along = point.map.push(steepest);
     const double rate = dot(along, point.gradient);
     const ReferenceVector du = (-point.value / rate) * steepest;
-    if (!(rate > 0.0) || findExit(domain, at.location.u, du, walls).face >= 0)
+    if (!(rate > 0.0) || findExit(domain, at.location.u, du, held).face >= 0)
     {
       return at;
     }
@@ -202,14 +231,14 @@ WorldVector BoundaryTracer::tangent(const BoundaryPoint& point) const
   const glm::dvec3 along = glm::cross(-point.at.point.gradient.xyz, inward);
   const double size = glm::length(along);
   const double full = length(point.at.point.gradient) * glm::length(inward);
-  return { size > liesInFace * full ? along / size : glm::dvec3(0.0) };
+  return { size > TraceAngles::LeastSine * full ? along / size : glm::dvec3(0.0) };
 }
 
 ReferenceVector BoundaryTracer::velocity(const BoundaryPoint& point) const
 {
-  ActiveFaces wall;
-  wall.add(point.face);
-  return pullAlong(this->Surface.mesh->elements[point.at.location.element].domain, wall,
+  ActiveFaces held;
+  held.add(point.face);
+  return pullAlong(this->Surface.mesh->elements[point.at.location.element].domain, held,
     point.at.point.map, this->tangent(point));
 }
 
@@ -251,11 +280,13 @@ std::optional<Evaluated> BoundaryTracer::projectAlongEdge(
   return std::nullopt;
 }
 
+/// Numbers of a face's corners in the mesh, ascending.
 std::vector<std::int64_t> BoundaryTracer::cornersOf(const Location& location, int face) const
 {
   const ElementMesh& mesh = *this->Surface.mesh;
   const Face& which = mesh.face(location.element, face);
   std::vector<std::int64_t> numbers;
+  numbers.reserve(which.cornerCount);
   for (int c = 0; c < which.cornerCount; ++c)
   {
     numbers.push_back(mesh.elements[location.element].corners[which.corners[c]]);
@@ -264,13 +295,24 @@ std::vector<std::int64_t> BoundaryTracer::cornersOf(const Location& location, in
   return numbers;
 }
 
-/// The other face of an element that has the corners of an edge; -1 if there is none.
+/// Numbers of the corners that two faces of an element share, ascending.
+std::vector<std::int64_t> BoundaryTracer::edgeBetween(
+  const Location& location, int faceA, int faceB) const
+{
+  const auto first = this->cornersOf(location, faceA);
+  const auto second = this->cornersOf(location, faceB);
+  std::vector<std::int64_t> edge;
+  std::set_intersection(
+    first.begin(), first.end(), second.begin(), second.end(), std::back_inserter(edge));
+  return edge;
+}
+
+/// The face of an element, other than the one by which it was entered, that has the corners of an edge; -1 if there is
+/// none.
 int BoundaryTracer::faceAtEdge(
   const Location& location, int entry, const std::vector<std::int64_t>& edge) const
 {
-  const auto count =
-    static_cast<int>(facts(this->Surface.mesh->elements[location.element].domain).faces.size());
-  for (int f = 0; f < count; ++f)
+  for (int f = 0; f < this->faceCount(location); ++f)
   {
     const auto corners = this->cornersOf(location, f);
     if (f != entry && std::includes(corners.begin(), corners.end(), edge.begin(), edge.end()))
@@ -281,12 +323,10 @@ int BoundaryTracer::faceAtEdge(
   return -1;
 }
 
-/// Another face of an element than one of them on which a place lies; -1 if there is none.
+/// A face of an element, other than a given one, on which a place lies; -1 if there is none.
 int BoundaryTracer::otherFaceAt(const Location& location, int one, double accuracy) const
 {
-  const auto count =
-    static_cast<int>(facts(this->Surface.mesh->elements[location.element].domain).faces.size());
-  for (int f = 0; f < count; ++f)
+  for (int f = 0; f < this->faceCount(location); ++f)
   {
     if (f != one && isOnFace(*this->Surface.mesh, location, f, accuracy))
     {
@@ -296,6 +336,7 @@ int BoundaryTracer::otherFaceAt(const Location& location, int one, double accura
   return -1;
 }
 
+/// The foot in reference space of a place on the plane of a face.
 Location BoundaryTracer::ontoFace(const Location& location, int face) const
 {
   const Face& which = this->Surface.mesh->face(location.element, face);
@@ -304,61 +345,66 @@ Location BoundaryTracer::ontoFace(const Location& location, int face) const
     { location.u.xyz - faceMargin(which, location.u) / glm::dot(inward, inward) * inward } };
 }
 
-/// From a wall across an edge to the wall behind it: that of the same element, or that to which the
-/// elements around the edge lead, one through the next.
-std::optional<BoundaryPoint> BoundaryTracer::turnAroundEdge(const Evaluated& at, int wall, int face)
+/// Crosses the face of a walk into the element behind it, and finds the face at the edge by which to leave that
+/// element.
+/// \return the place on the face if the surface ends there instead
+std::optional<BoundaryPoint> BoundaryTracer::crossAtEdge(EdgeWalk& walk)
 {
-  constexpr int maximumElements = 64;
-  const auto edgeBetween = [&](const Location& location, int a, int b)
+  const FaceNeighbor& neighbor = this->Surface.mesh->neighbor(walk.location.element, walk.face);
+  int entry = neighbor.face;
+  if (this->Surface.mayEnd(walk.location.element, walk.face))
   {
-    const auto first = this->cornersOf(location, a);
-    const auto second = this->cornersOf(location, b);
-    std::vector<std::int64_t> edge;
-    std::set_intersection(
-      first.begin(), first.end(), second.begin(), second.end(), std::back_inserter(edge));
-    return edge;
-  };
-  std::vector<std::int64_t> edge = edgeBetween(at.location, wall, face);
-  Location location = at.location;
-  std::optional<Evaluated> here = at;
-  for (int n = 0; n < maximumElements; ++n)
+    walk.here = walk.here ? walk.here : this->Walker.evaluate(walk.location);
+    const auto next = this->Passer.behind(*walk.here, walk.face);
+    if (!next)
+    {
+      return BoundaryPoint{ *walk.here, walk.face };
+    }
+    walk.here = next->at;
+    walk.location = next->at.location;
+    entry = next->face;
+  }
+  else
   {
-    const FaceNeighbor& neighbor = this->Surface.mesh->neighbor(location.element, face);
-    int entry = neighbor.face;
-    if (this->Surface.mayEnd(location.element, face))
+    walk.here.reset();
+    walk.location = crossFace(*this->Surface.mesh, walk.location, walk.face);
+  }
+  if (neighbor.element >= 0)
+  {
+    walk.face = this->faceAtEdge(walk.location, entry, walk.corners);
+    return std::nullopt;
+  }
+  walk.face = this->otherFaceAt(walk.location, entry, locatedOnFace);
+  if (walk.face >= 0)
+  {
+    walk.here.reset();
+    walk.location = this->ontoFace(walk.location, walk.face);
+    walk.corners = this->edgeBetween(walk.location, entry, walk.face);
+  }
+  return std::nullopt;
+}
+
+/// From a boundary face across an edge to the next boundary face: that of the same element, or the one to which the
+/// elements around the edge lead.
+/// \param face the element's other face at the edge
+std::optional<BoundaryPoint> BoundaryTracer::walkAroundEdge(
+  const Evaluated& at, int boundaryFace, int face)
+{
+  constexpr int maximumElements =
+    64; // more than meshes have around an edge: a walk that is longer goes round
+  EdgeWalk walk{ at.location, at, face, this->edgeBetween(at.location, boundaryFace, face) };
+  for (int n = 0; n < maximumElements && walk.face >= 0; ++n)
+  {
+    if (const auto end = this->crossAtEdge(walk))
     {
-      here = here ? here : this->Walker.evaluate(location);
-      const auto next = this->Passer.behind(*here, face);
-      if (!next)
-      {
-        return BoundaryPoint{ *here, face };
-      }
-      here = next->at;
-      location = next->at.location;
-      entry = next->face;
-    }
-    else
-    {
-      here.reset();
-      location = crossFace(*this->Surface.mesh, location, face);
-    }
-    const bool joined = neighbor.element >= 0;
-    face = joined ? this->faceAtEdge(location, entry, edge)
-                  : this->otherFaceAt(location, entry, locatedOnFace);
-    if (face < 0)
-    {
-      return std::nullopt;
-    }
-    if (!joined)
-    {
-      here.reset();
-      location = this->ontoFace(location, face);
-      edge = edgeBetween(location, entry, face);
+      return end;
     }
   }
   return std::nullopt;
 }
 
+/// The vertex on an edge of the mesh that a boundary curve comes to.
+/// \param u a place near the vertex, on the edge between the curve's face and another one
 BoundaryTracer::Ahead BoundaryTracer::passEdge(
   const BoundaryPoint& from, const ReferencePoint& u, int otherFace, double step)
 {
@@ -372,18 +418,19 @@ BoundaryTracer::Ahead BoundaryTracer::passEdge(
   {
     return { std::nullopt, true };
   }
-  const auto beyond = this->turnAroundEdge(*at, from.face, otherFace);
+  const auto beyond = this->walkAroundEdge(*at, from.face, otherFace);
   if (!beyond)
   {
     return {};
   }
   BoundaryVertex vertex{ { *at, from.face }, *beyond, false };
-  vertex.corner = dot(this->tangent(vertex.arriving), this->tangent(vertex.leaving)) < cornerCosine;
+  vertex.corner =
+    dot(this->tangent(vertex.arriving), this->tangent(vertex.leaving)) < TraceAngles::CornerCosine;
   return { vertex, false };
 }
 
-/// The step in reference space that leads that far ahead: that of Adams and Bashforth, of second order, if
-/// the boundary curve came along the same face.
+/// The step in reference space that leads a world distance ahead: Adams and Bashforth's of second order, if the
+/// boundary curve came along the same face, else Euler's.
 ReferenceVector BoundaryTracer::predict(const Heading& heading, double step) const
 {
   const BoundaryPoint& here = heading.here;
@@ -404,17 +451,17 @@ BoundaryTracer::Ahead BoundaryTracer::advance(const Heading& heading, double ste
 {
   const BoundaryPoint& from = heading.here;
   const Domain domain = this->Surface.mesh->elements[from.at.location.element].domain;
-  ActiveFaces wall;
-  wall.add(from.face);
+  ActiveFaces held;
+  held.add(from.face);
   const ReferenceVector du = this->predict(heading, step);
-  const Exit exit = findExit(domain, from.at.location.u, du, wall);
+  const Exit exit = findExit(domain, from.at.location.u, du, held);
   const ReferencePoint u = from.at.location.u + exit.fraction * du;
   if (exit.face >= 0)
   {
     return this->passEdge(from, u, exit.face, step);
   }
   const auto next = this->project({ from.at.location.element, u }, from.face, step);
-  if (!next || dot(this->tangent(*next), this->tangent(from)) < leastCosine)
+  if (!next || dot(this->tangent(*next), this->tangent(from)) < TraceAngles::LeastCosine)
   {
     return {};
   }
@@ -425,22 +472,25 @@ BoundaryTracer::Ahead BoundaryTracer::advance(const Heading& heading, double ste
   return { BoundaryVertex{ *next, *next, false }, false };
 }
 
-/// The next vertex after chords tried from one length on, each half as long as the one before.
+/// The next vertex. Chords are tried from a length on, each half as long as the one before.
+/// \param chord length of the first try; on return that of the last
 std::optional<BoundaryVertex> BoundaryTracer::advanceAtMost(
   double& chord, double step, const Heading& heading)
 {
-  for (double shortest = smallestChord * step; chord >= shortest; chord *= 0.5)
+  for (double shortest = ChordLengths::Shortest * step; chord >= shortest; chord *= 0.5)
   {
     const Ahead ahead = this->advance(heading, chord);
     if (ahead.vertex)
     {
       return ahead.vertex;
     }
-    shortest = ahead.fades ? fadingChord * step : shortest;
+    shortest = ahead.surfaceGoesOn ? ChordLengths::ShortestAtFade * step : shortest;
   }
   return std::nullopt;
 }
 
+/// Follows a boundary curve in one direction, and adds its vertices behind the start.
+/// \param direction 1 or -1, of velocity()
 /// \return whether the boundary curve came back to its start
 bool BoundaryTracer::follow(
   const BoundaryPoint& start, double step, double direction, std::vector<BoundaryVertex>& vertices)
@@ -456,8 +506,8 @@ bool BoundaryTracer::follow(
     }
   };
   double chord = step;
-  int stuck = 0;
-  while (stuck <= mostStuck)
+  int standstills = 0;
+  while (standstills <= ChordLengths::MostStandstills)
   {
     const ReferenceVector velocity = this->velocity(here);
     const auto next = this->advanceAtMost(chord, step, { here, velocity, direction, before });
@@ -467,21 +517,22 @@ bool BoundaryTracer::follow(
     }
     const WorldPoint& position = here.at.point.map.position;
     const double moved = glm::distance(position.xyz, next->position());
-    stuck = moved < 1e-9 * step ? stuck + 1 : 0;
-    // The last chord ends where this one begins: it does not count.
+    standstills = moved < ChordLengths::Standstill * step ? standstills + 1 : 0;
+    // The last chord ends where this one begins, and is added only now: it would be met at once.
     const bool again = this->Chords.pass(next->leaving);
     addLast();
     lastChord.emplace(here, next->arriving);
     if (again)
     {
       addLast();
+      // A trace that meets another boundary curve, not its own start, is open.
       return distanceToSegment(start.at.point.map.position.xyz, position.xyz, next->position()) <
         0.5 * moved;
     }
     vertices.push_back(*next);
     before = Passed{ here.at.location.element, here.face, position, velocity };
     here = next->leaving;
-    chord = std::min(step, 1.5 * chord);
+    chord = std::min(step, ChordLengths::Growth * chord);
   }
   addLast();
   return false;
@@ -490,7 +541,7 @@ bool BoundaryTracer::follow(
 BoundaryTrace BoundaryTracer::trace(const BoundaryPoint& start, double step)
 {
   BoundaryTrace result;
-  // On an edge of an element the boundary curve may turn; how it comes there is not known yet.
+  // On an edge of an element the boundary curve may have a corner: how it comes there is not known yet.
   const bool isOnEdge = this->otherFaceAt(start.at.location, start.face, OnFace) >= 0;
   result.vertices.push_back({ start, start, isOnEdge });
   result.closed = this->follow(start, step, 1.0, result.vertices);

@@ -10,19 +10,21 @@
 namespace hop
 {
 
-/// A point of a boundary curve: a place on a boundary face.
+/// A point of a boundary curve. It lies on a boundary face: a face of an element at which the surface may end, because
+/// nothing lies behind it or because the field jumps there (Isosurface::mayEnd).
 struct BoundaryPoint
 {
   Evaluated at;
   int face = -1;
 };
 
-/// A vertex of a traced boundary curve: on a mesh edge it is seen from two faces.
+/// A vertex of a traced boundary curve. On an edge of the mesh it has two faces: one on which the curve comes, one on
+/// which it goes on.
 struct BoundaryVertex
 {
   BoundaryPoint arriving;
   BoundaryPoint leaving;
-  /// The boundary curve turns here.
+  /// The boundary curve has a corner here.
   bool corner = false;
 
   const glm::dvec3& position() const { return this->arriving.at.point.map.position.xyz; }
@@ -35,7 +37,7 @@ struct BoundaryTrace
   bool closed = false;
 };
 
-/// Chords of boundary curves traced so far, by the face they run on.
+/// Chords of the boundary curves traced so far, by the face on which they run.
 class BoundaryChords
 {
 public:
@@ -44,23 +46,23 @@ public:
     Chord(const BoundaryPoint& from, const BoundaryPoint& to);
 
     std::size_t face = 0; ///< slot
-    /// In the world, and in the element's reference space.
+    /// Of the ends, in the world and in the element's reference space.
     std::array<glm::dvec3, 2> positions;
     std::array<glm::dvec3, 2> places;
-    /// The field's: two sheets close to each other have opposite ones.
+    /// Gradient of the field at the first end: on two sheets close to each other the gradients are opposite.
     WorldVector gradient;
   };
 
   void add(const Chord& chord) { this->Chords[chord.face].push_back(chord); }
 
-  /// Whether a chord of the same sheet on the same face passes a point, to a fifth of its length.
+  /// Whether a chord of the same sheet on the same face passes a point, to a fifth of the chord's length.
   bool pass(const BoundaryPoint& point) const;
 
-  /// Whether a chord on a face crosses the line between two places on it.
+  /// Whether a chord on a face crosses the line between two places on that face.
   bool cross(int element, int face, const std::array<glm::dvec3, 2>& ends) const;
 
 private:
-  /// By the slots of the faces that they run on.
+  /// By the slots of the faces.
   std::unordered_map<std::size_t, std::vector<Chord>> Chords;
 };
 
@@ -70,7 +72,7 @@ class BoundaryTracer
 public:
   enum class Points
   {
-    /// One step of Newton's method nearer to the surface than its tolerance; that step is not evaluated.
+    /// Nearer to the surface than its tolerance by one step of Newton's method, which is not evaluated at its end.
     Rough,
     /// On the surface to its tolerance, with Hessians.
     Exact
@@ -79,42 +81,43 @@ public:
   BoundaryTracer(const Isosurface& surface, Points points)
     : Surface(surface)
     , IsRough(points == Points::Rough)
-    , Walker(surface.withWalls(), points == Points::Exact)
+    , Walker(surface.endingWhereItMay(), points == Points::Exact)
     , Passer(surface)
   {
   }
 
-  /// Whether the surface is seen to go on at a crossing that is nearer to it than that (world units); two
-  /// evaluations.
-  bool goesOnAt(const FaceCrossing& crossing, double nearest);
+  /// Whether the surface goes on at a crossing. Costs two evaluations at most.
+  /// \param farthest distance from the surface, world units, within which the crossing tells
+  /// \return false also for crossings farther off
+  bool goesOnAt(const FaceCrossing& crossing, double farthest);
 
-  /// Puts a place on a face at which the surface may end onto the surface, along the face.
+  /// Puts a place on a boundary face onto the surface, along the face.
   /// \param face of the place's element; -1 if it is not known
   std::optional<BoundaryPoint> project(const Location& start, int face, double maximumTravel);
 
-  /// With second derivatives; costs nothing where the tracer was exact last.
+  /// With second derivatives. Costs nothing at the point that an exact tracer evaluated last.
   const Jet& jetAt(const BoundaryPoint& point) { return this->Walker.jetAt(point.at.location); }
 
-  /// Whether the surface ends there.
+  /// Whether the surface ends at a point.
   bool isOnBoundary(const BoundaryPoint& point)
   {
     return this->Passer.endsAt(point.at, point.face);
   }
 
   /// Follows the boundary curve in direction n x w, n the surface's normal and w the inward normal of the
-  /// boundary, and from a dead end also the other way.
+  /// boundary face, and from a dead end also the other way.
   /// Ends where it meets a boundary curve that was traced before: its own start, as a rule. (Where the field jumps
   /// between elements, two boundary curves can run into one.)
-  /// \param step world length of the chords, at most; less where the boundary curve turns
+  /// \param step world length of the chords, at most; less where the boundary curve bends
   BoundaryTrace trace(const BoundaryPoint& start, double step);
 
-  /// In which way the boundary curve goes on in reference space, n x w in the world, for a world distance of one.
+  /// Velocity in reference space that follows the boundary curve at speed one in the world, in direction n x w.
   ReferenceVector velocity(const BoundaryPoint& point) const;
 
   /// Whether a boundary curve was traced through a point.
-  bool hasPassed(const BoundaryPoint& point) const { return this->Chords.pass(point); }
-  /// The same, of a crossing; may miss some, but costs nothing.
-  bool hasPassed(const FaceCrossing& crossing) const
+  bool isTraced(const BoundaryPoint& point) const { return this->Chords.pass(point); }
+  /// The same of a crossing. Costs nothing, but may overlook a curve.
+  bool isTraced(const FaceCrossing& crossing) const
   {
     return this->Chords.cross(crossing.location.element, crossing.face, crossing.ends);
   }
@@ -125,17 +128,15 @@ public:
   }
 
 private:
-  bool follow(const BoundaryPoint& start, double step, double direction,
-    std::vector<BoundaryVertex>& vertices);
   /// What comes next on a boundary curve.
   struct Ahead
   {
     std::optional<BoundaryVertex> vertex;
-    /// There is none as the surface goes on there.
-    bool fades = false;
+    /// There is no vertex because the surface goes on there: the boundary curve ends.
+    bool surfaceGoesOn = false;
   };
 
-  /// Where a boundary curve was.
+  /// Where a boundary curve was one vertex ago.
   struct Passed
   {
     int element = -1;
@@ -145,7 +146,7 @@ private:
     ReferenceVector velocity;
   };
 
-  /// Where a boundary curve is, which way it is followed there, and where it was before, unless it begins.
+  /// Where a boundary curve is, which way it is followed there, and where it was before, unless it begins here.
   struct Heading
   {
     const BoundaryPoint& here;
@@ -154,26 +155,43 @@ private:
     std::optional<Passed> before;
   };
 
+  /// A place on an edge of the mesh, on the way around the edge from one element to the next.
+  struct EdgeWalk
+  {
+    Location location;
+    /// What was evaluated there, if anything was.
+    std::optional<Evaluated> here;
+    /// The face at the edge that is to be crossed next; -1 if none was found.
+    int face = -1;
+    /// Numbers of the edge's corners in the mesh, ascending.
+    std::vector<std::int64_t> corners;
+  };
+
+  bool follow(const BoundaryPoint& start, double step, double direction,
+    std::vector<BoundaryVertex>& vertices);
   std::optional<BoundaryVertex> advanceAtMost(double& chord, double step, const Heading& heading);
   Ahead advance(const Heading& heading, double step);
   ReferenceVector predict(const Heading& heading, double step) const;
   Ahead passEdge(const BoundaryPoint& from, const ReferencePoint& u, int otherFace, double step);
   std::optional<Evaluated> projectAlongEdge(
     const Location& start, int faceA, int faceB, double maximumTravel);
-  std::optional<BoundaryPoint> turnAroundEdge(const Evaluated& at, int wall, int face);
-  Evaluated polished(Evaluated at, const ActiveFaces& walls);
+  std::optional<BoundaryPoint> walkAroundEdge(const Evaluated& at, int boundaryFace, int face);
+  std::optional<BoundaryPoint> crossAtEdge(EdgeWalk& walk);
+  Evaluated polished(Evaluated at, const ActiveFaces& held);
   std::vector<std::int64_t> cornersOf(const Location& location, int face) const;
+  std::vector<std::int64_t> edgeBetween(const Location& location, int faceA, int faceB) const;
+  int faceCount(const Location& location) const;
   int faceAtEdge(const Location& location, int entry, const std::vector<std::int64_t>& edge) const;
   int otherFaceAt(const Location& location, int one, double accuracy) const;
   Location ontoFace(const Location& location, int face) const;
-  int wallOf(const Location& location, int preferred) const;
+  int boundaryFaceOf(const Location& location, int preferred) const;
   WorldVector tangent(const BoundaryPoint& point) const;
 
   Isosurface Surface;
   bool IsRough;
-  /// Stays on faces at which the surface may end.
+  /// Stays on boundary faces.
   SurfaceWalker Walker;
-  /// Tells whether it does.
+  /// Passes boundary faces where the surface goes on, and so tells where it ends.
   SurfaceWalker Passer;
   BoundaryChords Chords;
 };

@@ -12,141 +12,180 @@ namespace hop
 namespace
 {
 
-/// Of particles that lie farther beyond a boundary curve's plane than this, in units of their spacing, it is no boundary curve: they
-/// are those of the other side of a jump. Bent boundary curves leave their planes by less.
-constexpr double sameSide = 0.2;
-
-/// The boundary curve, known at one of its particles, as another particle sees it: the plane touches it where it is nearest,
-/// but no farther off than where it has turned by half a radian: behind that it may run anywhere.
-/// \pre the boundary curve is one
-ClipPlane boundarySeenFrom(const BoundaryParticle& boundary, const Particle& particle)
+/// How a particle sees a boundary curve that another particle knows. Lengths are in units of the spacing of the
+/// particle that looks. Chosen by experiment.
+struct BoundarySight
 {
-  const glm::dvec3& outward = boundary.side.outward.xyz;
-  const glm::dvec3 along = glm::cross(boundary.particle.normal.xyz, outward);
-  const glm::dvec3 step = particle.position.xyz - boundary.particle.position.xyz;
-  const double largest = 1.0 / particle.spacing; // more than that a parabola does not follow
-  const double bend = std::clamp(boundary.side.bend, -largest, largest);
-  const double farthest = 0.5 / std::max(std::abs(bend), 1e-3 * largest);
+  /// A particle that lies farther beyond a boundary curve's plane than this is on the other side of a jump, where the
+  /// curve does not end its sheet. Bent curves leave their planes by less. A larger one cuts splats of the other side
+  /// off, with a smaller one splats reach over bent curves.
+  static constexpr double SameSide = 0.2;
+  /// Largest angle, radians, by which a plane is turned to follow a bent curve: beyond it the curve may run anywhere.
+  static constexpr double LargestAngle = 0.5;
+  /// Largest curvature of the curve, 1/spacing, that a parabola follows.
+  static constexpr double LargestCurvatureTimesSpacing = 1.0;
+  /// Curves that bend less than this share of LargestCurvatureTimesSpacing are straight: it keeps a quotient finite.
+  static constexpr double StraightShare = 1e-3;
+};
+
+/// Where a particle goes on with the surface that ends at another particle, as seen from that one: lengths in units of
+/// the spacing. Larger ones take particles of other sheets for the same surface, smaller ones leave gaps. Chosen by
+/// experiment.
+struct Continuation
+{
+  /// Largest distance beyond the boundary curve; the smallest is BoundarySight::SameSide.
+  static constexpr double Beyond = 1.3;
+  /// Largest distance along the boundary curve.
+  static constexpr double Aside = 0.8;
+  /// Largest distance off the surface.
+  static constexpr double Above = 0.25;
+  /// Smallest cosine between the normals: 60 degrees.
+  static constexpr double Cosine = 0.5;
+};
+
+/// The plane of a boundary curve, known at one of its particles, as another particle sees it. It touches the curve
+/// where the curve is nearest, but no farther off than where it has turned by LargestAngle.
+/// \pre the surface ends at the first particle
+ClipPlane boundarySeenFrom(const BoundaryParticle& onBoundary, const Particle& particle)
+{
+  const glm::dvec3& outward = onBoundary.side.outward.xyz;
+  const glm::dvec3 along = glm::cross(onBoundary.particle.normal.xyz, outward);
+  const glm::dvec3 step = particle.position.xyz - onBoundary.particle.position.xyz;
+  const double largest = BoundarySight::LargestCurvatureTimesSpacing / particle.spacing;
+  const double bend = std::clamp(onBoundary.side.edgeCurvature, -largest, largest);
+  const double farthest =
+    BoundarySight::LargestAngle / std::max(std::abs(bend), BoundarySight::StraightShare * largest);
   const double s = std::clamp(glm::dot(step, along), -farthest, farthest);
   const glm::dvec3 normal = glm::normalize(outward - bend * s * along);
   const glm::dvec3 nearest = s * along + 0.5 * bend * s * s * outward;
   return { { normal }, glm::dot(nearest - step, normal), bend, static_cast<float>(Pi) };
 }
 
-/// Planes of the boundary curves around, each by the nearest particle on it. Another sheet's would cut off whole splats on a
-/// boundary curve that lies beside it.
+/// Offers a particle the planes of the boundary curves around, each by the nearest particle on the curve. The curve of
+/// another sheet would cut off whole splats on a curve that lies beside it, and is left out.
 void offerBoundaries(
-  const SpacingGrid& grid, const Buffer<BoundaryParticle>& boundaries, Particle& particle)
+  const SpacingGrid& grid, const Buffer<BoundaryParticle>& onBoundary, Particle& particle)
 {
-  struct Edge
+  /// A boundary curve: the number of the nearest particle on it, and how far off that one is.
+  struct Curve
   {
-    int boundary = -1;
+    int nearest = -1;
     double distance = 0.0;
   };
-  std::array<Edge, 2> edges;
-  const auto looksLike = [&](const Edge& edge, int j)
+  std::array<Curve, 2> curves;
+  const auto isAlong = [&](const Curve& curve, int j)
   {
-    return edge.boundary >= 0 &&
-      dot(boundaries[edge.boundary].side.outward, boundaries[j].side.outward) > SameEdge;
+    return curve.nearest >= 0 &&
+      dot(onBoundary[curve.nearest].side.outward, onBoundary[j].side.outward) > SameEdge;
+  };
+  const auto endsSheetOf = [&](const BoundaryParticle& other)
+  {
+    return other.side.exists() && dot(other.particle.normal, particle.normal) > SheetCosine &&
+      boundarySeenFrom(other, particle).distance >= -BoundarySight::SameSide * particle.spacing;
   };
   grid.visit(particle.position.xyz, particle.spacing,
     [&](int j)
     {
-      const Edge edge{ j, length(boundaries[j].particle.position - particle.position) };
-      if (edge.distance > ClipReach * particle.spacing || !boundaries[j].side.exists() ||
-        dot(boundaries[j].particle.normal, particle.normal) <= SameSheet ||
-        boundarySeenFrom(boundaries[j], particle).distance < -sameSide * particle.spacing)
+      const Curve curve{ j, length(onBoundary[j].particle.position - particle.position) };
+      if (curve.distance > ClipReach * particle.spacing || !endsSheetOf(onBoundary[j]))
       {
         return;
       }
-      auto& [first, second] = edges;
-      if (first.boundary < 0 || edge.distance < first.distance)
+      auto& [first, second] = curves;
+      if (first.nearest < 0 || curve.distance < first.distance)
       {
-        second = looksLike(first, j) ? second : first;
-        first = edge;
+        second = isAlong(first, j) ? second : first;
+        first = curve;
       }
-      else if (!looksLike(first, j) && (second.boundary < 0 || edge.distance < second.distance))
+      else if (!isAlong(first, j) && (second.nearest < 0 || curve.distance < second.distance))
       {
-        second = edge;
+        second = curve;
       }
     });
-  for (const Edge& edge : edges)
+  for (const Curve& curve : curves)
   {
-    if (edge.boundary >= 0)
+    if (curve.nearest >= 0)
     {
-      ClipPlane plane = boundarySeenFrom(boundaries[edge.boundary], particle);
+      ClipPlane plane = boundarySeenFrom(onBoundary[curve.nearest], particle);
       plane.distance = std::max(0.0, plane.distance);
       offerPlane(particle, plane);
     }
   }
 }
 
-/// Whether a particle goes on with the surface of one on a boundary curve: right beyond it, and in its plane.
-bool goesOnAt(const BoundaryParticle& boundary, const Particle& particle)
+/// Whether a particle goes on with the surface that ends at another one: right beyond the boundary curve, and in the
+/// same plane.
+bool goesOnAt(const BoundaryParticle& onBoundary, const Particle& particle)
 {
-  constexpr double farthest = 1.3;
-  constexpr double aside = 0.8;
-  constexpr double above = 0.25;
-  const glm::dvec3 step = particle.position.xyz - boundary.particle.position.xyz;
-  const glm::dvec3 normal = glm::normalize(particle.normal.xyz + boundary.particle.normal.xyz);
+  const glm::dvec3 step = particle.position.xyz - onBoundary.particle.position.xyz;
+  const glm::dvec3 normal = glm::normalize(particle.normal.xyz + onBoundary.particle.normal.xyz);
   const double height = glm::dot(step, normal);
-  const double beyond = glm::dot(step, boundary.side.outward.xyz);
-  const glm::dvec3 rest = step - height * normal - beyond * boundary.side.outward.xyz;
+  const double beyond = glm::dot(step, onBoundary.side.outward.xyz);
+  const glm::dvec3 rest = step - height * normal - beyond * onBoundary.side.outward.xyz;
   const double h = particle.spacing;
-  return beyond > sameSide * h && beyond < farthest * h && glm::length(rest) < aside * h &&
-    std::abs(height) < above * h && dot(boundary.particle.normal, particle.normal) > 0.5;
+  return beyond > BoundarySight::SameSide * h && beyond < Continuation::Beyond * h &&
+    glm::length(rest) < Continuation::Aside * h && std::abs(height) < Continuation::Above * h &&
+    dot(onBoundary.particle.normal, particle.normal) > Continuation::Cosine;
 }
 
-/// Whether two boundary curves look at each other, across a slit.
+/// Whether two boundary curves are the two sides of a slit in one sheet.
 bool areFacing(const BoundaryParticle& a, const BoundaryParticle& b)
 {
-  return dot(a.side.outward, b.side.outward) < -0.5 &&
-    dot(a.particle.normal, b.particle.normal) > 0.0 &&
+  return lookAtEachOther(a.side, b.side) && dot(a.particle.normal, b.particle.normal) > 0.0 &&
     length(a.particle.position - b.particle.position) < ClipReach * a.particle.spacing;
 }
 
-/// Where a boundary curve comes to an edge of the mesh, and behind that edge the surface goes on though the elements on
-/// both sides of it hold none, it is none: there is a gap far smaller than a spacing.
-void openBoundariesThatGoOn(
-  const SpacingGrid& grid, const ParticleGrid& all, const ParallelFor& parallelFor)
+/// Marks the particles on boundary curves beyond which a free particle goes on with the surface.
+void markGoingOn(const SpacingGrid& grid, const ParticleGrid& all,
+  std::vector<std::atomic<char>>& continuesIn, const ParallelFor& parallelFor)
 {
-  Buffer<BoundaryParticle>& boundaries = all.boundaries();
-  std::vector<std::atomic<char>> goesOn(boundaries.size());
-  forAll(parallelFor, all.size() - boundaries.size(),
+  const Buffer<BoundaryParticle>& onBoundary = all.boundaryParticles();
+  forAll(parallelFor, all.size() - onBoundary.size(),
     [&](std::size_t i)
     {
       const Particle& particle = all.at(i);
       grid.visit(particle.position.xyz, particle.spacing,
         [&](int j)
         {
-          if (goesOnAt(boundaries[j], particle))
+          if (goesOnAt(onBoundary[j], particle))
           {
-            goesOn[j] = 1;
+            continuesIn[j] = 1;
           }
         });
     });
-  forAll(parallelFor, boundaries.size(),
+}
+
+/// Takes ends of the surface away that are none: a boundary curve comes to an edge of the mesh, and behind that edge
+/// the surface goes on, though the elements on both sides of the edge hold none of it. There the gap is far smaller
+/// than a spacing. The two sides of a slit stay.
+void dropEndsThatGoOn(
+  const SpacingGrid& grid, const ParticleGrid& all, const ParallelFor& parallelFor)
+{
+  Buffer<BoundaryParticle>& onBoundary = all.boundaryParticles();
+  std::vector<std::atomic<char>> continuesIn(onBoundary.size());
+  markGoingOn(grid, all, continuesIn, parallelFor);
+  forAll(parallelFor, onBoundary.size(),
     [&](std::size_t i)
     {
       bool isSlit = false;
-      grid.visit(boundaries[i].particle.position.xyz, boundaries[i].particle.spacing,
+      grid.visit(onBoundary[i].particle.position.xyz, onBoundary[i].particle.spacing,
         [&](int j)
         {
-          isSlit = isSlit || areFacing(boundaries[i], boundaries[j]);
-          goesOn[i] = goesOn[i] || goesOnAt(boundaries[i], boundaries[j].particle);
+          isSlit = isSlit || areFacing(onBoundary[i], onBoundary[j]);
+          continuesIn[i] = continuesIn[i] || goesOnAt(onBoundary[i], onBoundary[j].particle);
         });
-      goesOn[i] = goesOn[i] && !isSlit;
+      continuesIn[i] = continuesIn[i] && !isSlit;
     });
-  for (std::size_t i = 0; i < boundaries.size(); ++i)
+  for (std::size_t i = 0; i < onBoundary.size(); ++i)
   {
-    if (goesOn[i])
+    if (continuesIn[i])
     {
-      boundaries[i].side = {};
+      onBoundary[i].side = {};
     }
   }
 }
 
-/// Takes planes of creases away behind which nothing covers what they cut off.
+/// Takes planes of creases away where nothing behind them covers what they cut off.
 class CreaseCovers
 {
 public:
@@ -174,19 +213,21 @@ private:
       !this->goesOnBehind(particle, plane);
   }
 
-  /// Whether a particle behind the face is near enough to cover what is cut off, but for the little that splats
-  /// reach beyond their planes: slivers of elements hold none.
+  /// Whether a particle behind the face is near enough to cover what is cut off, but for the little that splats reach
+  /// beyond their planes. There is none where the element behind is a sliver.
   bool goesOnBehind(const Particle& particle, const ClipPlane& plane) const
   {
     const int element = particle.location.element;
     const int joined = this->Surface.mesh->neighbor(element, plane.face).element;
     const glm::dvec3 foot = (particle.position + plane.distance * plane.normal).xyz;
+    // In units of the larger spacing. Chosen by experiment: with a larger one holes stay at creases, with a smaller one
+    // splats stand out beyond them.
     constexpr double nearEnough = 1.1;
     const auto isBehind = [&](int other)
     {
       return joined >= 0
         ? other == joined
-        : this->Surface.locator && this->Surface.locator->mayGoOnIn(element, plane.face, other);
+        : this->Surface.locator && this->Surface.locator->mayContinueIn(element, plane.face, other);
     };
     bool found = false;
     this->All.visit(foot, particle.spacing,
@@ -209,26 +250,26 @@ private:
 void markClipPlanes(
   const Isosurface& surface, const ParticleGrid& all, const ParallelFor& parallelFor)
 {
-  Buffer<BoundaryParticle>& boundaries = all.boundaries();
+  Buffer<BoundaryParticle>& onBoundary = all.boundaryParticles();
   const SpacedPoints points(
-    boundaries.size(), [&](std::size_t i) { return boundaries[i].particle.position.xyz; },
-    [&](std::size_t i) { return boundaries[i].patch.spacing; }, parallelFor);
-  const SpacingGrid grid(points.positions, points.spacings, ClipReach, 0.5, parallelFor);
-  openBoundariesThatGoOn(grid, all, parallelFor);
+    onBoundary.size(), [&](std::size_t i) { return onBoundary[i].particle.position.xyz; },
+    [&](std::size_t i) { return onBoundary[i].patch.spacing; }, parallelFor);
+  const SpacingGrid grid(points.positions, points.spacings, ClipReach, CellsPerReach, parallelFor);
+  dropEndsThatGoOn(grid, all, parallelFor);
   const CreaseCovers covers(surface, all);
   forAll(parallelFor, all.size(),
     [&](std::size_t i)
     {
       covers.dropOpen(all.at(i));
-      offerBoundaries(grid, boundaries, all.at(i));
+      offerBoundaries(grid, onBoundary, all.at(i));
     });
-  forAll(parallelFor, boundaries.size(),
+  forAll(parallelFor, onBoundary.size(),
     [&](std::size_t i)
     {
-      auto& [particle, patch, side, other] = boundaries[i];
+      auto& [particle, patch, side, other] = onBoundary[i];
       if (side.exists() && other.exists())
       {
-        offerPlane(particle, { other.outward, 0.0, other.bend, static_cast<float>(Pi) });
+        offerPlane(particle, { other.outward, 0.0, other.edgeCurvature, static_cast<float>(Pi) });
       }
     });
   closeCreaseCorners(all, parallelFor);

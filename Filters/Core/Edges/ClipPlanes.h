@@ -5,12 +5,12 @@
 namespace hop
 {
 
-/// Tells particles near an edge of the surface where it ends, by planes that touch the edge where it is nearest:
-/// near a boundary curve normal to the surface's way out of the domain there, as the nearest particle on the boundary curve knows it to
-/// second order; near a face at which the normal turns as they were offered it (FacePlanes.h), at a crease only if
-/// there are particles behind to cover what is cut off. A splat that reaches beyond a plane is to be cut off there,
-/// or, where the surface is almost smooth, to count only where no other does. In corners two planes meet; where
-/// creases do, some planes are moved outwards, see CreaseCorners.h.
+/// Tells particles near an edge of the surface where to cut their splats off, by planes that touch the edge where it is
+/// nearest. The edge is a boundary curve, which the nearest particle on it knows to second order, or a face with a
+/// dihedral angle, whose plane particles were offered before (FacePlanes.h). Planes of creases are taken away where
+/// nothing behind them covers what they cut off. In corners two planes meet; where creases meet, some planes are moved
+/// outwards (CreaseCorners.h). Beyond planes of smaller angles splats are not cut off, but count only where no other
+/// does.
 void markClipPlanes(
   const Isosurface& surface, const ParticleGrid& all, const ParallelFor& parallelFor);
 

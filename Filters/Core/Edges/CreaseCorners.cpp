@@ -1,5 +1,6 @@
 #include "Edges/CreaseCorners.h"
 
+#include "Common/SplatProfile.h"
 #include "Edges/FaceJumps.h"
 
 #include <algorithm>
@@ -13,31 +14,50 @@ namespace hop
 namespace
 {
 
-/// Splats end so far from their particles, in units of their spacing: a little farther off they count too little
-/// to be seen alone, and they may be bent.
-constexpr double splatReach = 0.91;
-static_assert(2.0 * splatReach <= ParticleGrid::Reach);
-/// A little behind a crease's plane a splat still fills gaps; also that is in units of the spacing.
-constexpr double filledBehind = 0.05;
-/// Distance of the places looked at, along the crease and away from it, in units of the spacing.
-constexpr double placeStep = 0.1;
-/// 80 degrees.
-constexpr double sharpestCrease = 1.4;
-/// A splat stands off that far at most from what it covers behind a crease, in units of its spacing.
-constexpr double farthestOff = 0.25;
+/// What a splat covers at a crease: lengths in units of its particle's spacing. Chosen by experiment.
+struct Cover
+{
+  /// Share of a splat's reach up to which it surely covers the surface: a margin, as splats may be bent. A larger one
+  /// leaves holes, a smaller one moves planes in vain.
+  static constexpr double SureShare = 0.98;
+  /// Distance behind the plane of a crease up to which a splat still fills gaps.
+  static constexpr double BehindPlane = 0.05;
+  /// Largest distance of a place that a splat covers from the plane of the splat.
+  static constexpr double Height = 0.4;
+  /// Largest distance from what it covers behind a crease at which a splat stands off: more is seen beside the crease.
+  static constexpr double StandOff = 0.25;
+};
 
+/// Distance from its particle up to which a splat covers the surface, in units of the spacing.
+const double coverReach = Cover::SureShare * splatReach();
+
+/// Distance of the places looked at, along the crease and away from it, in units of the spacing. Chosen by experiment:
+/// smaller corners may be overlooked; a smaller one costs time.
+constexpr double placeStep = 0.1;
+
+/// Dihedral angle of the sharpest crease whose planes may be moved, radians: 80 degrees. Behind a sharper one a splat
+/// stands off at once.
+constexpr double sharpestCrease = 1.4;
+
+/// Largest cosine between the directions of two creases that count as different: 26 degrees. Chosen by experiment:
+/// nearer to 1 bent creases are taken for corners.
+constexpr double sameCrease = 0.9;
+
+/// Whether a plane is that of a crease, and may be moved.
 bool isCrease(const ClipPlane& plane)
 {
   return plane.exists() && plane.dihedralAngle > CreaseAngle &&
     plane.dihedralAngle < sharpestCrease;
 }
 
+/// Whether splats are cut off at a plane.
 bool cuts(const ClipPlane& plane)
 {
   return plane.exists() && plane.dihedralAngle > CreaseAngle;
 }
 
-/// Unit vector along the edge that a plane touches, either way: the same from both sides of it.
+/// Unit vector along the edge that a plane touches, in one of its two directions: particles on both sides of the edge
+/// see the same line.
 glm::dvec3 alongEdge(const Particle& particle, const ClipPlane& plane)
 {
   return glm::normalize(glm::cross(particle.normal.xyz, plane.normal.xyz));
@@ -46,15 +66,15 @@ glm::dvec3 alongEdge(const Particle& particle, const ClipPlane& plane)
 /// Whether a splat, were it whole, would reach a place on the surface nearby.
 bool reaches(const Particle& particle, const glm::dvec3& place)
 {
-  constexpr double highest = 0.4;
   const glm::dvec3 offset = place - particle.position.xyz;
   const double height = glm::dot(offset, particle.normal.xyz);
   const double h = particle.spacing;
-  return std::abs(height) < highest * h &&
-    glm::dot(offset, offset) - height * height < splatReach * splatReach * h * h;
+  return std::abs(height) < Cover::Height * h &&
+    glm::dot(offset, offset) - height * height < coverReach * coverReach * h * h;
 }
 
-/// How far a place lies behind a particle's planes; infinitely where no crease may give way.
+/// How far a place lies behind the farthest of a particle's planes, world units; infinite if it lies behind a plane
+/// that may not be moved.
 double behindCreases(const Particle& particle, const glm::dvec3& place)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -71,7 +91,7 @@ double behindCreases(const Particle& particle, const glm::dvec3& place)
   return farthest;
 }
 
-/// Whether a place lies behind a boundary curve, clearly.
+/// Whether a place lies clearly behind a boundary curve.
 bool isBehindBoundary(const Particle& particle, const glm::dvec3& place)
 {
   return std::any_of(particle.clips.begin(), particle.clips.end(),
@@ -79,7 +99,7 @@ bool isBehindBoundary(const Particle& particle, const glm::dvec3& place)
     {
       return plane.isBoundary() &&
         glm::dot(place - particle.position.xyz, plane.normal.xyz) >
-        plane.distance + filledBehind * particle.spacing;
+        plane.distance + Cover::BehindPlane * particle.spacing;
     });
 }
 
@@ -95,15 +115,15 @@ public:
   void close();
 
 private:
-  /// A plane's way along the disk of its particle.
+  /// The line in which a plane cuts the disk of its particle.
   struct Cut
   {
-    /// The place on the plane that is nearest to the particle, from there.
+    /// From the particle to the nearest place of the line.
     glm::dvec3 foot{ 0.0 };
-    /// Unit vectors.
+    /// Unit vectors of the disk, across the line and along it.
     glm::dvec3 away{ 0.0 };
     glm::dvec3 along{ 0.0 };
-    /// Of `away` to the plane's normal.
+    /// Cosine of the angle between `away` and the plane's normal.
     double cosine = 0.0;
   };
 
@@ -128,7 +148,7 @@ CreaseCorners::Cut CreaseCorners::cutOf(const Particle& particle, const ClipPlan
   return { plane.distance / cosine * away, away, glm::cross(normal, away), cosine };
 }
 
-/// Particles whose splats may overlap that of particle i.
+/// Particles whose splats may overlap the splat of particle i.
 std::vector<int> CreaseCorners::findAround(int i) const
 {
   const Particle& particle = this->All.at(i);
@@ -139,7 +159,7 @@ std::vector<int> CreaseCorners::findAround(int i) const
       const Particle& other = this->All.at(j);
       if (j != i && dot(other.normal, particle.normal) > 0.0 &&
         length(other.position - particle.position) <
-          splatReach * (particle.spacing + other.spacing))
+          coverReach * (particle.spacing + other.spacing))
       {
         found.push_back(j);
       }
@@ -147,10 +167,10 @@ std::vector<int> CreaseCorners::findAround(int i) const
   return found;
 }
 
-/// Whether a crease meets another one, or a boundary curve, near its particle.
+/// Whether a crease meets another one, or a boundary curve, near particle i.
+/// \param plane of the crease: 0 or 1
 bool CreaseCorners::isCornerOf(int i, int plane, const std::vector<int>& around) const
 {
-  constexpr double sameCrease = 0.9;
   const glm::dvec3 along = alongEdge(this->All.at(i), this->All.at(i).clips[plane]);
   const auto hasAnother = [&](int j)
   {
@@ -162,8 +182,8 @@ bool CreaseCorners::isCornerOf(int i, int plane, const std::vector<int>& around)
   return hasAnother(i) || std::any_of(around.begin(), around.end(), hasAnother);
 }
 
-/// Whether it is on particle i to cover a place behind its plane: none covers it, nor lies it nearer behind the
-/// plane of another, nor beyond a boundary curve.
+/// Whether particle i is to cover a place behind its plane: no other splat covers it, no other plane is nearer to it,
+/// and it does not lie beyond a boundary curve.
 bool CreaseCorners::isOpen(int i, const glm::dvec3& place, const std::vector<int>& around) const
 {
   const double own = behindCreases(this->All.at(i), place);
@@ -176,25 +196,26 @@ bool CreaseCorners::isOpen(int i, const glm::dvec3& place, const std::vector<int
         return false;
       }
       const double behind = behindCreases(other, place);
-      return behind < filledBehind * other.spacing || behind < own || (behind == own && j < i) ||
-        isBehindBoundary(other, place);
+      return behind < Cover::BehindPlane * other.spacing || behind < own ||
+        (behind == own && j < i) || isBehindBoundary(other, place);
     });
 }
 
-/// How far it is open, away from a place on a plane.
+/// How far a plane leaves the surface open behind one place of its cut, world units.
+/// \param start from the particle to that place
 double CreaseCorners::openFrom(int i, int plane, const glm::dvec3& start, const glm::dvec3& away,
   const std::vector<int>& around) const
 {
   const Particle& particle = this->All.at(i);
   const ClipPlane& other = particle.clips[1 - plane];
   const double step = placeStep * particle.spacing;
-  const double farthest = farthestOff / std::sin(particle.clips[plane].dihedralAngle);
+  const double farthest = Cover::StandOff / std::sin(particle.clips[plane].dihedralAngle);
   int count = 0;
   for (;; ++count)
   {
     const glm::dvec3 offset = start + (count + 1) * step * away;
     const glm::dvec3 place = particle.position.xyz + offset;
-    if (!(glm::length(offset) <= splatReach * particle.spacing) ||
+    if (!(glm::length(offset) <= coverReach * particle.spacing) ||
       (count + 1) * placeStep > farthest ||
       (cuts(other) && glm::dot(offset, other.normal.xyz) > other.distance) ||
       !this->isOpen(i, place, around))
@@ -204,7 +225,7 @@ double CreaseCorners::openFrom(int i, int plane, const glm::dvec3& start, const 
   }
 }
 
-/// How far one of its planes is to be moved.
+/// How far a plane of particle i is to be moved, world units: as far as it leaves the surface open anywhere.
 double CreaseCorners::openBehind(int i, int plane, const std::vector<int>& around) const
 {
   if (!this->isCornerOf(i, plane, around))
@@ -213,7 +234,7 @@ double CreaseCorners::openBehind(int i, int plane, const std::vector<int>& aroun
   }
   const Particle& particle = this->All.at(i);
   const Cut cut = cutOf(particle, particle.clips[plane]);
-  const double reach = splatReach * particle.spacing;
+  const double reach = coverReach * particle.spacing;
   const double half = std::sqrt(std::max(0.0, reach * reach - glm::dot(cut.foot, cut.foot)));
   const double step = placeStep * particle.spacing;
   const auto most = static_cast<int>(half / step);
@@ -226,6 +247,7 @@ double CreaseCorners::openBehind(int i, int plane, const std::vector<int>& aroun
   return farthest * cut.cosine;
 }
 
+/// Moves all planes, each by what the planes were before.
 void CreaseCorners::close()
 {
   const std::size_t count = this->All.size();
@@ -235,7 +257,7 @@ void CreaseCorners::close()
     {
       const auto i = static_cast<int>(n);
       const auto isCut = [&](const ClipPlane& plane)
-      { return isCrease(plane) && plane.distance < splatReach * this->All.at(i).spacing; };
+      { return isCrease(plane) && plane.distance < coverReach * this->All.at(i).spacing; };
       const auto& clips = this->All.at(i).clips;
       const std::array<bool, 2> wanted{ isCut(clips[0]), isCut(clips[1]) };
       if (wanted[0] || wanted[1])

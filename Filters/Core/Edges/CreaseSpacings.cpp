@@ -10,10 +10,11 @@ namespace hop
 namespace
 {
 
-/// Distance of places along a crease, in units of the spacing there.
+/// Largest distance of places along a crease, in units of the spacing there. Chosen by experiment: a larger one lets
+/// spacings rise between places (SizingField::GradationSlope times the distance), a smaller one costs evaluations.
 constexpr double placesPerSpacing = 0.5;
 
-using SpacingLimit = SurfaceProxy::SpacingLimit;
+using SpacingLimit = SizingField::Limit;
 
 class CreaseSampler
 {
@@ -40,7 +41,7 @@ private:
   SurfaceWalker Walker;
 };
 
-/// The spacing wanted at a place on a face, from the normals on both sides.
+/// The spacing wanted at a place on a face, by the dihedral angle there.
 SpacingLimit CreaseSampler::limitAt(const Location& place, int face)
 {
   const Evaluated here = this->Walker.evaluate(place);
@@ -52,7 +53,7 @@ SpacingLimit CreaseSampler::limitAt(const Location& place, int face)
     static_cast<float>(spacingAtCrease(this->Proxy.sizing(), angle > CreaseAngle ? angle : 0.0)) };
 }
 
-/// Places on the line between two crossings, which the surface follows as far as the box shows it.
+/// Adds places on the line between two crossings, which stands for the crease in the box.
 void CreaseSampler::addSegment(
   const FaceCrossing& from, const FaceCrossing& to, std::vector<SpacingLimit>& limits)
 {
@@ -70,6 +71,7 @@ void CreaseSampler::addSegment(
   }
 }
 
+/// Adds places on the creases that a box shows.
 void CreaseSampler::addBox(std::size_t box, std::vector<SpacingLimit>& limits)
 {
   const int element = this->Proxy.boxes()[box].middle.element;
@@ -80,7 +82,7 @@ void CreaseSampler::addBox(std::size_t box, std::vector<SpacingLimit>& limits)
     return this->DihedralAngles[faceSlot(element, face)] > CreaseAngle &&
       (behind < 0 || element < behind);
   };
-  // Those of one side of the box come in pairs: the surface enters the side and leaves it.
+  // Crossings of one side of the box come in pairs.
   std::optional<FaceCrossing> entered;
   visitFaceCrossings(this->Mesh, this->Proxy.boxes()[box], isCrease,
     [&](const FaceCrossing& crossing)
@@ -99,7 +101,7 @@ void CreaseSampler::addBox(std::size_t box, std::vector<SpacingLimit>& limits)
 
 } // namespace
 
-std::vector<SurfaceProxy::SpacingLimit> findCreaseSpacings(const Isosurface& surface,
+std::vector<SizingField::Limit> findCreaseSpacings(const Isosurface& surface,
   const SurfaceProxy& proxy, const FaceJumps& jumps, const ParallelFor& parallelFor,
   std::int64_t& evaluations)
 {

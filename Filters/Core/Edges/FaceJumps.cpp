@@ -14,21 +14,37 @@ namespace hop
 namespace
 {
 
-/// What the two sides of a face do on the surface they also do nearer to it than this, in units of the
-/// spacing.
-constexpr double nearSurface = 0.2;
-/// Sides that jump each other by less than this, in units of the largest jump that may be passed, as
-/// estimated from what they differ by on the whole face, are taken to agree.
-constexpr double smallJump = 0.5;
-/// Nor is it looked at where they jump each other by less than this, in units of the spacing, as far as
-/// samples tell.
-constexpr double clearJump = 0.1;
-/// Smaller turns and steps (see FaceJumps::dihedralAngles) are none: 1.5 degrees.
-constexpr double smallestAngle = 0.026;
-/// The largest angle that a step counts as.
-constexpr double largestStep = 0.99 * CreaseAngle;
+/// Where faces are looked at: lengths in units of the spacing. Chosen by experiment.
+struct Looks
+{
+  /// Distance from the surface within which a crossing shows what the two sides do on the surface. A larger one
+  /// believes values and slopes too far off; with a smaller one more crossings cost Newton's method.
+  static constexpr double NearSurface = 0.2;
+  /// Largest distance on the way from a crossing to the surface.
+  static constexpr double LongestWay = 4.0;
+  /// Smallest jump that is worth an evaluation, in units of the largest one that the surface passes, estimated from
+  /// what the fields of the two sides differ by anywhere on the face. Less than 1, as the estimate takes F to be
+  /// linear; a larger one overlooks jumps, a smaller one costs evaluations.
+  static constexpr double SmallestJump = 0.5;
+  /// Nor is a jump worth an evaluation if it is smaller than this as far as samples tell.
+  static constexpr double MeetingJump = 0.1;
+  /// Largest distance from the surface of the places compared, in units of the smallest spacing: jumps and creases are
+  /// large beside it.
+  static constexpr double Tolerance = 0.02;
+};
 
-/// The lattice of an element's face: from its first corner along the edges to the second and to the last.
+/// What counts as a dihedral angle, radians.
+struct Angles
+{
+  /// Smaller ones are none: 1.5 degrees. Chosen by experiment: a smaller one gives clip planes to particles where a
+  /// picture shows no edge.
+  static constexpr double Smallest = 0.026;
+  /// The largest angle that a jump counts as: no jump makes a crease.
+  static constexpr double LargestOfJump = 0.99 * CreaseAngle;
+};
+
+/// The lattice of coefficients on an element's face: from its first corner along the edges to the second corner and to
+/// the last one.
 struct FaceLattice
 {
   FaceLattice(const Element& element, const std::array<int, 3>& corners)
@@ -49,7 +65,7 @@ struct FaceLattice
     return std::max({ size.x, size.y, size.z });
   }
 
-  /// Index of the coefficient that many steps along the two edges.
+  /// Index of a coefficient, by the numbers of steps to it along the two edges.
   int index(int first, int second) const
   {
     const glm::ivec3 at = this->Corners[0] + first * this->along(1) / this->steps(1) +
@@ -62,8 +78,8 @@ struct FaceLattice
   std::array<glm::ivec3, 3> Corners{};
 };
 
-/// By how much the coefficients of two elements differ at most on the face between them, and so the values;
-/// infinite where they cannot be compared.
+/// Largest difference of the coefficients of two elements on the face between them. It bounds the difference of the
+/// values (convex hull property of Bernstein polynomials). Infinite where the coefficients cannot be compared.
 double differenceAt(const ElementMesh& mesh, int element, int face)
 {
   const FaceNeighbor& neighbor = mesh.neighbor(element, face);
@@ -106,7 +122,7 @@ public:
     : Surface(surface)
     , Mesh(*surface.mesh)
     , Proxy(proxy)
-    , Everywhere(this->Mesh.elements.size() * MaximumFaces, 0.0f)
+    , EndingEverywhere(this->Mesh.elements.size() * MaximumFaces, 0.0f)
     , OfElement(this->Mesh.elements.size())
     , Samples(this->Mesh, proxy)
   {
@@ -125,21 +141,21 @@ private:
     float dihedralAngle = 0.0f;
   };
 
-  /// One walker stays on the face as if the surface ended there, the other passes it.
+  /// Two walkers: one stays on the face as if the surface ended there, the other passes it.
   struct Walkers
   {
     SurfaceWalker along;
     SurfaceWalker across;
   };
 
-  /// What is known of a face of an element, while the boxes there are gone through.
+  /// What is known of a face of an element while the element's boxes are gone through.
   struct FaceState
   {
     int neighbor = -1;
-    /// By which its two sides differ at most.
+    /// See differenceAt().
     double difference = 0.0;
-    /// See mayBeOpen().
-    bool open = false;
+    /// See isUnmatched().
+    bool unmatched = false;
     /// There may be more to see.
     bool wanted = false;
     unsigned boxesSeen = 0;
@@ -150,21 +166,22 @@ private:
   void lookAtCrossing(const FaceCrossing& crossing, const SurfaceProxy::Sample& sample,
     FaceState& face, Walkers& walkers);
   void lookAtElement(int element, Walkers& walkers);
-  bool mayBeOpen(int element, int face) const;
+  FaceJumps gathered() const;
+  bool isUnmatched(int element, int face) const;
   bool mayJump(
     const FaceCrossing& crossing, const SurfaceProxy::Sample& sample, double difference) const;
 
   Isosurface Surface;
   const ElementMesh& Mesh;
   const SurfaceProxy& Proxy;
-  /// Gaps by which the surface may end at all faces.
-  std::vector<float> Everywhere;
+  /// Jump tolerances with which the surface may end at every face.
+  std::vector<float> EndingEverywhere;
   std::vector<std::vector<Finding>> OfElement;
   SampleComparison Samples;
 };
 
-/// What the surface does at the place of a crossing; nothing where it does not reach the face, or nothing
-/// lies behind.
+/// What the surface does at a crossing; nothing where it does not reach the face, or where nothing lies behind the
+/// face.
 std::optional<JumpFinder::Finding> JumpFinder::look(
   const FaceCrossing& crossing, double spacing, Walkers& walkers) const
 {
@@ -172,9 +189,9 @@ std::optional<JumpFinder::Finding> JumpFinder::look(
   const Face& face = this->Mesh.face(element, crossing.face);
   Evaluated here = walkers.along.evaluate(crossing.location);
   const bool isNear =
-    std::abs(here.point.value) <= nearSurface * spacing * length(here.point.gradient);
+    std::abs(here.point.value) <= Looks::NearSurface * spacing * length(here.point.gradient);
   if (!isNear &&
-    (!walkers.along.project(crossing.location, 4.0 * spacing, here, true) ||
+    (!walkers.along.project(crossing.location, Looks::LongestWay * spacing, here, true) ||
       faceMargin(face, here.location.u) > OnFace))
   {
     return std::nullopt;
@@ -195,27 +212,28 @@ std::optional<JumpFinder::Finding> JumpFinder::look(
   else
   {
     const double angle = std::max(angleBetween(here.point.gradient, behind->at.point.gradient),
-      std::min(jump / spacing, largestStep));
-    finding.dihedralAngle = angle >= smallestAngle ? static_cast<float>(angle) : 0.0f;
+      std::min(jump / spacing, Angles::LargestOfJump));
+    finding.dihedralAngle = angle >= Angles::Smallest ? static_cast<float>(angle) : 0.0f;
   }
   return finding;
 }
 
-/// Whether there may be something behind a face that the mesh does not join.
-bool JumpFinder::mayBeOpen(int element, int face) const
+/// Whether the mesh does not join a face, though something may lie behind it: elements whose faces do not match.
+bool JumpFinder::isUnmatched(int element, int face) const
 {
   return this->Mesh.neighbor(element, face).element < 0 && this->Surface.locator &&
-    this->Surface.locator->mayGoOn(element, face);
+    this->Surface.locator->mayContinue(element, face);
 }
 
-/// Whether the sides may jump each other at a crossing, if they differ by no more than that: the field
-/// changes along the face at least as much as it does between the corners of the box.
+/// Whether there may be a jump at a crossing that is worth an evaluation. The field rises along the face at least as
+/// steeply as between the corners of the box, so that a jump is at most difference / steepness.
+/// \param difference of the values on both sides of the face, at most
 bool JumpFinder::mayJump(
   const FaceCrossing& crossing, const SurfaceProxy::Sample& sample, double difference) const
 {
   const glm::dvec3 edge =
     glm::inverse(glm::dmat3(sample.anchor.pull)) * (crossing.ends[1] - crossing.ends[0]);
-  const double largest = smallJump * LargestJumpPerSpacing * sample.patch.spacing;
+  const double largest = Looks::SmallestJump * LargestJumpPerSpacing * sample.patch.spacing;
   return !(difference * glm::length(edge) <= largest * crossing.rise);
 }
 
@@ -224,40 +242,43 @@ JumpFinder::FaceState JumpFinder::stateOf(int element, int face) const
   FaceState state;
   state.neighbor = this->Mesh.neighbor(element, face).element;
   state.difference = state.neighbor >= 0 ? differenceAt(this->Mesh, element, face) : 0.0;
-  state.open = this->mayBeOpen(element, face);
-  // Creases are looked for from one side.
-  state.wanted = state.difference > 0.0 || state.open || element < state.neighbor;
+  state.unmatched = this->isUnmatched(element, face);
+  // Dihedral angles are measured from one side.
+  state.wanted = state.difference > 0.0 || state.unmatched || element < state.neighbor;
   return state;
 }
 
-/// Looks at a face where a box crosses it, if that may tell something new. A few looks are enough to see a
-/// crease: at the first, second, fourth ... box. Jumps are looked for at all of them, but one is enough.
+/// Looks at a face at a crossing of a box, if that may tell something new. For the dihedral angle a few looks are
+/// enough: at the first, second, fourth ... box. A jump is looked for in every box until one is found.
 void JumpFinder::lookAtCrossing(const FaceCrossing& crossing, const SurfaceProxy::Sample& sample,
   FaceState& face, Walkers& walkers)
 {
   const int element = crossing.location.element;
   const double spacing = sample.patch.spacing;
   std::vector<Finding>& findings = this->OfElement[element];
-  if (face.open)
+  if (face.unmatched)
   {
     const std::size_t slot = faceSlot(element, crossing.face);
     findings.push_back({ slot, slot, static_cast<float>(LargestJumpPerSpacing * spacing) });
   }
   const unsigned before = face.boxesSeen++;
-  const bool forCreases = (before & (before + 1)) == 0 &&
-    (face.open || (element < face.neighbor && !this->Samples.isSmoothTo(sample, face.neighbor)));
-  if (forCreases ||
+  const bool isPowerOfTwo = (before & (before + 1)) == 0; // the number of this box
+  const bool forAngle = isPowerOfTwo &&
+    (face.unmatched ||
+      (element < face.neighbor && !this->Samples.isSmoothTo(sample, face.neighbor)));
+  if (forAngle ||
     (this->mayJump(crossing, sample, face.difference) &&
-      !this->Samples.meet(crossing, sample, clearJump)))
+      !this->Samples.meet(crossing, sample, Looks::MeetingJump)))
   {
     if (const auto finding = this->look(crossing, spacing, walkers))
     {
       findings.push_back(*finding);
-      face.wanted = face.open || !std::isfinite(finding->jumpTolerance);
+      face.wanted = face.unmatched || !std::isfinite(finding->jumpTolerance);
     }
   }
 }
 
+/// Looks at all faces of an element that its boxes show, once a box.
 void JumpFinder::lookAtElement(int element, Walkers& walkers)
 {
   const auto [firstBox, lastBox] = this->Proxy.boxesOf(element);
@@ -287,24 +308,33 @@ void JumpFinder::lookAtElement(int element, Walkers& walkers)
 
 FaceJumps JumpFinder::run(const ParallelFor& parallelFor)
 {
-  Isosurface walled = this->Surface.withWalls();
-  walled.jumpTolerances = &this->Everywhere;
-  // Jumps and creases are large beside this.
-  walled.tolerance = std::max(this->Surface.tolerance, 0.02 * this->Proxy.smallestSpacing());
+  Isosurface ending = this->Surface.endingWhereItMay();
+  ending.jumpTolerances = &this->EndingEverywhere;
+  ending.tolerance =
+    std::max(this->Surface.tolerance, Looks::Tolerance * this->Proxy.smallestSpacing());
   std::atomic<std::int64_t> evaluations{ 0 };
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(this->OfElement.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
-      Walkers walkers{ SurfaceWalker(walled), SurfaceWalker(this->Surface) };
+      Walkers walkers{ SurfaceWalker(ending), SurfaceWalker(this->Surface) };
       for (std::ptrdiff_t e = begin; e < end; ++e)
       {
         this->lookAtElement(static_cast<int>(e), walkers);
       }
       evaluations += walkers.along.evaluations() + walkers.across.evaluations();
     });
+  FaceJumps result = this->gathered();
+  result.evaluations = evaluations;
+  return result;
+}
+
+/// The findings of all elements, entered at both sides of their faces.
+FaceJumps JumpFinder::gathered() const
+{
   FaceJumps result;
-  result.jumpTolerances.assign(this->Everywhere.size(), std::numeric_limits<float>::infinity());
-  result.dihedralAngles.assign(this->Everywhere.size(), 0.0f);
+  result.jumpTolerances.assign(
+    this->EndingEverywhere.size(), std::numeric_limits<float>::infinity());
+  result.dihedralAngles.assign(this->EndingEverywhere.size(), 0.0f);
   for (const std::vector<Finding>& findings : this->OfElement)
   {
     for (const Finding& finding : findings)
@@ -316,7 +346,6 @@ FaceJumps JumpFinder::run(const ParallelFor& parallelFor)
       }
     }
   }
-  result.evaluations = evaluations;
   return result;
 }
 

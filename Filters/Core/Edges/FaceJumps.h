@@ -8,27 +8,31 @@ namespace hop
 /// What the surface does where it passes from element to element.
 struct FaceJumps
 {
-  /// As Isosurface::jumpTolerances: infinite at faces where no jump was seen, some part of a spacing at others
-  /// and at those that the mesh does not join.
+  /// As Isosurface::jumpTolerances, world units: infinite at faces where no jump was seen, LargestJumpPerSpacing of the
+  /// spacing at faces with a jump and at faces that the mesh does not join.
   std::vector<float> jumpTolerances;
-  /// MaximumFaces entries an element: the largest angle seen by which the normal turns at that face, on both
-  /// sides of it, radians; 0 where it hardly turns. A step between sides that count as one is an angle, too:
-  /// step / spacing, below CreaseAngle; of sides that are parallel, small ones may be overlooked.
+  /// MaximumFaces entries an element: the dihedral angle at the face, which is the angle between the surface's normals
+  /// on its two sides, radians. The largest one seen, and the same for both sides of the face; 0 where the surface is
+  /// smooth. A jump that the surface passes counts as an angle, too: jump / spacing, below CreaseAngle; where the sides
+  /// are parallel, a small one may be overlooked.
   std::vector<float> dihedralAngles;
   std::int64_t evaluations = 0;
 };
 
-/// The part of a spacing by which the two sides of the surface may miss each other at a face and still
-/// count as one.
+/// Largest jump, in units of the spacing, at which the two sides of the surface at a face count as one. Chosen by
+/// experiment. A larger one lets particles pass steps that are seen in the picture; with a smaller one the surface of a
+/// discontinuous field falls into pieces, each with boundary curves of its own.
 constexpr double LargestJumpPerSpacing = 0.4;
 
-/// Angle between normals that makes a crease, radians: 10 degrees.
+/// Smallest dihedral angle that makes a crease, radians: 10 degrees. Chosen by experiment. Splats are cut off at
+/// creases, and hand over gradually to the other side at smaller angles; a larger one blurs edges, with a smaller one
+/// faceted surfaces of discontinuous fields show every face.
 constexpr double CreaseAngle = 0.17453293;
 
-/// Looks at the faces that the surface passes: for turns at a few places, unless samples on both sides look
-/// like one smooth sheet, for jumps at one place for every box that shows it, unless the coefficients of
-/// the two elements on the face differ by too little. Faces that the mesh does not join are left to be judged
-/// place by place.
+/// Looks at the faces that the surface passes. Dihedral angles are measured at a few places of a face, unless samples
+/// on both sides look like one smooth sheet; jumps in one place of every box that shows the face, unless the
+/// coefficients of the two elements differ by too little on the face. At faces that the mesh does not join, jumps are
+/// left to be judged place by place.
 FaceJumps findFaceJumps(
   const Isosurface& surface, const SurfaceProxy& proxy, const ParallelFor& parallelFor);
 

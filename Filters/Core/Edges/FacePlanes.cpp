@@ -11,6 +11,7 @@ namespace hop
 namespace
 {
 
+/// See offerPlane().
 bool comesBefore(const ClipPlane& a, const ClipPlane& b, double spacing)
 {
   const auto rank = [spacing](const ClipPlane& plane)
@@ -22,7 +23,7 @@ bool comesBefore(const ClipPlane& a, const ClipPlane& b, double spacing)
   return rank(a) != rank(b) ? rank(a) < rank(b) : a.distance < b.distance;
 }
 
-/// A function of world space near a place, to second order.
+/// A function of world space to second order, around a place that is the origin.
 struct Quadratic
 {
   double value = 0.0;
@@ -41,11 +42,12 @@ struct Quadratic
 /// The place on the curve {a = b = 0} that is nearest to the origin; not finite where there is none.
 glm::dvec3 nearestOnCrossing(const Quadratic& a, const Quadratic& b)
 {
-  constexpr int steps = 4;
+  constexpr int steps =
+    4; // of Newton's method; within reach of a splat more change nothing that is seen
   glm::dvec3 x(0.0);
   for (int step = 0; step < steps; ++step)
   {
-    // Of the places on both planes that touch the functions here, the nearest.
+    // The place on both linear functions that touch a and b here which is nearest to the origin.
     const glm::dvec3 p = a.slopeAt(x).gradient.xyz;
     const glm::dvec3 q = b.slopeAt(x).gradient.xyz;
     const glm::dvec2 wanted(glm::dot(p, x) - a.valueAt(x), glm::dot(q, x) - b.valueAt(x));
@@ -56,24 +58,24 @@ glm::dvec3 nearestOnCrossing(const Quadratic& a, const Quadratic& b)
   return x;
 }
 
-/// The face by which the surface leaves an element, touched where the surface is nearest to leaving, as a particle
-/// in the element sees that to second order. (Planes across the surface would not be the same from both sides.)
-/// \param field, wall around the particle: F - c, and faceMargin() of the face
-/// \return the plane exists only if that place is within reach
-ClipPlane edgeSeenFrom(const Particle& particle, const Quadratic& field, const Quadratic& wall)
+/// The plane that touches a face where the surface leaves the element nearest to a particle in it. (Planes across the
+/// surface would not be the same from both sides.)
+/// \param field, margin around the particle: F - c, and faceMargin() of the face
+/// \return no plane if that place is not within reach
+ClipPlane edgeSeenFrom(const Particle& particle, const Quadratic& field, const Quadratic& margin)
 {
-  const glm::dvec3 nearest = nearestOnCrossing(field, wall);
+  const glm::dvec3 nearest = nearestOnCrossing(field, margin);
   if (!(glm::length(nearest) <= ClipReach * particle.spacing))
   {
     return {};
   }
-  const LevelSet wallThere = wall.slopeAt(nearest);
-  const WorldVector outward{ -glm::normalize(wallThere.gradient.xyz) };
-  const WorldVector bend = bendOfCrossing(field.slopeAt(nearest), wallThere);
+  const LevelSet marginThere = margin.slopeAt(nearest);
+  const WorldVector outward{ -glm::normalize(marginThere.gradient.xyz) };
+  const WorldVector bend = curvatureOfCrossing(field.slopeAt(nearest), marginThere);
   return { outward, std::max(0.0, glm::dot(nearest, outward.xyz)), dot(bend, outward) };
 }
 
-/// The face itself, to first order.
+/// The plane of a face, to first order at the particle.
 ClipPlane planeOf(const Face& face, const Particle& particle, const LocalMap& map)
 {
   const glm::dvec3 inward = glm::transpose(map.inverse) * face.inward.xyz;
@@ -121,9 +123,9 @@ void offerFaces(const Isosurface& surface, const FaceJumps& jumps, const Jet& je
     if (plane.distance <= ClipReach * particle.spacing && angle > CreaseAngle)
     {
       const Quadratic field{ point.value, { point.gradient, worldHessian(jet, point) } };
-      const Quadratic wall{ faceMargin(faces[f], particle.location.u),
+      const Quadratic margin{ faceMargin(faces[f], particle.location.u),
         faceLevels(jet, point.map, faces[f]) };
-      plane = edgeSeenFrom(particle, field, wall);
+      plane = edgeSeenFrom(particle, field, margin);
     }
     plane.dihedralAngle = angle;
     plane.face = f;

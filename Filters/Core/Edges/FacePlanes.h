@@ -6,20 +6,23 @@
 namespace hop
 {
 
-/// How far from a particle, in units of its spacing, an edge is of interest: splats overlap that far.
+/// Largest distance from a particle, in units of its spacing, at which an edge of the surface is of interest: a splat
+/// reaches one spacing, and planes of edges a little farther off tell the renderer on which side of them it is. Chosen
+/// by experiment; a larger one takes both planes of a particle for edges that do not cut its splat.
 constexpr double ClipReach = 1.5;
 
-/// Two planes whose normals are nearer than that, by cosine, are the same edge.
+/// Smallest cosine between the normals of two planes that belong to the same edge: 37 degrees. Chosen by experiment.
+/// Nearer to 1 the two planes of a particle may be one bent edge twice; farther from 1 blunt corners have one plane
+/// only.
 constexpr double SameEdge = 0.8;
 
-/// Keeps a plane that is within reach, if it comes before one that the particle has: boundary curves that cut its splat come
-/// before creases (CreaseAngle), these before faces at which the surface is almost smooth, near ones before others.
-/// The second plane belongs to another edge than the first.
+/// Gives a particle a plane that is within reach, if the plane comes before one that the particle has. Boundary curves
+/// nearer than a spacing come first, then creases (CreaseAngle) and boundary curves farther off, then faces with a
+/// smaller dihedral angle; of two alike the nearer one. The particle's second plane belongs to another edge than its first.
 void offerPlane(Particle& particle, const ClipPlane& plane);
 
-/// Offers a particle the faces of its element at which the normal turns. Near a crease that is the plane which touches
-/// the edge where it is nearest, as the particle sees field and face to second order; elsewhere the face to first
-/// order.
+/// Offers a particle the faces of its element that have a dihedral angle. At a crease the plane touches the edge where
+/// the edge is nearest, as the particle sees field and face to second order; elsewhere it is the face to first order.
 /// \param jet, point at the particle's place
 void offerFaces(const Isosurface& surface, const FaceJumps& jumps, const Jet& jet,
   const FieldPoint& point, Particle& particle);

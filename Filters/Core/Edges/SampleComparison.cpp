@@ -7,14 +7,29 @@ namespace hop
 namespace
 {
 
-/// Cosine of the largest angle between the normals of smooth sheets, 2 degrees.
-constexpr double smoothCosine = 0.9994;
-/// Smooth sheets miss each other by less than this, in units of the distance of the samples.
-constexpr double offSheet = 0.1;
-/// Samples tell about places up to that far off, in units of the spacing, and up to that turn.
-constexpr double farthestSample = 3.0;
-constexpr double largestTurn = 0.5;
-/// Cosine of the largest angle between the normals of sides that meet.
+/// When two samples belong to one smooth sheet. A looser limit overlooks dihedral angles, a tighter one costs
+/// evaluations. Chosen by experiment.
+struct Smoothness
+{
+  /// Cosine of the largest angle between the normals halfway between the samples: 2 degrees.
+  static constexpr double LeastCosine = 0.9994;
+  /// Largest distance of one sample from where the other's patch leads to, in units of the distance of the samples.
+  static constexpr double LargestMiss = 0.1;
+};
+
+/// How far a sample tells about the surface around it. More believes second-order patches too far off, less costs
+/// evaluations. Chosen by experiment.
+struct Trust
+{
+  /// Largest distance, in units of the spacing.
+  static constexpr double Distance = 3.0;
+  /// Largest angle by which the surface bends on the way, radians.
+  static constexpr double Angle = 0.5;
+};
+
+/// Cosine of the largest angle between the normals of two sides that meet: 26 degrees. Where the sides are turned more,
+/// the distance between them says little. Chosen by experiment: farther from 1 jumps at creases are overlooked, nearer
+/// to 1 costs evaluations.
 constexpr double meetingCosine = 0.9;
 
 /// Unit normal of a patch above a place of its tangent plane.
@@ -31,9 +46,9 @@ glm::dvec3 normalAt(const Patch& patch, const glm::dvec2& t)
 bool areSmooth(const Patch& a, const Patch& b)
 {
   const double distance = glm::distance(a.position, b.position);
-  return std::abs(a.heightOf(b.position)) <= offSheet * distance &&
+  return std::abs(a.heightOf(b.position)) <= Smoothness::LargestMiss * distance &&
     glm::dot(normalAt(a, 0.5 * a.inPlane(b.position)), normalAt(b, 0.5 * b.inPlane(a.position))) >=
-    smoothCosine;
+    Smoothness::LeastCosine;
 }
 
 } // namespace
@@ -61,8 +76,8 @@ bool SampleComparison::meet(
   const auto reaches = [&](const Patch& patch)
   {
     const double distance = glm::distance(patch.position, here.position);
-    return distance <= farthestSample * spacing &&
-      distance * patch.curvatureMagnitude() <= largestTurn;
+    return distance <= Trust::Distance * spacing &&
+      distance * patch.curvatureMagnitude() <= Trust::Angle;
   };
   if (!there || !reaches(sample.patch) || !reaches(there->patch))
   {
@@ -73,7 +88,7 @@ bool SampleComparison::meet(
   const Face& face = this->Mesh.face(element, crossing.face);
   const glm::dvec3 across =
     glm::normalize(glm::transpose(glm::dmat3(sample.anchor.pull)) * face.inward.xyz);
-  // The distance of the sides is that along their normal; along the face it is larger.
+  // A jump along the face is larger than the distance of the sides along their normal.
   const double slant = glm::length(normal - glm::dot(normal, across) * across);
   return glm::dot(normal, other) >= meetingCosine &&
     std::abs(there->patch.heightOf(here.position)) <= largestJump * spacing * slant;

@@ -6,7 +6,7 @@
 namespace hop
 {
 
-/// What the samples on the two sides of a joined face tell about the surface there; no evaluation is needed.
+/// What the proxy's samples on the two sides of a joined face tell about the surface there. Costs no evaluation.
 class SampleComparison
 {
 public:
@@ -17,11 +17,12 @@ public:
   {
   }
 
-  /// Whether the surface in an element next to that of a sample seems to be its smooth continuation.
+  /// Whether the surface in another element seems to continue a sample's smoothly: by the sample there that is nearest.
   bool isSmoothTo(const SurfaceProxy::Sample& sample, int element) const;
 
-  /// Whether the two sides seem to meet at a crossing of the sample's box.
+  /// Whether the two sides of a face seem to meet at a crossing of the sample's box.
   /// \param largestJump along the face, in units of the spacing
+  /// \return false also where the samples are too far off to tell
   bool meet(
     const FaceCrossing& crossing, const SurfaceProxy::Sample& sample, double largestJump) const;
 

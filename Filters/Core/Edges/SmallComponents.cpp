@@ -1,5 +1,6 @@
 #include "Edges/SmallComponents.h"
 
+#include "Common/SplatProfile.h"
 #include "Support/KeepMarked.h"
 
 #include <algorithm>
@@ -11,45 +12,55 @@ namespace hop
 namespace
 {
 
-/// So far off, in units of its spacing, the next particle on a surface that goes on is never.
-constexpr double alone = 1.8;
-static_assert(alone <= ParticleGrid::Reach);
-/// Splats do not vanish, though a piece may be a point.
-constexpr double leastRadius = 0.02;
+/// When a component is small, and how small its splat becomes. Chosen by experiment, but for what is derived.
+struct SmallComponent
+{
+  /// Smallest distance to the next particle of one that stands alone, in units of its spacing: on a surface that goes
+  /// on the next one is nearer. A larger one overlooks small components beside others.
+  static constexpr double Alone = 1.8;
+  /// Smallest radius of a splat, in units of the spacing: splats do not vanish, though a component may be a point.
+  static constexpr double LeastRadius = 0.02;
+  /// A boundary curve nearer than this, in units of the spacing, passes through its particle.
+  static constexpr double AtBoundary = 0.05;
+  /// Smallest part of a splat between two boundary curves: a thinner sector would need too large a radius.
+  static constexpr double LeastPart = 0.05;
+};
+static_assert(SmallComponent::Alone <= ParticleGrid::Reach);
 
-/// Which part of a splat is drawn where the surface ends at its particle: between two boundary curves a sector.
+/// The part of a splat that is drawn where the surface ends at its particle: half of it, or a sector between two
+/// boundary curves.
 double drawnPart(const Particle& particle)
 {
-  constexpr double atBoundary = 0.05;
   const auto isAtBoundary = [&](const ClipPlane& plane)
-  { return plane.isBoundary() && plane.distance < atBoundary * particle.spacing; };
+  { return plane.isBoundary() && plane.distance < SmallComponent::AtBoundary * particle.spacing; };
   const auto& [first, second] = particle.clips;
   if (isAtBoundary(first) && isAtBoundary(second))
   {
-    constexpr double leastPart = 0.05;
-    return std::max(leastPart, 0.5 - 0.5 * angleBetween(first.normal, second.normal) / Pi);
+    return std::max(
+      SmallComponent::LeastPart, 0.5 - 0.5 * angleBetween(first.normal, second.normal) / Pi);
   }
   return isAtBoundary(first) || isAtBoundary(second) ? 0.5 : 1.0;
 }
 
-/// The radius, in units of the spacing, of a splat that is drawn as large as a piece with room for so few
-/// particles. One stands for an area of sqrt(3)/2.
-double radiusOfPiece(double particleCount, double part)
+/// The radius, in units of the spacing, of a splat whose drawn part is as large as a component. A particle stands for
+/// an area of sqrt(3)/2 in squares of the spacing (hexagonal packing).
+/// \param particleCount the component's area in particles
+double radiusOfComponent(double particleCount, double part)
 {
-  constexpr double visible = 0.93;
-  return std::sqrt(0.5 * std::sqrt(3.0) * particleCount / (part * Pi)) / visible;
+  return std::sqrt(0.5 * std::sqrt(3.0) * particleCount / (part * Pi)) / splatReach();
 }
 
-/// Whether no other particle is near. Those that stand near in space mostly come one after the other: few are
-/// left to be looked up.
+/// Whether no other particle is near. Particles near in space mostly come one after the other, so that a look at the
+/// next ones in the list settles most.
 bool isAlone(const ParticleGrid& all, const Buffer<Particle>& particles, int i)
 {
-  constexpr int nextOnes = 3;
+  constexpr int nextOnes = 3; // changes the time only
   const Particle& particle = particles[i];
   const auto isNear = [&](int j)
   {
     return j != i &&
-      glm::distance(all.position(j), particle.position.xyz) < alone * particle.spacing;
+      glm::distance(all.position(j), particle.position.xyz) <
+      SmallComponent::Alone * particle.spacing;
   };
   const int last = std::min(static_cast<int>(particles.size()) - 1, i + nextOnes);
   for (int j = std::max(0, i - nextOnes); j <= last; ++j)
@@ -64,11 +75,11 @@ bool isAlone(const ParticleGrid& all, const Buffer<Particle>& particles, int i)
   return !found;
 }
 
-/// Fits those particles that stand alone to the boxes around.
-class PieceFitter
+/// Fits the splats of particles that stand alone to the boxes around.
+class SplatFitter
 {
 public:
-  PieceFitter(const SurfaceProxy& proxy, const ParallelFor& parallelFor)
+  SplatFitter(const SurfaceProxy& proxy, const ParallelFor& parallelFor)
     : Proxy(proxy)
     , Points(
         proxy.samples().size(),
@@ -80,7 +91,8 @@ public:
                                           : static_cast<float>(proxy.sizing().spacing);
         },
         parallelFor)
-    , Grid(this->Points.positions, this->Points.spacings, alone, 0.5, parallelFor)
+    , Grid(this->Points.positions, this->Points.spacings, SmallComponent::Alone, CellsPerReach,
+        parallelFor)
   {
   }
 
@@ -97,7 +109,7 @@ public:
       [&](int b)
       {
         if (glm::distance(this->Points.positions[b], particle.position.xyz) <
-          alone * particle.spacing)
+          SmallComponent::Alone * particle.spacing)
         {
           hasBox = hasBox || samples[b].found;
           count += this->Proxy.particleCountOfBox(b);
@@ -105,7 +117,8 @@ public:
       });
     if (isKnown && hasBox)
     {
-      particle.shrink = std::clamp(radiusOfPiece(count, drawnPart(particle)), leastRadius, 1.0);
+      particle.radiusPerSpacing =
+        std::clamp(radiusOfComponent(count, drawnPart(particle)), SmallComponent::LeastRadius, 1.0);
     }
   }
 
@@ -123,11 +136,11 @@ void fitSmallComponents(const SurfaceProxy& proxy, const ParticleGrid& all,
   std::vector<char> marks(particles.size());
   forAll(parallelFor, particles.size(),
     [&](std::size_t i) { marks[i] = isAlone(all, particles, static_cast<int>(i)); });
-  const std::vector<int> lonely = markedIndices(marks, particles.size());
-  if (!lonely.empty())
+  const std::vector<int> alone = markedIndices(marks, particles.size());
+  if (!alone.empty())
   {
-    const PieceFitter fitter(proxy, parallelFor);
-    forAll(parallelFor, lonely.size(), [&](std::size_t n) { fitter.fit(particles[lonely[n]]); });
+    const SplatFitter fitter(proxy, parallelFor);
+    forAll(parallelFor, alone.size(), [&](std::size_t n) { fitter.fit(particles[alone[n]]); });
   }
 }
 

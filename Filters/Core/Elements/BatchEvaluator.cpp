@@ -11,6 +11,7 @@ namespace
 
 static_assert(sizeof(ReferencePoint) == 3 * sizeof(double), "the kernels read plain coordinates");
 
+/// Bytes: the longest vector of the kernels.
 constexpr std::size_t alignment = kernel::MaximumLanes * sizeof(double);
 
 } // namespace
@@ -54,7 +55,7 @@ Jet JetBatch::jet(int point) const
 void evaluateGradients(
   const BernsteinForm& form, const ReferencePoint* points, int count, JetBatch& jets)
 {
-  jets.reset(count, 4);
+  jets.reset(count, quantity::countOfGradients);
   if (count > 0)
   {
     kernelsOf(form.domain)
@@ -65,7 +66,7 @@ void evaluateGradients(
 void evaluateHessians(
   const BernsteinForm& form, const ReferencePoint* points, int count, JetBatch& jets)
 {
-  jets.reset(count, 10);
+  jets.reset(count, quantity::countOfHessians);
   if (count > 0)
   {
     kernelsOf(form.domain)

@@ -9,16 +9,18 @@ namespace hop
 {
 
 /// Quantities of a jet in the order of Jet's members: first + a is d/du_a, second + i the i-th of
-/// uu, uv, uw, vv, vw, ww.
+/// uu, uv, uw, vv, vw, ww. Then how many there are without and with second derivatives.
 namespace quantity
 {
 constexpr int value = 0;
 constexpr int first = 1;
 constexpr int second = 4;
+constexpr int countOfGradients = 4;
+constexpr int countOfHessians = 10;
 } // namespace quantity
 
-/// Jets of many points as a structure of arrays: one row of doubles, a point each, for every
-/// quantity and component. To be reused: memory only grows.
+/// Jets of many points as a structure of arrays: for every quantity and component one row of doubles, one a point.
+/// Worth reusing: its memory only grows.
 class JetBatch
 {
 public:
@@ -32,10 +34,10 @@ public:
   int size() const { return this->Size; }
 
   /// True if there are second derivatives.
-  bool hasHessians() const { return this->Quantities == 10; }
+  bool hasHessians() const { return this->Quantities == quantity::countOfHessians; }
 
-  /// size() values of a component (0: x, 1: y, 2: z, 3: f) of a quantity, aligned to 64 bytes. Up
-  /// to the next multiple of 8 the row goes on with copies of the last point's value or with
+  /// size() values of a component (0: x, 1: y, 2: z, 3: f) of a quantity, aligned to the longest vector. Up
+  /// to the next multiple of kernel::MaximumLanes the row goes on with copies of the last point's value or with
   /// leftovers, so that whole vectors can be read.
   const double* row(int quantity, int component) const
   {
@@ -59,13 +61,13 @@ private:
 };
 
 /// Values and first derivatives at `count` points of one element, several points at a time in the
-/// registers of the processor (see InstructionSet.h). What a point gets does not depend on the
-/// points beside it, their number or its place among them, bit for bit; against evaluateGradient it
-/// may differ by rounding. Threads may run it at once, each with a batch of its own.
+/// registers of the processor (Kernel/InstructionSet.h). A point's jet does not depend on the other points, their
+/// number or its place among them, bit for bit; it may differ from that of evaluateGradient() by rounding. Threads may
+/// run this at once, each with a batch of its own.
 void evaluateGradients(
   const BernsteinForm& form, const ReferencePoint* points, int count, JetBatch& jets);
 
-/// Values, first and second derivatives, likewise.
+/// The same with second derivatives.
 void evaluateHessians(
   const BernsteinForm& form, const ReferencePoint* points, int count, JetBatch& jets);
 

@@ -7,12 +7,13 @@ namespace hop
 namespace
 {
 
+/// Basis functions of a line, at most.
 constexpr int MaximumLine = MaximumPolynomialDegree + 1;
 
 // The kernels write a jet as 40 doubles, a gradient as the first 16 of them.
 static_assert(sizeof(Jet) == 40 * sizeof(double));
 
-/// Values of the univariate Bernstein polynomials of degree p at t.
+/// Values of the Bernstein polynomials of degree p on a line at t, by their recurrence over the degree.
 void lineBasis(int p, double t, double* basis)
 {
   basis[0] = 1.0;
@@ -27,7 +28,7 @@ void lineBasis(int p, double t, double* basis)
   }
 }
 
-/// p! / (i! j! ...) with the rest of p in the last place.
+/// p! / (i! j! ... n!), where n is what the parts i, j, ... leave of p.
 double multinomial(int p, std::initializer_list<int> parts)
 {
   double result = 1.0;
@@ -81,6 +82,9 @@ void evaluateBasis(Domain domain, const Degrees& degrees, const ReferencePoint& 
   {
     switch (domain)
     {
+      case Domain::Hexahedron:
+        basis[index] = bu[i] * bv[j] * bw[k];
+        break;
       case Domain::Tetrahedron:
         basis[index] = multinomial(p, { i, j, k }) * power(t.x, i) * power(t.y, j) * power(t.z, k) *
           power(1.0 - t.x - t.y - t.z, p - i - j - k);
@@ -89,8 +93,6 @@ void evaluateBasis(Domain domain, const Degrees& degrees, const ReferencePoint& 
         basis[index] = multinomial(p, { i, j }) * power(t.x, i) * power(t.y, j) *
           power(1.0 - t.x - t.y, p - i - j) * bw[k];
         break;
-      default:
-        basis[index] = bu[i] * bv[j] * bw[k];
     }
     ++index;
   }

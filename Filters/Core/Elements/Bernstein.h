@@ -29,8 +29,8 @@ inline glm::dvec3 gradientOf(const Jet& jet)
   return { jet.first[0].w, jet.first[1].w, jet.first[2].w };
 }
 
-/// Second derivatives of f, or of another one of (x, y, z, f), as a matrix.
-/// \param second of a Jet
+/// Second derivatives of f, or of another component of (x, y, z, f), as a symmetric matrix.
+/// \param second a Jet's
 inline glm::dmat3 hessianOf(const std::array<Coefficient, 6>& second, int component = 3)
 {
   const auto entry = [&](int i) { return second[i][component]; };
@@ -38,16 +38,17 @@ inline glm::dmat3 hessianOf(const std::array<Coefficient, 6>& second, int compon
     entry(5) };
 }
 
-/// A non-owning view of an element in Bernstein form. Where `weights` is given the element is
-/// rational: its coefficients are homogeneous, w (x, y, z, f), and what it stands for is
-/// sum_i B_i coefficients_i / sum_i B_i w_i.
+/// A non-owning view of an element in Bernstein form: (x, y, z, f)(u) = sum_i B_i(u) coefficients_i, where B_i is the
+/// product of the Bernstein polynomials of the domain's simplices (Documentation/algorithm.md, section Elements).
+/// Where `weights` are given the element is rational: its coefficients are homogeneous, w (x, y, z, f), and it stands
+/// for sum_i B_i coefficients_i / sum_i B_i w_i.
 struct BernsteinForm
 {
   Domain domain = Domain::Hexahedron;
   Degrees degrees{ 1, 1, 1 };
-  /// coefficientCount(domain, degrees) of them, in the order of coefficientIndex.
+  /// coefficientCount(domain, degrees) coefficients, in the order of coefficientIndex.
   const Coefficient* coefficients = nullptr;
-  /// As many, all > 0, or nullptr.
+  /// One weight > 0 a coefficient; nullptr: the element is polynomial.
   const double* weights = nullptr;
 };
 
@@ -67,7 +68,7 @@ Jet evaluateHessian(const BernsteinForm& form, const ReferencePoint& u);
 /// \param basis room for coefficientCount(domain, degrees) values; they sum to one.
 void evaluateBasis(Domain domain, const Degrees& degrees, const ReferencePoint& u, double* basis);
 
-/// Of values.
+/// An interval of values.
 struct Range
 {
   double lower = 0.0;
@@ -82,8 +83,8 @@ struct Range
   double magnitude() const { return std::max(std::abs(this->lower), std::abs(this->upper)); }
 };
 
-/// Smallest and largest value that the convex hull property allows f on the element, rational ones
-/// included: their weights are positive.
+/// Smallest and largest value that the convex hull property allows f on the element. It holds for rational elements
+/// too, because their weights are positive.
 Range fieldRange(const BernsteinForm& form);
 
 } // namespace hop

@@ -17,20 +17,21 @@ double binomial(int n, int k)
   return result;
 }
 
-/// Multiplicity of a basis function: the binomial or multinomial factor in front of its powers.
+/// The multinomial factors of a basis function, one a simplex of which the domain is the product.
 double multiplicity(Domain domain, const Degrees& degrees, const LatticePoint& point)
 {
-  const auto [i, j, k] = point;
-  const auto [p, q, r] = degrees;
-  switch (domain)
+  const std::array<int, 3> index{ point.i, point.j, point.k };
+  double result = 1.0;
+  for (const SimplexFactor& factor : facts(domain).factors)
   {
-    case Domain::Tetrahedron:
-      return binomial(p, i) * binomial(p - i, j) * binomial(p - i - j, k);
-    case Domain::Wedge:
-      return binomial(p, i) * binomial(p - i, j) * binomial(r, k);
-    default:
-      return binomial(p, i) * binomial(q, j) * binomial(r, k);
+    int rest = degrees[factor.axis];
+    for (int axis = factor.axis; axis < factor.end(); ++axis)
+    {
+      result *= binomial(rest, index[axis]);
+      rest -= index[axis];
+    }
   }
+  return result;
 }
 
 Degrees sumOf(const Degrees& a, const Degrees& b)
@@ -38,7 +39,7 @@ Degrees sumOf(const Degrees& a, const Degrees& b)
   return { a[0] + b[0], a[1] + b[1], a[2] + b[2] };
 }
 
-/// Component c of control values that are `width` wide.
+/// Component c of control values, which stand `width` beside each other.
 ScaledPolynomial component(
   Domain domain, const Degrees& degrees, int width, int c, const std::vector<double>& control)
 {

@@ -5,25 +5,27 @@
 namespace hop
 {
 
-/// The lines of an element's lattice that run along one direction: storage indices, line after line.
+/// The lines of an element's lattice that run along one direction. Bisection works on each line alone, by de
+/// Casteljau's algorithm (Documentation/algorithm.md, section Elements).
 class LatticeLines
 {
 public:
   /// \param direction one of facts(domain).edgeDirections
   LatticeLines(Domain domain, const Degrees& degrees, const LatticePoint& direction);
 
-  /// Bisects a polynomial at the middle of the edges along the direction, by de Casteljau's algorithm
-  /// on every line.
+  /// Bisects a polynomial at the middle of the edges along the direction.
   /// \param coefficients replaced by those of the half at the start of the direction
-  /// \param second receives those of the other half
+  /// \param second receives the coefficients of the other half
   template <class Value>
   void bisect(std::vector<Value>& coefficients, std::vector<Value>& second) const;
 
-  /// Sum of the differences of neighbouring coefficients along the direction, as absolute values.
+  /// Sum of the absolute differences of neighbouring coefficients along the direction.
   double variation(const std::vector<double>& coefficients) const;
 
 private:
+  /// Where each line begins in Index; last, its length.
   std::vector<int> Begin;
+  /// Storage indices of the points, line after line.
   std::vector<int> Index;
 };
 
@@ -55,10 +57,13 @@ void LatticeLines::bisect(std::vector<Value>& coefficients, std::vector<Value>& 
   }
 }
 
-/// Halving adds rounding errors of the order of eps times the values themselves.
-constexpr double RoundingShare = 1e-14;
+/// Bound on the rounding errors of repeated bisection, relative to the largest coefficient. Each step of de Casteljau's
+/// algorithm rounds by half an epsilon of doubles at most: this covers ninety steps in a row that all err one way.
+/// Larger: pieces whose coefficients nearly reach the isovalue are split in vain; smaller: a piece that holds surface
+/// might be dropped.
+constexpr double BisectionRounding = 1e-14;
 
-/// Bisects once along a direction; see LatticeLines for many times.
+/// Bisects once along a direction. Where the same is done many times, keep the LatticeLines.
 template <class Value>
 void bisect(Domain domain, const Degrees& degrees, const LatticePoint& direction,
   std::vector<Value>& coefficients, std::vector<Value>& second)

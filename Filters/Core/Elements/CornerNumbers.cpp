@@ -10,29 +10,18 @@ namespace hop
 namespace
 {
 
-/// Of coordinates as they are in files, relative to the largest of them.
-constexpr double fileRounding = 1e-5;
-/// Of the largest coordinate: ends of a shorter edge differ by rounding errors only.
-constexpr double rounding = 1e-14;
-constexpr double shareOfEdge = 1e-2;
-
-std::vector<std::pair<int, int>> edgesOf(Domain domain)
+/// How far apart coincident corners may be. Larger tolerances join corners of thin layers, smaller ones leave cracks
+/// between elements.
+struct Coincidence
 {
-  std::vector<std::pair<int, int>> edges;
-  for (const LatticePoint& direction : facts(domain).edgeDirections)
-  {
-    const auto some = edgesAlong(domain, direction);
-    edges.insert(edges.end(), some.begin(), some.end());
-  }
-  return edges;
-}
-
-const std::vector<std::pair<int, int>>& knownEdges(Domain domain)
-{
-  static const std::array<std::vector<std::pair<int, int>>, 3> all{ edgesOf(Domain::Hexahedron),
-    edgesOf(Domain::Tetrahedron), edgesOf(Domain::Wedge) };
-  return all[static_cast<std::size_t>(domain)];
-}
+  /// In units of the largest coordinate: what six decimal digits leave of coordinates, the least that files hold.
+  static constexpr double fileRounding = 1e-5;
+  /// In units of the element's shortest edge, so that its ends stay apart; chosen by experiment.
+  static constexpr double shareOfEdge = 1e-2;
+  /// In units of the largest coordinate: ends of a shorter edge differ by rounding errors of doubles only. The edge is
+  /// collapsed, and does not count as the shortest.
+  static constexpr double rounding = 1e-14;
+};
 
 std::size_t cornerCount(const Element& element)
 {
@@ -57,11 +46,11 @@ double largestCoordinate(const BernsteinForm& form)
   return largest;
 }
 
-/// Of those longer than `least`; infinite if none is.
+/// Length of the shortest edge among the edges longer than `least`; infinite if none is.
 double shortestEdge(const BernsteinForm& form, double least)
 {
   double shortest = std::numeric_limits<double>::infinity();
-  for (const auto& [a, b] : knownEdges(form.domain))
+  for (const auto& [a, b] : facts(form.domain).edges)
   {
     const double length = glm::distance(cornerPosition(form, a), cornerPosition(form, b));
     shortest = length > least ? std::min(shortest, length) : shortest;
@@ -81,8 +70,10 @@ std::vector<double> cornerTolerances(const ElementMesh& mesh, const ParallelFor&
   forAll(parallelFor, tolerances.size(),
     [&](std::size_t e)
     {
-      const double edge = shortestEdge(mesh.form(static_cast<int>(e)), rounding * largest);
-      tolerances[e] = std::min(fileRounding * largest, shareOfEdge * edge);
+      const double edge =
+        shortestEdge(mesh.form(static_cast<int>(e)), Coincidence::rounding * largest);
+      tolerances[e] =
+        std::min(Coincidence::fileRounding * largest, Coincidence::shareOfEdge * edge);
     });
   return tolerances;
 }

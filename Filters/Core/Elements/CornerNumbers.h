@@ -5,12 +5,12 @@
 namespace hop
 {
 
-/// How far apart corners, and middles of faces, of each element may be and still coincide with those of
-/// others, world units. Files may hold single precision or six decimal digits, whatever the type of their
-/// arrays; but corners of one element that are joined by an edge must stay apart.
+/// For each element how far its corners, and the middles of its faces, may be from corners and middles of other
+/// elements and still coincide with them, world units. Files may hold single precision or six decimal digits, whatever
+/// the type of their arrays; but corners of one element that are joined by an edge must stay apart.
 std::vector<double> cornerTolerances(const ElementMesh& mesh, const ParallelFor& parallelFor = {});
 
-/// Equal numbers for coincident corners: most solvers write every cell with points of its own.
+/// Gives coincident corners equal numbers (Element::corners): most solvers write every cell with points of its own.
 /// \param tolerances one an element
 void numberCorners(
   ElementMesh& mesh, const std::vector<double>& tolerances, const ParallelFor& parallelFor = {});

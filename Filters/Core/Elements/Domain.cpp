@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace hop
 {
@@ -35,70 +36,9 @@ Face makeFace(const std::vector<ReferencePoint>& corners, const std::vector<int>
   return face;
 }
 
-DomainFacts makeFacts(std::vector<ReferencePoint> corners,
-  const std::vector<std::vector<int>>& faceRings, std::vector<LatticePoint> directions)
+std::vector<std::pair<int, int>> edgesBetween(
+  const std::vector<ReferencePoint>& corners, const LatticePoint& direction)
 {
-  DomainFacts result;
-  result.corners = std::move(corners);
-  result.edgeDirections = std::move(directions);
-  for (const auto& ring : faceRings)
-  {
-    result.faces.push_back(makeFace(result.corners, ring));
-  }
-  return result;
-}
-
-DomainFacts hexahedronFacts()
-{
-  return makeFacts({ at(0, 0, 0), at(1, 0, 0), at(1, 1, 0), at(0, 1, 0), at(0, 0, 1), at(1, 0, 1),
-                     at(1, 1, 1), at(0, 1, 1) },
-    { { 0, 4, 7, 3 }, { 1, 2, 6, 5 }, { 0, 1, 5, 4 }, { 3, 7, 6, 2 }, { 0, 3, 2, 1 },
-      { 4, 5, 6, 7 } },
-    { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } });
-}
-
-DomainFacts tetrahedronFacts()
-{
-  return makeFacts({ at(0, 0, 0), at(1, 0, 0), at(0, 1, 0), at(0, 0, 1) },
-    { { 0, 1, 3 }, { 1, 2, 3 }, { 2, 0, 3 }, { 0, 2, 1 } },
-    { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { -1, 1, 0 }, { -1, 0, 1 }, { 0, -1, 1 } });
-}
-
-DomainFacts wedgeFacts()
-{
-  return makeFacts({ at(0, 0, 0), at(1, 0, 0), at(0, 1, 0), at(0, 0, 1), at(1, 0, 1), at(0, 1, 1) },
-    { { 0, 1, 2 }, { 3, 5, 4 }, { 0, 3, 4, 1 }, { 1, 4, 5, 2 }, { 2, 5, 3, 0 } },
-    { { 1, 0, 0 }, { 0, 1, 0 }, { -1, 1, 0 }, { 0, 0, 1 } });
-}
-
-int triangleCount(int degree)
-{
-  return (degree + 1) * (degree + 2) / 2;
-}
-
-int tetrahedronCount(int degree)
-{
-  return (degree + 1) * (degree + 2) * (degree + 3) / 6;
-}
-
-/// Rows j of a triangle of the given degree are degree + 1 - j long.
-int triangleIndex(int degree, int i, int j)
-{
-  return i + j * (2 * degree + 3 - j) / 2;
-}
-
-} // namespace
-
-const DomainFacts& facts(Domain domain)
-{
-  static const std::array<DomainFacts, 3> all{ hexahedronFacts(), tetrahedronFacts(),
-    wedgeFacts() };
-  return all[static_cast<std::size_t>(domain)];
-}
-
-std::vector<std::pair<int, int>> edgesAlong(Domain domain, const LatticePoint& direction)
-{
-  const auto& corners = facts(domain).corners;
   const glm::dvec3 step(direction.i, direction.j, direction.k);
   std::vector<std::pair<int, int>> edges;
   for (int a = 0; a < static_cast<int>(corners.size()); ++a)
@@ -114,32 +54,134 @@ std::vector<std::pair<int, int>> edgesAlong(Domain domain, const LatticePoint& d
   return edges;
 }
 
+/// \param faceRings the corners of each face in cyclic order
+DomainFacts makeFacts(std::vector<SimplexFactor> factors, std::vector<ReferencePoint> corners,
+  const std::vector<std::vector<int>>& faceRings, std::vector<LatticePoint> directions)
+{
+  DomainFacts result;
+  result.factors = std::move(factors);
+  result.corners = std::move(corners);
+  result.edgeDirections = std::move(directions);
+  for (const auto& ring : faceRings)
+  {
+    result.faces.push_back(makeFace(result.corners, ring));
+  }
+  for (const LatticePoint& direction : result.edgeDirections)
+  {
+    const auto edges = edgesBetween(result.corners, direction);
+    result.edges.insert(result.edges.end(), edges.begin(), edges.end());
+  }
+  return result;
+}
+
+DomainFacts hexahedronFacts()
+{
+  return makeFacts({ { 0, 1 }, { 1, 1 }, { 2, 1 } },
+    { at(0, 0, 0), at(1, 0, 0), at(1, 1, 0), at(0, 1, 0), at(0, 0, 1), at(1, 0, 1), at(1, 1, 1),
+      at(0, 1, 1) },
+    { { 0, 4, 7, 3 }, { 1, 2, 6, 5 }, { 0, 1, 5, 4 }, { 3, 7, 6, 2 }, { 0, 3, 2, 1 },
+      { 4, 5, 6, 7 } },
+    { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } });
+}
+
+DomainFacts tetrahedronFacts()
+{
+  return makeFacts({ { 0, 3 } }, { at(0, 0, 0), at(1, 0, 0), at(0, 1, 0), at(0, 0, 1) },
+    { { 0, 1, 3 }, { 1, 2, 3 }, { 2, 0, 3 }, { 0, 2, 1 } },
+    { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { -1, 1, 0 }, { -1, 0, 1 }, { 0, -1, 1 } });
+}
+
+DomainFacts wedgeFacts()
+{
+  return makeFacts({ { 0, 2 }, { 2, 1 } },
+    { at(0, 0, 0), at(1, 0, 0), at(0, 1, 0), at(0, 0, 1), at(1, 0, 1), at(0, 1, 1) },
+    { { 0, 1, 2 }, { 3, 5, 4 }, { 0, 3, 4, 1 }, { 1, 4, 5, 2 }, { 2, 5, 3, 0 } },
+    { { 1, 0, 0 }, { 0, 1, 0 }, { -1, 1, 0 }, { 0, 0, 1 } });
+}
+
+int triangleCount(int degree)
+{
+  return (degree + 1) * (degree + 2) / 2;
+}
+
+int tetrahedronCount(int degree)
+{
+  return (degree + 1) * (degree + 2) * (degree + 3) / 6;
+}
+
+/// Row j of the lattice of a triangle holds degree + 1 - j points.
+int triangleIndex(int degree, int i, int j)
+{
+  return i + j * (2 * degree + 3 - j) / 2;
+}
+
+} // namespace
+
+void unknownDomain()
+{
+  throw std::logic_error("a number that stands for no domain");
+}
+
+const DomainFacts& facts(Domain domain)
+{
+  static const struct
+  {
+    DomainFacts hexahedron = hexahedronFacts();
+    DomainFacts tetrahedron = tetrahedronFacts();
+    DomainFacts wedge = wedgeFacts();
+  } all;
+  switch (domain)
+  {
+    case Domain::Hexahedron:
+      return all.hexahedron;
+    case Domain::Tetrahedron:
+      return all.tetrahedron;
+    case Domain::Wedge:
+      return all.wedge;
+  }
+  unknownDomain();
+}
+
+const SimplexFactor& factorOf(Domain domain, int axis)
+{
+  const std::vector<SimplexFactor>& factors = facts(domain).factors;
+  return *std::find_if(factors.begin(), factors.end(),
+    [axis](const SimplexFactor& factor) { return axis < factor.end(); });
+}
+
+std::vector<std::pair<int, int>> edgesAlong(Domain domain, const LatticePoint& direction)
+{
+  return edgesBetween(facts(domain).corners, direction);
+}
+
 int coefficientCount(Domain domain, const Degrees& degrees)
 {
   switch (domain)
   {
+    case Domain::Hexahedron:
+      return (degrees[0] + 1) * (degrees[1] + 1) * (degrees[2] + 1);
     case Domain::Tetrahedron:
       return tetrahedronCount(degrees[0]);
     case Domain::Wedge:
       return triangleCount(degrees[0]) * (degrees[2] + 1);
-    default:
-      return (degrees[0] + 1) * (degrees[1] + 1) * (degrees[2] + 1);
   }
+  unknownDomain();
 }
 
 int coefficientIndex(Domain domain, const Degrees& degrees, const LatticePoint& point)
 {
   switch (domain)
   {
+    case Domain::Hexahedron:
+      return point.i + (degrees[0] + 1) * (point.j + (degrees[1] + 1) * point.k);
     case Domain::Tetrahedron:
       // The layers below k form the whole tetrahedron without the smaller one on top.
       return tetrahedronCount(degrees[0]) - tetrahedronCount(degrees[0] - point.k) +
         triangleIndex(degrees[0] - point.k, point.i, point.j);
     case Domain::Wedge:
       return triangleIndex(degrees[0], point.i, point.j) + triangleCount(degrees[0]) * point.k;
-    default:
-      return point.i + (degrees[0] + 1) * (point.j + (degrees[1] + 1) * point.k);
   }
+  unknownDomain();
 }
 
 bool inLattice(Domain domain, const Degrees& degrees, const LatticePoint& point)
@@ -150,13 +192,14 @@ bool inLattice(Domain domain, const Degrees& degrees, const LatticePoint& point)
   }
   switch (domain)
   {
+    case Domain::Hexahedron:
+      return point.i <= degrees[0] && point.j <= degrees[1];
     case Domain::Tetrahedron:
       return point.i + point.j + point.k <= degrees[0];
     case Domain::Wedge:
       return point.i + point.j <= degrees[0];
-    default:
-      return point.i <= degrees[0] && point.j <= degrees[1];
   }
+  unknownDomain();
 }
 
 std::vector<LatticePoint> latticePoints(Domain domain, const Degrees& degrees)

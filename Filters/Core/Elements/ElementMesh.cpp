@@ -41,8 +41,9 @@ FaceKey faceKey(const Element& element, const Face& face)
   return key;
 }
 
-/// A quadrilateral with two neighbouring corners in one place is a triangle in world space.
-/// \return the first of the two coincident corners (the second follows it), or -1
+/// The apex of a collapsed face: a quadrilateral with two neighbouring corners in one place is a triangle in world
+/// space.
+/// \return position in the ring of the first of the two coincident corners (the second follows it), or -1
 int collapsedCorner(const Element& element, const Face& face)
 {
   for (int c = 0; face.cornerCount == 4 && c < 4; ++c)
@@ -56,7 +57,7 @@ int collapsedCorner(const Element& element, const Face& face)
 }
 
 /// Weights of a face's corners at a point of the face: bilinear on quadrilaterals, barycentric on
-/// triangles. On a collapsed quadrilateral they add up to barycentric ones.
+/// triangles. On a collapsed quadrilateral the sums over coincident corners are barycentric weights.
 std::array<double, 4> cornerWeights(
   const DomainFacts& domain, const Face& face, const ReferencePoint& u)
 {
@@ -76,7 +77,9 @@ std::array<double, 4> cornerWeights(
   return { (1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t };
 }
 
-/// The point of a collapsed quadrilateral from the barycentric weights of its three places.
+/// The point of a collapsed quadrilateral from the barycentric weights of its three distinct corners.
+/// \param apex see collapsedCorner()
+/// \param weightOfCorner by corner of the domain; the apex's two corners share its weight in any way
 ReferencePoint pointOnCollapsed(const DomainFacts& domain, const Face& face, int apex,
   const std::array<double, MaximumCorners>& weightOfCorner)
 {
@@ -92,6 +95,7 @@ ReferencePoint pointOnCollapsed(const DomainFacts& domain, const Face& face, int
     (1.0 - atApex) * ((1.0 - s) * at(3) + s * at(2)) };
 }
 
+/// World position of a face's middle; of a collapsed face, of its barycentre.
 glm::dvec3 faceMiddle(const ElementMesh& mesh, const FaceReference& reference)
 {
   const BernsteinForm form = mesh.form(reference.element);
@@ -112,6 +116,7 @@ glm::dvec3 faceMiddle(const ElementMesh& mesh, const FaceReference& reference)
   return glm::dvec3(evaluateGradient(form, middle).value);
 }
 
+/// What the first face has to know of the second.
 FaceNeighbor joinTo(const ElementMesh& mesh, const FaceReference& from, const FaceReference& to)
 {
   const Element& element = mesh.elements[from.element];
@@ -135,7 +140,7 @@ FaceNeighbor joinTo(const ElementMesh& mesh, const FaceReference& from, const Fa
   if (apex >= 0 && otherApex >= 0 &&
     cornerNumber(element, face, apex) == cornerNumber(other, otherFace, otherApex))
   {
-    // Of the two corners in one place, each is that at the end of the same side.
+    // Two corners of each face stand in one place: those are paired at which corresponding sides of the faces end.
     const bool sameWay = cornerNumber(element, face, (apex + 3) % 4) ==
       cornerNumber(other, otherFace, (otherApex + 3) % 4);
     neighbor.corners[apex] =
@@ -146,17 +151,17 @@ FaceNeighbor joinTo(const ElementMesh& mesh, const FaceReference& from, const Fa
   return neighbor;
 }
 
-/// A face, and the corners by which it is found.
+/// A face, and the distinct corners by which its partner is found.
 struct FaceClaim
 {
   FaceKey key{ -1, -1, -1, -1 };
   FaceReference where;
 
-  /// Three distinct corners at least: not an edge or a point.
+  /// Whether there are three distinct corners at least, so that it is no edge or point. Keys ascend, -1 first.
   bool isFace() const { return this->key[1] >= 0; }
 };
 
-/// MaximumFaces an element.
+/// MaximumFaces entries an element, as faceSlot() counts them.
 Buffer<FaceClaim> faceClaims(const ElementMesh& mesh, const ParallelFor& parallelFor)
 {
   Buffer<FaceClaim> claims(mesh.elements.size() * MaximumFaces);
@@ -183,7 +188,7 @@ FaceNeighbor& neighborAt(ElementMesh& mesh, const FaceReference& face)
   return mesh.neighbors[faceSlot(face.element, face.face)];
 }
 
-/// Joins faces a and b if they are one, and of two elements.
+/// Joins faces a and b if they coincide and belong to two elements.
 void join(ElementMesh& mesh, const FaceReference& a, const FaceReference& b,
   const std::vector<double>& tolerances)
 {

@@ -12,11 +12,11 @@ namespace hop
 /// What lies behind a face of an element.
 struct FaceNeighbor
 {
-  /// Index of the neighbour, or -1: the face is a boundary.
+  /// Index of the neighbour, or -1: nothing is joined to the face.
   int element = -1;
-  /// The neighbour's face.
+  /// The face of the neighbour that is joined to this one.
   std::uint8_t face = 0;
-  /// For each corner of this face the neighbour's corner that coincides with it.
+  /// For each corner of this face, in its ring, the neighbour's corner that coincides with it.
   std::array<std::uint8_t, 4> corners{};
 };
 
@@ -25,16 +25,17 @@ struct Element
 {
   Domain domain = Domain::Hexahedron;
   Degrees degrees{ 1, 1, 1 };
+  /// Index of its first coefficient (and weight) in the mesh.
   std::size_t firstCoefficient = 0;
   bool rational = false;
-  /// Cell of the input that it came from.
+  /// Cell of the input that the element was made of.
   std::int64_t cell = -1;
-  /// Equal numbers name coincident corners, within the mesh and within the element: the domain of a
-  /// pyramid is a hexahedron whose upper corners coincide.
+  /// A number for each corner. Corners with equal numbers coincide, within the mesh and within the element: a
+  /// pyramid is a hexahedron whose four upper corners coincide.
   std::array<std::int64_t, MaximumCorners> corners{};
 };
 
-/// Where what belongs to a face stands in arrays of MaximumFaces entries an element.
+/// Index of a face in arrays that hold MaximumFaces entries an element.
 inline std::size_t faceSlot(int element, int face)
 {
   return static_cast<std::size_t>(element) * MaximumFaces + face;
@@ -81,14 +82,14 @@ double meshExtent(const ElementMesh& mesh);
 
 /// Fills mesh.neighbors: two faces are joined when their corners carry the same numbers and their
 /// middles coincide within a tolerance (two curved faces may share all corners and still be
-/// different). A quadrilateral of which two corners coincide joins triangles. Where three
-/// or more elements claim one face, none is joined, nor are two faces of one element.
-/// \param tolerances one an element, world units; of two the smaller one counts
+/// different). A quadrilateral with two coincident corners is a triangle and is joined to triangles. Where three or
+/// more faces have the same corners, none of them is joined; nor are two faces of one element.
+/// \param tolerances one an element, world units; between two elements the smaller one counts
 void findFaceNeighbors(
   ElementMesh& mesh, const std::vector<double>& tolerances, const ParallelFor& parallelFor = {});
 
-/// The same place, seen from the element behind `face`, on which `location` lies.
-/// \pre the face has a neighbour
+/// The same place in the element behind a face.
+/// \pre the place lies on the face, and the face has a neighbour
 Location crossFace(const ElementMesh& mesh, const Location& location, int face);
 
 } // namespace hop

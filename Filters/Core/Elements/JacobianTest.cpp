@@ -17,21 +17,19 @@ namespace
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// (X, Y, Z, w) or a derivative of it.
+/// (X, Y, Z, w) or a derivative of (X, Y, Z, w).
 using Row = std::array<ScaledPolynomial, 4>;
 
+/// Degrees of the derivative along an axis: one less in the simplex in which the axis runs.
 Degrees derivativeDegrees(Domain domain, const Degrees& degrees, int axis)
 {
-  const auto [p, q, r] = degrees;
-  switch (domain)
+  const SimplexFactor& factor = factorOf(domain, axis);
+  Degrees result = degrees;
+  for (int a = factor.axis; a < factor.end(); ++a)
   {
-    case Domain::Tetrahedron:
-      return { p - 1, p - 1, p - 1 };
-    case Domain::Wedge:
-      return axis == 2 ? Degrees{ p, p, r - 1 } : Degrees{ p - 1, p - 1, r };
-    default:
-      return { p - (axis == 0), q - (axis == 1), r - (axis == 2) };
+    --result[a];
   }
+  return result;
 }
 
 Row makeRow(Domain domain, const Degrees& degrees, const std::vector<glm::dvec4>& points)
@@ -47,7 +45,7 @@ Row makeRow(Domain domain, const Degrees& degrees, const std::vector<glm::dvec4>
   return row;
 }
 
-/// |a b c| of the first three components.
+/// |a b c|, the determinant of the first three components.
 ScaledPolynomial determinant(const Row& a, const Row& b, const Row& c)
 {
   ScaledPolynomial sum;
@@ -87,7 +85,7 @@ Largest largest(const std::vector<glm::dvec4>& vectors)
   return result;
 }
 
-/// Looks for values of one sign by halving. Coefficients at corners are values.
+/// Looks for a negative value of a polynomial by bisection. Coefficients at corners of pieces are values.
 class SignSearch
 {
 public:
@@ -146,6 +144,7 @@ private:
     this->Pieces.push_back({ std::move(coefficients), lowest });
   }
 
+  /// The direction along which the coefficients vary most.
   const LatticeLines& mostVariable(const std::vector<double>& coefficients) const
   {
     const LatticeLines* most = &this->Directions.front();
@@ -167,7 +166,7 @@ private:
 
 } // namespace
 
-/// Homogeneous control points about the first one, their derivatives, and how exact they are.
+/// Homogeneous control points relative to the first one, their derivatives, and how exact they are.
 struct JacobianTest::ControlNet
 {
   ControlNet(const JacobianTest& test, const BernsteinForm& form, double rounding)
@@ -187,7 +186,9 @@ struct JacobianTest::ControlNet
       farthest = std::max(farthest, glm::length(x));
       extent = std::max(extent, glm::length(x - origin));
     }
-    this->exactness = 4.0 * epsilon * farthest;
+    // Coordinates are sums of a few numbers of their own size.
+    constexpr double epsilonsOfCoordinates = 4.0;
+    this->exactness = epsilonsOfCoordinates * epsilon * farthest;
     this->error = this->exactness + rounding * extent;
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -200,10 +201,12 @@ struct JacobianTest::ControlNet
     }
   }
 
-  /// Bound on what det J (or w^4 det J) changes by where control points move by `change`, and on the
+  /// Bound on how much det J (or w^4 det J) changes when control points move by `change`, plus a bound on the
   /// rounding errors of its products.
   double slack(const Degrees& degrees, double change) const
   {
+    // Relative to the product of the factors' lengths: some 450 epsilons, for a sum of up to as many products. Larger:
+    // slightly inverted elements pass; smaller: rounding errors pass for inverted parts.
     constexpr double roundingOfProducts = 1e-13;
     const Largest all = largest(this->points);
     double lengths = 1.0;
@@ -224,7 +227,7 @@ struct JacobianTest::ControlNet
   bool isFinite = true;
   std::vector<glm::dvec4> points;
   std::array<std::vector<glm::dvec4>, 3> derivatives;
-  /// Errors of coordinates as such, and with those of the conversion added, world units.
+  /// Rounding errors of the coordinates themselves; the same plus errors of the conversion. World units.
   double exactness = 0.0;
   double error = 0.0;
 };
@@ -247,7 +250,8 @@ JacobianTest::JacobianTest(Domain domain, const Degrees& degrees)
   }
 }
 
-/// Whether M^-1 J is diagonally dominant everywhere.
+/// Whether M^-1 J is strictly diagonally dominant everywhere.
+/// \param determinantOfMean receives det M, which has the sign of det J then
 bool JacobianTest::isFarFromSingular(const ControlNet& net, double& determinantOfMean) const
 {
   glm::dmat3 mean;
@@ -262,6 +266,8 @@ bool JacobianTest::isFarFromSingular(const ControlNet& net, double& determinantO
     mean[axis] = glm::dvec3(sum) / static_cast<double>(net.derivatives[axis].size());
     lengths *= glm::length(mean[axis]);
   }
+  // |det M| over the product of its columns' lengths from which on M^-1 is trusted. Larger: more elements go the long
+  // way; smaller: the inverse's rounding errors, some epsilon / sliver, come near the margin that belowOne leaves.
   constexpr double sliver = 1e-6;
   determinantOfMean = glm::determinant(mean);
   if (net.rational || !(std::abs(determinantOfMean) > sliver * lengths))
@@ -281,6 +287,7 @@ bool JacobianTest::isFarFromSingular(const ControlNet& net, double& determinantO
     }
     deviation += farthest + 2.0 * this->ItsDegrees[axis] * net.error * rowLengths;
   }
+  // Row sums |M^-1 J - 1| below 1 prove dominance; the margin covers rounding. Smaller: more elements go the long way.
   constexpr double belowOne = 0.999;
   return std::max({ deviation.x, deviation.y, deviation.z }) < belowOne;
 }
@@ -328,7 +335,7 @@ JacobianSign JacobianTest::sign(const BernsteinForm& form, double rounding) cons
   {
     return JacobianSign::Zero;
   }
-  // The mean of the coefficients is the integral: its sign occurs.
+  // The mean of the coefficients is the polynomial's mean over the domain: its sign occurs.
   const double sum = std::accumulate(coefficients.begin(), coefficients.end(), 0.0);
   if (sum < 0.0)
   {

@@ -9,18 +9,19 @@ namespace hop
 static_assert(MaximumDegree == kernel::MaximumDegree);
 static_assert(sizeof(Coefficient) == 4 * sizeof(double), "the kernels read plain x, y, z, f");
 
-/// Kernels for a domain, of the instruction set in use.
+/// The evaluation kernels of a domain, compiled for the instruction set in use.
 inline const kernel::DomainKernels& kernelsOf(Domain domain)
 {
   switch (domain)
   {
+    case Domain::Hexahedron:
+      return kernel::current().hexahedron;
     case Domain::Tetrahedron:
       return kernel::current().tetrahedron;
     case Domain::Wedge:
       return kernel::current().wedge;
-    default:
-      return kernel::current().hexahedron;
   }
+  unknownDomain();
 }
 
 /// An element as the kernels see it.

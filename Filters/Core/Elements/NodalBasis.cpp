@@ -18,7 +18,8 @@ namespace
 
 using Extended = long double;
 
-/// Points (as powers of 1-sum, u, v, w) of the lattice of a line, triangle or tetrahedron.
+/// Points of the lattice of a line, triangle or tetrahedron, as barycentric indices that add up to the degree: for
+/// 1 - u - v - w, u, v, w.
 std::vector<std::array<int, 4>> simplexLattice(int dimension, int degree)
 {
   std::vector<std::array<int, 4>> points;
@@ -35,6 +36,7 @@ std::vector<std::array<int, 4>> simplexLattice(int dimension, int degree)
   return points;
 }
 
+/// 1 - u - v - w, u, v, w.
 using Barycentric = std::array<Extended, 4>;
 
 /// B_index at a point: degree! / prod(index!) prod(barycentric^index).
@@ -154,7 +156,7 @@ double infinityNorm(const std::vector<double>& matrix, int columns)
   return norm;
 }
 
-/// `Width` neighbouring results of one row of a matrix times rows of values that are `stride` long.
+/// One row of a matrix times `Width` neighbouring columns of values, which stand in rows of `stride`.
 template <int Width, class Number>
 void multiplyRow(const Number* row, int columns, const Number* values, int stride, Number* result)
 {
@@ -169,12 +171,13 @@ void multiplyRow(const Number* row, int columns, const Number* values, int strid
   std::copy(sum.begin(), sum.end(), result);
 }
 
-/// A matrix times rows of values: `rows` results from `columns` rows, each `width` values long.
+/// The product of a rows x columns matrix with `columns` rows of `width` values: `rows` rows as long.
 template <class Number>
 void multiply(
   const Number* matrix, int rows, int columns, const Number* values, int width, Number* result)
 {
-  constexpr int together = 4; // stays in registers
+  // Sums that are kept at a time: few enough for registers, as many as an AVX register holds.
+  constexpr int together = 4;
   for (int row = 0; row < rows; ++row, matrix += columns, result += width)
   {
     int c = 0;
@@ -189,8 +192,8 @@ void multiply(
   }
 }
 
-/// One factor on every line, triangle or tetrahedron of values.
-/// \param width how many values stand side by side, and are converted side by side
+/// Applies the matrix of one factor to every line, triangle or tetrahedron of values.
+/// \param width number of values that stand side by side and are converted alike
 template <class Number>
 void applyFactor(const std::vector<Number>& matrix, int size, int width,
   const std::vector<Number>& values, std::vector<Number>& result)
@@ -219,12 +222,14 @@ const std::vector<Number>& entries(const ConversionMatrix& matrix)
 
 std::vector<long double> gaussLobattoPoints(int degree)
 {
-  // Newton's method on (1 - x^2) P'_n(x), by Legendre's recurrence, from the Chebyshev points.
+  // Newton's method on (1 - x^2) P'_n(x) from the Chebyshev points, which are near; it converges in far fewer steps
+  // than the most. P_n by Legendre's recurrence n P_n = (2n - 1) x P_{n-1} - (n - 1) P_{n-2}.
+  constexpr int mostSteps = 60;
   std::vector<Extended> points(degree + 1);
   for (int i = 0; i <= degree; ++i)
   {
     Extended x = -std::cos(3.14159265358979323846264338L * i / degree);
-    for (int step = 0; step < 60 && i > 0 && i < degree; ++step)
+    for (int step = 0; step < mostSteps && i > 0 && i < degree; ++step)
     {
       Extended previous = 1.0L;
       Extended legendre = x;
@@ -348,41 +353,35 @@ int NodalBasis::addFactor(const ConversionMatrix& matrix, int stride)
 
 void NodalBasis::addLatticeFactors(NodeSpacing spacing)
 {
-  const auto [p, q, r] = this->ItsDegrees;
-  const auto line = [spacing](int degree) -> const ConversionMatrix&
+  int stride = 1;
+  for (const SimplexFactor& simplex : facts(this->ItsDomain).factors)
   {
-    return spacing == NodeSpacing::Uniform ? equispacedToBernstein(1, degree)
-                                           : gaussLobattoToBernstein(degree);
-  };
-  switch (this->ItsDomain)
-  {
-    case Domain::Tetrahedron:
-      this->addFactor(equispacedToBernstein(3, p), 1);
-      break;
-    case Domain::Wedge:
-      this->addFactor(line(r), this->addFactor(equispacedToBernstein(2, p), 1));
-      break;
-    default:
-      this->addFactor(line(p), 1);
-      this->addFactor(line(q), p + 1);
-      this->addFactor(line(r), (p + 1) * (q + 1));
+    const int degree = this->ItsDegrees[simplex.axis];
+    const ConversionMatrix& matrix = spacing == NodeSpacing::Uniform
+      ? equispacedToBernstein(simplex.dimension, degree)
+      : gaussLobattoToBernstein(degree);
+    stride *= this->addFactor(matrix, stride);
   }
 }
 
-// Well below it doubles give all digits that the data have.
 bool NodalBasis::isIllConditioned() const
 {
+  // Norm of the conversion from which on it is done in extended precision. Below it doubles lose 6 of their 16 digits
+  // at most, so that more are left than single precision has. Larger: fewer conversions pay for extended precision;
+  // smaller: more do.
   constexpr double illConditioned = 1e6;
   return this->Norm > illConditioned;
 }
 
 double NodalBasis::conversionError() const
 {
+  // Epsilons of rounding that an entry of the matrix and the sum over its row are allowed together.
+  constexpr double epsilons = 4.0;
   const double epsilon =
     this->isIllConditioned() && this->Dense.empty() && sizeof(Extended) > sizeof(double)
     ? static_cast<double>(std::numeric_limits<Extended>::epsilon())
     : std::numeric_limits<double>::epsilon();
-  return 4.0 * epsilon * this->Norm;
+  return epsilons * epsilon * this->Norm;
 }
 
 template <class Number>

@@ -16,24 +16,25 @@ enum class NodeSpacing
   GaussLobattoLegendre
 };
 
-/// A conversion from nodal values to Bernstein coefficients, square, row by row.
+/// A conversion from nodal values to Bernstein coefficients: a square matrix, row by row.
 struct ConversionMatrix
 {
   std::vector<double> rounded;
+  /// The same before it was rounded to doubles.
   std::vector<long double> extended;
 };
 
 /// How an element's nodal values determine its polynomials, whatever kind of cell it was: the linear
-/// map from nodal values to Bernstein coefficients. With V_ij = B_j(node i) the coefficients of a
-/// Lagrange element are V^-1 times the values. Matrices are built in extended precision and once a
-/// degree, for a line, a triangle or a tetrahedron; tensor products are converted factor by factor.
+/// map from nodal values to Bernstein coefficients (Documentation/algorithm.md, section Elements). With
+/// V_ij = B_j(node i) the coefficients of a Lagrange element are V^-1 times the values. The matrix of a line, triangle
+/// or tetrahedron is built in extended precision, once for each degree; products are converted factor by factor.
 class NodalBasis
 {
 public:
   /// Nodal values on the full lattice of the domain.
   /// \param order for each node, in the mesh's order, the lattice point at which it stands; every
   /// lattice point exactly once
-  /// \param spacing other than Uniform for hexahedra only
+  /// \param spacing counts for hexahedra only: nodes of the other domains are equispaced
   /// \throw std::invalid_argument if `order` is no permutation of the lattice, or a degree is below
   /// 1 or above maximumInputDegree(domain)
   static NodalBasis lagrange(Domain domain, const Degrees& degrees,
@@ -45,7 +46,7 @@ public:
     Domain domain, const Degrees& degrees, const std::vector<LatticePoint>& order);
 
   /// Any other polynomial shape functions that the domain's Bernstein basis of these degrees can
-  /// represent, such as those of serendipity elements and pyramids.
+  /// represent: serendipity elements, pyramids.
   /// \param shapeAtLattice for each lattice point in storage order the values of all shape functions
   /// there: coefficientCount x nodes values, the node running fastest
   /// \throw std::invalid_argument if a degree or the number of values is wrong
@@ -67,14 +68,15 @@ public:
   double conversionNorm() const { return this->Norm; }
 
   /// Bound on the errors of the coefficients, before they are rounded to doubles, relative to the
-  /// largest nodal value. Ill-conditioned conversions are done in extended precision. Measured on
-  /// hexahedra with equispaced nodes, error of values anywhere relative to the largest one: smooth fields
-  /// 3e-15 at degree 6, 1e-13 at 12, 2e-11 at 15; random nodal values 1e-13, 1e-10, 1e-7, because their
-  /// coefficients are 1e14 times as large at degree 15.
+  /// largest nodal value. Ill-conditioned conversions are done in extended precision.
+  ///
+  /// Measured on hexahedra with equispaced nodes, errors of the field relative to its largest value: for smooth fields
+  /// 3e-15 at degree 6, 1e-13 at 12, 2e-11 at 15; for random nodal values 1e-13, 1e-10, 1e-7, because their
+  /// coefficients are 1e14 times as large as the values at degree 15.
   double conversionError() const;
 
 private:
-  /// A square matrix that acts on `size` values that stand `stride` apart, for every other index.
+  /// The conversion along one simplex of the domain: a size x size matrix for values that stand `stride` apart.
   struct Factor
   {
     const ConversionMatrix* matrix = nullptr;
@@ -94,17 +96,17 @@ private:
   Degrees ItsDegrees;
   int Nodes = 0;
   int Coefficients = 0;
-  /// Storage index of each node; empty for sampled bases.
+  /// Storage index of each node's lattice point; empty for sampled bases.
   std::vector<int> Place;
-  /// Applied one after the other to values in their places.
+  /// Applied one after the other to the values in storage order; none for Bezier and sampled bases.
   std::vector<Factor> Factors;
-  /// Coefficients x nodes, for sampled bases only.
+  /// The conversion as one Coefficients x Nodes matrix, for sampled bases only.
   std::vector<double> Dense;
   double Norm = 1.0;
 };
 
-/// The matrix that takes values at the equispaced points of a line, triangle or
-/// tetrahedron (dimension 1, 2, 3) to Bernstein coefficients of that degree. Computed once, kept.
+/// The matrix that takes values at the equispaced points of a line, triangle or tetrahedron (dimension 1, 2, 3) to
+/// Bernstein coefficients of that degree. Computed at the first request and kept.
 const ConversionMatrix& equispacedToBernstein(int dimension, int degree);
 
 /// The same from values at the degree + 1 Gauss-Lobatto-Legendre points of a line.

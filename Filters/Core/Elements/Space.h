@@ -78,7 +78,7 @@ double length(const Vector<Space>& a)
   return glm::length(a.xyz);
 }
 
-/// Radians, 0 to pi; zero if a vector is.
+/// Radians, 0 to pi; zero if one of the vectors is zero.
 template <class Space>
 double angleBetween(const Vector<Space>& a, const Vector<Space>& b)
 {

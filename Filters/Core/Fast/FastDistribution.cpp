@@ -13,6 +13,7 @@
 #include "Isolation/UndecidedBoxes.h"
 #include "Support/Interruptible.h"
 #include "Support/KeepMarked.h"
+#include "Surface/SpacingSearch.h"
 
 #include <algorithm>
 #include <atomic>
@@ -25,34 +26,70 @@ namespace hop
 namespace
 {
 
-/// Largest boxes of the proxy, in units of the spacing wanted: some five particles each. Tetrahedra fill
-/// less of their bounds.
-constexpr double hexahedronPerSpacing = 6.0;
-constexpr double wedgePerSpacing = 7.0;
-constexpr double tetrahedronPerSpacing = 7.5;
-constexpr double weaklyPerSpacing = 3.0;
-/// Spacing of the first look, in units of the mesh's diagonal. Where more is asked for, the number of
-/// particles cannot get out of hand.
-constexpr double coarseSpacingPerExtent = 0.001;
-/// The first spacing tried where a number of particles is given, in units of the mesh's diagonal.
-constexpr double firstSpacingPerExtent = 0.02;
-/// Particles on boundary curves stand for half as much area as others, and count as so much of one.
-constexpr double onBoundary = 0.5;
-/// Seeds nearer to a boundary curve's particle than this, in units of their spacing, are dropped: half the
-/// distance of two rows of hexagonal packing.
-constexpr double seedToBoundary = 0.433;
-/// Particles of a run before come from no farther off than the first, and have arrived if they are nearer to
-/// the surface than the second, in units of their spacing.
-constexpr float farthestStart = 2.0f;
-constexpr float arrivedOffset = 0.1f;
-/// They go on if they are no less than that share of those wanted, and seeds farther than that from all of them
-/// join them, in units of the spacing.
-constexpr double worthContinuing = 0.7;
-constexpr double uncovered = 0.75;
-/// Shares of the run that are over with seeding and relaxation.
-constexpr double seededFraction = 0.45;
-constexpr double relaxedFraction = 0.9;
+/// Largest diagonals of the boxes in which the surface is sampled, in units of the spacing there: a box then holds some
+/// five particles. Chosen by experiment. Smaller boxes cost more evaluations; in larger ones a single sample tells the
+/// area and the spacing less exactly, and with them the number of particles.
+struct BoxDiagonal
+{
+  static constexpr double Hexahedron = 6.0;
+  /// More than in a hexahedron, as wedges and tetrahedra fill less of their bounds.
+  static constexpr double Wedge = 7.0;
+  static constexpr double Tetrahedron = 7.5;
+  /// Where the gradient of the field vanishes nearby (SurfaceBox::risesWeakly), so that one sample tells less.
+  static constexpr double Weak = 3.0;
+  /// Where the surface is thinner than a spacing: each box gets a particle of its own.
+  static constexpr double Thin = 1.0;
+  /// Curvature magnitude times spacing from which on the surface counts as thin: its radius is a spacing.
+  static constexpr double ThinBend = 1.0;
+};
 
+/// Spacing at which particles are counted before memory is allocated, in units of the mesh's diagonal. A flat surface
+/// across the mesh takes some 400,000 particles at it, so that no estimate is needed where the spacing asked for is
+/// larger. Chosen by experiment. Larger: a cheaper estimate that tells curvature less exactly; smaller: the estimate
+/// itself takes time and memory.
+constexpr double estimateSpacingPerExtent = 0.001;
+
+/// Particles on boundary curves.
+struct OnBoundary
+{
+  /// Share of a particle for which each of them counts: half of the area around it lies beyond the surface's end.
+  static constexpr double Count = 0.5;
+  /// Least distance of a seed from them, in units of the spacing: half the distance sqrt(3)/2 between two rows of
+  /// hexagonal packing, so that the first row of seeds comes to lie there on average. Larger: a gap along the curve;
+  /// smaller: a crowded row.
+  static constexpr double SeedDistance = 0.433;
+};
+
+/// How the particles of a previous run are continued. Lengths are in units of the spacing; all were chosen by
+/// experiment.
+struct WarmStart
+{
+  /// Largest distance from the surface at which a particle is still taken there. Larger: particles come from other
+  /// sheets; smaller: fewer survive a step of the isovalue.
+  static constexpr float FarthestStart = 2.0f;
+  /// A particle has arrived if it is nearer to the surface than this after a Newton step; others are dropped.
+  static constexpr float Arrived = 0.1f;
+  /// Share of the target count that has to arrive; with fewer the run starts from seeds alone. Larger: more runs start
+  /// anew, smaller: more of the surface is left to the seeds between the particles that arrived.
+  static constexpr double LeastShare = 0.7;
+  /// Seeds farther than this from all that arrived are added. Larger: holes remain for the rounds to fill; smaller:
+  /// pairs that the rounds have to thin out.
+  static constexpr double SeedDistance = 0.75;
+};
+
+/// Progress, 0 to 1, at the end of the stages: roughly the part of the time that is over. Chosen by experiment; nothing
+/// but progress bars depends on it.
+struct ProgressAt
+{
+  static constexpr double Estimated = 0.05;
+  static constexpr double Isolated = 0.3;
+  static constexpr double Prepared = 0.35;
+  static constexpr double Seeded = 0.45;
+  static constexpr double Relaxed = 0.9;
+};
+
+/// Number of sweeps in each round of relaxation. More of them make a more even spread and take longer; each round
+/// costs one evaluation a particle. Chosen by experiment; TestFastQuality.cpp says how even Standard has to be.
 std::vector<int> sweepsOfRounds(Quality quality, bool isWarm)
 {
   switch (quality)
@@ -61,13 +98,14 @@ std::vector<int> sweepsOfRounds(Quality quality, bool isWarm)
       return { 8 };
     case Quality::High:
       return { 5, 8, 8, 10 };
-    default:
-      // Where particles of a run before crowd or thin out there is more to do.
-      return isWarm ? std::vector<int>{ 12, 22 } : std::vector<int>{ 7, 13 };
+    case Quality::Standard:
+      break;
   }
+  // Particles of the previous run crowd or thin out where the surface has moved: the same quality takes more sweeps.
+  return isWarm ? std::vector<int>{ 12, 22 } : std::vector<int>{ 7, 13 };
 }
 
-/// A part of the run, as far as progress is concerned.
+/// A part of the run, between two values of its progress.
 struct Section
 {
   double begin = 0.0, end = 0.0;
@@ -92,7 +130,7 @@ public:
   }
 
   Distribution run();
-  std::vector<double> wantedInElements();
+  std::vector<double> countsOfElements();
 
 private:
   void make();
@@ -102,22 +140,26 @@ private:
     this->Work.raiseFraction(fraction);
     this->Work.ask();
   }
-  bool isSmall(const SurfaceBox& box, const SizingFunction& sizing);
+  bool isFineEnough(const SurfaceBox& box, const SizingFunction& sizing);
   SurfaceProxy proxyOfBoxesAt(double spacing, double shareOfRun);
   bool tooMany(double count);
   bool estimateCount();
-  void lookAtSurface();
-  double wantedCount() const;
-  void matchCount(std::int64_t count);
-  void makeBoundaries();
-  void dropNearBoundaries(double nearest);
+  void prepareSurface();
+  double targetCount() const;
+  void matchSpacing(std::int64_t count);
+  void keepOnBoundary(std::size_t most);
+  void traceBoundaryCurves();
+  void dropNearBoundaryCurves(double nearest);
   void startMoving();
   void addSamples(const std::vector<int>& boxes);
   void makeSeeds(std::int64_t count);
   void continueFrom(const std::vector<Location>& places);
+  void addSeedsBetween(std::int64_t count);
   bool countIsGiven() const { return this->Parameters.particleCount > 0; }
   void coverBoxes();
-  void relaxAll(int sweeps, bool isLast, const Section& section);
+  void relaxInRounds();
+  void relaxOnce(int sweeps, bool isLast, const Section& section);
+  Balance balanceOf(bool isLast) const;
   void finish();
 
   Isosurface Surface;
@@ -129,24 +171,25 @@ private:
   FaceLocator Locator;
   std::unique_ptr<SurfaceProxy> Proxy;
   FaceJumps Jumps;
-  BoundaryCurves Boundaries;
+  BoundaryCurves Curves;
+  /// Patches of the particles on these curves.
   Buffer<Patch> BoundaryPatches;
   std::unique_ptr<MovingParticles> Moving;
-  /// Particles of the run before go on.
+  /// Whether particles of the previous run go on.
   bool IsWarm = false;
   std::atomic<std::int64_t> Evaluations{ 0 };
   Distribution Result;
 };
 
-/// Whether a box is small enough to be looked at in one place. Where the field stands still nearby that says
-/// less; what is thinner than spacings gets boxes no larger than one, each with a particle of its own.
-bool FastSystem::isSmall(const SurfaceBox& box, const SizingFunction& sizing)
+/// Whether one sample tells enough about the surface in a box. It tells less where the gradient of the field vanishes
+/// nearby; where the surface is thinner than a spacing every box gets a particle of its own.
+bool FastSystem::isFineEnough(const SurfaceBox& box, const SizingFunction& sizing)
 {
   const int element = box.middle.element;
   const Domain domain = this->Mesh.elements[element].domain;
-  const double perSpacing = domain == Domain::Hexahedron ? hexahedronPerSpacing
-    : domain == Domain::Wedge                            ? wedgePerSpacing
-                                                         : tetrahedronPerSpacing;
+  const double perSpacing = domain == Domain::Hexahedron ? BoxDiagonal::Hexahedron
+    : domain == Domain::Wedge                            ? BoxDiagonal::Wedge
+                                                         : BoxDiagonal::Tetrahedron;
   const double largest = perSpacing * sizing.spacing;
   const double smallest =
     (box.mayBeThin ? sizing.spacing : largest) / (1.0 + sizing.angularDensity);
@@ -165,21 +208,23 @@ bool FastSystem::isSmall(const SurfaceBox& box, const SizingFunction& sizing)
     return true;
   }
   const double spacing = sizing.at(patch.curvatureMagnitude());
-  const bool isThin = patch.curvatureMagnitude() * spacing > 1.0 ||
-    (box.weakly && std::abs(anchor.offset) > MovingParticles::SeedOffset * spacing);
-  const double perOwnSpacing = isThin ? 1.0 : box.weakly ? weaklyPerSpacing : perSpacing;
+  const bool isThin = patch.curvatureMagnitude() * spacing > BoxDiagonal::ThinBend ||
+    (box.risesWeakly && std::abs(anchor.offset) > MovingParticles::SeedOffset * spacing);
+  const double perOwnSpacing = isThin ? BoxDiagonal::Thin
+    : box.risesWeakly                 ? BoxDiagonal::Weak
+                                      : perSpacing;
   return box.size <= perOwnSpacing * spacing;
 }
 
-/// \param spacing that boxes are to suit; the proxy's own is the sizing function's
-/// \param shareOfRun how far the run is when the surface is found
+/// \param spacing decides how fine the boxes are; the proxy's spacings follow the sizing function
+/// \param shareOfRun fraction of the run that is over when the surface is found
 SurfaceProxy FastSystem::proxyOfBoxesAt(double spacing, double shareOfRun)
 {
   const SizingFunction sizing{ spacing, this->Sizing.angularDensity };
-  const auto isSmall = [&](const SurfaceBox& box) { return this->isSmall(box, sizing); };
+  const auto isFineEnough = [&](const SurfaceBox& box) { return this->isFineEnough(box, sizing); };
   const auto found = [&](double share) { this->Work.raiseFraction(shareOfRun * share); };
   SurfaceProxy proxy(this->Surface, this->Sizing,
-    findSurfaceBoxes(this->Mesh, this->Surface.isovalue, isSmall, this->Parallel, found),
+    findSurfaceBoxes(this->Mesh, this->Surface.isovalue, isFineEnough, this->Parallel, found),
     this->Parallel);
   this->Evaluations += proxy.evaluations();
   return proxy;
@@ -191,9 +236,8 @@ bool FastSystem::tooMany(double count)
   return !this->Result.report.error.empty();
 }
 
-/// From a coarse look at the surface, before memory is asked for: particles are counted at the spacing wanted.
-/// Counted at the coarse one, as many more as it is larger, those that stand closer where the surface bends
-/// would count twice.
+/// Counts the particles on a coarse proxy, before memory is allocated. The proxy's boxes are coarse; its spacings
+/// are the ones asked for, as a number that is scaled up from coarse spacings would count curvature twice.
 /// \return whether there are few enough
 bool FastSystem::estimateCount()
 {
@@ -201,17 +245,18 @@ bool FastSystem::estimateCount()
   {
     return !this->tooMany(static_cast<double>(this->Parameters.particleCount));
   }
-  const double coarse = meshExtent(this->Mesh) * coarseSpacingPerExtent;
+  const double coarse = meshExtent(this->Mesh) * estimateSpacingPerExtent;
   return coarse <= this->Sizing.spacing ||
-    !this->tooMany(this->proxyOfBoxesAt(coarse, 0.05).particleCount());
+    !this->tooMany(this->proxyOfBoxesAt(coarse, ProgressAt::Estimated).particleCount());
 }
 
-/// Makes the proxy. From then on the surface ends where its two sides miss each other, particles are to
-/// stand closer where it turns, and those on boundary curves are there.
-void FastSystem::lookAtSurface()
+/// Makes the proxy, and traces the boundary curves. From then on the surface ends where the field jumps, and the
+/// sizing function is lowered at creases.
+void FastSystem::prepareSurface()
 {
   this->Surface.jumpTolerances = nullptr;
-  this->Proxy = std::make_unique<SurfaceProxy>(this->proxyOfBoxesAt(this->Sizing.spacing, 0.3));
+  this->Proxy = std::make_unique<SurfaceProxy>(
+    this->proxyOfBoxesAt(this->Sizing.spacing, ProgressAt::Isolated));
   this->Work.ask();
   this->Jumps = findFaceJumps(this->Surface, *this->Proxy, this->Parallel);
   std::int64_t cost = this->Jumps.evaluations;
@@ -220,45 +265,45 @@ void FastSystem::lookAtSurface()
     this->Parallel);
   this->Surface.jumpTolerances = &this->Jumps.jumpTolerances;
   this->Work.ask();
-  this->makeBoundaries();
-  this->Evaluations += cost + this->Boundaries.evaluations;
+  this->traceBoundaryCurves();
+  this->Evaluations += cost + this->Curves.evaluations;
 }
 
-/// How many particles the surface wants.
-double FastSystem::wantedCount() const
+/// Number of particles that the surface takes at the sizing function.
+double FastSystem::targetCount() const
 {
   return this->Proxy->particleCount() +
-    onBoundary * static_cast<double>(this->BoundaryPatches.size());
+    OnBoundary::Count * static_cast<double>(this->BoundaryPatches.size());
 }
 
 /// Finds the spacing that goes with a given number of particles.
-void FastSystem::matchCount(std::int64_t count)
+void FastSystem::matchSpacing(std::int64_t count)
 {
-  constexpr int tries = 8;
-  constexpr double closeEnough = 0.01;
-  this->Sizing.spacing = this->Parameters.firstSpacing > 0.0
+  const double firstSpacing = this->Parameters.firstSpacing > 0.0
     ? this->Parameters.firstSpacing
-    : meshExtent(this->Mesh) * firstSpacingPerExtent;
-  this->lookAtSurface();
-  for (int n = 1; n < tries; ++n)
-  {
-    const double ratio = this->wantedCount() / static_cast<double>(count);
-    if (!(ratio > 0.0) || std::abs(ratio - 1.0) < closeEnough)
+    : meshExtent(this->Mesh) * SpacingSearch::FirstSpacingPerDiagonal;
+  findSpacing(count, firstSpacing,
+    [this](double spacing)
     {
-      break;
-    }
-    this->Sizing.spacing *= std::sqrt(ratio);
-    this->lookAtSurface();
-  }
-  // Corners of boundary curves are there at any spacing.
-  const std::size_t boundaries = this->BoundaryPatches.size();
-  const std::size_t most = std::min(boundaries, static_cast<std::size_t>(count));
-  std::vector<char> kept(boundaries, 0);
-  for (std::size_t n = 0; n < most; ++n)
+      this->Sizing.spacing = spacing;
+      this->prepareSurface();
+      return this->targetCount();
+    });
+  this->keepOnBoundary(static_cast<std::size_t>(count));
+}
+
+/// Thins out the particles on boundary curves where they are more than a given number: their corners stay at any
+/// spacing.
+void FastSystem::keepOnBoundary(std::size_t most)
+{
+  const std::size_t count = this->BoundaryPatches.size();
+  const std::size_t left = std::min(count, most);
+  std::vector<char> kept(count, 0);
+  for (std::size_t n = 0; n < left; ++n)
   {
-    kept[n * boundaries / most] = 1;
+    kept[n * count / left] = 1;
   }
-  keepMarked(this->Boundaries.particles, kept);
+  keepMarked(this->Curves.particles, kept);
   keepMarked(this->BoundaryPatches, kept);
 }
 
@@ -274,8 +319,8 @@ void FastSystem::addSamples(const std::vector<int>& boxes)
   this->Moving->add(anchors, patches);
 }
 
-/// First places: those to start from, if they are near enough to as many as are wanted, and of that many seeds those
-/// that they leave alone.
+/// First positions of particles: those of the previous run if enough of them arrive, with seeds between them, else
+/// seeds alone.
 void FastSystem::makeSeeds(std::int64_t count)
 {
   this->startMoving();
@@ -283,18 +328,13 @@ void FastSystem::makeSeeds(std::int64_t count)
   {
     this->continueFrom(this->Parameters.start);
     const std::vector<char> all(this->Moving->count(), 1);
-    this->Moving->keep(thinOut(this->Moving->patches(), all, Squeezed, this->Parallel));
-    this->IsWarm =
-      static_cast<double>(this->Moving->size()) >= worthContinuing * static_cast<double>(count);
+    this->Moving->keep(thinOut(this->Moving->patches(), all, MinimumSeparation, this->Parallel));
+    this->IsWarm = static_cast<double>(this->Moving->size()) >=
+      WarmStart::LeastShare * static_cast<double>(count);
   }
   if (this->IsWarm)
   {
-    MovingParticles seeds(this->Surface, *this->Proxy, {}, this->Parallel);
-    seeds.draw(count, this->Parameters.seed);
-    seeds.keep(areFarFrom(
-      seeds.patches(), seeds.count(), this->Moving->patches(), uncovered, this->Parallel));
-    seeds.approach();
-    this->Moving->join(seeds);
+    this->addSeedsBetween(count);
   }
   else
   {
@@ -302,15 +342,26 @@ void FastSystem::makeSeeds(std::int64_t count)
     this->Moving->draw(count, this->Parameters.seed);
     this->Moving->approach();
   }
-  this->dropNearBoundaries(seedToBoundary);
+  this->dropNearBoundaryCurves(OnBoundary::SeedDistance);
   this->coverBoxes();
 }
 
-/// Takes particles from places near the surface to it; those that come from far off or do not arrive are
-/// dropped.
+/// Of `count` seeds all over the surface, adds the ones that are far from all particles.
+void FastSystem::addSeedsBetween(std::int64_t count)
+{
+  MovingParticles seeds(this->Surface, *this->Proxy, {}, this->Parallel);
+  seeds.draw(count, this->Parameters.seed);
+  seeds.keep(areFarFrom(seeds.patches(), seeds.count(), this->Moving->patches(),
+    WarmStart::SeedDistance, this->Parallel));
+  seeds.approach();
+  this->Moving->append(seeds);
+}
+
+/// Takes particles from places near the surface to it. Particles that start too far from it, or do not
+/// arrive, are dropped.
 void FastSystem::continueFrom(const std::vector<Location>& places)
 {
-  const auto keepThoseWithin = [this](float farthest)
+  const auto keepWithin = [this](float farthest)
   {
     std::vector<char> kept(this->Moving->count());
     std::transform(this->Moving->anchors().begin(), this->Moving->anchors().end(),
@@ -320,12 +371,12 @@ void FastSystem::continueFrom(const std::vector<Location>& places)
     this->Moving->keep(kept);
   };
   this->Moving->add(places);
-  keepThoseWithin(farthestStart);
-  this->Moving->approach(arrivedOffset);
-  keepThoseWithin(arrivedOffset);
+  keepWithin(WarmStart::FarthestStart);
+  this->Moving->approach(WarmStart::Arrived);
+  keepWithin(WarmStart::Arrived);
 }
 
-/// No particles yet but those on boundary curves.
+/// Starts with the particles on boundary curves alone.
 void FastSystem::startMoving()
 {
   this->Evaluations += this->Moving ? this->Moving->evaluations() : 0;
@@ -333,73 +384,93 @@ void FastSystem::startMoving()
     this->Surface, *this->Proxy, this->BoundaryPatches, this->Parallel);
 }
 
-void FastSystem::makeBoundaries()
+void FastSystem::traceBoundaryCurves()
 {
-  this->Boundaries =
+  this->Curves =
     findBoundaryCurves(this->Surface, this->Jumps, *this->Proxy, this->Sizing, this->Parallel);
   this->BoundaryPatches.clear();
-  for (const BoundaryParticle& boundary : this->Boundaries.particles)
+  for (const BoundaryParticle& boundary : this->Curves.particles)
   {
     this->BoundaryPatches.push_back(boundary.patch);
   }
 }
 
-/// Particles on boundary curves are there first: others too near to one are dropped.
-void FastSystem::dropNearBoundaries(double nearest)
+/// Drops particles that are too near to one on a boundary curve: these are sampled first and stay.
+void FastSystem::dropNearBoundaryCurves(double nearest)
 {
   this->Moving->keep(areFarFrom(this->Moving->patches(), this->Moving->count(),
     this->BoundaryPatches, nearest, this->Parallel));
 }
 
-/// One round. Before the last one so many are added or removed everywhere that their number is as wanted; the last
-/// one mends single defects.
-void FastSystem::relaxAll(int sweeps, bool isLast, const Section& section)
+/// What a round does about the number of particles: the last round repairs single defects, the rounds before it
+/// insert and delete everywhere.
+Balance FastSystem::balanceOf(bool isLast) const
 {
   Balance balance;
   balance.extent = isLast ? Balance::Defects : Balance::Everywhere;
   const auto size = static_cast<double>(this->Moving->size());
-  // Where spacings vary, energies know of narrow places that the proxy overlooks; but they would leave the
-  // particles of a run before as many as they are.
   if (this->countIsGiven())
   {
     balance.missing = static_cast<double>(this->Parameters.particleCount) - size;
   }
+  // Where spacings vary, energies tell of narrow places that the proxy misses. They would leave the particles of a
+  // previous run as many as they are, though.
   else if (this->Sizing.angularDensity == 0.0 || this->IsWarm)
   {
-    balance.missing = this->wantedCount() - size;
+    balance.missing = this->targetCount() - size;
   }
-  this->Moving->relax(
-    { sweeps }, balance, [&](double share) { this->Work.raiseFraction(section.at(share)); });
-  this->dropNearBoundaries(Squeezed);
+  return balance;
 }
 
-/// Boxes on whose piece of surface no particle stands get one. Those added cover others in turn.
+void FastSystem::relaxOnce(int sweeps, bool isLast, const Section& section)
+{
+  this->Moving->relax({ sweeps }, this->balanceOf(isLast),
+    [&](double share) { this->Work.raiseFraction(section.at(share)); });
+  this->dropNearBoundaryCurves(MinimumSeparation);
+}
+
+void FastSystem::relaxInRounds()
+{
+  const std::vector<int> rounds = sweepsOfRounds(this->Parameters.quality, this->IsWarm);
+  const Section all{ ProgressAt::Seeded, ProgressAt::Relaxed };
+  this->reach(all.begin);
+  for (std::size_t n = 0; n < rounds.size(); ++n)
+  {
+    const auto count = static_cast<double>(rounds.size());
+    const Section round{ all.at(n / count), all.at((n + 1) / count) };
+    this->relaxOnce(rounds[n], n + 1 == rounds.size(), round);
+    this->reach(round.end);
+  }
+}
+
+/// Adds a particle in boxes on whose piece of surface no particle stands. One may cover several boxes.
 void FastSystem::coverBoxes()
 {
   const auto& samples = this->Proxy->samples();
-  const std::vector<char> lonely = findLonely(samples, this->Moving->patches(), this->Parallel);
-  this->addSamples(chooseUncovered(samples, lonely, this->Parallel));
+  const std::vector<char> uncovered =
+    findUncovered(samples, this->Moving->patches(), this->Parallel);
+  this->addSamples(chooseUncovered(samples, uncovered, this->Parallel));
 }
 
-/// Takes all particles to the tolerance and says what there is to say about them.
+/// Takes all particles to the tolerance, and evaluates there what belongs to a finished particle.
 void FastSystem::finish()
 {
   FinishedParticles finished =
     finishParticles(*this->Moving, this->Jumps, this->Sizing, this->Parallel);
   this->Evaluations += finished.evaluations;
   DistributionReport& report = this->Result.report;
-  std::vector<char>& kept = finished.settled;
+  std::vector<char>& kept = finished.converged;
   report.particlesRejected += std::count(kept.begin(), kept.end(), 0);
   if (!this->countIsGiven())
   {
-    kept = thinOut(this->Moving->patches(), kept, Squeezed, this->Parallel);
+    kept = thinOut(this->Moving->patches(), kept, MinimumSeparation, this->Parallel);
   }
   Buffer<Particle>& particles = this->Result.particles;
   particles = std::move(finished.particles);
   particles.resize(closeGaps(particles, particles.size(), kept));
-  const ParticleGrid all(particles, this->Boundaries.particles, this->Parallel);
+  const ParticleGrid all(particles, this->Curves.particles, this->Parallel);
   markClipPlanes(this->Surface, all, this->Parallel);
-  for (const BoundaryParticle& boundary : this->Boundaries.particles)
+  for (const BoundaryParticle& boundary : this->Curves.particles)
   {
     particles.push_back(boundary.particle);
   }
@@ -408,7 +479,7 @@ void FastSystem::finish()
   fitSmallComponents(*this->Proxy, all, particles, this->Parallel);
 }
 
-/// The road of the data, as long as nobody interrupts.
+/// All stages, one after the other.
 void FastSystem::make()
 {
   if (!this->estimateCount())
@@ -417,56 +488,47 @@ void FastSystem::make()
   }
   if (this->countIsGiven())
   {
-    this->matchCount(this->Parameters.particleCount);
+    this->matchSpacing(this->Parameters.particleCount);
   }
   else
   {
-    this->lookAtSurface();
+    this->prepareSurface();
   }
   reportUndecided(this->Surface, this->Proxy->boxes(), this->Result.report);
-  this->reach(0.35);
-  const double wanted = this->Proxy->particleCount();
-  if (wanted > 0.0 && !this->tooMany(wanted))
+  this->reach(ProgressAt::Prepared);
+  const double count = this->Proxy->particleCount();
+  if (count > 0.0 && !this->tooMany(count))
   {
-    this->makeSeeds(std::llround(wanted));
-    const std::vector<int> rounds = sweepsOfRounds(this->Parameters.quality, this->IsWarm);
-    const Section all{ seededFraction, relaxedFraction };
-    this->reach(all.begin);
-    for (std::size_t n = 0; n < rounds.size(); ++n)
-    {
-      const auto count = static_cast<double>(rounds.size());
-      const Section round{ all.at(n / count), all.at((n + 1) / count) };
-      this->relaxAll(rounds[n], n + 1 == rounds.size(), round);
-      this->reach(round.end);
-    }
+    this->makeSeeds(std::llround(count));
+    this->relaxInRounds();
     repairPacking(*this->Moving, this->Parallel);
-    // Beside another sheet the last particle of a small component may have been taken for one too many.
+    // Beside another sheet the last particle of a small component may have been deleted as one too many.
     this->coverBoxes();
     if (this->countIsGiven())
     {
-      settleNumber(this->Parameters, this->BoundaryPatches, *this->Moving, this->Parallel);
+      matchGivenNumber(this->Parameters, this->BoundaryPatches, *this->Moving, this->Parallel);
     }
     this->finish();
   }
 }
 
-std::vector<double> FastSystem::wantedInElements()
+std::vector<double> FastSystem::countsOfElements()
 {
-  std::vector<double> wanted(this->Mesh.elements.size(), 0.0);
-  if (wanted.empty())
+  std::vector<double> counts(this->Mesh.elements.size(), 0.0);
+  if (counts.empty())
   {
-    return wanted;
+    return counts;
   }
-  this->lookAtSurface();
-  for (std::size_t e = 0; e < wanted.size(); ++e)
+  this->prepareSurface();
+  for (std::size_t e = 0; e < counts.size(); ++e)
   {
-    wanted[e] = this->Proxy->particleCount(static_cast<int>(e));
+    counts[e] = this->Proxy->particleCount(static_cast<int>(e));
   }
-  for (const BoundaryParticle& boundary : this->Boundaries.particles)
+  for (const BoundaryParticle& boundary : this->Curves.particles)
   {
-    wanted[boundary.particle.location.element] += onBoundary;
+    counts[boundary.particle.location.element] += OnBoundary::Count;
   }
-  return wanted;
+  return counts;
 }
 
 Distribution FastSystem::run()
@@ -495,12 +557,12 @@ Distribution distributeFast(const Isosurface& surface, const DistributionParamet
     [&]() { return FastSystem(surface, parameters, monitor, parallelFor).run(); });
 }
 
-std::vector<double> wantedParticles(const Isosurface& surface, const SizingFunction& sizing,
+std::vector<double> particlesPerElement(const Isosurface& surface, const SizingFunction& sizing,
   const Monitor& monitor, const ParallelFor& parallelFor)
 {
   DistributionParameters parameters;
   parameters.sizing = sizing;
-  return FastSystem(surface, parameters, monitor, parallelFor).wantedInElements();
+  return FastSystem(surface, parameters, monitor, parallelFor).countsOfElements();
 }
 
 } // namespace hop

@@ -24,26 +24,28 @@ public:
   {
     this->Result.particles.reserve(moving.size());
     this->Result.particles.resize(moving.count());
-    this->Result.settled.resize(moving.count(), 0);
+    this->Result.converged.resize(moving.count(), 0);
     std::iota(this->Pending.begin(), this->Pending.end(), 0);
   }
 
   FinishedParticles run()
   {
+    // Newton steps for all at once. Chosen by experiment: few particles are left to follow one by one then, which takes
+    // longer a particle.
     constexpr int passes = 3;
     for (int pass = 0; pass < passes; ++pass)
     {
-      this->pass();
+      this->stepAll();
     }
-    this->persist();
+    this->followSingly();
     this->Result.evaluations = this->Evaluations;
     return std::move(this->Result);
   }
 
 private:
-  void pass();
-  void persist();
-  bool settle(int i, const Location& place, const Jet& jet);
+  void stepAll();
+  void followSingly();
+  bool finish(int i, const Location& place, const Jet& jet);
 
   MovingParticles& Moving;
   const FaceJumps& Jumps;
@@ -54,8 +56,9 @@ private:
   FinishedParticles Result;
 };
 
-/// What there is to say about particle i, if that place lies on the surface to the tolerance.
-bool Finish::settle(int i, const Location& place, const Jet& jet)
+/// Makes particle i of a place that lies on the surface to the tolerance.
+/// \return whether the place does
+bool Finish::finish(int i, const Location& place, const Jet& jet)
 {
   const Isosurface& surface = this->Moving.surface();
   const FieldPoint point = fieldPoint(jet, surface.isovalue);
@@ -68,17 +71,17 @@ bool Finish::settle(int i, const Location& place, const Jet& jet)
   }
   const double spacing =
     this->Sizing.angularDensity == 0.0 ? this->Sizing.spacing : this->Moving.patches()[i].spacing;
-  this->Result.particles[i] = { place, point.map.position, surfaceNormal(point.gradient),
-    curvature(point.gradient, worldHessian(jet, point)), residual, spacing, {}, 0.0 };
+  this->Result.particles[i] =
+    particleAt(place, point, curvature(point.gradient, worldHessian(jet, point)), spacing);
   offerFaces(surface, this->Jumps, jet, point, this->Result.particles[i]);
-  this->Result.settled[i] = 1;
-  this->Moving.settle(i, place, point);
+  this->Result.converged[i] = 1;
+  this->Moving.place(i, place, point);
   return true;
 }
 
-/// Evaluates the pending particles where Newton's method takes them. Those on the surface to the
-/// tolerance are finished, the others stay pending.
-void Finish::pass()
+/// Evaluates the pending particles where Newton's method takes them. Particles on the surface to the tolerance are
+/// finished, the others stay pending.
+void Finish::stepAll()
 {
   const ElementMesh& mesh = *this->Moving.surface().mesh;
   std::vector<int>& pending = this->Pending;
@@ -100,7 +103,7 @@ void Finish::pass()
       evaluateInOrder(mesh, places, order, begin, end,
         [&](int n, const Jet& jet)
         {
-          if (!this->settle(pending[n], places[n], jet))
+          if (!this->finish(pending[n], places[n], jet))
           {
             this->Moving.renew(pending[n], places[n], jet);
           }
@@ -108,22 +111,22 @@ void Finish::pass()
       this->Evaluations += end - begin;
     });
   pending.erase(std::remove_if(pending.begin(), pending.end(),
-                  [this](int i) { return this->Result.settled[i]; }),
+                  [this](int i) { return this->Result.converged[i]; }),
     pending.end());
 }
 
-/// Follows those that are still pending, each on its own. Where the field jumps through the isovalue, each
-/// side of a face sends Newton's method to the other: those go to where the surface of their element ends.
-void Finish::persist()
+/// Follows the particles that are still pending, each on its own. Where the field jumps through the isovalue, each side
+/// of a face sends Newton's method to the other side: a particle there goes to where the surface of its element ends.
+void Finish::followSingly()
 {
   if (this->Pending.empty())
   {
     return;
   }
   const Isosurface& surface = this->Moving.surface();
-  const std::vector<float> noGaps(faceSlot(surface.mesh->elements.size(), 0), 0.0f);
-  Isosurface sealed = surface.withWalls();
-  sealed.jumpTolerances = &noGaps;
+  const std::vector<float> noTolerances(faceSlot(surface.mesh->elements.size(), 0), 0.0f);
+  Isosurface sealed = surface.endingWhereItMay();
+  sealed.jumpTolerances = &noTolerances;
   runParallel(this->Parallel, static_cast<std::ptrdiff_t>(this->Pending.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
@@ -138,7 +141,7 @@ void Finish::persist()
         if (across.project(start, reach, at) || inside.project(start, reach, at))
         {
           const BernsteinForm form = surface.mesh->form(at.location.element);
-          this->settle(i, at.location, evaluateHessian(form, at.location.u));
+          this->finish(i, at.location, evaluateHessian(form, at.location.u));
           ++this->Evaluations;
         }
       }

@@ -11,15 +11,16 @@ namespace hop
 /// Particles taken to the surface.
 struct FinishedParticles
 {
-  /// One for each that moved; with room for those on boundary curves.
+  /// One for each particle that moved; with memory for the particles on boundary curves.
   Buffer<Particle> particles;
-  /// Which of them lie on the surface to its tolerance. The others are lost.
-  std::vector<char> settled;
+  /// Marks the particles that lie on the surface to its tolerance. The others are lost.
+  std::vector<char> converged;
   std::int64_t evaluations = 0;
 };
 
-/// Takes all particles that move to the surface by Newton's method: a few steps for all that need them at
-/// once, then one by one. Each is offered the faces of its element at which the surface turns (FacePlanes.h).
+/// Takes all particles that move to the surface by Newton's method: first a few steps for all of them at once, then one
+/// by one the particles that have not converged. Each gets the creases at faces of its element as clip planes
+/// (FacePlanes.h).
 FinishedParticles finishParticles(MovingParticles& moving, const FaceJumps& jumps,
   const SizingFunction& sizing, const ParallelFor& parallelFor);
 

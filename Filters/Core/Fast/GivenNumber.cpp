@@ -13,12 +13,21 @@ namespace hop
 namespace
 {
 
-/// So often at most particles are exchanged until they stand well; how far apart those are that are added or
-/// removed at once, in units of the spacing.
-constexpr int exchanges = 3;
-constexpr double exchangedApart = 2.0;
+/// Exchange of crowded particles for others in gaps. All numbers were chosen by experiment.
+struct Exchange
+{
+  /// Largest number of exchanges, each followed by relaxation. More: fewer crowded pairs, more evaluations.
+  static constexpr int Times = 3;
+  /// Least distance between particles that are added or removed at once, in units of the spacing, as long as there are
+  /// enough such places. Smaller: two may go into the same gap; larger: worse places are used.
+  static constexpr double Distance = 2.0;
+  /// Number of seeds of which the ones with most room are added: so many in all, and so many more for each particle
+  /// asked for. More of them find the middles of gaps more exactly, and take longer.
+  static constexpr std::int64_t LeastSeeds = 64;
+  static constexpr std::int64_t SeedsPerParticle = 2;
+};
 
-/// Indices of values, the first in that order first; of equal ones, the first.
+/// Indices of values, sorted; equal values keep their order.
 template <class Before>
 std::vector<int> indicesBy(const std::vector<double>& values, const Before& before)
 {
@@ -29,59 +38,59 @@ std::vector<int> indicesBy(const std::vector<double>& values, const Before& befo
   return order;
 }
 
-class NumberSettler
+class NumberMatcher
 {
 public:
-  NumberSettler(const DistributionParameters& parameters, const Buffer<Patch>& boundaries,
+  NumberMatcher(const DistributionParameters& parameters, const Buffer<Patch>& boundaryPatches,
     MovingParticles& moving, const ParallelFor& parallelFor)
     : Parameters(parameters)
-    , Boundaries(boundaries)
+    , BoundaryPatches(boundaryPatches)
     , Moving(moving)
     , Parallel(parallelFor)
   {
   }
 
-  void settle();
+  void run();
 
 private:
-  // Each returns what stands or stood where something has changed.
+  // Each returns the patches of the particles that it added or removed.
   Buffer<Patch> keep(const std::vector<char>& kept);
-  Buffer<Patch> removeSqueezed();
+  Buffer<Patch> removeTooNear();
   Buffer<Patch> removeCrowded(std::int64_t count);
   Buffer<Patch> addInGaps(std::int64_t count);
   Buffer<Patch> matchNumber();
 
   const DistributionParameters& Parameters;
-  const Buffer<Patch>& Boundaries;
+  const Buffer<Patch>& BoundaryPatches;
   MovingParticles& Moving;
   const ParallelFor& Parallel;
 };
 
-Buffer<Patch> NumberSettler::keep(const std::vector<char>& kept)
+Buffer<Patch> NumberMatcher::keep(const std::vector<char>& kept)
 {
-  const Buffer<Patch> removed = marked(this->Moving.patches(), opposite(kept));
+  Buffer<Patch> removed = marked(this->Moving.patches(), opposite(kept));
   this->Moving.keep(kept);
   return removed;
 }
 
-/// Removes particles that were squeezed against boundary curves or each other.
-Buffer<Patch> NumberSettler::removeSqueezed()
+/// Removes particles too near to boundary curves or to each other.
+Buffer<Patch> NumberMatcher::removeTooNear()
 {
   const Buffer<Patch>& patches = this->Moving.patches();
-  const std::vector<char> kept =
-    areFarFrom(patches, this->Moving.count(), this->Boundaries, Squeezed, this->Parallel);
-  return this->keep(thinOut(patches, kept, Squeezed, this->Parallel));
+  const std::vector<char> kept = areFarFrom(
+    patches, this->Moving.count(), this->BoundaryPatches, MinimumSeparation, this->Parallel);
+  return this->keep(thinOut(patches, kept, MinimumSeparation, this->Parallel));
 }
 
 /// Removes the most crowded particles.
-Buffer<Patch> NumberSettler::removeCrowded(std::int64_t count)
+Buffer<Patch> NumberMatcher::removeCrowded(std::int64_t count)
 {
   const Buffer<Patch>& patches = this->Moving.patches();
-  const std::vector<int> order =
-    indicesBy(clearances(patches, this->Moving.count(), patches, exchangedApart, this->Parallel),
-      std::less<>());
+  const std::vector<int> order = indicesBy(
+    clearances(patches, this->Moving.count(), patches, Exchange::Distance, this->Parallel),
+    std::less<>());
   std::vector<char> kept(this->Moving.count(), 1);
-  for (const int i : chooseApart(patches, order, count, exchangedApart, this->Parallel))
+  for (const int i : selectSeparated(patches, order, count, Exchange::Distance, this->Parallel))
   {
     kept[i] = 0;
   }
@@ -89,42 +98,42 @@ Buffer<Patch> NumberSettler::removeCrowded(std::int64_t count)
 }
 
 /// Adds particles where there is most room.
-Buffer<Patch> NumberSettler::addInGaps(std::int64_t count)
+Buffer<Patch> NumberMatcher::addInGaps(std::int64_t count)
 {
-  constexpr std::int64_t seedsPerParticle = 2;
-  constexpr std::int64_t someSeeds = 64;
   MovingParticles seeds(this->Moving.surface(), this->Moving.proxy(), {}, this->Parallel);
-  seeds.draw(someSeeds + seedsPerParticle * this->Parameters.particleCount, this->Parameters.seed);
+  seeds.draw(Exchange::LeastSeeds + Exchange::SeedsPerParticle * this->Parameters.particleCount,
+    this->Parameters.seed);
   const std::vector<double> room = clearances(
-    seeds.patches(), seeds.count(), this->Moving.patches(), exchangedApart, this->Parallel);
+    seeds.patches(), seeds.count(), this->Moving.patches(), Exchange::Distance, this->Parallel);
   const std::vector<int> order = indicesBy(room, std::greater<>());
-  std::vector<char> wanted(seeds.count(), 0);
-  for (const int s : chooseApart(seeds.patches(), order, count, exchangedApart, this->Parallel))
+  std::vector<char> chosen(seeds.count(), 0);
+  for (const int s :
+    selectSeparated(seeds.patches(), order, count, Exchange::Distance, this->Parallel))
   {
-    wanted[s] = 1;
+    chosen[s] = 1;
   }
-  seeds.keep(wanted);
+  seeds.keep(chosen);
   seeds.approach();
-  this->Moving.join(seeds);
+  this->Moving.append(seeds);
   return seeds.patches();
 }
 
 /// Adds or removes particles until there are as many as there should be, if possible.
-Buffer<Patch> NumberSettler::matchNumber()
+Buffer<Patch> NumberMatcher::matchNumber()
 {
   const std::int64_t missing =
     this->Parameters.particleCount - static_cast<std::int64_t>(this->Moving.size());
   return missing > 0 ? this->addInGaps(missing) : this->removeCrowded(-missing);
 }
 
-void NumberSettler::settle()
+void NumberMatcher::run()
 {
   for (int n = 0;; ++n)
   {
-    Buffer<Patch> changed = this->removeSqueezed();
+    Buffer<Patch> changed = this->removeTooNear();
     const Buffer<Patch> exchanged = this->matchNumber();
     changed.insert(changed.end(), exchanged.begin(), exchanged.end());
-    if (changed.empty() || n == exchanges)
+    if (changed.empty() || n == Exchange::Times)
     {
       return;
     }
@@ -134,10 +143,10 @@ void NumberSettler::settle()
 
 } // namespace
 
-void settleNumber(const DistributionParameters& parameters, const Buffer<Patch>& boundaries,
-  MovingParticles& moving, const ParallelFor& parallelFor)
+void matchGivenNumber(const DistributionParameters& parameters,
+  const Buffer<Patch>& boundaryPatches, MovingParticles& moving, const ParallelFor& parallelFor)
 {
-  NumberSettler(parameters, boundaries, moving, parallelFor).settle();
+  NumberMatcher(parameters, boundaryPatches, moving, parallelFor).run();
 }
 
 } // namespace hop

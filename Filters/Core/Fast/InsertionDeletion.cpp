@@ -13,39 +13,66 @@ namespace hop
 namespace
 {
 
-/// Energy, in units of that of hexagonal packing, from which on a particle is one too many.
-constexpr double crowdedEnergy = 2.5;
-/// Mean energy, in units of that of hexagonal packing, of as many particles in packings as a first round of
-/// relaxation reaches: a quarter of them do not have six neighbours.
-constexpr double typicalEnergy = 1.06;
-/// How far energies are corrected where the number wanted is known, in shares of particles.
-constexpr double largestCorrection = 0.05;
-/// Shares up to this are left alone: what is missing here is too much there.
-constexpr double smallestShare = 0.02;
-/// Largest D h at which energies tell numbers.
-constexpr float largestBend = 1.0f;
-/// Energy, in units of that of hexagonal packing, below which a particle may stand beside a hole; where its
-/// middle is looked for, first and then nearer and farther, and how far the nearest particles are from that, in
-/// units of h; at the first distance it is this far at least.
-constexpr double lonelyEnergy = 0.95;
-constexpr std::array<float, 3> holeDistances{ 0.92f, 0.85f, 1.0f };
-constexpr double holeClearance = 0.82;
-constexpr double firstClearance = 0.7;
-/// How far from a doubled particle the new one starts, in units of h.
-constexpr float childDistance = 0.55f;
+/// What energies, in units of the ideal one of hexagonal packing, tell about the number of particles. All numbers were
+/// chosen by experiment; they hold for the packings that the sweeps of PatchRelaxation.h reach.
+struct EnergyOfNumber
+{
+  /// A particle with more energy than this is one too many. Hexagonal packing has as much where all distances are 0.80
+  /// of the spacing. Larger: crowded pairs survive; smaller: particles are deleted that the sweeps would still part.
+  static constexpr double Crowded = 2.5;
+  /// Mean energy of a relaxed packing with the right number of particles: a quarter of the particles do not have six
+  /// neighbours after a first round. Larger: more particles come out, smaller: fewer.
+  static constexpr double Typical = 1.06;
+  /// Largest correction of the share missing around a particle where the number missing in all is known. Larger: wrong
+  /// numbers are put right even where energies contradict; smaller: energies have the last word.
+  static constexpr double Correction = 0.05;
+  /// Shares up to this are ignored, as what is missing in one place is too much in the next. Larger: numbers stay
+  /// wrong; smaller: particles are inserted and deleted where nothing is wrong.
+  static constexpr double SmallestShare = 0.02;
+  /// Largest curvature magnitude times spacing at which energies tell numbers: beyond it neighbours do not lie near one
+  /// plane, in which packings are compared.
+  static constexpr float LargestCurvatureTimesSpacing = 1.0f;
+};
 
-/// How many particles are missing for one that there is, by their energy in units of the ideal one,
-/// less one. Inverts E(beta (1 + eps)) to second order, as far as that parabola falls: whatever more energy
-/// there is says no more.
+/// A hole between particles that is as wide as one. All numbers were chosen by experiment; distances are in units of
+/// the spacing.
+struct Hole
+{
+  /// A particle with less energy than this, in units of the ideal one, may stand beside a hole: one of six
+  /// neighbours less is 0.83. Larger: more particles are searched around; smaller: holes stay open.
+  static constexpr double Energy = 0.95;
+  /// Distances of the hole's middle from a particle beside it, in the order in which they are tried.
+  static constexpr std::array<float, 3> Distances{ 0.92f, 0.85f, 1.0f };
+  /// Least clearance of a new particle in the hole. Larger: holes stay open; smaller: new particles crowd.
+  static constexpr double Clearance = 0.82;
+  /// Least clearance at the first distance for the others to be tried. Larger: less time; fewer holes are found.
+  static constexpr double FirstClearance = 0.7;
+};
+
+/// Distance of a new particle from the one beside which it is inserted, in units of the spacing, before sweeps part
+/// them. Chosen by experiment. Larger: it starts near other neighbours; smaller: the two repel each other too strongly.
+constexpr float insertionDistance = 0.55f;
+
+/// Directions in which a free place is looked for, one every 30 degrees. Chosen by experiment. More of them find the
+/// middles of holes more exactly, and take longer.
+constexpr int directions = 12;
+
+/// Least cosine between the normals of neighbours that lie on the same sheet: up to 60 degrees, as where pairs do not
+/// fade in the sweeps. Larger: fewer neighbours count where the surface bends; smaller: neighbours on other sheets do.
+constexpr float sameSheetCosine = 0.5f;
+
+/// Share of a particle that is missing for each one that there is, (1 + eps)^2 - 1. Inverts E(beta (1 + eps)) to second
+/// order up to the vertex of the parabola: more energy than there says no more.
+/// \param excess mean energy, in units of the ideal one, less one
 double missingShare(double excess)
 {
   const double linear =
     HexagonalDistance * pairEnergyDerivative(HexagonalDistance) / pairEnergy(HexagonalDistance);
   const double quadratic = 0.5 * HexagonalDistance * HexagonalDistance *
     pairEnergySecondDerivative(HexagonalDistance) / pairEnergy(HexagonalDistance);
-  const double bend = quadratic / linear; // < 0
-  const double first = std::max(excess / linear, 0.5 / bend);
-  const double eps = first - bend * first * first;
+  const double ratio = quadratic / linear; // < 0
+  const double first = std::max(excess / linear, 0.5 / ratio);
+  const double eps = first - ratio * first * first;
   return 2.0 * eps + eps * eps;
 }
 
@@ -58,12 +85,12 @@ public:
     , Lists(lists)
     , Energies(energies)
     , Result(relaxed)
-    , Touched(patches.size(), 0)
+    , Changed(patches.size(), 0)
   {
   }
 
-  /// Removes particles that have far too much energy, and more than all around them.
-  void removeCrowded(const ParallelFor& parallelFor)
+  /// Deletes particles that have far too much energy, and more than all their neighbours.
+  void deleteCrowded(const ParallelFor& parallelFor)
   {
     std::vector<char> crowded(this->Patches.size());
     forAll(
@@ -72,12 +99,12 @@ public:
     {
       if (crowded[i])
       {
-        this->remove(static_cast<int>(i));
+        this->erase(static_cast<int>(i));
       }
     }
   }
 
-  /// Doubles and removes particles; energies say where and, unless `missing` does, how many.
+  /// Inserts and deletes particles. Energies tell where and, unless `missing` is known, how many.
   void balance(const std::optional<double>& missing, const ParallelFor& parallelFor)
   {
     std::vector<double> shares(this->Patches.size());
@@ -87,84 +114,87 @@ public:
     const auto counted = static_cast<double>(
       std::count_if(shares.begin(), shares.end(), [](double share) { return share != 0.0; }));
     const double correction = missing ? std::clamp((*missing - total) / std::max(counted, 1.0),
-                                          -largestCorrection, largestCorrection)
+                                          -EnergyOfNumber::Correction, EnergyOfNumber::Correction)
                                       : 0.0;
     double sum = 0.0;
     for (std::size_t i = 0; i < shares.size(); ++i)
     {
       const double share = shares[i] != 0.0 ? shares[i] + correction : 0.0;
-      sum += std::abs(share) > smallestShare ? share : 0.0;
+      sum += std::abs(share) > EnergyOfNumber::SmallestShare ? share : 0.0;
       if (sum >= 0.5 && share > 0.0)
       {
-        this->split(this->extreme(i, std::less<>()));
+        this->insertBeside(this->extreme(i, std::less<>()));
         sum -= 1.0;
       }
       else if (sum <= -0.5 && share < 0.0)
       {
-        this->remove(this->extreme(i, std::greater<>()));
+        this->erase(this->extreme(i, std::greater<>()));
         sum += 1.0;
       }
     }
-    std::vector<Split>& splits = this->Result.splits;
-    forAll(parallelFor, splits.size(),
-      [&](std::size_t n) {
-        splits[n].displacement = this->freePlace(splits[n].particle, childDistance).displacement;
+    std::vector<Insertion>& insertions = this->Result.insertions;
+    forAll(parallelFor, insertions.size(),
+      [&](std::size_t n)
+      {
+        insertions[n].displacement =
+          this->freePlace(insertions[n].beside, insertionDistance).displacement;
       });
   }
 
-  /// Puts particles where one is missing among its neighbours, which have too little energy then.
+  /// Inserts particles into holes: the particles around a hole have too little energy.
   void fillHoles(const ParallelFor& parallelFor)
   {
-    const auto lonely = static_cast<float>(lonelyEnergy * idealEnergy());
+    const auto largest = static_cast<float>(Hole::Energy * idealEnergy());
     std::vector<FreePlace> places(this->Patches.size());
     forAll(parallelFor, this->Patches.size(),
       [&](std::size_t i)
       {
         const Patch& patch = this->Patches[i];
-        if (this->Energies[i] >= 0.0f && this->Energies[i] < lonely &&
-          patch.curvatureMagnitude() * patch.spacing <= largestBend)
+        if (this->Energies[i] >= 0.0f && this->Energies[i] < largest &&
+          patch.curvatureMagnitude() * patch.spacing <=
+            EnergyOfNumber::LargestCurvatureTimesSpacing)
         {
           places[i] = this->hole(i);
         }
       });
     for (std::size_t i = 0; i < places.size(); ++i)
     {
-      // All around a hole find it: the first of them fills it.
+      // All particles around a hole find it; the first of them fills it.
       const auto fills = [&](int j)
       {
-        return j < static_cast<int>(i) && this->Touched[j] &&
+        return j < static_cast<int>(i) && this->Changed[j] &&
           glm::distance(places[j].position, places[i].position) <
-          holeClearance * this->Patches[i].spacing;
+          Hole::Clearance * this->Patches[i].spacing;
       };
-      if (places[i].clearance >= holeClearance &&
+      if (places[i].clearance >= Hole::Clearance &&
         std::none_of(this->Lists.begin(i), this->Lists.end(i), fills))
       {
-        this->Result.splits.push_back({ static_cast<int>(i), places[i].displacement });
-        this->Touched[i] = 1;
+        this->Result.insertions.push_back({ static_cast<int>(i), places[i].displacement });
+        this->Changed[i] = 1;
       }
     }
   }
 
 private:
-  void remove(int i)
+  void erase(int i)
   {
     this->Result.kept[i] = 0;
-    this->Touched[i] = 1;
+    this->Changed[i] = 1;
   }
 
-  /// Where the new one stands is found later.
-  void split(int i)
+  /// The place of the new particle is found later.
+  void insertBeside(int i)
   {
-    if (!this->Touched[i])
+    if (!this->Changed[i])
     {
-      this->Result.splits.push_back({ i, glm::vec2(0.0f) });
-      this->Touched[i] = 1;
+      this->Result.insertions.push_back({ i, glm::vec2(0.0f) });
+      this->Changed[i] = 1;
     }
   }
 
   bool isCrowded(std::size_t i) const
   {
-    const auto crowded = static_cast<float>(crowdedEnergy * idealEnergy());
+    const auto crowded = static_cast<float>(EnergyOfNumber::Crowded * idealEnergy());
     const float own = this->Energies[i];
     return own > crowded &&
       std::none_of(this->Lists.begin(i), this->Lists.end(i),
@@ -173,17 +203,17 @@ private:
         });
   }
 
-  /// Among particle i and those that it sees, the one with the least or most energy that nothing was done
-  /// about yet; i if there is none.
+  /// Of particle i and its neighbours the one with the least or most energy that was not changed yet; i if there is
+  /// none.
   template <class Compare>
   int extreme(std::size_t i, const Compare& compare) const
   {
     int best = static_cast<int>(i);
     for (const int* j = this->Lists.begin(i); j != this->Lists.end(i); ++j)
     {
-      const bool free = this->Energies[*j] >= 0.0f && !this->Touched[*j] &&
-        glm::dot(this->Patches[*j].normal, this->Patches[i].normal) > 0.5f;
-      if (free && (this->Touched[best] || compare(this->Energies[*j], this->Energies[best])))
+      const bool free = this->Energies[*j] >= 0.0f && !this->Changed[*j] &&
+        glm::dot(this->Patches[*j].normal, this->Patches[i].normal) > sameSheetCosine;
+      if (free && (this->Changed[best] || compare(this->Energies[*j], this->Energies[best])))
       {
         best = *j;
       }
@@ -191,56 +221,56 @@ private:
     return best;
   }
 
-  /// How many particles are missing around particle i, for one that there is; zero where that cannot be
-  /// told.
+  /// Share of a particle that is missing around particle i for each one there; zero where energies do not tell.
   double shareMissing(std::size_t i) const
   {
     const Patch& patch = this->Patches[i];
-    const bool bent = patch.curvatureMagnitude() * patch.spacing > largestBend;
-    if (this->Energies[i] < 0.0f || this->Touched[i] || bent)
+    const bool bent =
+      patch.curvatureMagnitude() * patch.spacing > EnergyOfNumber::LargestCurvatureTimesSpacing;
+    if (this->Energies[i] < 0.0f || this->Changed[i] || bent)
     {
       return 0.0;
     }
-    const auto most = static_cast<float>(crowdedEnergy * idealEnergy());
+    const auto most = static_cast<float>(EnergyOfNumber::Crowded * idealEnergy());
     double sum = std::min(this->Energies[i], most);
     int count = 1;
     for (const int* j = this->Lists.begin(i); j != this->Lists.end(i); ++j)
     {
-      if (this->Energies[*j] >= 0.0f && glm::dot(this->Patches[*j].normal, patch.normal) > 0.5f)
+      if (this->Energies[*j] >= 0.0f &&
+        glm::dot(this->Patches[*j].normal, patch.normal) > sameSheetCosine)
       {
         sum += std::min(this->Energies[*j], most);
         ++count;
       }
     }
-    return missingShare(sum / (count * typicalEnergy * idealEnergy()) - 1.0);
+    return missingShare(sum / (count * EnergyOfNumber::Typical * idealEnergy()) - 1.0);
   }
 
   struct FreePlace
   {
-    /// On the patch of the particle that it is found from.
+    /// On the patch of the particle beside it.
     glm::vec2 displacement{ 0.0f };
     glm::dvec3 position{ 0.0 };
-    /// To the particle nearest to it among those that are seen from there, in units of the spacing.
+    /// Distance of the nearest particle among the neighbours of the one beside it, in units of the spacing.
     double clearance = -1.0;
   };
 
-  /// The place beside particle i that is farthest from all others, if that may be a hole.
+  /// The middle of a hole beside particle i, if there is one: the free place with the largest clearance.
   FreePlace hole(std::size_t i) const
   {
-    FreePlace best = this->freePlace(i, holeDistances[0]);
-    for (std::size_t n = 1; n < holeDistances.size() && best.clearance > firstClearance; ++n)
+    FreePlace best = this->freePlace(i, Hole::Distances[0]);
+    for (std::size_t n = 1; n < Hole::Distances.size() && best.clearance > Hole::FirstClearance;
+         ++n)
     {
-      const FreePlace place = this->freePlace(i, holeDistances[n]);
+      const FreePlace place = this->freePlace(i, Hole::Distances[n]);
       best = place.clearance > best.clearance ? place : best;
     }
     return best;
   }
 
-  /// Of some places all around particle i, at that distance in units of its spacing, the one farthest from
-  /// its neighbours.
+  /// Of some places around particle i, at a distance in units of its spacing, the one farthest from all neighbours.
   FreePlace freePlace(std::size_t i, float distance) const
   {
-    constexpr int directions = 12;
     const Patch& patch = this->Patches[i];
     std::vector<glm::dvec3> others;
     others.reserve(this->Lists.count(i));
@@ -279,8 +309,8 @@ private:
   const SeenLists& Lists;
   const std::vector<float>& Energies;
   Relaxed& Result;
-  /// Particles that were doubled or removed.
-  std::vector<char> Touched;
+  /// Marks the particles that were deleted or have a new particle beside them.
+  std::vector<char> Changed;
 };
 
 } // namespace
@@ -292,7 +322,7 @@ void insertAndDelete(const Buffer<Patch>& patches, const SeenLists& lists,
   InsertionDeletion insertionDeletion(patches, lists, energies, relaxed);
   if (balance.extent != Balance::None)
   {
-    insertionDeletion.removeCrowded(parallelFor);
+    insertionDeletion.deleteCrowded(parallelFor);
   }
   if (balance.extent == Balance::Defects)
   {

@@ -10,54 +10,56 @@
 namespace hop
 {
 
-/// What to do about the number of particles (InsertionDeletion.h).
+/// What a round does about the number of particles.
 struct Balance
 {
   enum Extent
   {
     None,
-    /// Remove those that are far too close to others.
+    /// Delete particles that are far too close to others.
     Crowded,
-    /// That, and fill holes between them.
+    /// Delete particles that are far too close to others, and fill holes.
     Defects,
-    /// Remove those that are far too close, and make the number what it should be everywhere.
+    /// Delete particles that are far too close to others, and insert and delete wherever the number is not right.
     Everywhere
   };
   Extent extent = None;
-  /// How many are missing in all, as far as that is known; else energies tell.
+  /// Number of particles that are missing in all; negative if there are too many. Without it energies tell.
   std::optional<double> missing;
 };
 
-/// A particle to double, and the place of the new one on its patch.
-struct Split
+/// A new particle.
+struct Insertion
 {
-  int particle = 0;
+  /// The particle on whose patch it starts.
+  int beside = 0;
+  /// Its place there.
   glm::vec2 displacement{ 0.0f };
 };
 
-/// Where relaxation takes particles.
+/// Result of a relaxation.
 struct Relaxed
 {
-  /// In the basis of each particle's tangents; zero for fixed ones.
+  /// In the basis of each particle's tangents; zero for fixed particles.
   std::vector<glm::vec2> displacements;
-  /// Marks the particles that there is room for.
+  /// Marks the particles that are not deleted.
   std::vector<char> kept;
-  /// Where there is room for more, in the order of the particles.
-  std::vector<Split> splits;
+  /// In the order of the particles beside which they are.
+  std::vector<Insertion> insertions;
 };
 
-/// Which particles to remove and to double so that everywhere stand as many as wanted, seen by their
-/// energies after some sweeps: 1 + e times that of hexagonal packing means spacings 1 + eps times
-/// those wanted, e = beta E'(beta)/E(beta) eps + ..., and (1 + eps)^2 - 1 particles missing for each
-/// that there is. These are averaged over all that a particle sees and summed up along the order of
-/// the particles; each time that sum has grown by one a particle is doubled, each time it has fallen
-/// by one one is removed. On surfaces that bend too fast for their particles energies say nothing.
+/// Inserts and deletes particles so that their number is right everywhere. Energies after some sweeps tell where it is
+/// not: an energy of 1 + e times the ideal one of hexagonal packing means distances of 1 + eps times the spacing,
+/// e = beta E'(beta)/E(beta) eps + ..., and so (1 + eps)^2 - 1 missing particles for each one there. This share is
+/// averaged over the neighbourhood of each particle and summed up along the order of the particles. Each time the sum
+/// has grown by one a particle is inserted; each time it has fallen by one a particle is deleted. Where the surface
+/// bends too fast for its particles energies say nothing.
 ///
-/// Single defects are particles with far too much energy, which are removed, and holes as wide as a
-/// particle, which are filled.
+/// Single defects are particles with far too much energy, which are deleted, and holes as wide as a particle, which are
+/// filled.
 ///
 /// \param energies of the last sweep; negative for particles that are fixed
-/// \param relaxed its displacements; gets its marks and splits; all are kept where it says nothing else
+/// \param relaxed its displacements are read; its marks, all set before, and its insertions are written
 void insertAndDelete(const Buffer<Patch>& patches, const SeenLists& lists,
   const std::vector<float>& energies, const Balance& balance, const ParallelFor& parallelFor,
   Relaxed& relaxed);

@@ -13,50 +13,62 @@ namespace hop
 namespace
 {
 
-/// A step of relaxation is taken back by half while it ends farther from the surface than this, in
-/// units of the spacing, or on a sheet that is turned away.
-constexpr float largestOffset = 0.5f;
-constexpr float leastCosine = 0.3f;
-constexpr int maximumHalvings = 3;
-/// Relative error of steps in reference space, as anchors keep their map in single precision.
-constexpr double pullRounding = 1e-6;
-/// Steps from farther off have to shorten the way by this factor.
-constexpr float smallestProgress = 0.7f;
+/// When a step is accepted; it is halved otherwise. Chosen by experiment, all of them: where they are stricter more
+/// steps are halved, each for an evaluation; where they are laxer particles stray to other sheets.
+struct AcceptedStep
+{
+  /// Largest distance from the surface at its end, in units of the spacing.
+  static constexpr float Offset = 0.5f;
+  /// Factor by which it has to shorten the distance to the surface at least, where it starts farther off than that.
+  static constexpr float Progress = 0.7f;
+  /// Least cosine between the normals at its ends.
+  static constexpr float Cosine = 0.3f;
+  /// Largest length, in units of the spacing.
+  static constexpr double Length = 2.0;
+  /// Number of halvings after which the particle stays where it is.
+  static constexpr int Halvings = 3;
+};
 
-/// Whether a step leads to the surface, or nearer to it at least, and not astray.
+/// Relative error of steps in reference space: some ten roundings of single precision, in which anchors keep their map.
+/// Larger: a particle that leaves its element by a little is held in it; smaller: the surface that lies in a face is
+/// left by rounding.
+constexpr double pullRounding = 1e-6;
+
+/// Whether a step ends on the right sheet, near the surface or at least nearer than it started.
 bool accepts(const Anchor& from, const Patch& before, const Anchor& to, const Patch& after)
 {
   const float farthest =
-    std::max(largestOffset * before.spacing, smallestProgress * std::abs(from.offset));
-  return std::abs(to.offset) <= farthest && glm::dot(before.normal, after.normal) > leastCosine &&
-    glm::distance(before.position, after.position) <= 2.0 * before.spacing;
+    std::max(AcceptedStep::Offset * before.spacing, AcceptedStep::Progress * std::abs(from.offset));
+  return std::abs(to.offset) <= farthest &&
+    glm::dot(before.normal, after.normal) > AcceptedStep::Cosine &&
+    glm::distance(before.position, after.position) <= AcceptedStep::Length * before.spacing;
 }
 
 } // namespace
 
 MovingParticles::MovingParticles(const Isosurface& surface, const SurfaceProxy& proxy,
-  Buffer<Patch> boundaries, ParallelFor parallelFor)
+  Buffer<Patch> boundaryPatches, ParallelFor parallelFor)
   : Surface(surface)
   , Proxy(proxy)
   , Parallel(std::move(parallelFor))
-  , Patches(std::move(boundaries))
+  , Patches(std::move(boundaryPatches))
 {
 }
 
-/// For so many particles after those that move, to be written in threads.
-/// \return the first one
+/// Makes room for `count` more particles that move, which are written in threads then.
+/// \return index of the first of them
 std::size_t MovingParticles::makeRoom(std::size_t count)
 {
   const std::size_t first = this->count();
   const std::size_t size = this->size();
-  // Rounds of relaxation add some, and with them should not move all.
+  // Rounds of relaxation insert a few, for which memory should not be allocated anew: an eighth more is enough.
   this->Anchors.reserve(this->count() + count + count / 8);
   this->Patches.reserve(size + count + count / 8);
   this->Anchors.resize(first + count);
   this->Patches.resize(size + count);
-  const auto boundaries = this->Patches.begin() + static_cast<std::ptrdiff_t>(first);
+  const auto fixed = this->Patches.begin() + static_cast<std::ptrdiff_t>(first);
   std::copy_backward(
-    boundaries, this->Patches.begin() + static_cast<std::ptrdiff_t>(size), this->Patches.end());
+    fixed, this->Patches.begin() + static_cast<std::ptrdiff_t>(size), this->Patches.end());
   return first;
 }
 
@@ -101,8 +113,8 @@ void MovingParticles::approach(float farthest)
   this->step(far, std::vector<glm::vec2>(this->count(), glm::vec2(0.0f)));
 }
 
-/// Gives some particles the patches that belong to places.
-/// \return marks of all that have one
+/// Evaluates patches at places, and gives them to some particles.
+/// \return for each particle whether it has a patch
 std::vector<char> MovingParticles::anchorAt(
   const std::vector<int>& which, const std::vector<Location>& places)
 {
@@ -133,7 +145,7 @@ void MovingParticles::add(const Buffer<Anchor>& anchors, const Buffer<Patch>& pa
   this->Anchors.insert(this->Anchors.end(), anchors.begin(), anchors.end());
 }
 
-void MovingParticles::join(const MovingParticles& others)
+void MovingParticles::append(const MovingParticles& others)
 {
   const auto count = static_cast<std::ptrdiff_t>(others.count());
   this->Patches.insert(this->Patches.begin() + static_cast<std::ptrdiff_t>(this->count()),
@@ -148,16 +160,16 @@ void MovingParticles::draw(std::int64_t count, std::uint64_t randomSeed)
   this->add(this->Proxy.seeds(count, Random(randomSeed).uniform(), this->Parallel));
 }
 
-/// Of those that move, puts order[0], order[1], ... first, and leaves out what is not in the order.
+/// Reorders the particles that move: order[0], order[1], ... Particles that are not in the order are dropped.
 void MovingParticles::arrange(const std::vector<int>& order)
 {
   const std::size_t before = this->count();
-  const std::size_t boundaries = this->size() - before;
-  // More is added later.
+  const std::size_t fixed = this->size() - before;
+  // More particles are added later.
   this->SpareAnchors.reserve(this->Anchors.capacity());
   this->SparePatches.reserve(this->Patches.capacity());
   this->SpareAnchors.resize(order.size());
-  this->SparePatches.resize(order.size() + boundaries);
+  this->SparePatches.resize(order.size() + fixed);
   forAll(this->Parallel, this->SparePatches.size(),
     [&](std::size_t n)
     {
@@ -181,8 +193,8 @@ void MovingParticles::keep(const std::vector<char>& kept)
   }
 }
 
-/// Where a step in world space takes particle i: in its own element by its own map, in the next one by that
-/// of a sample, else by walking.
+/// Where a step in world space takes particle i: in its own element by its own map, in the next element by the map of a
+/// sample there, else by walking.
 Location MovingParticles::target(std::size_t i, const glm::dvec3& step, std::int64_t& cost) const
 {
   const Anchor& anchor = this->Anchors[i];
@@ -192,7 +204,7 @@ Location MovingParticles::target(std::size_t i, const glm::dvec3& step, std::int
   const double margin = insideMargin(domain, u);
   if (margin >= -pullRounding * glm::length(du))
   {
-    // Where the surface lies in a face of the element, rounding leads out of it.
+    // Where the surface lies in a face of the element, rounding may lead out of the element.
     return { anchor.place.element, margin >= 0.0 ? u : broughtInside(domain, u) };
   }
   SurfaceWalker walker(this->Surface);
@@ -211,9 +223,9 @@ Location MovingParticles::target(std::size_t i, const glm::dvec3& step, std::int
       return *place;
     }
   }
-  // Onto a wall only particles on boundary curves may go.
+  // Only particles on boundary curves may stand on a wall.
   Location reached = walker.move(start, { step });
-  const auto onWall = [&]() { return walker.endCount(reached) > 0; };
+  const auto onWall = [&]() { return walker.endFaceCount(reached) > 0; };
   if (onWall())
   {
     reached = walker.move(start, { 0.5 * step });
@@ -223,7 +235,7 @@ Location MovingParticles::target(std::size_t i, const glm::dvec3& step, std::int
   return ends ? anchor.place : reached;
 }
 
-/// World vector from where particle i was evaluated to a displacement on its patch.
+/// World vector from the place where particle i was evaluated to a point of its patch.
 glm::dvec3 MovingParticles::stepTo(std::size_t i, const glm::vec2& displacement) const
 {
   const Patch& patch = this->Patches[i];
@@ -231,7 +243,8 @@ glm::dvec3 MovingParticles::stepTo(std::size_t i, const glm::vec2& displacement)
     static_cast<double>(this->Anchors[i].offset) * glm::dvec3(patch.normal);
 }
 
-/// Where displacements, one for each particle, take some of them.
+/// Where displacements take some of the particles.
+/// \param displacements one for each particle
 std::vector<Location> MovingParticles::targets(
   const std::vector<int>& which, const std::vector<glm::vec2>& displacements)
 {
@@ -249,11 +262,12 @@ std::vector<Location> MovingParticles::targets(
   return places;
 }
 
-/// Half the step, a quarter of it, ...
-bool MovingParticles::retry(
+/// Tries half the step, a quarter of it, and so on.
+/// \return whether one was accepted
+bool MovingParticles::halveStep(
   std::size_t i, glm::dvec3 step, Anchor& anchor, Patch& patch, std::int64_t& cost) const
 {
-  for (int n = 0; n < maximumHalvings; ++n)
+  for (int n = 0; n < AcceptedStep::Halvings; ++n)
   {
     step *= 0.5;
     const Location place = this->target(i, step, cost);
@@ -268,8 +282,9 @@ bool MovingParticles::retry(
   return false;
 }
 
-/// Takes some particles where displacements, one for each particle, and Newton's method lead them.
-/// \return for each of those some, whether it got there in one step
+/// Moves some of the particles by displacements and Newton's method.
+/// \param displacements one for each particle
+/// \return for each particle of `which` whether its whole step was accepted
 std::vector<char> MovingParticles::step(
   const std::vector<int>& which, const std::vector<glm::vec2>& displacements)
 {
@@ -289,7 +304,8 @@ std::vector<char> MovingParticles::step(
           Patch patch;
           arrived[n] = anchorPatch(places[n], jet, this->Surface.isovalue, anchor, patch) &&
             accepts(this->Anchors[i], this->Patches[i], anchor, patch);
-          if (arrived[n] || this->retry(i, this->stepTo(i, displacements[i]), anchor, patch, cost))
+          if (arrived[n] ||
+            this->halveStep(i, this->stepTo(i, displacements[i]), anchor, patch, cost))
           {
             patch.spacing = this->Proxy.spacingAt(patch.position, patch.curvatureMagnitude());
             this->Anchors[i] = anchor;
@@ -309,17 +325,18 @@ void MovingParticles::relax(
   relaxed.kept.resize(this->count());
   Buffer<Anchor> anchors;
   Buffer<Patch> patches;
-  for (const Split& split : relaxed.splits)
+  for (const Insertion& insertion : relaxed.insertions)
   {
-    anchors.push_back(this->Anchors[split.particle]);
-    patches.push_back(this->Patches[split.particle]);
-    relaxed.displacements.push_back(split.displacement);
+    anchors.push_back(this->Anchors[insertion.beside]);
+    patches.push_back(this->Patches[insertion.beside]);
+    relaxed.displacements.push_back(insertion.displacement);
     relaxed.kept.push_back(1);
   }
   this->add(anchors, patches);
-  // Holes that cannot be filled lie beyond the end of the surface.
-  const bool fills = balance.extent == Balance::Defects;
-  this->commit(relaxed.displacements, std::move(relaxed.kept), fills ? relaxed.splits.size() : 0);
+  // A hole into which no step leads lies beyond the end of the surface.
+  const bool fillsHoles = balance.extent == Balance::Defects;
+  this->commit(
+    relaxed.displacements, std::move(relaxed.kept), fillsHoles ? relaxed.insertions.size() : 0);
   this->SweepCount += sweeps.count;
 }
 

@@ -6,22 +6,23 @@
 namespace hop
 {
 
-/// Which particles are relaxed further, and how.
-struct Nearby
+/// Which particles around a place are relaxed further, and how.
+struct RepairRegion
 {
-  /// Those not farther than this from a place, in units of the spacing.
+  /// Largest distance of a particle from the place, in units of its spacing. Chosen by experiment. Larger: more
+  /// evaluations; smaller: less room to spread into.
   double reach = 3.0;
   /// As of Sweeps.
   float farthest = Sweeps{}.farthest;
 };
 
-/// Relaxes particles around some places further, alone; those farther off stay.
-/// \return those of them that stand too near to others afterwards
+/// Relaxes the particles around some places further. Particles farther off stay where they are.
+/// \return the relaxed particles that still stand too near to others
 Buffer<Patch> relaxAround(const Buffer<Patch>& places, Balance::Extent extent,
-  MovingParticles& moving, const ParallelFor& parallelFor, const Nearby& nearby = {});
+  MovingParticles& moving, const ParallelFor& parallelFor, const RepairRegion& region = {});
 
-/// Mends places where particles stand too near to each other, and what is left of them as long as that may
-/// be mended; in the end in short steps, as at sharp creases long ones lead back and forth between patches of
+/// Repairs places where particles stand too near to each other, and repeats that where pairs are left, as long as they
+/// are few. The last repair takes short steps: at sharp creases long ones lead back and forth between the patches of
 /// the two sides.
 void repairPacking(MovingParticles& moving, const ParallelFor& parallelFor);
 

@@ -1,5 +1,6 @@
 #include "Fast/PatchDistances.h"
 
+#include "Support/KeepFirst.h"
 #include "Support/KeepMarked.h"
 #include "Support/SpacingGrid.h"
 
@@ -11,12 +12,28 @@ namespace hop
 namespace
 {
 
-/// A patch runs through a box if it passes its sample nearer than this, in units of its spacing.
-constexpr float coverOffset = 0.1f;
+/// When a particle covers a sample of the surface, so that the sample's box needs no particle of its own.
+struct Coverage
+{
+  /// Largest distance of the sample from the particle's patch, in units of the particle's spacing; curvature adds to
+  /// it. Chosen by experiment. Larger: the particle covers another sheet nearby, whose component may be lost; smaller:
+  /// particles are added that are not needed.
+  static constexpr float Height = 0.1f;
+  /// Distance up to which a sample that becomes a particle covers other samples, in units of its spacing. Chosen by
+  /// experiment. Larger: holes; smaller: crowds.
+  static constexpr double Distance = 0.7;
+};
 
-/// Cells that suit visits around single points, and where most visits find nothing.
-constexpr double cellsPerReach = 0.3;
-constexpr double cellsPerReachOfFew = 0.25;
+/// Cells of the grids in one reach (see SpacingGrid). They change the time alone; chosen by experiment.
+struct GridCells
+{
+  /// For visits around single points.
+  static constexpr double PerReach = 0.3;
+  /// Where most visits find nothing.
+  static constexpr double PerReachOfFew = 0.25;
+  /// For points that may stand much closer than their reach.
+  static constexpr double PerReachOfMany = 1.0;
+};
 
 bool isNear(const Patch& a, const Patch& b, double distance)
 {
@@ -32,7 +49,8 @@ bool covers(const Patch& patch, const Patch& sample)
     return false;
   }
   const float bend = patch.curvatureMagnitude() * distance;
-  return std::abs(patch.heightOf(sample.position)) <= (coverOffset + bend * bend) * patch.spacing;
+  return std::abs(patch.heightOf(sample.position)) <=
+    (Coverage::Height + bend * bend) * patch.spacing;
 }
 
 /// test(i) for every i in [0, count), in threads.
@@ -44,15 +62,15 @@ std::vector<char> testAll(std::size_t count, const ParallelFor& parallelFor, con
   return results;
 }
 
-/// Patches that look for others nearer than a distance, in units of the smaller of their spacings.
-class Crowd
+/// Looks up patches nearer to each other than a distance, in units of the smaller of their spacings.
+class NearPatches
 {
 public:
-  Crowd(const Buffer<Patch>& patches, double distance, const ParallelFor& parallelFor)
+  NearPatches(const Buffer<Patch>& patches, double distance, const ParallelFor& parallelFor)
     : Patches(patches)
     , Distance(distance)
     , Points(spacedPoints(patches, parallelFor))
-    , Grid(Points.positions, Points.spacings, distance, cellsPerReach, parallelFor)
+    , Grid(Points.positions, Points.spacings, distance, GridCells::PerReach, parallelFor)
   {
   }
 
@@ -66,7 +84,7 @@ public:
       {
         const double nearest = this->Distance * std::min(spacings[i], spacings[j]);
         const glm::dvec3 apart = positions[j] - positions[i];
-        // Few come that far: patches are large.
+        // Patches are large: the normals of the few that are near are read last.
         if (glm::dot(apart, apart) < nearest * nearest && static_cast<std::size_t>(j) != i &&
           glm::dot(this->Patches[i].normal, this->Patches[j].normal) > 0.0f)
         {
@@ -75,11 +93,11 @@ public:
       });
   }
 
-  bool isAlone(std::size_t i) const
+  bool isSeparated(std::size_t i) const
   {
-    bool alone = true;
-    this->visitNear(i, [&](int) { alone = false; });
-    return alone;
+    bool separated = true;
+    this->visitNear(i, [&](int) { separated = false; });
+    return separated;
   }
 
 private:
@@ -96,7 +114,7 @@ std::vector<char> areFarFrom(const Buffer<Patch>& patches, std::size_t count,
 {
   const SpacedPoints points = spacedPoints(others, parallelFor);
   const SpacingGrid grid(
-    points.positions, points.spacings, distance, cellsPerReachOfFew, parallelFor);
+    points.positions, points.spacings, distance, GridCells::PerReachOfFew, parallelFor);
   return testAll(count, parallelFor,
     [&](std::size_t i)
     {
@@ -108,40 +126,26 @@ std::vector<char> areFarFrom(const Buffer<Patch>& patches, std::size_t count,
     });
 }
 
-std::vector<char> areAlone(
+std::vector<char> areSeparated(
   const Buffer<Patch>& patches, std::size_t count, double distance, const ParallelFor& parallelFor)
 {
-  const Crowd crowd(patches, distance, parallelFor);
-  return testAll(count, parallelFor, [&](std::size_t i) { return crowd.isAlone(i); });
+  const NearPatches nearPatches(patches, distance, parallelFor);
+  return testAll(count, parallelFor, [&](std::size_t i) { return nearPatches.isSeparated(i); });
 }
 
-std::vector<char> thinOut(const Buffer<Patch>& patches, const std::vector<char>& wanted,
+std::vector<char> thinOut(const Buffer<Patch>& patches, const std::vector<char>& candidates,
   double distance, const ParallelFor& parallelFor)
 {
-  const std::size_t count = wanted.size();
-  const Crowd crowd(patches, distance, parallelFor);
-  std::vector<char> kept =
-    testAll(count, parallelFor, [&](std::size_t i) { return wanted[i] && crowd.isAlone(i); });
-  kept.resize(patches.size(), 1);
-  // The few that have a neighbour too near, one by one.
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    if (wanted[i] && !kept[i])
-    {
-      bool alone = true;
-      crowd.visitNear(i, [&](int j) { alone = alone && !kept[j]; });
-      kept[i] = alone;
-    }
-  }
-  kept.resize(count);
-  return kept;
+  const NearPatches nearPatches(patches, distance, parallelFor);
+  return keepFirst(candidates, patches.size(), parallelFor,
+    [&](std::size_t i, const auto& use) { nearPatches.visitNear(i, use); });
 }
 
 std::vector<double> clearances(const Buffer<Patch>& patches, std::size_t count,
   const Buffer<Patch>& others, double most, const ParallelFor& parallelFor)
 {
   const SpacedPoints points = spacedPoints(others, parallelFor);
-  const SpacingGrid grid(points.positions, points.spacings, most, cellsPerReach, parallelFor);
+  const SpacingGrid grid(points.positions, points.spacings, most, GridCells::PerReach, parallelFor);
   const bool areTheSame = &patches == &others;
   std::vector<double> result(count, most);
   forAll(parallelFor, count,
@@ -161,7 +165,7 @@ std::vector<double> clearances(const Buffer<Patch>& patches, std::size_t count,
   return result;
 }
 
-std::vector<int> chooseApart(const Buffer<Patch>& patches, const std::vector<int>& order,
+std::vector<int> selectSeparated(const Buffer<Patch>& patches, const std::vector<int>& order,
   std::size_t count, double distance, const ParallelFor& parallelFor)
 {
   Buffer<Patch> inOrder;
@@ -169,14 +173,14 @@ std::vector<int> chooseApart(const Buffer<Patch>& patches, const std::vector<int
   {
     inOrder.push_back(patches[i]);
   }
-  const std::vector<char> apart =
+  const std::vector<char> separated =
     thinOut(inOrder, std::vector<char>(order.size(), 1), distance, parallelFor);
   std::vector<int> chosen;
-  for (const char wanted : { 1, 0 })
+  for (const char pass : { 1, 0 })
   {
     for (std::size_t n = 0; n < order.size() && chosen.size() < count; ++n)
     {
-      if (apart[n] == wanted)
+      if (separated[n] == pass)
       {
         chosen.push_back(order[n]);
       }
@@ -185,11 +189,11 @@ std::vector<int> chooseApart(const Buffer<Patch>& patches, const std::vector<int
   return chosen;
 }
 
-std::vector<char> findLonely(const std::vector<SurfaceProxy::Sample>& samples,
+std::vector<char> findUncovered(const std::vector<SurfaceProxy::Sample>& samples,
   const Buffer<Patch>& patches, const ParallelFor& parallelFor)
 {
   const SpacedPoints points = spacedPoints(patches, parallelFor);
-  const SpacingGrid grid(points.positions, points.spacings, 1.0, cellsPerReach, parallelFor);
+  const SpacingGrid grid(points.positions, points.spacings, 1.0, GridCells::PerReach, parallelFor);
   return testAll(samples.size(), parallelFor,
     [&](std::size_t b)
     {
@@ -204,7 +208,6 @@ std::vector<char> findLonely(const std::vector<SurfaceProxy::Sample>& samples,
 std::vector<int> chooseUncovered(const std::vector<SurfaceProxy::Sample>& samples,
   const std::vector<char>& marks, const ParallelFor& parallelFor)
 {
-  constexpr double coverDistance = 0.7;
   Buffer<Patch> patches;
   const std::vector<int> marked = markedIndices(marks, samples.size());
   for (const int b : marked)
@@ -212,15 +215,16 @@ std::vector<int> chooseUncovered(const std::vector<SurfaceProxy::Sample>& sample
     patches.push_back(samples[b].patch);
   }
   const SpacedPoints points = spacedPoints(patches, parallelFor);
-  // So far because of the harmonic mean: the other may want half as much. Where many are marked they stand
-  // close together: in small cells.
-  const SpacingGrid grid(points.positions, points.spacings, 1.0, 1.0, parallelFor);
+  // The grid reaches as far as the harmonic mean of two spacings: enough even where the other one is half as large.
+  const SpacingGrid grid(
+    points.positions, points.spacings, 1.0, GridCells::PerReachOfMany, parallelFor);
   std::vector<char> isChosen(marked.size(), 0);
   std::vector<int> chosen;
-  constexpr std::size_t some = 4096;
+  // Samples after which the caller is asked whether to go on. More: it waits longer; fewer: more time goes into asking.
+  constexpr std::size_t samplesAtOnce = 4096;
   for (std::size_t i = 0; i < marked.size(); ++i)
   {
-    if (i % some == 0)
+    if (i % samplesAtOnce == 0)
     {
       askCaller(parallelFor);
     }
@@ -229,7 +233,7 @@ std::vector<int> chooseUncovered(const std::vector<SurfaceProxy::Sample>& sample
     {
       const double distance = glm::distance(points.positions[i], points.positions[j]);
       covered = covered ||
-        (isChosen[j] && distance <= coverDistance * points.spacings[j] &&
+        (isChosen[j] && distance <= Coverage::Distance * points.spacings[j] &&
           glm::dot(patches[i].normal, patches[j].normal) > 0.0f);
     };
     grid.visit(points.positions[i], points.spacings[i], cover);

@@ -7,44 +7,47 @@
 namespace hop
 {
 
-/// Particles that a round of relaxation has squeezed nearer to a boundary curve than this, in units of their spacing, are
-/// dropped, as is one of two that are that near in the end: where a strip between boundary curves has no room for both.
-inline constexpr double Squeezed = 0.65;
+/// Least distance between particles, in units of their spacing. Between rounds a particle nearer than this to one on a
+/// boundary curve is dropped; in the end one of two that are nearer to each other is, as where a strip between boundary
+/// curves has no room for both. Chosen by experiment. Larger: holes where particles were dropped; smaller: pairs that
+/// crowd.
+inline constexpr double MinimumSeparation = 0.65;
 
-/// For each of the first `count` patches, whether it keeps that distance, in units of its spacing, from
-/// all others that are not turned away.
+/// For each of the first `count` patches, whether it keeps a distance, in units of its spacing, from all others that
+/// are not turned away.
 std::vector<char> areFarFrom(const Buffer<Patch>& patches, std::size_t count,
   const Buffer<Patch>& others, double distance, const ParallelFor& parallelFor);
 
-/// For each of the first `count` patches, whether it keeps that distance, in units of the smaller of two
-/// spacings, from every other patch that is not turned away.
-std::vector<char> areAlone(
+/// For each of the first `count` patches, whether it keeps a distance, in units of the smaller of two spacings, from
+/// every other patch that is not turned away.
+std::vector<char> areSeparated(
   const Buffer<Patch>& patches, std::size_t count, double distance, const ParallelFor& parallelFor);
 
-/// For each of the first wanted.size() patches, whether to keep it if any two are to be that far apart, in
-/// units of the smaller of their spacings: of two that are wanted the first stays, and those behind all these
-/// do.
-std::vector<char> thinOut(const Buffer<Patch>& patches, const std::vector<char>& wanted,
+/// Marks which of the first candidates.size() patches to keep so that any two are a distance apart, in units of the
+/// smaller of their spacings. Of two candidates that are nearer the first is kept. The patches behind them are no
+/// candidates: they all stay.
+/// \param candidates marks the patches that may be kept
+std::vector<char> thinOut(const Buffer<Patch>& patches, const std::vector<char>& candidates,
   double distance, const ParallelFor& parallelFor);
 
-/// For each of the first `count` patches, how far the nearest of the others is that is not turned away, in units
-/// of its spacing, or `most` if that is less. A patch is not its own other.
+/// For each of the first `count` patches, the distance of the nearest of the others that is not turned away, in units
+/// of its own spacing, or `most` if that is less. A patch is not its own neighbour.
 std::vector<double> clearances(const Buffer<Patch>& patches, std::size_t count,
   const Buffer<Patch>& others, double most, const ParallelFor& parallelFor);
 
-/// The `count` first of some patches in a new order, but for those nearer than a distance (see thinOut) to one
-/// before, as long as there are enough others.
-/// \param order indices, the one wanted most first
+/// Selects the first `count` patches in a given order. A patch nearer than a distance (see thinOut) to one before it is
+/// passed over, as long as there are enough others.
+/// \param order indices of patches, the best first
 /// \return indices of patches
-std::vector<int> chooseApart(const Buffer<Patch>& patches, const std::vector<int>& order,
+std::vector<int> selectSeparated(const Buffer<Patch>& patches, const std::vector<int>& order,
   std::size_t count, double distance, const ParallelFor& parallelFor);
 
 /// For each sample, whether no patch stands on the piece of surface around it.
-std::vector<char> findLonely(const std::vector<SurfaceProxy::Sample>& samples,
+std::vector<char> findUncovered(const std::vector<SurfaceProxy::Sample>& samples,
   const Buffer<Patch>& patches, const ParallelFor& parallelFor);
 
-/// Of the samples that are marked, one after the other, those that none chosen before covers: by standing
-/// nearer than 0.7 of its spacing, and not turned away.
+/// Chooses, one after the other, the marked samples that none chosen before covers. A sample covers another that is
+/// nearer than 0.7 of its spacing and not turned away.
 std::vector<int> chooseUncovered(const std::vector<SurfaceProxy::Sample>& samples,
   const std::vector<char>& marks, const ParallelFor& parallelFor);
 

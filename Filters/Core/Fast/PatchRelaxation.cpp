@@ -23,28 +23,66 @@ using kernel::Seen;
 using kernel::SweepBlock;
 using kernel::SweepLanes;
 
-/// Two particles interact up to h/beta; what they move in a round is added to that.
+/// Slack of the neighbour lists, which are made once a round, in units of the spacing: it is added to the distance
+/// h/beta up to which two particles interact, as they move in the meantime. Chosen by experiment. Larger: longer lists,
+/// and slower sweeps; smaller: particles that come near each other do not interact.
 constexpr double listSlack = 0.35;
-/// From so many particles on they are moved tile by tile, so many at a time.
-constexpr std::size_t manyParticles = 150'000;
-constexpr std::size_t particlesPerTile = 2048;
-/// Blocks that a thread moves at a time, and those that are moved before others may interrupt.
-constexpr std::ptrdiff_t blocksPerPiece = 8;
-constexpr std::ptrdiff_t mostBlocksAtOnce = 200'000;
-/// Up to this extent, in units of the smallest spacing, single precision tells less than a hundredth of that.
-constexpr double farApart = 1e5;
-/// Over-relaxation of Newton's steps where the surface is flat, and where it bends.
-constexpr float flatRelaxation = 1.5f;
-constexpr float bentRelaxation = 0.7f;
-constexpr float flatUpTo = 0.3f;
-/// Largest displacement, in units of 1/D.
+
+/// Where there are many particles they are moved tile by tile, so that a tile stays in the cache while all its colours
+/// move. The numbers change the time, and the order in which particles move; chosen by experiment.
+struct Tiles
+{
+  /// Number of particles from which on there are tiles. With fewer of them all data fit into the caches.
+  static constexpr std::size_t LeastParticles = 150'000;
+  /// Larger tiles do not stay in the cache; smaller ones leave blocks of few particles.
+  static constexpr std::size_t Particles = 2048;
+};
+
+/// How the sweeps are dealt out to threads. The numbers change the time alone; chosen by experiment.
+struct Pieces
+{
+  /// Blocks that a thread takes at a time. More: threads wait for the last one; fewer: more dealing out.
+  static constexpr std::ptrdiff_t Blocks = 8;
+  /// Blocks that are moved before the caller may end the work. More: it waits longer; fewer: threads start more often.
+  static constexpr std::ptrdiff_t BlocksAtOnce = 200'000;
+};
+
+/// Particles that a thread colours at a time. More: fewer threads have work; fewer: more particles have neighbours in
+/// other pieces, and are coloured again in one thread. Chosen by experiment; it changes the colours, and with them the
+/// order in which particles move.
+constexpr int particlesPerPiece = 16384;
+
+/// Largest extent of all particles, in units of the smallest spacing, at which single precision tells their positions
+/// to a hundredth of a spacing: 1e5 times its rounding of 6e-8 is 0.006.
+constexpr double largestExtent = 1e5;
+
+/// Factor of the Newton steps: F - (D h - B), F at most and S at least, where a particle's curvature magnitude times
+/// spacing is D h. Chosen by experiment. Larger: faster where the energy is nearly quadratic; from some size on
+/// particles oscillate, soonest where the surface bends.
+struct Overrelaxation
+{
+  /// F.
+  static constexpr float Flat = 1.5f;
+  /// S.
+  static constexpr float Bent = 0.7f;
+  /// B.
+  static constexpr float FlatBend = 0.3f;
+};
+
+/// Largest displacement of a particle in units of the radius of curvature 1/D: its quadratic patch departs from a
+/// sphere by less than 1% of the radius there. Chosen by experiment. Larger: steps that end off the surface are halved;
+/// smaller: more rounds are needed where the surface bends.
 constexpr float farthestPerRadius = 0.5f;
 
-/// The lowest colour that none of those a particle sees has, as far as they are in [first, last); some 20 are
+/// Curvature magnitudes are at least this, 1/world units, where they are divided by: a flat patch has none.
+constexpr float smallestCurvature = 1e-30f;
+
+/// The lowest colour that no particle of a list has. Particles outside [first, last) do not count. Some 20 colours are
 /// in use, as a rule.
 int lowestFreeColor(
   const std::vector<int>& colors, const int* begin, const int* end, int first, int last)
 {
+  // One a bit.
   constexpr int colorsAtOnce = 64;
   for (int base = 0;; base += colorsAtOnce)
   {
@@ -64,13 +102,12 @@ int lowestFreeColor(
   }
 }
 
-/// Gives each particle that moves the lowest colour that none of those it sees has yet; -1 for fixed ones.
-/// Pieces of particles that follow each other are coloured in threads; then those that see their own colour
-/// in a piece before theirs get another.
+/// Gives each particle that moves the lowest colour that none of its neighbours has yet; -1 for fixed particles.
+/// Pieces of consecutive particles are coloured in threads. Then a particle gets another colour if a neighbour in an
+/// earlier piece has its own.
 std::vector<int> colorParticles(
   const Buffer<Patch>& patches, const SeenLists& lists, const ParallelFor& parallelFor)
 {
-  constexpr int particlesPerPiece = 16384;
   const int count = static_cast<int>(patches.size());
   std::vector<int> colors(count, -1);
   std::vector<std::vector<int>> atBorders((count + particlesPerPiece - 1) / particlesPerPiece);
@@ -105,7 +142,8 @@ std::vector<int> colorParticles(
   return colors;
 }
 
-/// Gives each tile of so many particles the lowest colour that no tile has of which it sees a particle.
+/// Gives each tile the lowest colour that no neighbouring tile has yet: one with a neighbour of its particles.
+/// \param tileSize number of particles of each tile, in their order
 std::vector<int> colorTiles(
   std::size_t tileSize, const SeenLists& lists, const ParallelFor& parallelFor)
 {
@@ -138,7 +176,8 @@ std::vector<int> colorTiles(
   return colors;
 }
 
-/// Particles and their neighbours as the sweeps want them: in single precision, about a common centre.
+/// Particles and their neighbours as the kernel of the sweeps (Kernels.h) needs them: in single precision, relative to
+/// a common centre.
 class SweepSystem
 {
 public:
@@ -155,7 +194,7 @@ public:
     this->fillBlocks();
   }
 
-  /// Every particle moves that many times, stage by stage.
+  /// Moves every particle a number of times, stage by stage.
   void sweep(int times, const std::function<void(double share)>& reached)
   {
     const int stages = static_cast<int>(this->Stages.size());
@@ -163,7 +202,7 @@ public:
     {
       std::ptrdiff_t blocks = 0;
       int last = first;
-      for (; last < times * stages && blocks <= mostBlocksAtOnce; ++last)
+      for (; last < times * stages && blocks <= Pieces::BlocksAtOnce; ++last)
       {
         for (const BlockRange& piece : this->Stages[last % stages])
         {
@@ -192,6 +231,9 @@ private:
   std::vector<glm::dvec3> centersOfGroups(const Bounds& bounds) const;
   void sortByNeighbors(int* begin, int* end) const;
   void layOut();
+  Grouping groupByTileAndColor(std::size_t tileSize, std::size_t& colorCount) const;
+  void startGroups(const Grouping& groups, std::size_t groupCount);
+  void placeInBlock(std::size_t b, const Grouping& groups);
   void fillBlocks();
   void fillLane(int particle, SweepBlock& block, int lane);
   void makeStages(std::size_t tileSize, std::size_t groupsPerTile);
@@ -202,19 +244,21 @@ private:
   const ParallelFor& Parallel;
   SpacedPoints Points;
   SeenLists Lists;
-  /// One a particle, and one beyond the sight of all that stands in for neighbours missing in a block.
+  /// One a particle. One more, out of the range of all others, stands in for the neighbours that are missing in a
+  /// block.
   Buffer<Seen> SeenParticles;
   Buffer<SweepBlock> Blocks;
-  /// Where each particle that moves is: SweepLanes times its block, and its lane.
+  /// SweepLanes times the block plus the lane of each particle that moves.
   Buffer<int> LaneOf;
-  /// Blocks of particles of one tile and colour follow each other: where each such group starts.
+  /// Index of the first block of each group: the particles of one tile and colour have consecutive blocks.
   std::vector<std::ptrdiff_t> GroupStart{ 0 };
-  /// What may move at the same time: within a piece one block after the other, pieces in threads.
+  /// Ranges of blocks that may move at the same time. Ranges are dealt out to threads; within one its blocks move one
+  /// after the other.
   std::vector<std::vector<BlockRange>> Stages;
   Buffer<std::int32_t> Neighbors;
 };
 
-/// Stages first to last - 1, in the endless sequence of all stages.
+/// Runs the stages first to last - 1 of the endlessly repeated sequence of all stages.
 void SweepSystem::runStages(int first, int last)
 {
   const auto sweepBlocks = kernel::current().sweep;
@@ -246,17 +290,18 @@ void SweepSystem::makeSeen()
     });
   Seen& beyond = this->SeenParticles[this->Patches.size()];
   beyond = this->SeenParticles[0];
+  // Farther than the extent of all particles, and than any range.
   beyond.position[0] = static_cast<float>(4.0 * glm::distance(bounds.lower, bounds.upper)) +
     100.0f / beyond.inverseSpacing;
 }
 
-/// The place from which each particle's position is counted in single precision. One for all, unless they lie
-/// so far apart that it cannot tell neighbours any more: then each group that sees itself has its own.
+/// The origin of each particle's position in single precision: one for all, or one for each connected group of
+/// particles where the extent of all is too large for single precision.
 std::vector<glm::dvec3> SweepSystem::centersOfGroups(const Bounds& bounds) const
 {
   const float smallest =
     *std::min_element(this->Points.spacings.begin(), this->Points.spacings.end());
-  if (glm::distance(bounds.lower, bounds.upper) <= farApart * static_cast<double>(smallest))
+  if (glm::distance(bounds.lower, bounds.upper) <= largestExtent * static_cast<double>(smallest))
   {
     return { 0.5 * (bounds.lower + bounds.upper) };
   }
@@ -274,10 +319,12 @@ std::vector<glm::dvec3> SweepSystem::centersOfGroups(const Bounds& bounds) const
   return centers;
 }
 
-/// Sorts particles by the number of their neighbours, a few blocks at a time: lists of a block are filled up
-/// to the longest.
+/// Sorts particles by the number of their neighbours, as the lists of a block are filled up to the longest of them.
+/// Particles move by a few blocks at most, so that neighbours stay near each other in memory.
 void SweepSystem::sortByNeighbors(int* begin, int* end) const
 {
+  // Particles that are sorted at a time. Chosen by experiment; it changes the time, and the order in which particles
+  // move.
   constexpr std::ptrdiff_t window = 16 * SweepLanes;
   for (; begin < end; begin += window)
   {
@@ -291,65 +338,82 @@ void SweepSystem::sortByNeighbors(int* begin, int* end) const
   }
 }
 
-/// Makes the blocks, of particles of one colour each, with room for their lists. Where there are many
-/// particles, those of a tile follow each other, colour by colour, so that they stay in the cache while all
-/// of them move.
+/// Makes the blocks, of particles of one colour each, with room for their lists. Where there are many particles, the
+/// blocks of a tile follow each other, colour by colour.
 void SweepSystem::layOut()
 {
   const std::size_t count = this->Patches.size();
-  const std::size_t tileSize = count < manyParticles ? count : particlesPerTile;
-  std::vector<int> groupOf = colorParticles(this->Patches, this->Lists, this->Parallel);
-  const auto colorCount =
-    static_cast<std::size_t>(*std::max_element(groupOf.begin(), groupOf.end()) + 1);
+  const std::size_t tileSize = count < Tiles::LeastParticles ? count : Tiles::Particles;
+  std::size_t colorCount = 0;
+  Grouping groups = this->groupByTileAndColor(tileSize, colorCount);
   const std::size_t groupCount = (count + tileSize - 1) / tileSize * colorCount;
-  forAll(this->Parallel, count,
-    [&](std::size_t i)
-    {
-      groupOf[i] =
-        static_cast<int>(groupOf[i] < 0 ? groupCount : i / tileSize * colorCount + groupOf[i]);
-    });
-  // Those that are fixed come last.
-  Grouping groups = groupedBy(
-    groupOf, groupCount + 1, [](int group) { return group; }, this->Parallel);
   forAll(this->Parallel, groupCount,
     [&](std::size_t g)
     {
       this->sortByNeighbors(
         groups.order.data() + groups.start[g], groups.order.data() + groups.start[g + 1]);
     });
+  this->startGroups(groups, groupCount);
+  this->makeStages(tileSize, colorCount);
+  this->Blocks = Buffer<SweepBlock>(this->GroupStart.back());
+  this->LaneOf = Buffer<int>(count);
+  forAll(
+    this->Parallel, this->Blocks.size(), [&](std::size_t b) { this->placeInBlock(b, groups); });
+}
+
+/// Groups of the particles of one tile and colour, tile by tile; the last group holds the fixed particles.
+/// \param colorCount gets the number of colours
+Grouping SweepSystem::groupByTileAndColor(std::size_t tileSize, std::size_t& colorCount) const
+{
+  const std::size_t count = this->Patches.size();
+  std::vector<int> groupOf = colorParticles(this->Patches, this->Lists, this->Parallel);
+  const std::size_t colors =
+    static_cast<std::size_t>(*std::max_element(groupOf.begin(), groupOf.end()) + 1);
+  const std::size_t fixedGroup = (count + tileSize - 1) / tileSize * colors;
+  forAll(this->Parallel, count,
+    [&](std::size_t i)
+    {
+      groupOf[i] =
+        static_cast<int>(groupOf[i] < 0 ? fixedGroup : i / tileSize * colors + groupOf[i]);
+    });
+  colorCount = colors;
+  return groupedBy(
+    groupOf, fixedGroup + 1, [](int group) { return group; }, this->Parallel);
+}
+
+void SweepSystem::startGroups(const Grouping& groups, std::size_t groupCount)
+{
   for (std::size_t g = 0; g < groupCount; ++g)
   {
     const int particles = groups.start[g + 1] - groups.start[g];
     this->GroupStart.push_back(this->GroupStart.back() + (particles + SweepLanes - 1) / SweepLanes);
   }
-  this->makeStages(tileSize, colorCount);
-  this->Blocks = Buffer<SweepBlock>(this->GroupStart.back());
-  this->LaneOf = Buffer<int>(count);
-  forAll(this->Parallel, this->Blocks.size(),
-    [&](std::size_t b)
-    {
-      const auto next = std::upper_bound(
-        this->GroupStart.begin(), this->GroupStart.end(), static_cast<std::ptrdiff_t>(b));
-      const auto group = next - this->GroupStart.begin() - 1;
-      const auto first = groups.start[group] +
-        static_cast<int>(static_cast<std::ptrdiff_t>(b) - *(next - 1)) * SweepLanes;
-      SweepBlock& block = this->Blocks[b];
-      block = {};
-      block.count = std::min(SweepLanes, groups.start[group + 1] - first);
-      for (int lane = 0; lane < SweepLanes; ++lane)
-      {
-        const int particle = groups.order[first + std::min(lane, block.count - 1)];
-        block.particle[lane] = particle;
-        block.neighborCount = std::max(block.neighborCount, this->Lists.count(particle));
-        if (lane < block.count)
-        {
-          this->LaneOf[particle] = static_cast<int>(b) * SweepLanes + lane;
-        }
-      }
-    });
 }
 
-/// One tile: a stage for each colour. Several: a stage for each colour of tiles.
+/// Puts the particles of a block into its lanes, and finds the length of its lists.
+void SweepSystem::placeInBlock(std::size_t b, const Grouping& groups)
+{
+  const auto next = std::upper_bound(
+    this->GroupStart.begin(), this->GroupStart.end(), static_cast<std::ptrdiff_t>(b));
+  const auto group = next - this->GroupStart.begin() - 1;
+  const auto first = groups.start[group] +
+    static_cast<int>(static_cast<std::ptrdiff_t>(b) - *(next - 1)) * SweepLanes;
+  SweepBlock& block = this->Blocks[b];
+  block = {};
+  block.count = std::min(SweepLanes, groups.start[group + 1] - first);
+  for (int lane = 0; lane < SweepLanes; ++lane)
+  {
+    const int particle = groups.order[first + std::min(lane, block.count - 1)];
+    block.particle[lane] = particle;
+    block.neighborCount = std::max(block.neighborCount, this->Lists.count(particle));
+    if (lane < block.count)
+    {
+      this->LaneOf[particle] = static_cast<int>(b) * SweepLanes + lane;
+    }
+  }
+}
+
+/// One tile has a stage for each colour of particles; several tiles have a stage for each colour of tiles.
 void SweepSystem::makeStages(std::size_t tileSize, std::size_t groupsPerTile)
 {
   const std::size_t groups = this->GroupStart.size() - 1;
@@ -359,9 +423,9 @@ void SweepSystem::makeStages(std::size_t tileSize, std::size_t groupsPerTile)
     {
       this->Stages.emplace_back();
       const std::ptrdiff_t end = this->GroupStart[color + 1];
-      for (std::ptrdiff_t b = this->GroupStart[color]; b < end; b += blocksPerPiece)
+      for (std::ptrdiff_t b = this->GroupStart[color]; b < end; b += Pieces::Blocks)
       {
-        this->Stages.back().push_back({ b, std::min(end, b + blocksPerPiece) });
+        this->Stages.back().push_back({ b, std::min(end, b + Pieces::Blocks) });
       }
     }
     return;
@@ -376,7 +440,7 @@ void SweepSystem::makeStages(std::size_t tileSize, std::size_t groupsPerTile)
   }
 }
 
-/// Particle by particle, as what is known about them lies in memory: blocks that fill up at a time are few.
+/// Fills the blocks particle by particle, in the order in which these lie in memory: few blocks are written at a time.
 void SweepSystem::fillBlocks()
 {
   std::ptrdiff_t neighbors = 0;
@@ -393,7 +457,7 @@ void SweepSystem::fillBlocks()
       {
         SweepBlock& block = this->Blocks[this->LaneOf[i] / SweepLanes];
         const int lane = this->LaneOf[i] % SweepLanes;
-        // The last one takes lanes that are left over, too.
+        // The last particle of a block fills the lanes that are left over, too.
         const int end = lane == block.count - 1 ? SweepLanes : lane + 1;
         for (int n = lane; n < end; ++n)
         {
@@ -436,10 +500,10 @@ void SweepSystem::fillLane(int particle, SweepBlock& block, int lane)
   }
   const float bend = patch.curvatureMagnitude();
   block.inverseSpacing[lane] = 1.0f / patch.spacing;
-  block.relaxation[lane] =
-    std::max(bentRelaxation, flatRelaxation - std::max(0.0f, bend * patch.spacing - flatUpTo));
+  block.relaxation[lane] = std::max(Overrelaxation::Bent,
+    Overrelaxation::Flat - std::max(0.0f, bend * patch.spacing - Overrelaxation::FlatBend));
   block.farthest[lane] =
-    std::min(this->Farthest * patch.spacing, farthestPerRadius / std::max(bend, 1e-30f));
+    std::min(this->Farthest * patch.spacing, farthestPerRadius / std::max(bend, smallestCurvature));
   std::int32_t* neighbor = this->Neighbors.data() + block.firstNeighbor + lane;
   for (const int* j = this->Lists.begin(particle); j != this->Lists.end(particle); ++j)
   {

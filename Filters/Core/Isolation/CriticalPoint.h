@@ -9,13 +9,15 @@ namespace hop
 struct CriticalPoint
 {
   Location location;
-  /// Whether the isosurface runs through it, to rounding: a cone, an isolated point, a crossing.
+  /// Whether the isosurface runs through the point, to rounding: the tip of a cone, an isolated point, or a crossing
+  /// of sheets.
   bool onSurface = false;
 };
 
-/// Looks for a critical point in and right around an uncertified box, by Newton's method on the
-/// gradient in reference space.
-/// \return whether there is one
+/// Searches an undecided box and its surroundings for a critical point, by Newton's method on the gradient in
+/// reference space.
+/// \param result is changed only where a point was found
+/// \return whether a point was found
 bool findCriticalPoint(
   const ElementMesh& mesh, double isovalue, const SurfaceBox& box, CriticalPoint& result);
 

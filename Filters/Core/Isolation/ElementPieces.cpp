@@ -11,6 +11,7 @@ namespace
 
 constexpr Degrees cornerDegrees{ 1, 1, 1 };
 
+/// For each edge along a direction, the storage indices of the lattice points on the edge.
 std::vector<std::vector<int>> edgeLines(
   Domain domain, const Degrees& degrees, const LatticePoint& direction)
 {
@@ -27,9 +28,11 @@ std::vector<std::vector<int>> edgeLines(
   return lines;
 }
 
+/// For each corner of a domain, the storage index of its lattice point.
 std::vector<int> cornerIndices(Domain domain, const Degrees& degrees)
 {
   std::vector<int> indices;
+  indices.reserve(facts(domain).corners.size());
   for (int c = 0; c < static_cast<int>(facts(domain).corners.size()); ++c)
   {
     indices.push_back(coefficientIndex(domain, degrees, cornerLatticePoint(domain, degrees, c)));
@@ -37,7 +40,8 @@ std::vector<int> cornerIndices(Domain domain, const Degrees& degrees)
   return indices;
 }
 
-/// Square of the length of an edge along its control points, as if all steps between them were of one length.
+/// Square of the length of an edge along its control points, taken for steps of equal length: by Cauchy and Schwarz an
+/// upper bound.
 double squaredLength(const BernsteinForm& form, const std::vector<int>& edge)
 {
   double sum = 0.0;
@@ -49,8 +53,8 @@ double squaredLength(const BernsteinForm& form, const std::vector<int>& edge)
   return sum * static_cast<double>(edge.size() - 1);
 }
 
-/// The direction whose edges are longest in world space, along their control points: the ends of an edge that
-/// closes on itself are in one place.
+/// The direction of the longest edge in world space. Edges are measured along their control points, as the two ends of
+/// an edge that closes on itself are in one place.
 const PieceKind::Direction& longestDirection(const Piece& piece)
 {
   const BernsteinForm form = piece.form();
@@ -159,6 +163,8 @@ ReferencePoint Piece::inElement(const glm::dvec3& u) const
 
 bool Piece::isOnBoundary() const
 {
+  // Reference units: above the rounding errors of margins, and below the size of pieces, 2^-MaximumBisections at
+  // least. A larger figure takes pieces beside a face for pieces on the face.
   constexpr double rounding = 1e-12;
   const auto& faces = facts(this->kind->domain).faces;
   return std::any_of(faces.begin(), faces.end(),

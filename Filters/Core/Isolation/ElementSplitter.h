@@ -1,29 +1,29 @@
 #pragma once
 
-#include "Isolation/FoundShare.h"
+#include "Isolation/IsolationProgress.h"
 #include "Isolation/UndecidedPieces.h"
 
 namespace hop
 {
 
 /// Splits elements into boxes by de Casteljau's algorithm. A piece of an element is
-///  - dropped if its coefficients of F - c have one sign: the convex hull holds no zero;
-///  - certified if F - c changes its sign between corners and its derivative along the mean gradient
-///    has coefficients of one sign, or is zero only where F - c is not (MonotoneTest.h): then the surface is
-///    a graph along that direction, one sheet, and has no component of its own inside the piece. A piece with a face
-///    on its element's must also hold one piece of the sheet only (BoundaryTest.h), as a corner that it cuts off
+///  - dropped if its coefficients of F - c have one sign: their convex hull then holds no zero;
+///  - certified if F - c changes its sign between corners and the coefficients of its derivative along the mean
+///    gradient have one sign, or are zero only where F - c is not (MonotoneTest.h). The surface then is a graph along
+///    the mean gradient, so that it is one sheet and has no component inside the piece. In a piece with a face on a
+///    face of its element the sheet must also be in one part (PieceBoundaryTest.h), as a corner that the sheet cuts off
 ///    there may be all that the mesh has of a component;
-///  - taken for two boxes if it holds two sheets close to each other (SheetPair.h), is small and was halved often
-///    enough for them to be as good as flat;
-///  - halved otherwise, across its longest direction; until it was halved MaximumBisections times, or its element had
-///    to be split into more than MaximumPieces undecided pieces, or MaximumPieceBytes of them, or
-///    MaximumLongPieces where they were halved LongBisections times: then the surface is singular along lines.
-///    What is left then is certified if its field rises along some direction all the same: the surface touches such a
-///    box, or cuts off less of it than counts. Otherwise it is returned uncertified.
-/// Where the field only touches the isovalue (TangencyTest.h) an element is given up much earlier. What has
-/// one sign at its corners and is left so is returned as a few large boxes, that do not straddle: of the
-/// parts of the element, halved PartBisections times, that it lies in (UndecidedPieces.h).
-/// Certified pieces are split on until small enough, and dropped where empty.
+///  - replaced by two boxes if it holds two sheets close to each other (SheetPair.h), is small, and was halved often
+///    enough for both sheets to be nearly flat;
+///  - halved across its longest direction otherwise.
+/// An undecided piece is not halved any more after MaximumBisections bisections, nor are all undecided pieces of an
+/// element where there are too many of them (TooManyPieces in UndecidedPieces.h): the surface then is singular
+/// along lines. A piece that is not halved is certified if its field rises along some direction all the same: the
+/// surface then only touches the box, or cuts off a negligible part of it. Otherwise its box is returned undecided.
+/// Pieces in which the field is tangent to the isovalue (TangencyTest.h) are left undecided much earlier. Undecided
+/// pieces with one sign at their corners are replaced by a few large boxes that do not straddle: the parts of the
+/// element that hold them (UndecidedPieces.h).
+/// Certified pieces are split on until they are small enough, and dropped where they hold no surface.
 class ElementSplitter
 {
 public:
@@ -32,40 +32,44 @@ public:
     const std::function<bool(const SurfaceBox&)>& isSmall);
 
   /// Appends the boxes of an element.
-  void split(int element, const ParallelFor& parallelFor, const ReportShare& found,
+  void split(int element, const ParallelFor& parallelFor, const ReportProgress& progress,
     std::vector<SurfaceBox>& boxes);
 
 private:
-  /// What becomes of a piece: nothing, boxes, one that is left undecided, or two halves, of which it
-  /// keeps the first.
+  /// What becomes of a piece: nothing, boxes, an undecided box, or two halves, the first of which replaces the piece.
   struct Outcome
   {
     std::vector<SurfaceBox> boxes;
     bool isHalved = false;
-    bool isLeft = false;
+    /// The box may be replaced by a part of the element.
+    bool isOpenToBoth = false;
+    /// The second half.
     Piece second;
   };
 
   void prepareFor(const BernsteinForm& form);
-  std::vector<Outcome> decideAll(std::vector<Piece>& level, const GivenUp& givenUp,
-    const ParallelFor& parallelFor, FoundShare& share) const;
+  std::vector<Outcome> decideAll(std::vector<Piece>& level, const StopRule& rule,
+    const ParallelFor& parallelFor, IsolationProgress& progress) const;
   static std::vector<Piece> sortOut(std::vector<Piece> level, std::vector<Outcome> outcomes,
-    std::vector<SurfaceBox>& boxes, LeftUndecided& left);
+    std::vector<SurfaceBox>& boxes, UndecidedPieces& undecided);
 
-  Outcome decide(Piece& piece, const GivenUp& givenUp, bool toTheEnd) const;
+  Outcome decide(Piece& piece, const StopRule& rule, bool toTheEnd) const;
   bool finishCertified(const Piece& piece, std::vector<SurfaceBox>& boxes) const;
-  bool finishUndecided(const Piece& piece, const GivenUp& givenUp, Outcome& outcome) const;
+  bool finishUndecided(const Piece& piece, const StopRule& rule, Outcome& outcome) const;
   std::optional<SheetPair> sheetPairIn(const Piece& piece, bool isLast) const;
   void followToBoxes(Piece& piece, std::vector<SurfaceBox>& boxes) const;
 
   const ElementMesh& Mesh;
   double Isovalue;
   const std::function<bool(const SurfaceBox&)>& IsSmall;
-  /// Of the element at hand.
+  /// Of the element that is being split.
   PieceKind Kind;
   PieceTests Tests;
 };
 
+/// Bisections of a piece at most: twelve along each axis of a nearly cubic element, so that components larger than
+/// 2^-12 of the element are found (SurfaceBoxes.h). Chosen by experiment: more find smaller components, and take
+/// longer where the surface is singular.
 constexpr int MaximumBisections = 36;
 
 } // namespace hop

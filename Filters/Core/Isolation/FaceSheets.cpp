@@ -14,10 +14,11 @@ namespace hop
 namespace
 {
 
-/// Corners of boxes are kept in single precision.
+/// Margin of a corner that counts as on a face of the element, reference units: some rounding errors of the corners of
+/// boxes, which are in single precision. A larger margin takes sheets beside a face for sheets on the face.
 constexpr double cornerRounding = 1e-6;
 
-/// Largest |F - c|, of which rounding errors are a share, or |c|.
+/// The largest of |c| and |F - c| at the control points, which rounding errors are a share of.
 double largestValue(const BernsteinForm& form, double isovalue)
 {
   double largest = std::abs(isovalue);
@@ -29,7 +30,7 @@ double largestValue(const BernsteinForm& form, double isovalue)
   return largest;
 }
 
-/// Whether a face is one in world space, too: at the tip of a pyramid one is a point.
+/// Whether a face has an area in world space: the face at the tip of a pyramid is a point there.
 bool hasArea(const Element& element, const Face& face)
 {
   std::set<std::int64_t> numbers;
@@ -40,30 +41,34 @@ bool hasArea(const Element& element, const Face& face)
   return numbers.size() >= 3;
 }
 
-/// A side of a box that lies on a face of its element, and in the surface.
+/// The sheet on a face of a box that lies in a face of the box's element.
 struct Sheet
 {
+  /// Of the element; -1 if there is no sheet.
   int face = -1;
+  /// Middle of the face of the box.
   ReferencePoint middle;
   /// 1 if F > c in the box, -1 if F < c.
   int sign = 0;
 };
 
-class SheetGiver
+/// Assigns the sheets in the faces of one element.
+class SheetAssigner
 {
 public:
-  SheetGiver(const Isosurface& surface, int element)
+  SheetAssigner(const Isosurface& surface, int element)
     : Surface(surface)
     , Facts(facts(surface.mesh->elements[element].domain))
     , Number(element)
-    , Slack(RoundingShare * largestValue(surface.mesh->form(element), surface.isovalue))
+    , Slack(BisectionRounding * largestValue(surface.mesh->form(element), surface.isovalue))
   {
   }
 
   int element() const { return this->Number; }
 
-  /// \return whether the box is to stay
-  bool settle(SurfaceBox& box) const
+  /// Sets the values of a box with a sheet on a face of the element so that the box has the sheet, or not.
+  /// \return whether the box is to be kept
+  bool assign(SurfaceBox& box) const
   {
     const Sheet sheet = this->sheetOf(box);
     if (sheet.face < 0)
@@ -71,13 +76,13 @@ public:
       return true;
     }
     const int behind = this->signBehind(sheet);
-    const bool isOurs = this->has(sheet, behind);
+    const bool hasSheet = this->ownsSheet(sheet, behind);
     for (std::size_t c = 0; c < this->Facts.corners.size(); ++c)
     {
       const float size = std::abs(box.values[c]);
-      box.values[c] = this->isZero(box, static_cast<int>(c)) ? 0.0f : isOurs ? size : -size;
+      box.values[c] = this->isZero(box, static_cast<int>(c)) ? 0.0f : hasSheet ? size : -size;
     }
-    return isOurs || behind != sheet.sign;
+    return hasSheet || behind != sheet.sign;
   }
 
 private:
@@ -86,12 +91,12 @@ private:
     return std::abs(box.values[corner]) * box.valueUnit <= this->Slack;
   }
 
-  /// Where all corners of a side, and no others, are at zero, and the others on one side of it.
+  /// The sheet of a box whose corners are zero on one of its faces, and of one sign elsewhere.
   Sheet sheetOf(const SurfaceBox& box) const
   {
     const int corners = static_cast<int>(this->Facts.corners.size());
     const auto isZero = [&](int c) { return this->isZero(box, c); };
-    std::array<int, 3> counts{};
+    std::array<int, 3> counts{}; // of corners below, at and above the isovalue
     for (int c = 0; c < corners; ++c)
     {
       ++counts[isZero(c) ? 1 : box.values[c] > 0.0f ? 2 : 0];
@@ -110,6 +115,7 @@ private:
     return side == faces.end() ? Sheet{} : this->sheetOn(box, *side, counts[2] > 0 ? 1 : -1);
   }
 
+  /// The sheet on a face of the box, if that face lies in a face of the element.
   Sheet sheetOn(const SurfaceBox& box, const Face& side, int sign) const
   {
     Sheet sheet;
@@ -136,8 +142,8 @@ private:
     return sheet;
   }
 
-  /// On which side of the isovalue the field is in the element behind; 0 where there is none, or it does
-  /// not have the sheet, too.
+  /// Sign of F - c beside the sheet in the element behind the face; 0 where there is no such element, or the sheet is
+  /// not in its field, too.
   int signBehind(const Sheet& sheet) const
   {
     const auto place = this->placeBehind(sheet);
@@ -150,10 +156,11 @@ private:
     const Jet jet = evaluateGradient(form, place->location.u);
     const double rise = glm::dot(gradientOf(jet), facts(form.domain).faces[place->face].inward.xyz);
     const double value = std::abs(jet.value.w - this->Surface.isovalue);
-    const double slack = RoundingShare * largestValue(form, this->Surface.isovalue);
-    return value > std::max(slack, sameSheet * std::abs(rise)) ? 0 : (rise > 0.0) - (rise < 0.0);
+    const double slack = BisectionRounding * largestValue(form, this->Surface.isovalue);
+    return value > std::max(slack, offSheet * std::abs(rise)) ? 0 : (rise > 0.0) - (rise < 0.0);
   }
 
+  /// The middle of the sheet as seen from the element behind the face.
   std::optional<LocatedPlace> placeBehind(const Sheet& sheet) const
   {
     const ElementMesh& mesh = *this->Surface.mesh;
@@ -174,7 +181,9 @@ private:
       point, this->Number, sheet.face, std::numeric_limits<double>::infinity(), evaluations);
   }
 
-  bool has(const Sheet& sheet, int behind) const
+  /// Whether this element has the sheet.
+  /// \param behind as of signBehind
+  bool ownsSheet(const Sheet& sheet, int behind) const
   {
     if (behind == sheet.sign)
     {
@@ -183,8 +192,10 @@ private:
     return behind == 0 || sheet.sign > 0;
   }
 
-  /// In units of what the field rises by across an element.
-  static constexpr double sameSheet = 1e-6;
+  /// |F - c| behind the face at most for a sheet of both elements, as a share of the rise of the field across the
+  /// element behind. Chosen by experiment: less parts the sheet where the fields differ by rounding of the input, more
+  /// takes a jump of the field for one sheet.
+  static constexpr double offSheet = 1e-6;
 
   const Isosurface& Surface;
   const DomainFacts& Facts;
@@ -194,25 +205,25 @@ private:
 
 } // namespace
 
-std::vector<SurfaceBox> giveFaceSheetsOnce(
+std::vector<SurfaceBox> assignFaceSheets(
   const Isosurface& surface, std::vector<SurfaceBox> boxes, const ParallelFor& parallelFor)
 {
-  std::vector<char> stays(boxes.size());
+  std::vector<char> isKept(boxes.size());
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(boxes.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
-      std::optional<SheetGiver> giver;
+      std::optional<SheetAssigner> assigner;
       for (std::ptrdiff_t b = begin; b < end; ++b)
       {
         const int element = boxes[b].middle.element;
-        if (!giver || giver->element() != element)
+        if (!assigner || assigner->element() != element)
         {
-          giver.emplace(surface, element);
+          assigner.emplace(surface, element);
         }
-        stays[b] = giver->settle(boxes[b]);
+        isKept[b] = assigner->assign(boxes[b]);
       }
     });
-  keepMarked(boxes, stays);
+  keepMarked(boxes, isKept);
   return boxes;
 }
 

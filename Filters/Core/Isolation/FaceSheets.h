@@ -6,15 +6,16 @@
 namespace hop
 {
 
-/// Where the surface coincides with faces of elements, exactly one element has it afterwards, the same for
-/// F = c and -F = -c: of two elements that with F > c in it or, if both or neither are, the first; at the
-/// end of the mesh the only one.
+/// Assigns each sheet of the surface that lies in a face of the mesh to exactly one element, the same for F = c and
+/// -F = -c. Of the two elements at the face, the one in which F > c has the sheet; if F > c in both or in neither, the
+/// first one. At the end of the mesh the only element has it.
 ///
-/// Values at corners that are c to rounding become so exactly. Those of a box that is to have the sheet on
-/// a face of its element are turned to lie above, as marching and face crossings take zero for below.
-/// Boxes of a sheet that is the other element's, and has its normals the other way round there, are left
-/// out.
-std::vector<SurfaceBox> giveFaceSheetsOnce(
+/// Values of boxes at corners where F = c up to rounding errors become exactly zero. Marching and face crossings take
+/// zero for below the isovalue: the other values of a box that has the sheet become positive, those of a box that does
+/// not have the sheet become negative. A box without the sheet is dropped if F - c has the same sign in both elements,
+/// as the sheet would have the opposite normal in it.
+/// \return the boxes that are kept, in their order
+std::vector<SurfaceBox> assignFaceSheets(
   const Isosurface& surface, std::vector<SurfaceBox> boxes, const ParallelFor& parallelFor);
 
 } // namespace hop

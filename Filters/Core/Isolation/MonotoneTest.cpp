@@ -8,19 +8,20 @@ namespace hop
 namespace
 {
 
-/// The axes of the simplex factor to which an axis belongs.
-std::vector<int> factorAxes(Domain domain, int axis)
+/// How the signs of a derivative are judged.
+struct Judgement
 {
-  switch (domain)
-  {
-    case Domain::Tetrahedron:
-      return { 0, 1, 2 };
-    case Domain::Wedge:
-      return axis == 2 ? std::vector<int>{ 2 } : std::vector<int>{ 0, 1 };
-    default:
-      return { axis };
-  }
-}
+  /// Rounding errors of differences, as a share of the largest value times the largest degree, which is the largest
+  /// factor of a difference: some hundred times the rounding errors of doubles, as bisections add up theirs. A smaller
+  /// share takes noise for a slope, a larger one takes gentle slopes for noise.
+  static constexpr double Rounding = 1e-13;
+  /// |value| at least where the derivative is zero, as a share of the largest value. Chosen by experiment: a smaller
+  /// share takes the tangency at a wall for a sheet, a larger one splits boxes beside walls in vain.
+  static constexpr double NotZero = 1e-6;
+  /// Derivative at least, as a share of its mean, for Monotony::Strict. Larger shares made particles of small
+  /// surfaces of a given number stand unevenly; smaller ones let the surface bend much in a box of any size.
+  static constexpr double Slow = 1e-3;
+};
 
 LatticePoint shifted(const LatticePoint& point, int axis, int by)
 {
@@ -37,6 +38,12 @@ int along(const LatticePoint& point, int axis)
 
 MonotoneTest::MonotoneTest(Domain domain, const Degrees& degrees)
 {
+  this->listDifferences(domain, degrees);
+  this->sumMean(latticePoints(domain, degrees).size());
+}
+
+void MonotoneTest::listDifferences(Domain domain, const Degrees& degrees)
+{
   const auto index = [&](const LatticePoint& p) { return coefficientIndex(domain, degrees, p); };
   for (const LatticePoint& point : latticePoints(domain, degrees))
   {
@@ -44,7 +51,8 @@ MonotoneTest::MonotoneTest(Domain domain, const Degrees& degrees)
     {
       this->Begin.push_back(static_cast<int>(this->Differences.size()));
       int rest = degrees[axis]; // alpha_0
-      for (const int m : factorAxes(domain, axis))
+      const SimplexFactor& factor = factorOf(domain, axis);
+      for (int m = factor.axis; m < factor.end(); ++m)
       {
         const int alpha = along(point, m);
         rest -= alpha;
@@ -63,7 +71,11 @@ MonotoneTest::MonotoneTest(Domain domain, const Degrees& degrees)
     }
   }
   this->Begin.push_back(static_cast<int>(this->Differences.size()));
-  this->Mean.resize(latticePoints(domain, degrees).size(), glm::dvec3(0.0));
+}
+
+void MonotoneTest::sumMean(std::size_t points)
+{
+  this->Mean.resize(points, glm::dvec3(0.0));
   for (std::size_t n = 0; n + 1 < this->Begin.size(); ++n)
   {
     const int axis = static_cast<int>(n % 3);
@@ -90,10 +102,9 @@ Monotony MonotoneTest::monotony(const std::vector<double>& values) const
   {
     return Monotony::None;
   }
-  // Differences of values carry the values' rounding errors, times the degree.
-  const double rounding = 1e-13 * largest * MaximumDegree * length;
-  const double smallest = 1e-6 * largest;
-  const double slow = 1e-3 * length * length / static_cast<double>(values.size());
+  const double rounding = Judgement::Rounding * largest * MaximumDegree * length;
+  const double smallest = Judgement::NotZero * largest;
+  const double slow = Judgement::Slow * length * length / static_cast<double>(values.size());
   bool rises = false;
   bool isSlow = false;
   bool standsStillBelow = false;

@@ -5,13 +5,14 @@
 namespace hop
 {
 
-/// How a polynomial changes along some direction.
+/// How a polynomial rises along some direction.
 enum class Monotony
 {
   None,
-  /// It never falls. Where it stands still it is not zero, and of one sign.
+  /// It never falls. It may stand still in places where it is not zero and all its values have one sign, as the square
+  /// of a velocity less a constant does at a wall.
   Weak,
-  /// It rises everywhere, nowhere less than a thousandth of what it does on average.
+  /// It rises everywhere, at a thousandth of its average slope or more.
   Strict
 };
 
@@ -30,10 +31,10 @@ public:
   MonotoneTest(Domain domain, const Degrees& degrees);
 
   /// \param values one coefficient a lattice point
-  /// \return what its derivative along its mean gradient tells for certain. Weak is the square of a velocity
-  ///   at walls, less a constant.
+  /// \return what is certain of the derivative along the mean gradient
   Monotony monotony(const std::vector<double>& values) const;
 
+  /// Whether the polynomial rises along its mean gradient, risesWeakly at least.
   bool rises(const std::vector<double>& values) const
   {
     return this->monotony(values) != Monotony::None;
@@ -44,6 +45,10 @@ public:
     const std::vector<double>& values, const glm::dvec3& direction) const;
 
 private:
+  void listDifferences(Domain domain, const Degrees& degrees);
+  void sumMean(std::size_t points);
+
+  /// weight (c_plus - c_minus): one term of a coefficient of a derivative.
   struct Difference
   {
     int plus = 0;
@@ -51,12 +56,14 @@ private:
     double weight = 0.0;
   };
 
+  /// Coefficients of the three derivatives at a lattice point.
   glm::dvec3 gradient(const std::vector<double>& values, std::size_t point) const;
 
-  /// For each lattice point and axis the differences [begin, end) of its derivative coefficient.
+  /// The coefficient of the derivative along an axis at a lattice point is the sum of the differences Begin[n] to
+  /// Begin[n + 1] - 1, n = 3 point + axis.
   std::vector<Difference> Differences;
   std::vector<int> Begin;
-  /// By how much a value counts in the mean gradient.
+  /// Weight of each value in the mean gradient, which is the mean of the derivatives' coefficients times their number.
   std::vector<glm::dvec3> Mean;
 };
 

@@ -15,7 +15,7 @@ int cornerCount(const Piece& piece)
   return static_cast<int>(piece.kind->cornerPlaces.size());
 }
 
-/// One that the largest of some values is 1 to 2 times; 1 if all are zero.
+/// The power of two that goes into the largest absolute value once, and not twice; 1 if all values are zero.
 double powerOfTwoNear(const std::array<double, MaximumCorners>& values)
 {
   double largest = 0.0;
@@ -26,8 +26,8 @@ double powerOfTwoNear(const std::array<double, MaximumCorners>& values)
   return largest > 0.0 ? std::ldexp(1.0, std::ilogb(largest)) : 1.0;
 }
 
-/// Where a piece is.
-/// \param values at its corners
+/// A box with the place, the size and the corners of a piece.
+/// \param values at the corners
 SurfaceBox boxAround(const Piece& piece, const std::array<double, MaximumCorners>& values)
 {
   SurfaceBox box;
@@ -44,7 +44,7 @@ SurfaceBox boxAround(const Piece& piece, const std::array<double, MaximumCorners
   return box;
 }
 
-/// Puts the ends at the corners with the least and the largest value.
+/// Puts the ends of the box at the corners with the smallest and the largest value.
 void findEnds(const Piece& piece, SurfaceBox& box)
 {
   int lowest = 0;
@@ -65,14 +65,14 @@ SurfaceBox boxOf(const Piece& piece, const PieceTests& tests)
 {
   SurfaceBox box = boxAround(piece, piece.cornerValues());
   box.certified = piece.certified();
-  // Parts of a piece whose field rises weakly may be away from where it stands still.
-  box.weakly = piece.sheet == Monotony::Weak && tests.monotony(piece) != Monotony::Strict;
+  // Where the field rose risesWeakly in a piece, it may rise strictly in a half of the piece.
+  box.risesWeakly = piece.sheet == Monotony::Weak && tests.monotony(piece) != Monotony::Strict;
   box.mayBeThin = piece.sheet == Monotony::Weak;
   findEnds(piece, box);
   return box;
 }
 
-void appendSheetPair(const Piece& piece, const SheetPair& pair, std::vector<SurfaceBox>& boxes)
+void appendBoxesOfPair(const Piece& piece, const SheetPair& pair, std::vector<SurfaceBox>& boxes)
 {
   for (const SheetPair::Sheet& sheet : pair.sheets)
   {
@@ -89,13 +89,13 @@ void appendSheetPair(const Piece& piece, const SheetPair& pair, std::vector<Surf
       {
         std::swap(box.ends[0], box.ends[1]);
       }
-      box.ownValues = static_cast<float>(sheet.reach / box.valueUnit);
+      box.largestOwnValue = static_cast<float>(sheet.reach / box.valueUnit);
       box.middle.u = proxyMiddle(piece.kind->domain, box);
     }
   }
 }
 
-SurfaceBox boxOfUnknown(const Piece& part, const PieceTests& tests)
+SurfaceBox boxOfUndecidedPart(const Piece& part, const PieceTests& tests)
 {
   SurfaceBox box = boxOf(part, tests);
   box.straddles = false;

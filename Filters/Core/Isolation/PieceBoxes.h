@@ -6,14 +6,16 @@
 namespace hop
 {
 
-/// The box of a piece, certified if the piece is.
+/// The box of a piece. It is certified if the piece is.
 SurfaceBox boxOf(const Piece& piece, const PieceTests& tests);
 
-/// The box of a piece for each of two sheets that is in it, with its values.
-void appendSheetPair(const Piece& piece, const SheetPair& pair, std::vector<SurfaceBox>& boxes);
+/// Appends a box of the piece for each sheet of a pair that passes between the corners of the piece. Each box has the
+/// values of its own sheet (SheetPair::Sheet::values).
+/// \param pair in the reference coordinates of the piece
+void appendBoxesOfPair(const Piece& piece, const SheetPair& pair, std::vector<SurfaceBox>& boxes);
 
-/// All of a part of an element, in place of what in it was left undecided: nothing is known of what the
-/// surface does there.
-SurfaceBox boxOfUnknown(const Piece& part, const PieceTests& tests);
+/// The box of a part of an element that replaces the undecided pieces in it. Nothing is known of the surface there: the
+/// box does not straddle, and has no proxy polygons.
+SurfaceBox boxOfUndecidedPart(const Piece& part, const PieceTests& tests);
 
 } // namespace hop

@@ -55,7 +55,7 @@ Monotony PieceTests::sheetIn(const Piece& piece) const
   {
     largest = std::max(largest, std::abs(value));
   }
-  const double slack = RoundingShare * largest;
+  const double slack = BisectionRounding * largest;
   const Range atCorners = piece.cornerRange();
   if (!(atCorners.upper >= -slack && atCorners.lower <= slack))
   {
@@ -63,7 +63,7 @@ Monotony PieceTests::sheetIn(const Piece& piece) const
   }
   const bool mayHoldMore = piece.bisections < MaximumBoundaryBisections && piece.isOnBoundary();
   const Monotony monotony = this->Monotone.monotony(values);
-  return monotony != Monotony::None && mayHoldMore && !this->Boundary.crossedOnce(values, slack)
+  return monotony != Monotony::None && mayHoldMore && !this->Boundary.isCrossedOnce(values, slack)
     ? Monotony::None
     : monotony;
 }
@@ -75,7 +75,7 @@ std::optional<SheetPair> PieceTests::sheetPairIn(const Piece& piece) const
 
 double PieceTests::slackOf(const Range& range) const
 {
-  return RoundingShare * (range.magnitude() + std::abs(this->Isovalue));
+  return BisectionRounding * (range.magnitude() + std::abs(this->Isovalue));
 }
 
 } // namespace hop

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "Isolation/BoundaryTest.h"
 #include "Isolation/ElementPieces.h"
+#include "Isolation/PieceBoundaryTest.h"
 #include "Isolation/SheetPair.h"
 
 #include <optional>
@@ -9,48 +9,51 @@
 namespace hop
 {
 
-/// What can be told for certain of the surface in pieces of an element. Bounds are widened by the rounding errors of
-/// the halving. Prepared once for a domain and degrees.
+/// What is certain of the surface in pieces of an element. Bounds are widened by the rounding errors of the bisections.
+/// Prepared once for a domain and degrees.
 class PieceTests
 {
 public:
   PieceTests(Domain domain, const Degrees& degrees, double isovalue);
 
-  /// Tells which element the pieces will be of.
+  /// Tells of which element the next pieces are.
   void beginElement(const Piece& whole);
 
-  /// Whether coefficients of F - c do not have one sign: otherwise the convex hull holds no zero.
+  /// False if all coefficients of F - c have one sign: then their convex hull holds no zero.
   bool mayHoldSurface(const Piece& piece) const;
 
-  /// Whether the field is nothing but the isovalue, to its rounding errors in the element.
+  /// Whether the field is the isovalue all over the piece, up to rounding errors.
   bool isZero(const Piece& piece) const;
 
-  /// 1 or -1 if corners have that sign, or are at zero; 0 if they have both.
+  /// Sign of F - c at all corners that are not zero, 1 or -1; 0 if there are corners of both signs.
   double signAtCorners(const Piece& piece) const;
 
   /// How the field rises along its mean gradient.
   Monotony monotony(const Piece& piece) const;
+  /// Whether it does, risesWeakly at least.
   bool rises(const Piece& piece) const;
 
-  /// How the field rises, if the surface is known to be one sheet: it has corners of both signs, or at zero,
-  /// and rises along some direction. On the boundary curve of the element there must also be one piece only: another one
-  /// could be all there is of a component.
+  /// How the field rises, if the surface in the piece is proven to be one sheet: F - c has both signs at corners, or is
+  /// zero there, and rises along some direction. On the boundary of the element the sheet must also be in one part
+  /// (PieceBoundaryTest.h): a second part could be all that the mesh has of a component. None otherwise.
   Monotony sheetIn(const Piece& piece) const;
 
-  /// Two sheets close to each other.
+  /// Two sheets close to each other, in the reference coordinates of the piece; nothing if there is no proof of them.
   std::optional<SheetPair> sheetPairIn(const Piece& piece) const;
 
 private:
   double slackOf(const Range& range) const;
 
   double Isovalue;
-  /// What rounding errors of values may amount to in the element.
+  /// Largest rounding error of values in the element.
   double ElementSlack = 0.0;
   MonotoneTest Monotone;
-  BoundaryTest Boundary;
+  PieceBoundaryTest Boundary;
 };
 
-/// Pieces on the boundary curve of their element, halved that often, need not hold one piece of their sheet only.
+/// Bisections, ten along each axis of a nearly cubic element, after which the sheet in a piece on the boundary of its
+/// element may be in several parts. Chosen by experiment, fewer than MaximumBisections so that pieces at a tangency
+/// with a face are certified in the end. Fewer lose larger components that the mesh cuts off; more take longer there.
 constexpr int MaximumBoundaryBisections = 30;
 
 } // namespace hop

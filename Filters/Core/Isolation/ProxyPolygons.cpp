@@ -7,7 +7,7 @@ namespace
 
 using Tetrahedron = std::array<int, 4>;
 
-/// Corners, in the order of facts(domain).corners, of tetrahedra that fill the domain. Those of the
+/// Tetrahedra that fill a domain, by their corners in the order of facts(domain).corners. All tetrahedra of the
 /// hexahedron share the diagonal from corner 0 to corner 6.
 const std::vector<Tetrahedron>& fillingTetrahedra(Domain domain)
 {
@@ -17,15 +17,17 @@ const std::vector<Tetrahedron>& fillingTetrahedra(Domain domain)
   static const std::vector<Tetrahedron> wedge{ { 0, 1, 2, 5 }, { 0, 1, 5, 4 }, { 0, 4, 5, 3 } };
   switch (domain)
   {
+    case Domain::Hexahedron:
+      return hexahedron;
     case Domain::Tetrahedron:
       return tetrahedron;
     case Domain::Wedge:
       return wedge;
-    default:
-      return hexahedron;
   }
+  unknownDomain();
 }
 
+/// Appends the triangle, or the two triangles of the quadrilateral, between corners above and below zero.
 void marchTetrahedron(
   const SurfaceBox& box, const Tetrahedron& corners, std::vector<ReferenceTriangle>& triangles)
 {

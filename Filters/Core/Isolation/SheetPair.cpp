@@ -11,10 +11,28 @@ namespace
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The eigenvector of a symmetric matrix whose eigenvalue is largest, of either sign, by squaring; if there are
-/// two that large, something between theirs.
+/// Limits of a pair of sheets, chosen by experiment. Narrower limits leave pairs to be halved further, wider ones take
+/// sheets that meet or bend for two flat ones.
+struct PairLimits
+{
+  /// Least ratio between the distances of the sheets, on the lines through two places.
+  static constexpr double Steady = 0.5;
+  /// Distance of a sheet from its tangent plane at most, in units of the thickness of the domain.
+  static constexpr double Flat = 0.1;
+  /// Distance of a corner from a sheet below which the value at the corner is the field's own value, in units of the
+  /// distance between the sheet and the extremum. Distances from second order may have the wrong sign that near.
+  static constexpr double AtSheet = 0.1;
+  /// Distance of the nearest corner from a sheet that clearly passes all corners by, in units of the distance of the
+  /// sheet from its tangent plane.
+  static constexpr double Apart = 2.0;
+};
+
+/// The eigenvector of a symmetric matrix whose eigenvalue has the largest absolute value, by repeated squaring; if
+/// there are two such eigenvalues, a combination of their eigenvectors.
 glm::dvec3 dominantDirection(glm::dmat3 matrix)
 {
+  // The matrix to the power of 2^6 = 64: eigenvalues in the ratio 10:9 then are in the ratio 850:1. More squarings tell
+  // closer eigenvalues apart, at a cost that counts for each undecided piece. Chosen by experiment.
   constexpr int squarings = 6;
   for (int n = 0; n < squarings; ++n)
   {
@@ -33,7 +51,7 @@ glm::dvec3 dominantDirection(glm::dmat3 matrix)
   return length > 0.0 ? column / length : glm::dvec3(0.0);
 }
 
-/// A field on lines along one direction.
+/// A field on the lines along one direction.
 class FieldOnLines
 {
 public:
@@ -43,11 +61,12 @@ public:
   {
   }
 
+  /// The field and its first two derivatives along the direction.
   struct Expansion
   {
     double value = 0.0;
     double slope = 0.0;
-    double bend = 0.0;
+    double curvature = 0.0;
   };
 
   Expansion at(const glm::dvec3& u) const
@@ -57,33 +76,35 @@ public:
       glm::dot(this->Direction, hessianOf(jet.second) * this->Direction) };
   }
 
-  /// A line through a place, and where the field stands still on it.
+  /// The line through a place, and the extremum of the field on it.
   struct Line
   {
     double valueHere = 0.0;
-    /// From the standstill to the place.
+    /// Coordinate of the place on the line, from the extremum.
     double distance = 0.0;
     double valueThere = 0.0;
-    /// From the standstill to the two zeros, to second order.
+    /// Distance of the two zeros from the extremum, to second order.
     double reach = 0.0;
   };
 
-  /// By two of Newton's steps.
+  /// The line through a place. Two Newton steps find the extremum: exactly for fields that are quadratic along the
+  /// direction, and nearly so for the almost quadratic fields between two sheets that are close to each other.
   Line through(const glm::dvec3& u) const
   {
     Expansion there = this->at(u);
     Line line{ there.value, 0.0, 0.0, 0.0 };
     for (int step = 0; step < 2; ++step)
     {
-      line.distance += there.slope / there.bend;
+      line.distance += there.slope / there.curvature;
       there = this->at(u - line.distance * this->Direction);
     }
     line.valueThere = there.value;
-    line.reach = std::sqrt(std::max(0.0, -2.0 * there.value / there.bend));
+    line.reach = std::sqrt(std::max(0.0, -2.0 * there.value / there.curvature));
     return line;
   }
 
-  /// The zero on the line near a place, by some of Newton's steps.
+  /// The zero on the line near a place, by Newton's method. Four steps converge from a start that is exact to second
+  /// order.
   glm::dvec3 zeroNear(glm::dvec3 u) const
   {
     for (int step = 0; step < 4; ++step)
@@ -99,7 +120,7 @@ private:
   glm::dvec3 Direction;
 };
 
-/// Whether the second derivative along a direction has that sign everywhere.
+/// Whether the second derivative along a direction has a given sign everywhere.
 bool bendsOneWay(
   const BernsteinForm& form, const MonotoneTest& test, const glm::dvec3& direction, double sign)
 {
@@ -111,25 +132,25 @@ bool bendsOneWay(
     values.push_back(form.coefficients[i].w);
     largest = std::max(largest, std::abs(values.back()));
   }
+  // Rounding errors of two differences in a row, as a share of the largest coefficient: the second one multiplies
+  // errors of the first. A larger share misses pairs in which the field hardly bends.
   const double rounding = 1e-12 * largest;
   const std::vector<double> second = test.derivative(test.derivative(values, direction), direction);
   return std::all_of(
     second.begin(), second.end(), [&](double bend) { return sign * bend > rounding; });
 }
 
-/// A sheet as seen from the corners.
-/// \param place on it
-/// \param reach of the line on which it is
+/// One sheet of a pair.
+/// \param place on the sheet
+/// \param reach distance of the sheet from the extremum, on the line through the middle of the domain
 /// \param lines through the corners
 /// \param side 1 for the sheet ahead along the direction, -1 for the other one
-/// \return nothing where it is far from the other one, or not as good as a plane, or comes so near to the domain
-///   without parting its corners that it may be in it
+/// \return nothing if the sheet is far from the other one, or not nearly flat, or passes the corners by so closely that
+///   it may be in the domain
 std::optional<SheetPair::Sheet> sheetFrom(const BernsteinForm& form, const glm::dvec3& place,
   const glm::dvec3& direction, double reach, const std::vector<FieldOnLines::Line>& lines,
   double side)
 {
-  constexpr double flat = 0.1;    // in units of the domain's thickness
-  constexpr double atSheet = 0.1; // in units of the distance from the standstill
   const auto& corners = facts(form.domain).corners;
   const glm::dvec3 gradient = gradientOf(evaluateGradient(form, { place }));
   const double rise = glm::dot(gradient, direction);
@@ -145,16 +166,17 @@ std::optional<SheetPair::Sheet> sheetFrom(const BernsteinForm& form, const glm::
     error = std::max(error, std::abs(distance - fromPlane));
     heights.include(glm::dot(direction, corners[c].xyz));
     distances.include(distance);
-    const bool isAtSheet = std::abs(distance) < atSheet * lines[c].reach;
+    const bool isAtSheet = std::abs(distance) < PairLimits::AtSheet * lines[c].reach;
     sheet.values[c] = isAtSheet ? lines[c].valueHere : rise * distance;
   }
-  const bool passesBy = distances.lower > 2.0 * error || distances.upper < -2.0 * error;
+  const bool passesBy =
+    distances.lower > PairLimits::Apart * error || distances.upper < -PairLimits::Apart * error;
   const bool parts = distances.lower <= 0.0 && distances.upper >= 0.0;
   sheet.reach = std::abs(rise) * reach;
   sheet.isFlat = error <= reach;
   const double thickness = heights.upper - heights.lower;
   const bool isNear = 2.0 * reach <= thickness;
-  const bool isNearlyFlat = error <= flat * thickness;
+  const bool isNearlyFlat = error <= PairLimits::Flat * thickness;
   return isNear && isNearlyFlat && (parts || passesBy) ? std::optional(sheet) : std::nullopt;
 }
 
@@ -163,7 +185,6 @@ std::optional<SheetPair::Sheet> sheetFrom(const BernsteinForm& form, const glm::
 std::optional<SheetPair> findSheetPair(
   const BernsteinForm& form, const MonotoneTest& test, double slack)
 {
-  constexpr double steady = 0.5;
   const BernsteinForm field{ form.domain, form.degrees, form.coefficients, nullptr };
   const auto& corners = facts(form.domain).corners;
   const glm::dvec3 middle = middleOf(facts(form.domain)).xyz;
@@ -171,23 +192,25 @@ std::optional<SheetPair> findSheetPair(
     dominantDirection(hessianOf(evaluateHessian(field, { middle }).second));
   const FieldOnLines along(field, direction);
   SheetPair pair;
-  pair.outside = along.at(middle).bend > 0.0 ? 1.0 : -1.0;
+  pair.outside = along.at(middle).curvature > 0.0 ? 1.0 : -1.0;
   if (direction == glm::dvec3(0.0) || !bendsOneWay(field, test, direction, pair.outside))
   {
     return std::nullopt;
   }
   const FieldOnLines::Line middleLine = along.through(middle);
-  const auto isParted = [&](const FieldOnLines::Line& line)
+  const auto isSteadyPair = [&](const FieldOnLines::Line& line)
   {
-    return pair.outside * line.valueThere < -slack && line.reach > steady * middleLine.reach &&
-      middleLine.reach > steady * line.reach;
+    return pair.outside * line.valueThere < -slack &&
+      line.reach > PairLimits::Steady * middleLine.reach &&
+      middleLine.reach > PairLimits::Steady * line.reach;
   };
   std::vector<FieldOnLines::Line> lines;
+  lines.reserve(corners.size());
   for (const ReferencePoint& corner : corners)
   {
     lines.push_back(along.through(corner.xyz));
   }
-  if (!isParted(middleLine) || !std::all_of(lines.begin(), lines.end(), isParted))
+  if (!isSteadyPair(middleLine) || !std::all_of(lines.begin(), lines.end(), isSteadyPair))
   {
     return std::nullopt;
   }

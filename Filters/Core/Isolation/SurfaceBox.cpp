@@ -14,7 +14,10 @@ bool isAtBox(const SurfaceBox& box, const Location& location)
 Location findBetweenEnds(
   const ElementMesh& mesh, double isovalue, const SurfaceBox& box, std::int64_t& evaluations)
 {
+  // Steps at most: enough for the accuracy on smooth fields, chosen by experiment. Fewer end farther from the surface.
   constexpr int mostSteps = 20;
+  // |F - c| at the end, as a share of its difference between the ends. Chosen by experiment: a smaller share costs
+  // evaluations, a larger one costs Newton steps afterwards.
   constexpr double nearEnough = 1e-3;
   const BernsteinForm form = mesh.form(box.middle.element);
   const auto at = [&](double t)
@@ -36,7 +39,7 @@ Location findBetweenEnds(
     {
       break;
     }
-    // The Illinois rule: an end that stays counts half, so that it does not stay for long.
+    // The Illinois rule: the value of the end that stays is halved, so that the end does not stay for long.
     (value < 0.0 ? below : above) = t;
     (value < 0.0 ? valueBelow : valueAbove) = value;
     (value < 0.0 ? valueAbove : valueBelow) *= 0.5;

@@ -9,41 +9,45 @@ namespace hop
 namespace
 {
 
-/// Fewer elements than this are split one after the other, each in threads.
+/// Elements from which each is split by one thread. Fewer elements are split one after the other, each by all threads.
+/// Chosen by experiment: a smaller number leaves threads idle, a larger one costs a start of the threads for each level
+/// of pieces.
 constexpr std::size_t fewElements = 16;
 
 using IsSmall = std::function<bool(const SurfaceBox&)>;
 
+/// Boxes of all elements in one list.
 std::vector<SurfaceBox> joined(const std::vector<std::vector<SurfaceBox>>& ofElement)
 {
   std::vector<SurfaceBox> boxes;
   boxes.reserve(std::accumulate(ofElement.begin(), ofElement.end(), std::size_t{ 0 },
-    [](std::size_t sum, const auto& some) { return sum + some.size(); }));
-  for (const auto& some : ofElement)
+    [](std::size_t sum, const auto& list) { return sum + list.size(); }));
+  for (const auto& list : ofElement)
   {
-    boxes.insert(boxes.end(), some.begin(), some.end());
+    boxes.insert(boxes.end(), list.begin(), list.end());
   }
   return boxes;
 }
 
-/// \param found is told how many elements are done
+/// Splits elements one after the other, each by all threads.
+/// \param progress is told how many elements are done
 std::vector<SurfaceBox> splitInTurn(const ElementMesh& mesh, double isovalue,
-  const IsSmall& isSmall, const ParallelFor& parallelFor, const ReportShare& found)
+  const IsSmall& isSmall, const ParallelFor& parallelFor, const ReportProgress& progress)
 {
   std::vector<SurfaceBox> boxes;
   ElementSplitter splitter(mesh, isovalue, isSmall);
   for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
   {
     splitter.split(
-      e, parallelFor, [&, e](double share) { found(e + share); }, boxes);
-    found(e + 1);
+      e, parallelFor, [&, e](double share) { progress(e + share); }, boxes);
+    progress(e + 1);
   }
   return boxes;
 }
 
-/// Likewise; each element in one thread.
+/// Splits many elements at a time, each by one thread. Parameters are those of splitInTurn.
 std::vector<SurfaceBox> splitAtOnce(const ElementMesh& mesh, double isovalue,
-  const IsSmall& isSmall, const ParallelFor& parallelFor, const ReportShare& found)
+  const IsSmall& isSmall, const ParallelFor& parallelFor, const ReportProgress& progress)
 {
   std::atomic<int> done{ 0 };
   std::vector<std::vector<SurfaceBox>> ofElement(mesh.elements.size());
@@ -54,7 +58,7 @@ std::vector<SurfaceBox> splitAtOnce(const ElementMesh& mesh, double isovalue,
       for (std::ptrdiff_t e = begin; e < end; ++e)
       {
         splitter.split(static_cast<int>(e), {}, {}, ofElement[e]);
-        found(++done);
+        progress(++done);
       }
     });
   return joined(ofElement);
@@ -71,10 +75,10 @@ std::vector<SurfaceBox> findSurfaceBoxes(
 }
 
 std::vector<SurfaceBox> findSurfaceBoxes(const ElementMesh& mesh, double isovalue,
-  const IsSmall& isSmall, const ParallelFor& parallelFor, const ReportShare& found)
+  const IsSmall& isSmall, const ParallelFor& parallelFor, const ReportProgress& progress)
 {
   const auto reportElements = [&](double done)
-  { report(found, done / static_cast<double>(mesh.elements.size())); };
+  { report(progress, done / static_cast<double>(mesh.elements.size())); };
   return mesh.elements.size() < fewElements
     ? splitInTurn(mesh, isovalue, isSmall, parallelFor, reportElements)
     : splitAtOnce(mesh, isovalue, isSmall, parallelFor, reportElements);

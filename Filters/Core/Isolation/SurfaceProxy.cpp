@@ -3,46 +3,68 @@
 #include "Isolation/FaceSheets.h"
 #include "Isolation/ProxyPolygons.h"
 #include "Support/KeepMarked.h"
-#include "Support/SpacingGrid.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <queue>
 
 namespace hop
 {
 namespace
 {
 
-/// A sample may be this far from the surface, in units of its box, or of its spacing.
-constexpr double sampleOffset = 0.02;
-constexpr double offsetPerSpacing = 0.2;
-/// Corners of triangles are moved by at most this share of the radius to which the surface bends.
-constexpr double largestShift = 0.3;
-/// A patch is not believed to be steeper than this makes it.
-constexpr double largestStretch = 2.0;
-/// A sample tells about the surface this far from it, in units of its spacing and of the radius to which the
-/// surface bends.
-constexpr double guessReach = 1.5;
-constexpr double guessTurn = 0.5;
-/// How far a sample's spacing is felt, in units of its own, where spacings are looked up.
-constexpr double lookUpReach = 4.0;
-/// Of more than so many samples in a cell of a quarter to half of their spacings the one that wants the least
-/// stands for all; where cells hold more than four on average, elements are finer than spacings, of any more
-/// than one. What differs is the way from a place in the cell to another.
-constexpr double cellPerSpacing = 0.25;
-constexpr std::ptrdiff_t mostInCell = 16;
-constexpr double fineAverage = 4.0;
+/// How near samples come to the surface. The figures were chosen by experiment: smaller ones cost more evaluations,
+/// larger ones make areas, spacings and guesses at seeds less exact.
+struct Sampling
+{
+  /// Distance of a sample from the surface at most: the larger one of a share of the size of its box, and a share of
+  /// the spacing there.
+  static constexpr double OffsetPerSize = 0.02;
+  static constexpr double OffsetPerSpacing = 0.2;
+  /// Evaluations of a box, with a Newton step between one and the next, before it is sampled patiently.
+  static constexpr int MaximumSteps = 3;
+  /// Of samplePatiently: tolerance of Newton's method in units of the largest offset, and the farthest way to the
+  /// surface in units of the size of the box.
+  static constexpr double Tolerance = 0.5;
+  static constexpr double Travel = 2.0;
+};
 
-/// A sample's map tells where places lie that are no farther from it, in units of its spacing.
-constexpr double mapReach = 1.2;
-/// Elements of more boxes are not looked through for the nearest sample: most particles in them do not come
-/// near their faces.
-constexpr std::size_t mostBoxesToSearch = 256;
+/// Limits of the areas that a sample's patch gives to the triangles around it. They hold where the surface bends too
+/// much for its box. Chosen by experiment: larger limits overestimate the number of particles there, smaller ones
+/// underestimate it.
+struct Areas
+{
+  /// Way of a triangle's corner along the normal to the patch, in units of the radius to which the surface bends.
+  static constexpr double LargestShift = 0.3;
+  /// Ratio of the area of the patch to the area in the tangent plane: 2 is a slope of 60 degrees.
+  static constexpr double LargestStretch = 2.0;
+};
 
+/// Up to where a sample's patch stands for the surface around it. Chosen by experiment: larger limits put particles
+/// farther from the surface, smaller ones cost evaluations at seeds.
+struct Guesses
+{
+  /// Distance from the sample, in units of its spacing.
+  static constexpr double Reach = 1.5;
+  /// Angle by which the surface turns on the way, radians: distance times curvature.
+  static constexpr double Turn = 0.5;
+};
+
+/// Finding places by the maps of samples. Chosen by experiment.
+struct Locating
+{
+  /// Distance from the sample up to which its linear map tells where places lie, in units of its spacing. A larger one
+  /// gives less exact places, a smaller one costs a search by Newton's method more often.
+  static constexpr double Reach = 1.2;
+  /// Boxes of an element above which the nearest sample is not searched: most particles in elements with more boxes do
+  /// not come near the faces, where it is asked for. A search takes time in proportion to the number of boxes.
+  static constexpr std::size_t MostBoxes = 256;
+};
+
+/// Index of the first box of each element, then the number of boxes.
 std::vector<std::size_t> boxRanges(const std::vector<SurfaceBox>& boxes, std::size_t elements)
 {
   std::vector<std::size_t> first(elements + 1, 0);
@@ -54,64 +76,70 @@ std::vector<std::size_t> boxRanges(const std::vector<SurfaceBox>& boxes, std::si
   return first;
 }
 
-/// Which samples tell others their spacings: all, unless they stand close together beside their spacings, when
-/// each would be looked at from all others around.
-std::vector<char> markStandIns(Span<glm::dvec3> positions, Span<float> spacings)
+/// Maps a triangle's corners, in reference space, to the tangent plane of a sample, and tells areas on its patch.
+class PatchAreas
 {
-  const SpacingGrid cells(positions, spacings, cellPerSpacing);
-  std::vector<SpacingGrid::Points> groups;
-  for (std::size_t i = 0; i < positions.size(); ++i)
+public:
+  explicit PatchAreas(const SurfaceProxy::Sample& sample)
+    : Sampled(sample)
+    , Push(glm::inverse(glm::dmat3(sample.anchor.pull)))
+    , Tangents(tangentsOf(sample.patch.normal))
   {
-    const SpacingGrid::Points mates = cells.cellMates(static_cast<int>(i));
-    if (*mates.begin() == static_cast<int>(i))
-    {
-      groups.push_back(mates);
-    }
   }
-  const bool isFine =
-    static_cast<double>(positions.size()) > fineAverage * static_cast<double>(groups.size());
-  const auto lessSpacing = [&](int a, int b) { return spacings[a] < spacings[b]; };
-  std::vector<char> marks(positions.size(), 1);
-  for (const SpacingGrid::Points& group : groups)
+
+  /// Where in the tangent plane the patch is nearest to a corner. Where the surface bends, corners lie off the patch by
+  /// the square of the size of their box: they move to the patch along its normal, which is (S t, 1) above a place t.
+  glm::dvec2 inPlane(const glm::vec3& corner) const
   {
-    if (group.end() - group.begin() > (isFine ? 1 : mostInCell))
-    {
-      for (const int one : group)
-      {
-        marks[one] = 0;
-      }
-      marks[*std::min_element(group.begin(), group.end(), lessSpacing)] = 1;
-    }
+    const Patch& patch = this->Sampled.patch;
+    const Anchor& anchor = this->Sampled.anchor;
+    const glm::dvec3 d = this->Push * (glm::dvec3(corner) - anchor.place.u.xyz);
+    const glm::dvec2 t(
+      glm::dot(d, glm::dvec3(this->Tangents[0])), glm::dot(d, glm::dvec3(this->Tangents[1])));
+    const double off = glm::dot(d, glm::dvec3(patch.normal)) - anchor.offset + patch.sink(t);
+    const double farthest = Areas::LargestShift / patch.curvatureMagnitude();
+    return t - std::clamp(off, -farthest, farthest) * patch.slope(t);
   }
-  return marks;
-}
+
+  /// Area of the patch above a triangle of the tangent plane: sqrt(1 + |S t|^2) times the triangle's, t its middle.
+  double area(
+    const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const glm::dvec2& middle) const
+  {
+    const glm::dvec2 slope = this->Sampled.patch.slope(middle);
+    const double stretch = std::min(Areas::LargestStretch, std::sqrt(1.0 + glm::dot(slope, slope)));
+    const double footprint = 0.5 * std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
+    return stretch * footprint;
+  }
+
+private:
+  const SurfaceProxy::Sample& Sampled;
+  glm::dmat3 Push;
+  std::array<glm::vec3, 2> Tangents;
+};
 
 } // namespace
 
 SurfaceProxy::SurfaceProxy(const Isosurface& surface, const SizingFunction& sizing,
   std::vector<SurfaceBox> boxes, const ParallelFor& parallelFor)
   : Surface(surface)
-  , Sizing(sizing)
-  , Boxes(giveFaceSheetsOnce(surface, std::move(boxes), parallelFor))
+  , Field(sizing)
+  , Boxes(assignFaceSheets(surface, std::move(boxes), parallelFor))
   , Samples(this->Boxes.size())
   , FirstBox(boxRanges(this->Boxes, surface.mesh->elements.size()))
 {
-  this->putOnSurface(parallelFor);
+  this->sampleBoxes(parallelFor);
   for (Sample& sample : this->Samples)
   {
     sample.patch.spacing = static_cast<float>(sizing.at(sample.patch.curvatureMagnitude()));
   }
   if (sizing.angularDensity > 0.0)
   {
-    this->collectSpacings();
-    this->limitGradation(0, parallelFor);
+    this->Field.add(this->chooseRepresentatives(), parallelFor);
+    this->limitSamples(parallelFor);
   }
   this->findSmallestSpacing();
   this->sumWeights(parallelFor);
 }
-
-SurfaceProxy::SurfaceProxy(SurfaceProxy&&) noexcept = default;
-SurfaceProxy::~SurfaceProxy() = default;
 
 const SurfaceProxy::Sample* SurfaceProxy::nearestSample(
   const glm::dvec3& position, int element) const
@@ -119,7 +147,7 @@ const SurfaceProxy::Sample* SurfaceProxy::nearestSample(
   const Sample* nearest = nullptr;
   double least = std::numeric_limits<double>::infinity();
   const auto [first, last] = this->boxesOf(element);
-  for (std::size_t b = first; b < last && last - first <= mostBoxesToSearch; ++b)
+  for (std::size_t b = first; b < last && last - first <= Locating::MostBoxes; ++b)
   {
     const double distance = glm::distance(this->Samples[b].patch.position, position);
     if (this->Samples[b].found && distance < least)
@@ -143,100 +171,104 @@ std::optional<Location> SurfaceProxy::locate(const glm::dvec3& position, int ele
     patch.position - static_cast<double>(sample->anchor.offset) * glm::dvec3(patch.normal);
   const ReferencePoint u{ sample->anchor.place.u.xyz +
     glm::dmat3(sample->anchor.pull) * (position - from) };
-  const bool isThere = glm::distance(position, from) <= mapReach * patch.spacing &&
+  const bool isThere = glm::distance(position, from) <= Locating::Reach * patch.spacing &&
     insideMargin(this->Surface.mesh->elements[element].domain, u) >= 0.0;
   return isThere ? std::optional<Location>({ element, u }) : std::nullopt;
 }
 
 void SurfaceProxy::findSmallestSpacing()
 {
-  this->SmallestSpacing = this->Sizing.spacing;
+  this->SmallestSpacing = this->sizing().spacing;
   for (const Sample& sample : this->Samples)
   {
     this->SmallestSpacing = std::min<double>(
-      this->SmallestSpacing, sample.found ? sample.patch.spacing : this->Sizing.spacing);
+      this->SmallestSpacing, sample.found ? sample.patch.spacing : this->sizing().spacing);
   }
 }
 
 void SurfaceProxy::limitSpacings(
-  const std::vector<SpacingLimit>& limits, const ParallelFor& parallelFor)
+  const std::vector<SizingField::Limit>& limits, const ParallelFor& parallelFor)
 {
   if (!limits.empty())
   {
-    const std::size_t first = this->Spacings.size();
-    for (const SpacingLimit& limit : limits)
-    {
-      this->Positions.push_back(limit.position);
-      this->Spacings.push_back(limit.spacing);
-    }
-    this->limitGradation(first, parallelFor);
+    this->Field.add(limits, parallelFor);
+    this->limitSamples(parallelFor);
     this->findSmallestSpacing();
     this->sumWeights(parallelFor);
   }
 }
 
+/// Makes a sample of an evaluation.
+/// \return whether it is near enough to the surface
 bool SurfaceProxy::sampleAt(std::size_t box, const Location& place, const Jet& jet)
 {
   Sample& sample = this->Samples[box];
   sample.found = anchorPatch(place, jet, this->Surface.isovalue, sample.anchor, sample.patch) &&
     std::abs(sample.anchor.offset) <=
-      std::max(sampleOffset * this->Boxes[box].size,
-        offsetPerSpacing * this->Sizing.at(sample.patch.curvatureMagnitude()));
+      std::max(Sampling::OffsetPerSize * this->Boxes[box].size,
+        Sampling::OffsetPerSpacing * this->sizing().at(sample.patch.curvatureMagnitude()));
   return sample.found;
 }
 
-/// Newton's method from the middle of the box's triangles, which is near the surface already: where the
-/// first evaluation is not near enough, up to two more steps. All boxes of an element at once.
-void SurfaceProxy::putOnSurface(const ParallelFor& parallelFor)
+/// Finds a sample for each box.
+void SurfaceProxy::sampleBoxes(const ParallelFor& parallelFor)
 {
-  constexpr int mostSteps = 3;
-  const ElementMesh& mesh = *this->Surface.mesh;
   std::atomic<std::int64_t> evaluations{ 0 };
   std::vector<Location> places(this->Boxes.size());
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(this->Boxes.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-    {
-      std::int64_t count = 0;
-      std::vector<int> pending(end - begin);
-      std::iota(pending.begin(), pending.end(), static_cast<int>(begin));
-      for (const int b : pending)
-      {
-        const int element = this->Boxes[b].middle.element;
-        places[b] = { element, proxyMiddle(mesh.elements[element].domain, this->Boxes[b]) };
-      }
-      std::vector<int> missed;
-      for (int step = 0; step < mostSteps && !pending.empty(); ++step)
-      {
-        std::vector<int> next;
-        evaluateInOrder(mesh, places, pending, 0, static_cast<std::ptrdiff_t>(pending.size()),
-          [&](int b, const Jet& jet)
-          {
-            if (!this->sampleAt(b, places[b], jet))
-            {
-              (this->stepInBox(b, places[b]) ? next : missed).push_back(b);
-            }
-          });
-        count += static_cast<std::int64_t>(pending.size());
-        pending = std::move(next);
-      }
-      missed.insert(missed.end(), pending.begin(), pending.end());
-      for (const int b : missed)
-      {
-        this->samplePatiently(b, count);
-      }
-      evaluations += count;
-    });
+    { evaluations += this->sampleRange(begin, end, places); });
   this->Evaluations = evaluations;
 }
 
-/// Takes a place to where one Newton step leads from the sample there.
-/// \return whether that is in the box
+/// Samples the boxes begin to end - 1 by Newton's method from the middle of their triangles, which is near the surface
+/// already. Boxes of one element are evaluated together. A box whose place is not near enough takes a Newton step and
+/// is evaluated again; if the steps leave the box, or are too many, it is sampled patiently.
+/// \param places room for one a box
+/// \return number of evaluations
+std::int64_t SurfaceProxy::sampleRange(
+  std::ptrdiff_t begin, std::ptrdiff_t end, std::vector<Location>& places)
+{
+  const ElementMesh& mesh = *this->Surface.mesh;
+  std::int64_t evaluations = 0;
+  std::vector<int> pending(end - begin);
+  std::iota(pending.begin(), pending.end(), static_cast<int>(begin));
+  for (const int b : pending)
+  {
+    const int element = this->Boxes[b].middle.element;
+    places[b] = { element, proxyMiddle(mesh.elements[element].domain, this->Boxes[b]) };
+  }
+  std::vector<int> missed;
+  for (int step = 0; step < Sampling::MaximumSteps && !pending.empty(); ++step)
+  {
+    std::vector<int> next;
+    evaluateInOrder(mesh, places, pending, 0, static_cast<std::ptrdiff_t>(pending.size()),
+      [&](int b, const Jet& jet)
+      {
+        if (!this->sampleAt(b, places[b], jet))
+        {
+          (this->stepInBox(b, places[b]) ? next : missed).push_back(b);
+        }
+      });
+    evaluations += static_cast<std::int64_t>(pending.size());
+    pending = std::move(next);
+  }
+  missed.insert(missed.end(), pending.begin(), pending.end());
+  for (const int b : missed)
+  {
+    this->samplePatiently(b, evaluations);
+  }
+  return evaluations;
+}
+
+/// Moves a place by one Newton step from the sample there.
+/// \return whether the place still is in the box, and in the element
 bool SurfaceProxy::stepInBox(std::size_t b, Location& place) const
 {
   const Anchor& anchor = this->Samples[b].anchor;
   if (anchor.place.element < 0)
   {
-    return false; // no patch could be had
+    return false; // The place has no patch.
   }
   const glm::vec3 step = anchor.pull * (anchor.offset * this->Samples[b].patch.normal);
   place.u.xyz += glm::dvec3(step);
@@ -244,8 +276,9 @@ bool SurfaceProxy::stepInBox(std::size_t b, Location& place) const
   return isAtBox(this->Boxes[b], place) && insideMargin(domain, place.u) >= 0.0;
 }
 
-/// A point between two corners of the box or, where that is not near enough yet or there is none, Newton's
-/// method to the end.
+/// Samples a box at a point between its two ends or, where it does not straddle or that point is not near enough, by
+/// Newton's method across elements.
+/// \return whether a sample was found
 bool SurfaceProxy::samplePatiently(std::size_t b, std::int64_t& evaluations)
 {
   const SurfaceBox& box = this->Boxes[b];
@@ -265,92 +298,58 @@ bool SurfaceProxy::samplePatiently(std::size_t b, std::int64_t& evaluations)
     }
   }
   Isosurface roughly = this->Surface;
-  roughly.tolerance = std::max(this->Surface.tolerance, 0.5 * sampleOffset * box.size);
+  roughly.tolerance =
+    std::max(this->Surface.tolerance, Sampling::Tolerance * Sampling::OffsetPerSize * box.size);
   SurfaceWalker walker(roughly);
   Evaluated at;
-  const bool found = walker.project(start, 2.0 * box.size, at);
+  const bool found = walker.project(start, Sampling::Travel * box.size, at);
   evaluations += walker.evaluations();
   return found && sample(at.location);
 }
 
-/// Fills the list of places where spacings are known. What lies in boxes that are neither certified nor
-/// straddle may be no surface: it does not tell others their spacings.
-void SurfaceProxy::collectSpacings()
+/// Samples whose spacings are places of the sizing field. Boxes that are neither certified nor straddle may hold no
+/// surface: their samples do not limit spacings.
+std::vector<SizingField::Limit> SurfaceProxy::chooseRepresentatives()
 {
+  std::vector<glm::dvec3> positions;
+  std::vector<float> spacings;
   for (std::size_t b = 0; b < this->Samples.size(); ++b)
   {
     const bool isTrusted = this->Boxes[b].certified || this->Boxes[b].straddles;
     if (this->Samples[b].found && isTrusted)
     {
-      this->Graded.push_back(static_cast<int>(b));
-      this->Positions.push_back(this->Samples[b].patch.position);
-      this->Spacings.push_back(this->Samples[b].patch.spacing);
+      this->Representatives.push_back(static_cast<int>(b));
+      positions.push_back(this->Samples[b].patch.position);
+      spacings.push_back(this->Samples[b].patch.spacing);
     }
   }
-  const std::vector<char> marks = markStandIns(this->Positions, this->Spacings);
-  keepMarked(this->Graded, marks);
-  keepMarked(this->Positions, marks);
-  keepMarked(this->Spacings, marks);
+  keepMarked(this->Representatives, markRepresentatives(positions, spacings));
+  std::vector<SizingField::Limit> chosen;
+  for (const int sample : this->Representatives)
+  {
+    const Patch& patch = this->Samples[sample].patch;
+    chosen.push_back({ patch.position, patch.spacing });
+  }
+  return chosen;
 }
 
-/// Dijkstra's method: from the smallest spacing on, each place limits those around it.
-/// \param first of the places that are new; those before are graded among themselves
-void SurfaceProxy::limitGradation(std::size_t first, const ParallelFor& parallelFor)
+/// Limits the spacings of all samples by the sizing field.
+void SurfaceProxy::limitSamples(const ParallelFor& parallelFor)
 {
-  using Entry = std::pair<float, int>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  for (std::size_t i = first; i < this->Spacings.size(); ++i)
-  {
-    queue.emplace(this->Spacings[i], static_cast<int>(i));
-  }
-  const std::vector<float> before = this->Spacings;
-  const SpacingGrid grid(this->Positions, before, lookUpReach);
-  constexpr std::size_t someEntries = 256;
-  for (std::size_t n = 1; !queue.empty(); ++n)
-  {
-    if (n % someEntries == 0)
-    {
-      askCaller(parallelFor);
-    }
-    const auto [spacing, i] = queue.top();
-    queue.pop();
-    if (spacing > this->Spacings[i])
-    {
-      continue;
-    }
-    grid.visitCoarser(this->Positions[i], spacing, GradationSlope,
-      [&, h = spacing, from = i](int j)
-      {
-        const auto limit = static_cast<float>(
-          h + GradationSlope * glm::distance(this->Positions[from], this->Positions[j]));
-        if (limit < this->Spacings[j])
-        {
-          this->Spacings[j] = limit;
-          queue.emplace(limit, j);
-        }
-      });
-  }
-  this->Grid = std::make_unique<SpacingGrid>(this->Positions, this->Spacings, lookUpReach);
   forAll(parallelFor, this->Samples.size(),
     [this](std::size_t b)
     {
       Patch& patch = this->Samples[b].patch;
-      patch.spacing = this->Samples[b].found
-        ? this->Grid->withGradation(patch.position, patch.spacing, GradationSlope)
-        : patch.spacing;
+      patch.spacing =
+        this->Samples[b].found ? this->Field.limited(patch.position, patch.spacing) : patch.spacing;
     });
-  for (std::size_t i = 0; i < this->Graded.size(); ++i)
+  for (std::size_t i = 0; i < this->Representatives.size(); ++i)
   {
-    this->Samples[this->Graded[i]].patch.spacing = this->Spacings[i];
+    this->Samples[this->Representatives[i]].patch.spacing = this->Field.spacingOf(i);
   }
 }
 
-float SurfaceProxy::spacingAt(const glm::dvec3& position, float curvatureMagnitude) const
-{
-  const auto spacing = static_cast<float>(this->Sizing.at(curvatureMagnitude));
-  return this->Grid ? this->Grid->withGradation(position, spacing, GradationSlope) : spacing;
-}
-
+/// Sums up the numbers of particles of the boxes.
 void SurfaceProxy::sumWeights(const ParallelFor& parallelFor)
 {
   this->Sums.resize(this->Boxes.size());
@@ -366,9 +365,7 @@ void SurfaceProxy::sumWeights(const ParallelFor& parallelFor)
   std::partial_sum(this->Sums.begin(), this->Sums.end(), this->Sums.begin());
 }
 
-/// The triangles of a box with the numbers of particles that they want. They are taken to the tangent
-/// plane of the sample, by the map there; above a place t of it the sample's patch has sqrt(1 + |S t|^2)
-/// times the area.
+/// The triangles of a box with the numbers of particles that they want.
 /// \return the sum of the numbers
 double SurfaceProxy::weigh(std::size_t which, std::vector<WeighedTriangle>& weighed) const
 {
@@ -381,41 +378,30 @@ double SurfaceProxy::weigh(std::size_t which, std::vector<WeighedTriangle>& weig
   const SurfaceBox& box = this->Boxes[which];
   std::vector<ReferenceTriangle> triangles;
   appendProxyTriangles(this->Surface.mesh->elements[box.middle.element].domain, box, triangles);
-  const glm::dmat3 push = glm::inverse(glm::dmat3(sample.anchor.pull));
-  double sum = 0.0;
+  const PatchAreas areas(sample);
   const Patch& patch = sample.patch;
-  const auto tangents = tangentsOf(patch.normal);
-  // Corners lie off the patch where it bends, by the square of the box's size: they are taken to it along
-  // its normal there, which is (S t, 1).
-  const auto onPatch = [&](const glm::vec3& corner)
-  {
-    const glm::dvec3 d = push * (glm::dvec3(corner) - sample.anchor.place.u.xyz);
-    const glm::dvec2 t(glm::dot(d, glm::dvec3(tangents[0])), glm::dot(d, glm::dvec3(tangents[1])));
-    const double off = glm::dot(d, glm::dvec3(patch.normal)) - sample.anchor.offset + patch.sink(t);
-    const double farthest = largestShift / patch.curvatureMagnitude();
-    return t - std::clamp(off, -farthest, farthest) * patch.slope(t);
-  };
+  double sum = 0.0;
   for (const ReferenceTriangle& t : triangles)
   {
-    const glm::dvec2 a = onPatch(t[0]);
-    const glm::dvec2 b = onPatch(t[1]);
-    const glm::dvec2 c = onPatch(t[2]);
+    const glm::dvec2 a = areas.inPlane(t[0]);
+    const glm::dvec2 b = areas.inPlane(t[1]);
+    const glm::dvec2 c = areas.inPlane(t[2]);
     const glm::dvec2 middle = (a + b + c) / 3.0;
-    const glm::dvec2 slope = patch.slope(middle);
-    const double stretch = std::min(largestStretch, std::sqrt(1.0 + glm::dot(slope, slope)));
-    const double footprint = 0.5 * std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
     const glm::dvec3 position = patch.position + patch.step(glm::vec2(middle));
     const double h = this->spacingAt(position, patch.curvatureMagnitude());
-    weighed.push_back({ t, stretch * footprint * 2.0 / (std::sqrt(3.0) * h * h) });
+    weighed.push_back({ t, areas.area(a, b, c, middle) * 2.0 / (std::sqrt(3.0) * h * h) });
     sum += weighed.back().weight;
   }
   return sum;
 }
 
-/// The seeds first to last - 1 in the triangles of a box, at the sums of weights that are theirs.
+/// Puts the seeds first to last - 1 into the triangles of a box, where the sum of the numbers of particles reaches
+/// each.
 void SurfaceProxy::seedBox(std::size_t box, std::int64_t first, std::int64_t last, double phase,
   double stride, std::vector<Seed>& seeds) const
 {
+  // (sqrt(5) - 1)/2: its multiples, less their whole parts, are the sequence in which any few next to each other are
+  // spread most evenly. It places seeds across the triangles.
   constexpr double goldenRatio = 0.61803398874989485;
   if (last - first == 1)
   {
@@ -432,7 +418,7 @@ void SurfaceProxy::seedBox(std::size_t box, std::int64_t first, std::int64_t las
     {
       sum += triangles[t++].weight;
     }
-    // (root, across) to barycentric coordinates keeps equal areas equal.
+    // The square root keeps areas: equal steps of `wanted` enclose equal parts of the triangle.
     const auto& corners = triangles[t].corners;
     const double root = std::sqrt(std::clamp((wanted - sum) / triangles[t].weight, 0.0, 1.0));
     const double across = std::fmod(goldenRatio * static_cast<double>(k), 1.0);
@@ -447,7 +433,7 @@ std::vector<SurfaceProxy::Seed> SurfaceProxy::seeds(
 {
   std::vector<Seed> seeds(count);
   const double stride = this->particleCount() / static_cast<double>(count);
-  // The first seed whose sum is not below a given one.
+  // The first seed that is not before a given sum.
   const auto firstFrom = [&](double sum)
   { return std::clamp<std::int64_t>(std::llround(std::ceil(sum / stride - phase)), 0, count); };
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(this->Boxes.size()),
@@ -475,8 +461,8 @@ bool SurfaceProxy::guess(const Seed& seed, Anchor& anchor, Patch& patch) const
   const Sample& sample = this->Samples[seed.box];
   continuePatch(sample.anchor, sample.patch, seed.place, anchor, patch);
   const double distance = glm::distance(patch.position, sample.patch.position);
-  if (distance > guessReach * sample.patch.spacing ||
-    distance * sample.patch.curvatureMagnitude() > guessTurn)
+  if (distance > Guesses::Reach * sample.patch.spacing ||
+    distance * sample.patch.curvatureMagnitude() > Guesses::Turn)
   {
     return false;
   }

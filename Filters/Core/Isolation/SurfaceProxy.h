@@ -1,128 +1,126 @@
 #pragma once
 
 #include "Isolation/ProxyPolygons.h"
+#include "Isolation/SizingField.h"
 #include "Isolation/SurfaceBoxes.h"
 #include "Surface/Anchor.h"
-#include "Surface/SizingFunction.h"
 
-#include <memory>
 #include <optional>
 #include <utility>
 
 namespace hop
 {
 
-class SpacingGrid;
-
-/// A rough picture of the surface: one point of it in each surface box, and triangles between the
-/// box's corners that stand for the piece of surface in it. It says how many particles the surface
-/// wants and where to put the first ones.
+/// A rough substitute for the surface: one sample of the surface in each surface box, triangles in the box that
+/// approximate the surface there, and the sizing field. It says how many particles the surface wants and where to put
+/// the first ones.
 class SurfaceProxy
 {
 public:
+  /// A point near the surface.
   struct Sample
   {
     Anchor anchor;
-    /// With the spacing that particles want here.
+    /// With the spacing that particles want at the sample.
     Patch patch;
+    /// False if no point of the surface was found for the box; anchor and patch then mean nothing.
     bool found = false;
   };
 
-  /// Puts a point near the surface in each box; costs one evaluation a box, more where the field is far from
-  /// linear in it. Then no spacing exceeds another by more than GradationSlope times their
-  /// distance: neighbours can only pack evenly if their spacings differ little.
+  /// Puts a sample near the surface in each box. This costs one evaluation a box, more where the field in the box is
+  /// far from linear. Where the sizing depends on curvature, no spacing of a sample exceeds another one by more than
+  /// SizingField::GradationSlope times the distance of the samples.
   SurfaceProxy(const Isosurface& surface, const SizingFunction& sizing,
     std::vector<SurfaceBox> boxes, const ParallelFor& parallelFor);
-  SurfaceProxy(SurfaceProxy&&) noexcept;
-  ~SurfaceProxy();
 
-  /// A place at which particles are to have that spacing at most.
-  struct SpacingLimit
-  {
-    glm::dvec3 position{ 0.0 };
-    float spacing = 0.0f;
-  };
+  /// Limits the spacings at some places and, by gradation, around them.
+  void limitSpacings(const std::vector<SizingField::Limit>& limits, const ParallelFor& parallelFor);
 
-  /// Lowers the spacings at and, graded as between samples, around some places.
-  void limitSpacings(const std::vector<SpacingLimit>& limits, const ParallelFor& parallelFor);
-
-  /// Number of particles in hexagonal packing at the spacings wanted: the sum of 2 area/(sqrt(3) h^2).
+  /// Number of particles in hexagonal packing at the spacings h of the sizing field: the sum of 2 area/(sqrt(3) h^2)
+  /// over the triangles.
   double particleCount() const { return this->Sums.empty() ? 0.0 : this->Sums.back(); }
 
+  /// The share of one box in particleCount().
   double particleCountOfBox(std::size_t box) const
   {
     return this->Sums[box] - (box > 0 ? this->Sums[box - 1] : 0.0);
   }
 
-  /// Those of them in one element.
+  /// The share of one element in particleCount().
   double particleCount(int element) const
   {
     const auto before = [this](std::size_t box) { return box > 0 ? this->Sums[box - 1] : 0.0; };
     return before(this->FirstBox[element + 1]) - before(this->FirstBox[element]);
   }
 
+  /// Where a particle is to start.
   struct Seed
   {
     Location place;
+    /// Index among boxes().
     int box = -1;
   };
 
-  /// `count` places on the triangles, by systematic sampling of the density of particles: the k-th
-  /// stands where the sum of the weights reaches (k + phase) particleCount()/count. The only one in its box
-  /// stands at the sample.
+  /// Seeds on the triangles, by systematic sampling of the density of particles: seed k stands where the sum of the
+  /// triangles' numbers of particles reaches (k + phase) particleCount()/count. A seed that is alone in its box stands
+  /// at the sample.
   /// \param phase in [0, 1)
+  /// \return `count` seeds
   std::vector<Seed> seeds(std::int64_t count, double phase, const ParallelFor& parallelFor) const;
 
-  /// What the box's sample says about the surface at a seed.
-  /// \return whether the seed is near enough to the sample for it to be believed
+  /// Continues the patch of the box's sample to a seed, without an evaluation.
+  /// \return whether the seed is so near to the sample that the patch is accurate there
   bool guess(const Seed& seed, Anchor& anchor, Patch& patch) const;
 
-  /// The spacing that a particle wants: that of the sizing function at its own curvature, or less near places
-  /// that want less. Graded like the samples.
-  float spacingAt(const glm::dvec3& position, float curvatureMagnitude) const;
+  /// The spacing that a particle wants, by the sizing field.
+  float spacingAt(const glm::dvec3& position, float curvatureMagnitude) const
+  {
+    return this->Field.at(position, curvatureMagnitude);
+  }
 
-  const SizingFunction& sizing() const { return this->Sizing; }
+  const SizingFunction& sizing() const { return this->Field.sizing(); }
 
-  /// How many samples and limits tell the spacings around them; none where all want the same.
-  std::size_t spacingPlaces() const { return this->Spacings.size(); }
+  /// Number of samples and limits that limit the spacings around them; zero if all samples want the same spacing and
+  /// there are no limits.
+  std::size_t spacingPlaces() const { return this->Field.placeCount(); }
 
-  /// Of all samples.
+  /// Smallest spacing of all samples.
   double smallestSpacing() const { return this->SmallestSpacing; }
 
   const std::vector<Sample>& samples() const { return this->Samples; }
 
-  /// The first of an element's boxes, and the first behind them.
+  /// Indices of the first box of an element and of the first box behind the element's.
   std::pair<std::size_t, std::size_t> boxesOf(int element) const
   {
     return { this->FirstBox[element], this->FirstBox[element + 1] };
   }
 
-  /// The sample in an element that is nearest to a position; nullptr if there is none, or too many to search.
+  /// The sample of an element that is nearest to a position; nullptr if the element has no samples, or too many boxes
+  /// for a search.
   const Sample* nearestSample(const glm::dvec3& position, int element) const;
 
-  /// Where a position near the surface lies in an element, by the map at the nearest sample there; nothing if
-  /// that is too far off to tell, or the position lies outside.
+  /// Where in an element a position near the surface lies, by the linear map at the element's nearest sample; nothing
+  /// if the sample is too far away for the map to be accurate, or the position lies outside of the element.
   std::optional<Location> locate(const glm::dvec3& position, int element) const;
 
   const std::vector<SurfaceBox>& boxes() const { return this->Boxes; }
   std::int64_t evaluations() const { return this->Evaluations; }
 
-  static constexpr double GradationSlope = 0.3;
-
 private:
   struct WeighedTriangle
   {
     ReferenceTriangle corners;
-    /// Number of particles.
+    /// Number of particles that the triangle wants.
     double weight = 0.0;
   };
 
-  void putOnSurface(const ParallelFor& parallelFor);
+  void sampleBoxes(const ParallelFor& parallelFor);
+  std::int64_t sampleRange(std::ptrdiff_t begin, std::ptrdiff_t end, std::vector<Location>& places);
   bool stepInBox(std::size_t box, Location& place) const;
   bool samplePatiently(std::size_t box, std::int64_t& evaluations);
   bool sampleAt(std::size_t box, const Location& place, const Jet& jet);
-  void collectSpacings();
-  void limitGradation(std::size_t first, const ParallelFor& parallelFor);
+  std::vector<SizingField::Limit> chooseRepresentatives();
+  void limitSamples(const ParallelFor& parallelFor);
   void findSmallestSpacing();
   void sumWeights(const ParallelFor& parallelFor);
   void seedBox(std::size_t box, std::int64_t first, std::int64_t last, double phase, double stride,
@@ -130,20 +128,17 @@ private:
   double weigh(std::size_t box, std::vector<WeighedTriangle>& triangles) const;
 
   Isosurface Surface;
-  SizingFunction Sizing;
+  SizingField Field;
   std::vector<SurfaceBox> Boxes;
   std::vector<Sample> Samples;
-  /// Where the boxes of each element begin; they come in the order of the elements.
+  /// Index of the first box of each element, then the number of boxes; boxes are in the order of the elements.
   std::vector<std::size_t> FirstBox;
-  /// Weights of the boxes, summed up.
+  /// Numbers of particles of all boxes up to each one.
   std::vector<double> Sums;
   std::int64_t Evaluations = 0;
   double SmallestSpacing = 0.0;
-  // For looking up spacings, where they vary: those of samples, as many as tell them, then limits.
-  std::vector<int> Graded;
-  std::vector<glm::dvec3> Positions;
-  std::vector<float> Spacings;
-  std::unique_ptr<SpacingGrid> Grid;
+  /// Samples that are the first places of the sizing field, in this order.
+  std::vector<int> Representatives;
 };
 
 } // namespace hop

@@ -5,22 +5,23 @@
 namespace hop
 {
 
-/// How a field comes near to zero where it has one sign at the corners.
+/// How a field that has one sign at the corners approaches zero.
 enum class Approach
 {
-  /// It has the other sign somewhere.
+  /// The field has the other sign somewhere.
   Crosses,
-  /// It comes to zero, as far as can be told, and not beyond.
+  /// The field comes to zero, up to the accuracy of the test, and not beyond.
   Tangent,
-  /// Neither was found.
+  /// The field was found neither to cross zero nor to be tangent to it.
   Apart
 };
 
-/// Looks for the place around the middle where the field has less of its sign than nearby, by Cauchy's steps
-/// along the gradient: one of length |g|^2/(g.Hg) ends there where the field is a square of a distance.
-/// What remains there counts as zero if it is less than a millionth of the largest coefficient. Two sheets
-/// that are farther apart than a five-hundredth of the domain are not taken for one that touches. Where the
-/// field is that small at a corner, and so is its gradient, it touches there.
+/// Searches for the minimum of |F - c| near the middle of the domain, by Cauchy steps of length |g|^2/(g.Hg) along the
+/// gradient g, H being the Hessian: where the field is the square of a distance, one step ends at the minimum. The
+/// minimum counts as zero if it is less than a millionth of the largest coefficient: two sheets farther apart than a
+/// five-hundredth of the domain are not taken for a tangency. A field that is that small at a corner, together with its
+/// gradient, is tangent to zero there.
+/// \param form of F - c
 /// \param sign of the field at the corners, 1 or -1
 Approach approachToZero(const BernsteinForm& form, double sign);
 

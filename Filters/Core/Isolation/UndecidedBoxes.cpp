@@ -6,12 +6,20 @@
 
 namespace hop
 {
+namespace
+{
+
+/// Distance below which two critical points of an element are one, reference units: more than the error of a point that
+/// several boxes lead to. With a larger distance, points close to each other count once. Chosen by experiment.
+constexpr double samePoint = 1e-6;
+
+} // namespace
 
 void reportUndecided(
   const Isosurface& surface, const std::vector<SurfaceBox>& boxes, DistributionReport& report)
 {
   const ElementMesh& mesh = *surface.mesh;
-  std::vector<CriticalPoint> singular; // of the element at hand
+  std::vector<CriticalPoint> singular; // of the last element
   report.boxes = static_cast<std::int64_t>(boxes.size());
   for (const SurfaceBox& box : boxes)
   {
@@ -27,8 +35,7 @@ void reportUndecided(
     }
     CriticalPoint point;
     const auto same = [&](const CriticalPoint& other)
-    { return glm::distance(other.location.u.xyz, point.location.u.xyz) < 1e-6; };
-    // Boxes come in the order of the elements.
+    { return glm::distance(other.location.u.xyz, point.location.u.xyz) < samePoint; };
     if (!singular.empty() && singular.back().location.element != box.middle.element)
     {
       singular.clear();

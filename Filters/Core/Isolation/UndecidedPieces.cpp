@@ -9,17 +9,29 @@ namespace hop
 namespace
 {
 
-/// Pieces are looked at every so many halvings, as soon as each axis had so many, for whether they touch the
-/// isovalue only.
-constexpr int halvingsOfAllAxes = 3;
-constexpr int firstTangencyBisections = 9;
-/// As many pieces with one sign at their corners are normal in an element that the surface crosses, and
-/// where nothing tells that it does. None are after so many halvings.
-constexpr int fewOneSided = 1024;
-constexpr int fewOneSidedWithoutSurface = 64;
-constexpr int smallBisections = 18;
-/// As many pieces given up are boxes of their own.
-constexpr std::size_t fewLeft = 16;
+/// When the undecided pieces of an element are tested for tangency. Without the test the square of a velocity, zero at
+/// a wall, took 16,384 boxes an element. The figures were chosen by experiment.
+struct TangencyTests
+{
+  /// Bisections from one test to the next: each axis of a nearly cubic element is halved once in between. Fewer cost
+  /// more tests of pieces that hardly changed.
+  static constexpr int Interval = 3;
+  /// Bisections before the first test: three along each axis. After fewer bisections pieces still hold the surface and
+  /// a tangency side by side; after more there are more pieces to test.
+  static constexpr int First = 9;
+  /// Undecided pieces with one sign at their corners that are normal where the surface crosses the element. A smaller
+  /// number tests pieces that a few bisections would decide, a larger one takes more time where there is a tangency.
+  static constexpr int FewOneSided = 1024;
+  /// The same where nothing tells that the surface crosses the element.
+  static constexpr int FewOneSidedWithoutSurface = 64;
+  /// Bisections, six along each axis, after which no undecided piece with one sign at its corners is normal. Fewer may
+  /// take components that small for tangencies; more take longer.
+  static constexpr int Small = 18;
+};
+
+/// Undecided pieces of an element that become boxes of their own at most. Chosen by experiment: more give boxes that
+/// are smaller and say better where the surface is undecided, at a cost in samples and messages.
+constexpr std::size_t mostOwnBoxes = 16;
 
 std::ptrdiff_t undecidedCount(const std::vector<Piece>& pieces)
 {
@@ -27,25 +39,26 @@ std::ptrdiff_t undecidedCount(const std::vector<Piece>& pieces)
     pieces.begin(), pieces.end(), [](const Piece& piece) { return !piece.certified(); });
 }
 
+/// The limit on undecided pieces of the size of a piece.
 std::ptrdiff_t mostUndecided(const Piece& piece)
 {
   const std::size_t bytes =
     piece.coefficients.size() * sizeof(Coefficient) + piece.weights.size() * sizeof(double);
-  return piece.bisections >= LongBisections
-    ? MaximumLongPieces
-    : std::min<std::ptrdiff_t>(MaximumPieces, MaximumPieceBytes / bytes);
+  return piece.bisections >= TooManyPieces::LongBisections
+    ? TooManyPieces::LongCount
+    : std::min<std::ptrdiff_t>(TooManyPieces::Count, TooManyPieces::Bytes / bytes);
 }
 
 } // namespace
 
-GivenUp givenUp(const std::vector<Piece>& level, bool isCrossed, const PieceTests& tests)
+StopRule stopRuleOf(const std::vector<Piece>& level, bool isCrossed, const PieceTests& tests)
 {
-  GivenUp result;
-  result.all = undecidedCount(level) > mostUndecided(level.front());
+  StopRule rule;
+  rule.all = undecidedCount(level) > mostUndecided(level.front());
   const int bisections = level.front().bisections;
-  if (bisections < firstTangencyBisections || bisections % halvingsOfAllAxes != 0)
+  if (bisections < TangencyTests::First || bisections % TangencyTests::Interval != 0)
   {
-    return result;
+    return rule;
   }
   int oneSided = 0;
   for (const Piece& piece : level)
@@ -54,38 +67,39 @@ GivenUp givenUp(const std::vector<Piece>& level, bool isCrossed, const PieceTest
     isCrossed = isCrossed || !isOneSided;
     oneSided += isOneSided && tests.mayHoldSurface(piece);
   }
-  const bool areSmall = bisections >= smallBisections;
-  result.tangent = areSmall || oneSided > (isCrossed ? fewOneSided : fewOneSidedWithoutSurface);
-  result.missing = areSmall && oneSided > fewOneSided;
-  return result;
+  const bool areSmall = bisections >= TangencyTests::Small;
+  rule.tangent = areSmall ||
+    oneSided > (isCrossed ? TangencyTests::FewOneSided : TangencyTests::FewOneSidedWithoutSurface);
+  rule.apart = areSmall && oneSided > TangencyTests::FewOneSided;
+  return rule;
 }
 
-bool isGivenUp(const Piece& piece, const GivenUp& some, const PieceTests& tests)
+bool staysUndecided(const Piece& piece, const StopRule& rule, const PieceTests& tests)
 {
   if (tests.isZero(piece))
   {
     return true;
   }
-  const double sign = some.tangent ? tests.signAtCorners(piece) : 0.0;
+  const double sign = rule.tangent ? tests.signAtCorners(piece) : 0.0;
   if (sign == 0.0 || tests.rises(piece))
   {
     return false;
   }
   const Approach approach = approachToZero(piece.form(), sign);
-  return approach == Approach::Tangent || (some.missing && approach == Approach::Apart);
+  return approach == Approach::Tangent || (rule.apart && approach == Approach::Apart);
 }
 
-void appendLeft(const LeftUndecided& left, const Piece& whole, const PieceTests& tests,
+void appendUndecided(const UndecidedPieces& undecided, const Piece& whole, const PieceTests& tests,
   std::vector<SurfaceBox>& boxes)
 {
-  if (left.boxes.size() <= fewLeft)
+  if (undecided.boxes.size() <= mostOwnBoxes)
   {
-    boxes.insert(boxes.end(), left.boxes.begin(), left.boxes.end());
+    boxes.insert(boxes.end(), undecided.boxes.begin(), undecided.boxes.end());
     return;
   }
-  for (const int part : left.parts)
+  for (const int part : undecided.parts)
   {
-    boxes.push_back(boxOfUnknown(partOf(whole, part), tests));
+    boxes.push_back(boxOfUndecidedPart(partOf(whole, part), tests));
   }
 }
 

@@ -7,42 +7,52 @@
 namespace hop
 {
 
-/// Which undecided pieces of an element are not halved any more.
-struct GivenUp
+/// Which undecided pieces of a level are not halved any more.
+struct StopRule
 {
-  /// All: there are too many of them.
+  /// All of them, as there are too many.
   bool all = false;
-  /// Those in which the field touches the isovalue (TangencyTest.h), if it has one sign at their corners.
+  /// Pieces with one sign at their corners in which the field is tangent to the isovalue (Approach::Tangent).
   bool tangent = false;
-  /// Those, too, in which it was found neither to touch nor to cross it.
-  bool missing = false;
+  /// Pieces with one sign at their corners in which the field was found apart from the isovalue (Approach::Apart).
+  bool apart = false;
 };
 
-/// Where a field only touches the isovalue its pieces stay undecided, on and on, and have one sign
-/// at their corners.
-/// \param level all pieces of the element, as often halved
-/// \param isCrossed whether there are boxes already
-GivenUp givenUp(const std::vector<Piece>& level, bool isCrossed, const PieceTests& tests);
+/// The rule for a level. Where a field is tangent to the isovalue, pieces have one sign at their corners and stay
+/// undecided however often they are halved: many of them tell of a tangency.
+/// \param level all pieces of the element that are left, of one number of bisections; not empty
+/// \param isCrossed whether the element has boxes already, so that the surface crosses it
+StopRule stopRuleOf(const std::vector<Piece>& level, bool isCrossed, const PieceTests& tests);
 
-/// Whether a piece that is not certified is not worth halving.
-/// \param some that are given up; `all` does not count
-bool isGivenUp(const Piece& piece, const GivenUp& some, const PieceTests& tests);
+/// Whether halving a piece that is not certified would not decide it: the field is nothing but the isovalue, or
+/// `tangent` or `apart` of the rule holds for the piece.
+bool staysUndecided(const Piece& piece, const StopRule& rule, const PieceTests& tests);
 
-/// Boxes of pieces that were left undecided, and the parts of the element that they lie in.
-struct LeftUndecided
+/// Boxes of the pieces of an element that stay undecided, and the parts of the element (Piece::part) that hold the
+/// pieces.
+struct UndecidedPieces
 {
   std::vector<SurfaceBox> boxes;
   std::set<int> parts;
 };
 
-/// Few boxes that were left undecided as they are, in place of many the parts that they lie in.
-/// \param whole their element
-void appendLeft(const LeftUndecided& left, const Piece& whole, const PieceTests& tests,
+/// Appends the boxes of undecided pieces if they are few; otherwise the parts of the element that hold the pieces.
+/// \param whole the element
+void appendUndecided(const UndecidedPieces& undecided, const Piece& whole, const PieceTests& tests,
   std::vector<SurfaceBox>& boxes);
 
-constexpr int MaximumPieces = 16384;
-constexpr std::size_t MaximumPieceBytes = std::size_t{ 1 } << 29;
-constexpr int LongBisections = 24;
-constexpr int MaximumLongPieces = 1024;
+/// Undecided pieces of an element at most. Where the surface is singular along lines, two sheets that cross for
+/// instance, undecided pieces along the lines double in number with each halving of their length. Larger limits take
+/// more time and memory there, smaller ones stop pieces that further bisections would decide. Chosen by experiment.
+struct TooManyPieces
+{
+  /// Pieces of any size.
+  static constexpr int Count = 16384;
+  /// Bytes of coefficients and weights, 512 MiB: fewer pieces than `Count` from degree 10 of hexahedra on.
+  static constexpr std::size_t Bytes = std::size_t{ 1 } << 29;
+  /// Bisections, eight along each axis of a nearly cubic element, after which a lower limit holds, and this limit.
+  static constexpr int LongBisections = 24;
+  static constexpr int LongCount = 1024;
+};
 
 } // namespace hop

@@ -1,12 +1,12 @@
 #include "Kernel/MakeKernels.h"
 
-// Compiled with AVX2 and FMA switched on; only called where the processor has them.
+// Compiled with AVX2 and FMA switched on; called only where the processor has them.
 namespace hop::kernel
 {
 
 Kernels avx2Kernels()
 {
-  return makeKernels<4, 4>();
+  return makeKernels<DoublesIn<256>, DoublesIn<256>>();
 }
 
 } // namespace hop::kernel

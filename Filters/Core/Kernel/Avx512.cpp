@@ -1,12 +1,13 @@
 #include "Kernel/MakeKernels.h"
 
-// Compiled with AVX-512 switched on; only called where the processor has it.
+// Compiled with AVX-512 switched on; called only where the processor has it.
 namespace hop::kernel
 {
 
 Kernels avx512Kernels()
 {
-  return makeKernels<8, 4>();
+  // A coefficient (x, y, z, f) has no more than four components.
+  return makeKernels<DoublesIn<512>, DoublesIn<256>>();
 }
 
 } // namespace hop::kernel

@@ -1,15 +1,12 @@
 #include "Kernel/MakeKernels.h"
 
+// For any processor of the architecture: 128 bits (SSE2, NEON).
 namespace hop::kernel
 {
 
 Kernels baselineKernels()
 {
-#if defined(__GNUC__)
-  return makeKernels<2, 2>(); // 128 bits: SSE2, NEON
-#else
-  return makeKernels<1, 1>();
-#endif
+  return makeKernels<DoublesIn<128>, DoublesIn<128>>();
 }
 
 } // namespace hop::kernel

@@ -82,7 +82,7 @@ struct Hexahedron
   }
 
 private:
-  /// [derivative order in u][in v][k]; those beyond total order `Order` are not used.
+  /// [derivative order in u][in v][k]; entries beyond total order `Order` are not used.
   template <class Layout, int Order>
   using Planes = typename Layout::Sum[Order + 1][Order + 1][MaximumLine][Layout::components];
 

@@ -6,16 +6,17 @@
 namespace hop::kernel
 {
 
-/// Highest degree that the kernels have room for.
+/// Highest degree that the kernels have room for. Arrays on the stack are as large as this asks: 350 kB for a
+/// tetrahedron in vectors of eight doubles.
 constexpr int MaximumDegree = 30;
 
-/// An element in Bernstein form as the kernels see it: plain memory. (The kernels are compiled once
-/// an instruction set. An inline function of a shared header, compiled there with AVX-512, could be
-/// the copy that the linker keeps for all; so they use none.)
+/// An element in Bernstein form as the kernels see it: plain memory. (The kernels are compiled once an instruction set,
+/// and use no inline functions of other headers: one that was compiled with AVX-512 could be the copy that the linker
+/// keeps for all.)
 struct Element
 {
   int degrees[3];
-  /// x, y, z, f of one coefficient after the other; times the weight where there are weights.
+  /// x, y, z, f of one coefficient after the other; multiplied by the weight where there are weights.
   const double* coefficients;
   /// nullptr: polynomial.
   const double* weights;
@@ -31,8 +32,10 @@ using BatchFunction = void (*)(
 /// The jet of one point: jet[4 q + c].
 using PointFunction = void (*)(const Element&, const double* point, double* jet);
 
+/// Most points in a vector: eight doubles are the 512 bits of the widest registers.
 constexpr int MaximumLanes = 8;
 
+/// Of elements of one domain.
 struct DomainKernels
 {
   BatchFunction gradients;
@@ -41,10 +44,11 @@ struct DomainKernels
   PointFunction hessian;
 };
 
-/// Particles that are moved together.
+/// Particles that are moved together: eight floats are a register of AVX2, and the work is the same in every
+/// instruction set, so that the particles of a block do not depend on it.
 constexpr int SweepLanes = 8;
 
-/// What particles see of one another.
+/// What particles see of one another. As large as a vector of floats: blocks of eight are transposed.
 struct Seen
 {
   float position[3];
@@ -52,6 +56,7 @@ struct Seen
   float inverseSpacing;
   /// Unit length.
   float normal[3];
+  /// Fills up the vector.
   float unused;
 };
 
@@ -83,14 +88,13 @@ struct SweepBlock
   std::ptrdiff_t firstNeighbor;
 };
 
-/// Moves the particles of `count` blocks once, one block after the other: by Newton's step on their
-/// energies, in their tangent planes. Reads what they see of their neighbours and writes what is seen
-/// of them.
+/// Moves the particles of `count` blocks once, one block after the other: by Newton's step on their energies, in their
+/// tangent planes. Reads what the particles see of their neighbours, and writes where they can be seen afterwards.
 using SweepFunction = void (*)(
   SweepBlock* blocks, std::ptrdiff_t count, const std::int32_t* neighbors, Seen* seen);
 
-/// Points among which those near a point are looked for. `count` is a multiple of MaximumLanes: points
-/// out of reach fill the arrays up.
+/// Points among which the neighbours of a point are looked for. `count` is a multiple of MaximumLanes: points out of
+/// reach fill the arrays up.
 struct Candidates
 {
   const double* x;

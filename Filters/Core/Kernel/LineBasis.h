@@ -7,6 +7,7 @@ namespace hop::kernel
 namespace
 {
 
+/// Most basis functions along a line.
 constexpr int MaximumLine = MaximumDegree + 1;
 
 /// Degree n - 1 to n of the univariate Bernstein basis: B_i,n = (1 - t) B_i,n-1 + t B_i-1,n-1.
@@ -82,8 +83,7 @@ template <int Orders, class Basis, class Sum, int Components, class Values>
 inline void contract(
   const Basis& basis, int count, const Values& values, Sum (&result)[Orders][Components])
 {
-  // From zero rather than from the first term: terms of i = 0 would be kept in registers, which the
-  // sums need.
+  // Sums start at zero rather than at the first term: the terms of i = 0 would be kept in registers that the sums need.
   Sum sum[Orders][Components] = {};
   for (int i = 0; i < count; ++i)
   {

@@ -42,7 +42,7 @@ inline void divide(
 
 /// The jet of a polynomial or rational element.
 template <class Shape, int PointLanes, int ComponentLanes, int Order, int Degree>
-inline void elementJet(const Element& element, const typename Lanes<PointLanes>::Type (&u)[3],
+inline void elementJet(const Element& element, const Vector<double, PointLanes> (&u)[3],
   Jet<Layout<PointLanes, ComponentLanes, 4>, Order>& jet)
 {
   Shape::template jet<Layout<PointLanes, ComponentLanes, 4>, Order, Degree>(
@@ -60,7 +60,7 @@ inline void elementJet(const Element& element, const typename Lanes<PointLanes>:
 /// computed like the rest of it.
 template <int PointLanes>
 inline void loadPoints(
-  const double* points, int first, int count, typename Lanes<PointLanes>::Type (&u)[3])
+  const double* points, int first, int count, Vector<double, PointLanes> (&u)[3])
 {
   double lanes[3][PointLanes];
   for (int lane = 0; lane < PointLanes; ++lane)
@@ -80,7 +80,7 @@ void batchOfDegree(
 {
   for (int first = 0; first < count; first += PointLanes)
   {
-    typename Lanes<PointLanes>::Type u[3];
+    Vector<double, PointLanes> u[3];
     loadPoints<PointLanes>(points, first, count, u);
     Jet<Layout<PointLanes, 1, 4>, Order> jet;
     elementJet<Shape, PointLanes, 1, Order, Degree>(element, u, jet);
@@ -105,9 +105,9 @@ void pointOfDegree(const Element& element, const double* point, double* result)
   }
 }
 
-/// Up to these, an element's degree is known to the compiler if it is the same along all axes. At
-/// single points that pays for long: it breaks up chains of sums. The sums of batches fill the
-/// registers anyhow.
+/// Up to these, there are kernels of elements of one degree along all axes, which the compiler knows. At single points
+/// that pays up to high degrees, as it breaks up chains of sums; the sums of batches fill the registers anyhow. Chosen
+/// by experiment (Testing/Benchmarks/kernel_benchmark.cpp shows the times); higher ones make the library larger.
 constexpr int HighestBatchDegree = 4;
 constexpr int HighestPointDegree = 8;
 

@@ -12,14 +12,17 @@ namespace hop::kernel
 namespace
 {
 
+/// Most basis functions of a triangle and of a tetrahedron.
 constexpr int MaximumTriangle = (MaximumDegree + 1) * (MaximumDegree + 2) / 2;
 constexpr int MaximumTetrahedron = MaximumTriangle * (MaximumDegree + 3) / 3;
 
+/// Basis functions of a triangle.
 constexpr int triangleCount(int degree)
 {
   return (degree + 1) * (degree + 2) / 2;
 }
 
+/// value[n][k] = n over k, by Pascal's triangle.
 struct Binomials
 {
   double value[MaximumLine][MaximumLine] = {};
@@ -100,11 +103,14 @@ inline void tetrahedronBasis(int degree, const Number* u, Number* basis)
   }
 }
 
-/// How many components are summed in one pass, so that their sums fit into 16 registers.
+/// How many components are summed in one pass.
 constexpr int componentsAtOnce(int components, int netSize)
 {
+  // Sums that stay in registers: processors up to AVX2 have 16 of them, of which four are left for basis functions and
+  // coefficients. With more sums, some are written to memory in each step; with fewer, the basis is read more often.
+  constexpr int mostSums = 12;
   int atOnce = components;
-  while (atOnce * netSize > 12 && atOnce > 1)
+  while (atOnce * netSize > mostSums && atOnce > 1)
   {
     atOnce /= 2;
   }

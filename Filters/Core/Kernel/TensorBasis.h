@@ -30,8 +30,8 @@ private:
   LineBasis<Number, Order, Degree> Lines[3];
 };
 
-/// One point with the same degree along all coordinates: these go through the recurrences together,
-/// as lanes of one vector.
+/// One point, of the same degree along all coordinates: the coordinates go through the recurrences together, as lanes
+/// of one vector.
 template <class Layout, int Order, int Degree>
 class TensorBasis<Layout, Order, Degree, typename Layout::template IfSinglePoint<Degree>>
 {
@@ -48,7 +48,7 @@ public:
   }
 
 private:
-  using Together = Lanes<4>::Type;
+  using Together = Vector<double, 4>;
   LineBasis<Together, Order, Degree> Lines;
 };
 

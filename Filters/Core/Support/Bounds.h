@@ -19,6 +19,7 @@ struct Bounds
     this->lower = glm::min(this->lower, other.lower);
     this->upper = glm::max(this->upper, other.upper);
   }
+  /// Whether the boxes have a point in common, be it at their borders.
   bool overlaps(const Bounds& other) const
   {
     return glm::all(glm::lessThanEqual(this->lower, other.upper)) &&
@@ -28,7 +29,7 @@ struct Bounds
   double diagonal() const { return glm::distance(this->lower, this->upper); }
 };
 
-/// Those of points; of none, the origin's.
+/// The smallest box that holds all points; of no points, the origin.
 Bounds boundsOf(Span<glm::dvec3> points, const ParallelFor& parallelFor);
 
 } // namespace hop

@@ -9,6 +9,8 @@ namespace hop
 namespace
 {
 
+/// Boxes that are looked at one by one rather than divided further; chosen by experiment. More make long lists of boxes
+/// that do not overlap, fewer make a deeper tree.
 constexpr int boxesPerLeaf = 4;
 
 } // namespace

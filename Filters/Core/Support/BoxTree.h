@@ -18,8 +18,7 @@ public:
   std::vector<int> overlapping(const Bounds& box) const;
 
 private:
-  /// A leaf holds the boxes Order[first] to Order[last - 1]; another node has the children `first` and
-  /// `first` + 1.
+  /// A leaf holds the boxes Order[first] to Order[last - 1]; any other node has the children `first` and `first` + 1.
   struct Node
   {
     Bounds bounds;
@@ -29,6 +28,7 @@ private:
     bool isLeaf() const { return this->last >= 0; }
   };
 
+  /// Makes the subtree of the boxes Order[first] to Order[last - 1].
   void divide(int node, int first, int last);
 
   std::vector<Bounds> Boxes;

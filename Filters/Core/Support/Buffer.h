@@ -10,7 +10,7 @@
 namespace hop
 {
 
-/// Leaves new entries of a vector as they are.
+/// Writes nothing where a vector makes entries without a value.
 template <class T>
 struct UnwrittenAllocator : std::allocator<T>
 {
@@ -33,12 +33,12 @@ struct UnwrittenAllocator : std::allocator<T>
   }
 };
 
-/// A vector whose entries are yet to be written when it is made or grows. Others write zeros first, on one
-/// thread, and for large arrays fetching their memory from the system is what takes the time.
+/// A vector whose new entries have no value until they are written. A std::vector writes zeros first, in one thread;
+/// for large arrays that takes the time, as the system gives memory when it is first written.
 template <class T>
 using Buffer = std::vector<T, UnwrittenAllocator<T>>;
 
-/// The entries of a vector, which outlives it.
+/// The entries of a vector, to be read while the vector lives and keeps its size.
 template <class T>
 class Span
 {

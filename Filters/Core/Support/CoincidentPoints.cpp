@@ -1,5 +1,6 @@
 #include "Support/CoincidentPoints.h"
 
+#include "Support/DisjointSets.h"
 #include "Support/SortedBy.h"
 #include "Support/VectorHash.h"
 
@@ -15,8 +16,10 @@ namespace hop
 namespace
 {
 
-/// Points are looked up in cells 8 to 64 times as wide as they reach: few stand in one, and few look into
-/// more than one.
+/// Points whose reaches are in [2^(levelBits l), 2^(levelBits (l + 1))) are of level l. They are looked up in cells
+/// that are 2^cellBits times as wide as the largest reach of the level, so 8 to 64 times as wide as a point reaches:
+/// few points stand in one cell, and few look into more than one. Chosen by experiment; wider cells hold more points
+/// that are compared in vain, narrower ones make more points look into several.
 constexpr int levelBits = 3;
 constexpr int cellBits = 3;
 
@@ -25,14 +28,17 @@ int levelOf(double reach)
   return static_cast<int>(std::floor(static_cast<double>(std::ilogb(reach)) / levelBits));
 }
 
-/// \param largest coordinate: numbers of cells are to stay exact
+/// Edge of the cells of a level.
+/// \param largest absolute value of a coordinate
 double cellSize(int level, double largest)
 {
+  // Numbers of cells are below 2^50 in size: doubles hold them, and those beside them, exactly.
   constexpr int mostBits = 50;
   return std::max(
     std::ldexp(1.0, levelBits * (level + 1) + cellBits), std::ldexp(largest, -mostBits));
 }
 
+/// Coordinates that are compared one after the other.
 std::array<double, 3> lexical(const glm::dvec3& x)
 {
   return { x.x, x.y, x.z };
@@ -86,12 +92,7 @@ public:
       }
     }
     std::vector<Pair> pairs = this->pairsAmong(std::move(members));
-    this->joinNearest(pairs);
-    for (int i = 0; i < static_cast<int>(this->Points.size()); ++i)
-    {
-      this->First[i] = this->First[this->First[i]]; // the first one's is final already
-    }
-    return std::move(this->First);
+    return this->joinNearest(std::move(pairs));
   }
 
 private:
@@ -99,19 +100,18 @@ private:
   void joinEqualOf(int point, std::vector<int>& places);
   std::vector<Pair> pairsAmong(std::vector<int> members) const;
   void addPairs(const std::vector<int>& members, int level, std::vector<Pair>& pairs) const;
-  void joinNearest(std::vector<Pair>& pairs);
-  int placeOf(int point);
-
+  std::vector<int> joinNearest(std::vector<Pair> pairs);
   const glm::dvec3& at(int point) const { return this->Points[point].position; }
 
   const Buffer<RoundedPoint>& Points;
   const ParallelFor& Parallel;
-  /// For each point the first of its place, or one that leads there; how far that place reaches.
+  /// For each point the first one of equal coordinates; how far the place reaches that a first point stands for.
   std::vector<int> First;
   std::vector<double> Reach;
 };
 
-/// Points of equal coordinates: most are, and then nothing is left to look for.
+/// Makes one place of points of equal coordinates. Mostly all points that belong together are equal, and nothing is
+/// left to look for.
 void Places::joinEqual()
 {
   const std::size_t bins = std::max<std::size_t>(1, this->Points.size());
@@ -133,7 +133,7 @@ void Places::joinEqual()
     });
 }
 
-/// \param places among which the point's is, if it is known
+/// \param places the places found so far; the point's own is among them or is added
 void Places::joinEqualOf(int point, std::vector<int>& places)
 {
   const double reach = this->Points[point].reach;
@@ -152,8 +152,8 @@ void Places::joinEqualOf(int point, std::vector<int>& places)
   }
 }
 
-/// All pairs of places that reach each other. Where reaches differ much, a place looks for those that reach
-/// as far as itself or farther: these stand apart in cells of its own size.
+/// All pairs of places that reach each other. Levels are taken one by one, the lowest first, in cells of their own
+/// size: a place looks for places of its level or of a higher one.
 std::vector<Pair> Places::pairsAmong(std::vector<int> members) const
 {
   std::vector<Pair> pairs;
@@ -172,7 +172,7 @@ std::vector<Pair> Places::pairsAmong(std::vector<int> members) const
   return pairs;
 }
 
-/// Pairs of which one at least is of the level, the lowest of all members.
+/// Adds the pairs in which at least one place is of this level, the lowest of all members.
 void Places::addPairs(const std::vector<int>& members, int level, std::vector<Pair>& pairs) const
 {
   double largest = 0.0;
@@ -221,18 +221,9 @@ void Places::addPairs(const std::vector<int>& members, int level, std::vector<Pa
     });
 }
 
-int Places::placeOf(int point)
-{
-  while (this->First[point] != point)
-  {
-    this->First[point] = this->First[this->First[point]];
-    point = this->First[point];
-  }
-  return point;
-}
-
-/// The nearest first (Kruskal's method), those as near in the order of their coordinates.
-void Places::joinNearest(std::vector<Pair>& pairs)
+/// Makes places one, the nearest first (Kruskal's method), equally near ones in the order of their coordinates.
+/// \return for each point the first of its place
+std::vector<int> Places::joinNearest(std::vector<Pair> pairs)
 {
   const auto ends = [&](const Pair& pair) {
     return std::minmax({ lexical(this->at(pair.first)), lexical(this->at(pair.second)) });
@@ -243,17 +234,22 @@ void Places::joinNearest(std::vector<Pair>& pairs)
       // Coordinates are seldom needed, and far off in memory.
       return a.distance != b.distance ? a.distance < b.distance : ends(a) < ends(b);
     });
+  DisjointSets places(this->Points.size());
   for (const Pair& pair : pairs)
   {
-    const auto [first, second] =
-      std::minmax({ this->placeOf(pair.first), this->placeOf(pair.second) });
+    const auto [first, second] = std::minmax({ places.root(pair.first), places.root(pair.second) });
     const double reach = std::min(this->Reach[first], this->Reach[second]);
     if (first != second && pair.distance <= reach)
     {
-      this->First[second] = first;
+      places.unite(first, second);
       this->Reach[first] = reach;
     }
   }
+  for (int& first : this->First)
+  {
+    first = places.root(first);
+  }
+  return std::move(this->First);
 }
 
 } // namespace

@@ -17,6 +17,7 @@ public:
     std::iota(this->Parent.begin(), this->Parent.end(), 0);
   }
 
+  /// The least number of the set that n is in.
   int root(int n)
   {
     while (this->Parent[n] != n)

@@ -14,8 +14,8 @@ struct Interrupted
 {
 };
 
-/// A ParallelFor that asks a monitor some twenty times a second, and throws Interrupted where it should
-/// stop. Threads take chunks of the work as they come, until all is done or it is time to ask.
+/// A ParallelFor that asks a monitor some twenty times a second whether to go on, and throws Interrupted if not.
+/// Threads take chunks of the work until all is done or it is time to ask.
 class Interruptible
 {
 public:
@@ -25,7 +25,7 @@ public:
   {
   }
 
-  /// What is reported from now on, unless that is less than before: progress never falls. May be called
+  /// Sets the fraction that is reported from now on, unless a larger one is known: progress never falls. May be called
   /// from several threads.
   void raiseFraction(double fraction)
   {
@@ -37,7 +37,8 @@ public:
 
   void operator()(std::ptrdiff_t count, const LoopBody& body)
   {
-    // Chunks enough for many threads to finish together, each short beside the period.
+    // So many chunks that many threads finish together, so small ones that each is short beside the period. Chosen by
+    // experiment: larger chunks make the caller wait for an answer, smaller ones cost time to take.
     constexpr std::ptrdiff_t chunkCount = 64;
     constexpr std::ptrdiff_t largestChunk = 4096;
     const std::ptrdiff_t chunk = std::clamp<std::ptrdiff_t>(count / chunkCount, 1, largestChunk);
@@ -73,6 +74,8 @@ public:
 
 private:
   using Clock = std::chrono::steady_clock;
+  /// Between two questions: a user takes 0.05 s for at once. Threads start anew after each, which a shorter one would
+  /// make noticeable.
   static constexpr std::chrono::milliseconds period{ 50 };
 
   void askAtTimes()
@@ -90,7 +93,7 @@ private:
   Clock::time_point LastAsked{};
 };
 
-/// What `run` returns; where it was interrupted, nothing but a report that says so.
+/// What run() returns; where it was interrupted, an empty result whose report says so.
 template <class Run>
 auto unlessInterrupted(const Run& run)
 {

@@ -25,10 +25,10 @@ void keepMarked(Items& items, const std::vector<char>& marks)
   items.resize(next);
 }
 
-/// Of the first `end` items, moves the last to where others have no mark: where few are dropped nearly all
-/// stay where they are.
+/// Drops those of the first `end` items that have no mark, and fills their places with the last ones: where few are
+/// dropped, nearly all stay where they are.
 /// \param marks one for each of these items at least
-/// \return how many have a mark; these are the first now
+/// \return how many are left; they are the first now
 template <class Items>
 std::size_t closeGaps(Items& items, std::size_t end, const std::vector<char>& marks)
 {
@@ -51,13 +51,14 @@ std::size_t closeGaps(Items& items, std::size_t end, const std::vector<char>& ma
   return end;
 }
 
+/// A mark where there was none, and none where there was one.
 inline std::vector<char> opposite(std::vector<char> marks)
 {
   std::transform(marks.begin(), marks.end(), marks.begin(), std::logical_not<>());
   return marks;
 }
 
-/// Which of the first `count` marks are set.
+/// The indices below `count` that have a mark, ascending.
 inline std::vector<int> markedIndices(const std::vector<char>& marks, std::size_t count)
 {
   std::vector<int> indices;

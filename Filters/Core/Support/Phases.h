@@ -13,14 +13,16 @@ namespace hop
 /// Runs phases of work one after the other: all pieces of one, in any order, before the first of the next.
 /// Threads are started once for all phases, which pays where a phase takes no longer than that.
 ///
-/// Threads take pieces as they come and wait only for pieces that another one is at, so that nothing
-/// depends on how many there are or when they start.
+/// Threads take pieces as they come and wait only for pieces that another thread is at work on, so that nothing depends
+/// on how many threads there are or when they start.
 /// \param pieceCount pieceCount(phase)
 /// \param body body(phase, piece)
 template <class PieceCount, class Body>
 void runPhases(
   const ParallelFor& parallelFor, int phases, const PieceCount& pieceCount, const Body& body)
 {
+  // Pieces of the loop that starts the threads: as many threads as take one of them work on the phases. With fewer,
+  // large machines would not be used; each further one costs a call that finds nothing to do.
   constexpr std::ptrdiff_t mostThreads = 64;
   std::vector<SharedPieces> pieces(phases);
   std::vector<std::atomic<std::ptrdiff_t>> done(phases);
@@ -35,7 +37,7 @@ void runPhases(
     }
     catch (...)
     {
-      failed = true; // or others would wait for it
+      failed = true; // or other threads would wait for this piece
       throw;
     }
   };

@@ -9,6 +9,7 @@ namespace hop
 namespace
 {
 
+/// A key has 64 bits for three numbers of bins.
 constexpr int bitsPerAxis = 21;
 constexpr std::int64_t binsPerAxis = std::int64_t{ 1 } << bitsPerAxis;
 
@@ -56,7 +57,7 @@ glm::i64vec3 PointBins::binOf(const glm::dvec3& position) const
 
 std::uint64_t PointBins::key(const glm::i64vec3& bin)
 {
-  // Bin -1, just outside, exists for queries; shifted by one it is a key like any other.
+  // Queries may ask for bin -1, just outside of the bounds; numbers are shifted by one so that it has a key.
   const glm::u64vec3 b(bin + std::int64_t{ 1 });
   return (b.z << (2 * bitsPerAxis)) | (b.y << bitsPerAxis) | b.x;
 }

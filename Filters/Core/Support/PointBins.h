@@ -20,8 +20,8 @@ public:
   /// \param binSize edge of a bin, > 0; widened if the bounds would not fit 2^21 bins a direction
   PointBins(const std::vector<glm::dvec3>& points, double binSize);
 
-  /// Calls visit(index) for every point in the bins that touch the cube of half-width `radius`
-  /// around a position, in a fixed order. Points farther than radius come along: the caller tests.
+  /// Calls visit(index) for every point in the bins that overlap the cube of half-width `radius` around a position, in
+  /// a fixed order. Some points are farther than the radius: the caller tests.
   template <class Visit>
   void visit(const glm::dvec3& position, double radius, const Visit& visit) const;
 
@@ -35,7 +35,7 @@ private:
   std::unordered_map<std::uint64_t, std::pair<int, int>> Bins; // range in Order
 };
 
-/// Bins that take points one by one.
+/// Bins to which points are added one by one.
 class GrowingBins
 {
 public:
@@ -50,8 +50,8 @@ public:
     this->Bins[hashOf(this->binOf(position))].push_back(index);
   }
 
-  /// Calls visit(index) for the points in the bins around a position: all within binSize of it and
-  /// some farther off. Points far apart may share a bin.
+  /// Calls visit(index) for the points in the 27 bins around a position: for all within binSize of it, and for some
+  /// farther off. Cells of equal hash share a bin, so that some may be far off.
   template <class Visit>
   void visit(const glm::dvec3& position, const Visit& visit) const;
 
@@ -65,14 +65,14 @@ private:
   std::unordered_map<std::uint64_t, std::vector<int>> Bins;
 };
 
-/// Lists of neighbours, one after the other: those of i are at [start[i], start[i + 1]).
+/// Lists of neighbours, one after the other: the neighbours of i are at [start[i], start[i + 1]).
 struct NeighborLists
 {
   std::vector<std::size_t> start;
   std::vector<int> neighbor;
 };
 
-/// For every point the points within radii[i] of it, itself excepted, in a fixed order.
+/// For every point i the other points within radii[i] of it, in a fixed order.
 NeighborLists findNeighbors(const std::vector<glm::dvec3>& points, const std::vector<double>& radii,
   const ParallelFor& parallelFor);
 

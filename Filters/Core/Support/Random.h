@@ -5,8 +5,9 @@
 namespace hop
 {
 
-/// Counter-based random numbers (SplitMix64's mixing): the n-th number of a stream depends on seed
-/// and n only, the same on every machine.
+/// Counter-based random numbers: the n-th number of a stream depends on seed and n only, the same on every machine.
+/// SplitMix64 of Steele, Lea and Flood (Fast Splittable Pseudorandom Number Generators, OOPSLA 2014), with its
+/// constants.
 class Random
 {
 public:

@@ -7,19 +7,22 @@
 namespace hop
 {
 
-/// Pieces of work that threads take, each first those of its own part (from the ninth on they share parts), so that
-/// the same thread is at the same pieces when there is the same work again: what they write stays in its cache.
+/// Pieces of work that threads take. Each thread begins with the pieces of its own part, so that it is at the same
+/// pieces when the same work comes again, and what they write stays in its cache.
 class SharedPieces
 {
 public:
+  /// Each has a counter. Threads beyond the eighth share parts: with more counters, a thread that has done its own part
+  /// looks longer for pieces that are left.
   static constexpr int Parts = 8;
 
-  /// Calls use(piece) for pieces in [0, count) that nobody has taken, as long as there are any and it returns true.
+  /// Calls use(piece) for pieces in [0, count) that no thread has taken, as long as there are any and use() returns
+  /// true.
   /// \param worker numbers threads from 0 on
   template <class Use>
   void take(int worker, std::ptrdiff_t count, const Use& use)
   {
-    // Half of all pieces are between those of the first two, a fourth between those of the first four.
+    // Bits reversed: the first two threads begin half of all pieces apart, the first four a fourth.
     constexpr std::array<int, Parts> firstParts{ 0, 4, 2, 6, 1, 5, 3, 7 };
     for (int n = 0; n < Parts; ++n)
     {

@@ -8,10 +8,11 @@
 namespace hop
 {
 
-/// Points and the distance that each wants to its neighbours, in world units, as SpacingGrid takes them.
+/// Points, and for each its spacing, the distance wanted to its neighbours, in world units; as SpacingGrid takes them.
 struct SpacedPoints
 {
-  /// \param positionOf positionOf(i), \param spacingOf spacingOf(i), of point i in [0, count)
+  /// \param positionOf positionOf(i) for i in [0, count)
+  /// \param spacingOf spacingOf(i) for i in [0, count)
   template <class PositionOf, class SpacingOf>
   SpacedPoints(std::size_t count, const PositionOf& positionOf, const SpacingOf& spacingOf,
     const ParallelFor& parallelFor)

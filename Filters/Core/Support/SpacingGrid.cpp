@@ -14,7 +14,7 @@ namespace
 {
 
 constexpr std::int64_t cellsPerAxis = std::int64_t{ 1 } << SpacingGrid::BitsPerAxis;
-/// Levels have four bits of a key.
+/// A key has four bits for its level. The last level takes all larger spacings, too.
 constexpr int maximumLevels = 15;
 
 } // namespace
@@ -45,11 +45,17 @@ void SpacingGrid::chooseCellSizes(double cellsPerReach, const ParallelFor& paral
   this->Origin = bounds.lower;
   const glm::dvec3 extent = bounds.upper - bounds.lower;
   constexpr double tiniest = std::numeric_limits<double>::min();
-  const double smallestCell = std::max({ extent.x, extent.y, extent.z }) / (cellsPerAxis - 4);
+  // Cells of the bounds have numbers that a key can hold; there are more on either side, for queries from outside.
+  constexpr std::int64_t outside = 4;
+  const double smallestCell =
+    std::max({ extent.x, extent.y, extent.z }) / static_cast<double>(cellsPerAxis - outside);
   for (int level = 0; level < this->LevelCount; ++level)
   {
-    const double spacing =
-      this->LevelCount == 1 ? largestSpacing : std::ldexp(this->SmallestSpacing, level + 1);
+    const double highest = std::ldexp(this->SmallestSpacing, level + 1);
+    const bool isLast = level == this->LevelCount - 1;
+    const double spacing = this->LevelCount == 1 ? largestSpacing
+      : isLast                                   ? std::max(highest, largestSpacing)
+                                                 : highest;
     this->LargestSpacings.push_back(spacing);
     this->CellsPerLength.push_back(
       1.0 / std::max({ this->Reach * spacing / cellsPerReach, smallestCell, tiniest }));
@@ -59,6 +65,8 @@ void SpacingGrid::chooseCellSizes(double cellsPerReach, const ParallelFor& paral
 /// Gives each point's cell a slot. No slot has points yet.
 void SpacingGrid::fillSlots(const ParallelFor& parallelFor)
 {
+  // A block of cells at least, and three slots for two points, so that a cell is found after few steps even if each
+  // point has a cell of its own. More slots would cost memory that is read in vain.
   this->SlotCount = 64;
   while (2 * this->SlotCount < 3 * this->Positions.size())
   {
@@ -90,7 +98,7 @@ void SpacingGrid::fillSlots(const ParallelFor& parallelFor)
     });
 }
 
-/// Counting sort by slot, from the last point to the first: slots start where they ended before.
+/// Counting sort by slot, from the last point to the first: what was the end of a slot becomes its start.
 void SpacingGrid::sortPoints()
 {
   for (const int slot : this->SlotOfPoint)
@@ -136,7 +144,7 @@ float SpacingGrid::withGradation(const glm::dvec3& position, float spacing, doub
 
 SpacingGrid::Cell SpacingGrid::cellOf(const glm::dvec3& position, int level) const
 {
-  // Cell 0, just outside, exists for queries. Truncation is floor for what is not negative.
+  // Queries may ask for cell 0, just outside of the bounds. Numbers are not negative, so that truncation is floor.
   const glm::dvec3 cell = (position - this->Origin) * this->CellsPerLength[level] + 1.0;
   return Cell(glm::min(glm::max(cell, 0.0), static_cast<double>(cellsPerAxis - 1)));
 }
@@ -165,7 +173,8 @@ std::size_t SpacingGrid::findOrAdd(std::uint64_t key)
 namespace
 {
 
-/// Points to choose neighbours from, as the kernel wants them. To be reused: memory only grows.
+/// Points among which neighbours are looked for, in the rows that the kernel takes. To be reused: its memory only
+/// grows.
 class CandidateRows
 {
 public:
@@ -185,8 +194,10 @@ public:
     this->Index[this->Count++] = index;
   }
 
+  /// All points that were added, and further ones out of reach that fill up the last vector.
   kernel::Candidates filledUp()
   {
+    // Far from everything, yet its square is finite.
     constexpr double outOfReach = 1e150;
     const std::size_t count = this->Count;
     while (this->Count % kernel::MaximumLanes != 0)
@@ -222,6 +233,8 @@ SeenLists::SeenLists(
   Span<glm::dvec3> positions, Span<float> spacings, double reach, const ParallelFor& parallelFor)
 {
   const SpacingGrid grid(positions, spacings, reach, 1.0, parallelFor);
+  // Lists of so many points stand in one array, which one thread fills. Fewer points would make many small arrays; more
+  // would leave threads waiting for each other. Chosen by experiment.
   constexpr std::size_t pointsPerChunk = 256;
   this->Places.resize(positions.size());
   this->Chunks.resize((positions.size() + pointsPerChunk - 1) / pointsPerChunk);
@@ -238,7 +251,7 @@ SeenLists::SeenLists(
     const std::size_t end = std::min(positions.size(), (chunk + 1) * pointsPerChunk);
     for (std::size_t first = chunk * pointsPerChunk; first < end; ++first)
     {
-      // A cell is looked at when its first point comes.
+      // A cell is looked at once, when its first point comes.
       const SpacingGrid::Points points = grid.cellMates(static_cast<int>(first));
       if (*points.begin() != static_cast<int>(first))
       {

@@ -13,35 +13,37 @@
 namespace hop
 {
 
-/// Finds which points see each other when each has a spacing h of its own and two of them interact
-/// within `reach` times the harmonic mean of theirs.
+/// Finds which points see each other when each has a spacing h of its own and two points interact within `reach` times
+/// the harmonic mean of their spacings.
 ///
-/// Points are sorted into cubic cells, by levels: those of level l have spacings in
-/// [2^l, 2^(l+1)) times the smallest, and cells of `reach` times the largest of these or more. Spacings of
-/// points that see each other are taken to differ by less than a factor of two (SurfaceProxy.h grades
-/// them so), so that three levels are looked at.
+/// Points are sorted into cubic cells, by levels: points of level l have spacings in [2^l, 2^(l+1)) times the
+/// smallest, and their cells are `reach` times the largest of these spacings wide, or wider. Spacings of points that
+/// see each other are taken to differ by less than a factor of two (the gradation of SurfaceProxy.h ensures that), so
+/// that three levels are looked at.
 class SpacingGrid
 {
 public:
   /// \param reach > 0
-  /// \param cellsPerReach one: good for visiting whole cells; a half: for single points, which then
-  ///   look into fewer cells
+  /// \param cellsPerReach 1 is good for visiting whole cells; a half, for wider cells, is good for single points, which
+  ///   then look into fewer cells
   /// \pre as many spacings as points, all > 0; positions and spacings outlive the grid
   SpacingGrid(Span<glm::dvec3> positions, Span<float> spacings, double reach,
     double cellsPerReach = 1.0, const ParallelFor& parallelFor = {});
 
-  /// Calls use(j) for every point that may be within reach of a point at `position` with that
-  /// spacing, and for some farther off, in a fixed order. The caller tests.
+  /// Calls use(j) for every point that a point at `position` with that spacing would see, and for some farther off, in
+  /// a fixed order. The caller tests.
   template <class Use>
   void visit(const glm::dvec3& position, double spacing, const Use& use) const;
 
-  /// Calls use(j) for every point that may have to lower its spacing, as it exceeds `spacing` by more than
-  /// slope times its distance from the position and is within reach times its own spacing, and for others.
+  /// Calls use(j) for every point whose spacing exceeds `spacing` by more than slope times its distance from the
+  /// position, and which is within reach times its own spacing of the position: gradation asks it to lower its spacing.
+  /// Some other points come along: the caller tests.
   template <class Use>
   void visitCoarser(const glm::dvec3& position, double spacing, double slope, const Use& use) const;
 
-  /// The least of `spacing` and, over all points within reach times their spacing of the position, of
-  /// their spacing and slope times their distance.
+  /// The spacing that gradation allows at a position: the least of `spacing` and of what the points allow, which is
+  /// their spacing plus slope times their distance. Points count that are within reach times their own spacing of the
+  /// position; some farther off may count, too.
   float withGradation(const glm::dvec3& position, float spacing, double slope) const;
 
   /// The points of a cell, ascending.
@@ -54,14 +56,14 @@ public:
     const int* end() const { return this->Last; }
   };
 
-  /// All that share a point's cell, itself included.
+  /// All points in the cell of a point, itself included.
   Points cellMates(int point) const { return this->pointsIn(this->SlotOfPoint[point]); }
 
   /// visit() for all points of a cell at once.
   template <class Use>
   void visitAround(const Points& points, const Use& use) const;
 
-  /// Bits of a cell's key for each coordinate.
+  /// Bits of a cell's key for each coordinate. Three times this and four bits for the level make up 64.
   static constexpr int BitsPerAxis = 20;
 
 private:
@@ -97,8 +99,8 @@ private:
   glm::dvec3 Origin{ 0.0 };
   std::vector<double> CellsPerLength;
   std::vector<double> LargestSpacings;
-  /// Open addressing: the key of the cell in each slot, 0 where there is none. In which of them a cell
-  /// ends up may depend on threads, but nothing that is visited does.
+  /// A hash table with open addressing: the key of the cell in each slot, 0 where there is none. Which slot a cell gets
+  /// may depend on threads, but no visit depends on that.
   std::unique_ptr<std::atomic<std::uint64_t>[]> Keys;
   std::size_t SlotCount = 0;
   Buffer<int> SlotOfPoint;
@@ -111,7 +113,7 @@ private:
 class SeenLists
 {
 public:
-  /// Those within reach times the harmonic mean of the spacings.
+  /// \param reach two points see each other within this times the harmonic mean of their spacings
   SeenLists(
     Span<glm::dvec3> positions, Span<float> spacings, double reach, const ParallelFor& parallelFor);
 
@@ -135,14 +137,15 @@ private:
   std::vector<std::vector<int>> Chunks;
 };
 
-/// Cells of a block of 4 x 4 x 4 come next to each other, as they are looked at together.
+/// Cells of a block of 4 x 4 x 4 have slots next to each other, as they are looked at together.
 inline std::size_t SpacingGrid::firstSlotOf(std::uint64_t key) const
 {
   constexpr std::uint64_t low = 3;
   constexpr std::uint64_t inBlock = low | (low << BitsPerAxis) | (low << (2 * BitsPerAxis));
   const std::uint64_t cell = (key & low) | ((key >> (BitsPerAxis - 2)) & (low << 2)) |
     ((key >> (2 * BitsPerAxis - 4)) & (low << 4));
-  // Twice, for the upper bits of a product depend on all bits, the lower ones on few.
+  // 2^64 over the golden ratio (VectorHash.h). Multiplied twice: the upper bits of a product depend on all bits of its
+  // factors, the lower ones on few.
   std::uint64_t block = (key & ~inBlock) * 0x9e3779b97f4a7c15ULL;
   block = (block ^ (block >> 32)) * 0x9e3779b97f4a7c15ULL;
   return static_cast<std::size_t>(((block >> 32) << 6) + cell) & (this->SlotCount - 1);

@@ -7,7 +7,8 @@ namespace hop
 namespace
 {
 
-/// Directions in reference space along all active faces: two of them for one face, one for two.
+/// Directions in reference space along all active faces.
+/// \return number of directions: two along one face, one along two
 int freeDirections(Domain domain, const ActiveFaces& active, glm::dvec3 (&directions)[2])
 {
   const auto& faces = facts(domain).faces;
@@ -17,6 +18,7 @@ int freeDirections(Domain domain, const ActiveFaces& active, glm::dvec3 (&direct
     directions[0] = glm::cross(a, faces[active.face[1]].inward.xyz);
     return 1;
   }
+  // An axis that is not parallel to a.
   const glm::dvec3 other =
     std::abs(a.x) < 0.5 * glm::length(a) ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
   directions[0] = glm::cross(a, other);

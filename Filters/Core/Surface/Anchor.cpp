@@ -9,15 +9,16 @@ namespace hop
 namespace
 {
 
-/// The root s near zero of newton - s + s^2 bend/2: where the field, to second order, takes its value on a
-/// line on which its slope is -1. Newton's step itself where there is none near.
+/// The root s near zero of newton - s + s^2 bend/2: the distance at which the field F - c, whose slope along a line is
+/// -1 and whose second derivative is `bend`, vanishes to second order. Newton's step itself where there is no root.
 double offsetAlong(double newton, double bend)
 {
+  // The discriminant is >= 0; the root written so that it does not cancel.
   const double product = newton * bend;
   return product <= 0.5 ? 2.0 * newton / (1.0 + std::sqrt(1.0 - 2.0 * product)) : newton;
 }
 
-/// What a bilinear form does in the basis of tangentsOf(normal).
+/// xx, xy, yy of a bilinear form in the basis of tangentsOf(normal).
 std::array<float, 3> shapeOf(const glm::vec3& normal, const glm::dmat3& bend)
 {
   const auto tangents = tangentsOf(normal);
@@ -37,7 +38,7 @@ bool anchorPatch(
   {
     return false;
   }
-  // The particle will follow the line's image under the map, a straight one in reference space.
+  // The next step goes along a straight line in reference space: second derivative of the field along that line.
   const double slope = length(point.gradient);
   const glm::dvec3 d = point.map.inverse * (point.gradient.xyz / -slope);
   const auto second = [&jet](int n) { return jet.second[n].w; };
@@ -77,18 +78,18 @@ void continuePatch(const Anchor& knownAnchor, const Patch& known, const Location
   const glm::dmat3 bend = static_cast<double>(s[0]) * glm::outerProduct(e1, e1) +
     static_cast<double>(s[1]) * (glm::outerProduct(e1, e2) + glm::outerProduct(e2, e1)) +
     static_cast<double>(s[2]) * glm::outerProduct(e2, e2);
-  // From where the surface is known to the place.
+  // From the known patch to the place.
   const glm::dvec3 d =
     glm::inverse(glm::dmat3(knownAnchor.pull)) * (place.u.xyz - knownAnchor.place.u.xyz) -
     static_cast<double>(knownAnchor.offset) * normal;
   const glm::dvec3 along = d - glm::dot(d, normal) * normal;
-  const glm::dvec3 turned = glm::normalize(normal + bend * along);
-  // The surface lies t.S t / 2 below the tangent plane.
+  const glm::dvec3 normalThere = glm::normalize(normal + bend * along);
+  // Above the surface, which lies t.S t / 2 below the tangent plane.
   const double height = glm::dot(d, normal) + 0.5 * glm::dot(along, bend * along);
-  const double offset = -height * glm::dot(normal, turned);
+  const double offset = -height * glm::dot(normal, normalThere);
   patch = known;
-  patch.position = known.position + d + offset * turned;
-  patch.normal = glm::vec3(turned);
+  patch.position = known.position + d + offset * normalThere;
+  patch.normal = glm::vec3(normalThere);
   patch.shape = shapeOf(patch.normal, bend);
   anchor = { place, knownAnchor.pull, static_cast<float>(offset) };
 }

@@ -11,31 +11,34 @@
 namespace hop
 {
 
-/// Ties a patch of the surface to the mesh: the place at which its element was evaluated.
+/// Ties a patch of the surface to the mesh: the place at which the field was evaluated.
 struct Anchor
 {
   Location place;
-  /// K = J^-1 there, in single precision: it turns steps of the size of a spacing into reference
-  /// coordinates, and what it misses the next evaluation sees.
+  /// K = J^-1 at the place. Single precision is enough: K turns steps of the size of a spacing into reference
+  /// coordinates, and the next evaluation sees its errors.
   glm::mat3 pull{ 0.0f };
   /// Distance from the place to the surface along the patch's normal, to second order in the field.
   float offset = 0.0f;
 };
 
-/// The patch and the anchor that belong to an evaluation; the patch's spacing is left as it is.
+/// The patch and the anchor that belong to an evaluation. The patch's spacing is left as it is. From the place the
+/// surface is sought along the field's gradient, to second order (Documentation/algorithm.md, section Geometry in world
+/// space).
 /// \return false, and nothing changed, where the element is singular, the gradient vanishes or
 ///   anything is not finite
 bool anchorPatch(
   const Location& place, const Jet& jet, double isovalue, Anchor& anchor, Patch& patch);
-/// \param at with its Hessian
+/// The same from an evaluation with its Hessian; the offset is of second order along the straight line in world space,
+/// not along the one in reference space.
 bool anchorPatch(const Evaluated& at, Anchor& anchor, Patch& patch);
 
-/// What a patch says about another place of its element: the patch and the anchor there, by the map and the
-/// surface around the first, both to the order in which they are known. Costs no evaluation.
+/// The patch and the anchor at another place of the element, extrapolated: the map to first order, the surface to
+/// second order around the known patch. Costs no evaluation.
 void continuePatch(const Anchor& knownAnchor, const Patch& known, const Location& place,
   Anchor& anchor, Patch& patch);
 
-/// Indices of places, or of anchors, sorted by element, stably.
+/// Indices of places, or of anchors, sorted by element; the sort is stable.
 std::vector<int> orderByElement(
   const std::vector<Location>& places, std::size_t elementCount, const ParallelFor& parallelFor);
 std::vector<int> orderByElement(
@@ -48,6 +51,8 @@ template <class Use>
 void evaluateInOrder(const ElementMesh& mesh, const std::vector<Location>& places,
   const std::vector<int>& order, std::ptrdiff_t begin, std::ptrdiff_t end, const Use& use)
 {
+  // Points evaluated together: enough to fill the kernels' vectors, few enough for the first-level cache (20 KiB of
+  // jets).
   constexpr std::ptrdiff_t batchSize = 64;
   std::array<ReferencePoint, batchSize> points;
   JetBatch jets;

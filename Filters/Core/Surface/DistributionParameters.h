@@ -23,33 +23,35 @@ enum class Quality
   High
 };
 
-/// What a distribution may be told.
+/// What a distribution is asked for.
 struct DistributionParameters
 {
   SizingFunction sizing;
-  /// Of the Fast distribution.
+  /// Fast only.
   Quality quality = Quality::Standard;
   /// Seed of random choices; the same seed, the same particles.
   std::uint64_t seed = 1;
   /// 0: as many particles as the spacing asks for. Otherwise this many, and the spacing follows.
   std::int64_t particleCount = 0;
-  /// Where a number of particles is given, the spacing to try first, and to keep if the number is right to a
-  /// hundredth; 0: 1/50 of the mesh's diagonal. Fast only.
+  /// Spacing to try first where a number of particles is given, world units. It is kept if it gives that number to a
+  /// hundredth. 0: 1/50 of the mesh's diagonal. Fast only.
   double firstSpacing = 0.0;
-  /// Places to start from, in the mesh at hand, where a run before left its particles on a surface nearby.
-  /// What they miss is seeded; all is where few of them are near. Fast only.
+  /// Places of this mesh to start from: particles of the last run, on a surface nearby. Parts of the surface without
+  /// such a place are seeded; where few places are near the surface, all of it is. Fast only.
   std::vector<Location> start;
-  /// A request that would need more particles than this is refused before it is begun.
+  /// A request that would need more particles is refused before work begins. The default is as much as tens of
+  /// gigabytes of memory hold.
   std::int64_t particleLimit = 100'000'000;
 
-  /// Why a request for that many particles is refused; empty if it is not.
+  /// Why a request for `count` particles is refused; empty if it is not.
   std::string refusal(double count) const
   {
     if (count <= static_cast<double>(this->particleLimit))
     {
       return {};
     }
-    // Tiny spacings ask for more than integers hold, and the tiniest for no number.
+    // Tiny spacings ask for more particles than integers hold, the tiniest for infinity or NaN: then the message
+    // names this number.
     constexpr double most = 1e300;
     std::ostringstream text;
     text.precision(15);

@@ -10,10 +10,14 @@ namespace hop
 namespace
 {
 
-/// What single precision leaves of coordinates and values, in units of their size.
+/// Errors of coordinates and values in single precision, in units of their size: some 8 epsilons of floats.
 constexpr double rounding = 1e-6;
-/// Cosine between the outward normals of faces that look at each other, at most.
+/// Largest cosine between the outward normals of opposite faces, at their middles; chosen by experiment. It leaves room
+/// for curved faces: planes that coincide have -1. Larger: more pairs of faces are searched in vain; smaller: strongly
+/// bent neighbours are not found.
 constexpr double facing = -0.2;
+/// Half-space value up to which a control point counts as on a face. Other control points have 1/MaximumDegree at least.
+constexpr double onFaceOfLattice = 1e-9;
 
 struct FaceHull
 {
@@ -21,7 +25,7 @@ struct FaceHull
   Range range;
 };
 
-/// Bounds of the control points on a face, and of their values.
+/// Bounds of the control points on a face, and of the field's coefficients there.
 FaceHull hullOf(
   const BernsteinForm& form, const std::vector<LatticePoint>& lattice, const Face& face)
 {
@@ -29,7 +33,7 @@ FaceHull hullOf(
   bool first = true;
   for (std::size_t i = 0; i < lattice.size(); ++i)
   {
-    if (faceMargin(face, latticePosition(form.degrees, lattice[i])) > 1e-9)
+    if (faceMargin(face, latticePosition(form.degrees, lattice[i])) > onFaceOfLattice)
     {
       continue;
     }
@@ -57,14 +61,14 @@ LocalMap mapAt(const BernsteinForm& form, const ReferencePoint& u)
   return fieldPoint(evaluateGradient(form, u), 0.0).map;
 }
 
-/// Direction in world space into the element, as long as the half-space value grows.
+/// Gradient in world space of a face's half-space value (faceMargin): it points into the element.
 WorldVector inwardOf(const LocalMap& map, const Face& face)
 {
   return { glm::transpose(map.inverse) * face.inward.xyz };
 }
 
-/// Takes u towards the target as the map has it here, along the element's faces where it would leave.
-/// \param rest from u to the target; what is left of it afterwards
+/// Takes u towards a target by the linearised map, along the element's faces where it would leave.
+/// \param rest vector from u to the target; receives what is left of it
 /// \return length of the way in reference space
 double stepInside(Domain domain, const LocalMap& map, ReferencePoint& u, WorldVector& rest)
 {
@@ -90,6 +94,7 @@ double stepInside(Domain domain, const LocalMap& map, ReferencePoint& u, WorldVe
 
 FaceLocator::FaceLocator(const ElementMesh& mesh, double isovalue, const ParallelFor& parallelFor)
   : Mesh(mesh)
+  , Met(mesh.elements.size() * MaximumFaces, 0)
 {
   std::vector<std::vector<OpenFace>> ofElement(mesh.elements.size());
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(ofElement.size()),
@@ -108,7 +113,7 @@ FaceLocator::FaceLocator(const ElementMesh& mesh, double isovalue, const Paralle
   this->findOpposites(parallelFor);
 }
 
-std::vector<FaceLocator::OpenFace> FaceLocator::openFacesOf(int element, double isovalue) const
+std::vector<FaceLocator::OpenFace> FaceLocator::openFacesOf(int element, double isovalue)
 {
   const BernsteinForm form = this->Mesh.form(element);
   const DomainFacts& domain = facts(form.domain);
@@ -127,6 +132,7 @@ std::vector<FaceLocator::OpenFace> FaceLocator::openFacesOf(int element, double 
     const FaceHull hull = hullOf(form, lattice, domain.faces[f]);
     if (straddles(hull.range, isovalue))
     {
+      this->Met[faceSlot(element, f)] = 1;
       const WorldVector inward =
         inwardOf(mapAt(form, middleOf(domain, domain.faces[f])), domain.faces[f]);
       const double size = length(inward);
@@ -137,7 +143,7 @@ std::vector<FaceLocator::OpenFace> FaceLocator::openFacesOf(int element, double 
   return result;
 }
 
-/// Finds the pairs that may touch, and forgets the faces that are in none.
+/// Finds the pairs of opposite faces, and forgets faces that have no opposite.
 void FaceLocator::findOpposites(const ParallelFor& parallelFor)
 {
   std::vector<Bounds> boxes;
@@ -177,7 +183,7 @@ void FaceLocator::findOpposites(const ParallelFor& parallelFor)
     if (rank[i] >= 0)
     {
       kept.push_back(this->Faces[i]);
-      // A face is opposite to those opposite to it, so all of them are kept.
+      // Being opposite is symmetric, so that all faces opposite to this one are kept too.
       std::transform(opposites[i].begin(), opposites[i].end(),
         std::back_inserter(kept.back().opposite), [&](int j) { return rank[j]; });
     }
@@ -194,7 +200,7 @@ const FaceLocator::OpenFace* FaceLocator::find(int element, int face) const
   return found ? &*at : nullptr;
 }
 
-bool FaceLocator::mayGoOnIn(int element, int face, int other) const
+bool FaceLocator::mayContinueIn(int element, int face, int other) const
 {
   const OpenFace* from = this->find(element, face);
   return from &&
@@ -224,14 +230,18 @@ std::optional<LocatedPlace> FaceLocator::locate(
   return nearest;
 }
 
-/// Newton's method for T(u) = x, or for the u next to x where the element does not hold it. Beside an
-/// element, rather than in front of it, is not behind the face: the miss points across the face for
-/// the most part.
+/// Newton's method for T(u) = x, or for the u nearest to x where the element does not hold x. The point counts as
+/// behind the face only if it lies in front of the element, not beside it: what is left from T(u) to x points across
+/// the face for the most part.
 std::optional<LocatedPlace> FaceLocator::locateIn(
   const OpenFace& to, const WorldPoint& point, double tolerance, std::int64_t& evaluations) const
 {
+  // Newton's method converges quadratically and needs a few steps; where it takes more it fails.
   constexpr int maximumSteps = 20;
+  // Length of the last step, reference coordinates.
   constexpr double converged = 1e-9;
+  // Largest half-space value on the near side of an element, see isNearFace.
+  constexpr double nearSide = 0.5;
   if (!to.bounds.widened(tolerance + rounding * to.bounds.diagonal())
          .overlaps({ point.xyz, point.xyz }))
   {
@@ -260,8 +270,9 @@ std::optional<LocatedPlace> FaceLocator::locateIn(
     const double aside = length(rest - (across / slope) * inward);
     const double gap = std::max(length(rest), std::max(0.0, faceMargin(face, u)) / slope);
     const double slack = rounding * to.bounds.diagonal();
-    // What is nearer to the far side of a thin element is beyond that: its faces may look away from each other.
-    const bool isNearFace = faceMargin(face, u) <= 0.5;
+    // A point nearer to the far side of a thin element lies behind the far side: two plates that are thinner than the
+    // tolerance must not be taken for each other's neighbours through their far sides.
+    const bool isNearFace = faceMargin(face, u) <= nearSide;
     const bool behind = isNearFace && gap <= tolerance + slack && aside <= std::abs(across) + slack;
     return behind ? std::optional<LocatedPlace>({ { to.element, u }, to.face, gap }) : std::nullopt;
   }

@@ -8,45 +8,52 @@
 namespace hop
 {
 
-/// A place behind a face that the mesh does not join to another.
+/// A place behind a face that the mesh does not join to another face.
 struct LocatedPlace
 {
   Location location;
-  /// The face of that element by which one enters it.
+  /// The face of the located element by which one enters it.
   int face = -1;
-  /// How far it is from the place asked for, or that one inside the element; world units.
+  /// Gap between the two faces there, or how deep they overlap; world units.
   double gap = 0.0;
 };
 
 /// Finds what lies behind faces that the mesh does not join: beside hanging nodes of refined elements,
-/// or where triangles meet quadrilaterals. Two such faces may touch if their boxes overlap and they look
-/// at each other; where a point of one lies in the element of the other, Newton's method tells.
+/// or where triangles meet quadrilaterals. Two unmatched faces are opposite to each other if their bounding boxes,
+/// widened by the largest gap, overlap and their outward normals point against each other. Newton's method finds the
+/// place in the opposite face's element (Documentation/algorithm.md, section Walking on the surface).
 ///
-/// Only faces that the isosurface can pass are looked at: their coefficients straddle the isovalue.
+/// Only faces that the isosurface can pass are searched: their coefficients straddle the isovalue.
 class FaceLocator
 {
 public:
   /// \pre findFaceNeighbors has run; the mesh outlives the locator
   FaceLocator(const ElementMesh& mesh, double isovalue, const ParallelFor& parallelFor);
 
-  /// Whether anything may lie behind a face that has no neighbour.
-  bool mayGoOn(int element, int face) const { return this->find(element, face) != nullptr; }
+  /// Whether another element may lie behind a face that has no neighbour.
+  bool mayContinue(int element, int face) const { return this->find(element, face) != nullptr; }
 
-  /// Whether `other` may lie behind a face.
-  bool mayGoOnIn(int element, int face, int other) const;
+  /// Whether the surface may meet a face that has no neighbour: the coefficients of the field on the face lie on both
+  /// sides of the isovalue. A surface that runs along a face without meeting it, however near, does not end there.
+  bool mayMeet(int element, int face) const { return this->Met[faceSlot(element, face)] != 0; }
 
-  /// The place behind a face, next to a point of it. Of several elements the one that misses the point
-  /// least, and the first of those that meet it to rounding.
-  /// \param tolerance largest miss, world units; misses beyond ReachPerFace are never accepted
+  /// Whether the element `other` may lie behind a face that has no neighbour.
+  bool mayContinueIn(int element, int face, int other) const;
+
+  /// The place behind a face that is nearest to a point of the face. Of several elements the one with the smallest gap
+  /// is chosen, or the first whose gap is zero to rounding.
+  /// \param tolerance largest gap, world units; gaps beyond LargestGapPerDiagonal are never accepted
   /// \param evaluations is increased by the number of evaluations
   std::optional<LocatedPlace> locate(const WorldPoint& point, int element, int face,
     double tolerance, std::int64_t& evaluations) const;
 
-  /// Evaluations that the set-up took.
+  /// Number of evaluations that the constructor made.
   std::int64_t evaluations() const { return this->Evaluations; }
 
-  /// Largest miss between two faces, in units of the smaller one's diagonal.
-  static constexpr double ReachPerFace = 0.1;
+  /// Largest gap between two faces, in units of the smaller one's diagonal; chosen by experiment. Larger: what lies
+  /// behind thin plates may be taken for a neighbour; smaller: the surface ends where curved faces of different
+  /// elements approximate each other badly.
+  static constexpr double LargestGapPerDiagonal = 0.1;
 
 private:
   /// A face without neighbour that the surface can pass.
@@ -54,25 +61,27 @@ private:
   {
     int element = -1;
     int face = -1;
-    /// Of its control points.
+    /// Bounds of the face's control points.
     Bounds bounds;
-    /// At its middle, out of the element; zero where the element is singular.
+    /// Unit normal at the face's middle, out of the element; zero where the element is singular.
     WorldVector outward;
-    /// Numbers of open faces that may touch it.
+    /// Indices in Faces of the faces opposite to it.
     std::vector<int> opposite;
 
-    double reach() const { return ReachPerFace * this->bounds.diagonal(); }
+    double reach() const { return LargestGapPerDiagonal * this->bounds.diagonal(); }
   };
 
-  std::vector<OpenFace> openFacesOf(int element, double isovalue) const;
+  std::vector<OpenFace> openFacesOf(int element, double isovalue);
   void findOpposites(const ParallelFor& parallelFor);
   const OpenFace* find(int element, int face) const;
   std::optional<LocatedPlace> locateIn(
     const OpenFace& to, const WorldPoint& point, double tolerance, std::int64_t& evaluations) const;
 
   const ElementMesh& Mesh;
-  /// Those that others may touch, by element and face.
+  /// Open faces to which others are opposite, sorted by element and face.
   std::vector<OpenFace> Faces;
+  /// MaximumFaces entries an element, see mayMeet().
+  std::vector<char> Met;
   std::int64_t Evaluations = 0;
 };
 

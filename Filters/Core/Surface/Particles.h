@@ -4,24 +4,28 @@
 #include "Surface/SurfaceWalker.h"
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
 namespace hop
 {
 
-/// A plane near a particle at which the surface ends or turns, touching that edge where it is nearest.
+/// A plane near a particle at which splats are cut off, because an edge of the surface runs there: a boundary curve or
+/// a crease. It touches the edge in the edge's point nearest to the particle.
 struct ClipPlane
 {
-  /// Unit normal, pointing to the far side; zero if there is no plane.
+  /// Unit normal, pointing away from the particle; zero if there is no plane.
   WorldVector normal;
-  /// World units, >= 0; more than that of the edge where others leave a corner between creases open.
+  /// Distance from the particle, >= 0, world units. Larger than the edge's where splats would else leave a corner
+  /// between creases open.
   double distance = 0.0;
-  /// By which the edge bends along the surface, towards the plane's normal, 1/radius; 0 where it is almost smooth.
-  double bend = 0.0;
-  /// By which the surface turns there, radians, see FaceJumps::dihedralAngles; pi where it ends.
+  /// Curvature of the edge along the surface, 1/world units, positive where it bends towards the plane's normal; 0 at
+  /// creases with a small dihedral angle.
+  double edgeCurvature = 0.0;
+  /// Angle by which the surface turns at a crease, radians, see FaceJumps::dihedralAngles; pi at a boundary curve.
   float dihedralAngle = 0.0f;
-  /// Of the particle's element, at which the surface turns; -1 where it ends.
+  /// Face of the particle's element in which the crease lies; -1: a boundary curve.
   int face = -1;
 
   bool exists() const { return dot(this->normal, this->normal) > 0.0; }
@@ -38,38 +42,60 @@ struct Particle
   Curvature curvature;
   /// |F - c|/|grad F|, world units.
   double residual = 0.0;
-  /// h, the distance to neighbours that this particle wants, world units.
+  /// h, the wanted distance to neighbours, world units.
   double spacing = 0.0;
-  /// In corners there are two. Boundary curves and creases first, then the nearer.
+  /// Near corners of the surface there are two planes: boundary curves first, then creases, near planes before far
+  /// ones, see offerPlane().
   std::array<ClipPlane, 2> clips;
-  /// On a boundary curve where the field jumps between elements: F - c on the other side. Zero elsewhere.
+  /// On a boundary curve where the field jumps between elements: F - c in the element behind the face. Zero elsewhere.
   double jump = 0.0;
-  /// Of the splat's radius to the spacing: less than 1 where it stands alone on a piece of the surface smaller
-  /// than that.
-  double shrink = 1.0;
+  /// Ratio of the splat's radius to the spacing, 1 at most: less where the particle stands alone on a component of the
+  /// surface smaller than the spacing.
+  double radiusPerSpacing = 1.0;
 
-  /// Largest D h that particles can follow; beyond it the surface bends faster.
-  static constexpr double LargestBend = 2.0;
-  bool isUndersampled() const { return this->curvature.magnitude * this->spacing > LargestBend; }
+  /// Largest D h that particles can follow: that of six particles on a sphere, an octahedron with h = sqrt(2) r and
+  /// D = sqrt(2)/r. Larger: undersampled places stay unnoticed; smaller: the user is warned of places that look right.
+  static constexpr double LargestCurvatureTimesSpacing = 2.0;
+  bool isUndersampled() const
+  {
+    return this->curvature.magnitude * this->spacing > LargestCurvatureTimesSpacing;
+  }
 };
+
+/// The particle of a place on the surface: without clip planes, jump and shrinking.
+/// \param spacing h, world units
+inline Particle particleAt(
+  const Location& place, const FieldPoint& point, const Curvature& curvature, double spacing)
+{
+  Particle particle;
+  particle.location = place;
+  particle.position = point.map.position;
+  particle.normal = surfaceNormal(point.gradient);
+  particle.curvature = curvature;
+  particle.residual = std::abs(point.value) / length(point.gradient);
+  particle.spacing = spacing;
+  return particle;
+}
 
 /// What a distribution cost and what it found.
 struct DistributionReport
 {
+  /// Evaluations of an element at a point, with all its derivatives.
   std::int64_t evaluations = 0;
+  /// Sweeps of the relaxation.
   std::int64_t iterations = 0;
-  /// Boxes in which the surface may be (SurfaceBoxes.h), and those of them that are not certified to
+  /// Number of boxes in which the surface may be (SurfaceBoxes.h), and of boxes among them that are not proven to
   /// hold one sheet.
   std::int64_t boxes = 0;
   std::int64_t boxesUndecided = 0;
   /// Input cells with undecided boxes, ascending, each once.
   std::vector<std::int64_t> undecidedCells;
-  /// Points near undecided boxes where the gradient vanishes on the surface: cones, isolated points,
-  /// crossings.
+  /// Points near undecided boxes where the gradient vanishes on the surface: tips of cones, isolated points,
+  /// crossings of sheets.
   std::int64_t singularPoints = 0;
   /// Particles given up because they could not be put on the surface again.
   std::int64_t particlesRejected = 0;
-  /// See Particle::isUndersampled().
+  /// Particles for which Particle::isUndersampled() holds.
   std::int64_t particlesUndersampled = 0;
   bool converged = true;
   bool aborted = false;

@@ -11,8 +11,9 @@ namespace
 
 LocalMap localMap(const Jet& jet)
 {
-  // A column this short beside the others or beside the coordinates, and a determinant this small
-  // beside the product of the columns' lengths, are rounding errors.
+  // Some 450 epsilons of doubles: a column shorter than this beside the others or beside the coordinates is rounding
+  // errors. So is a determinant smaller than some 4,500 epsilons beside the product of the columns' lengths. Larger:
+  // thin elements count as singular; smaller: normals and steps may be noise.
   constexpr double roundedColumn = 1e-13;
   constexpr double roundedDeterminant = 1e-12;
   LocalMap map;
@@ -29,7 +30,10 @@ LocalMap localMap(const Jet& jet)
   return map;
 }
 
-/// To world space, of a function with that Hessian in reference space.
+/// The Hessian in world space of a function: K^T (F*_uu - sum_i (F_x)_i d2x_i/du2) K.
+/// \param hessian F*_uu, in reference space
+/// \param second second derivatives of the map
+/// \param gradient F_x, in world space
 glm::dmat3 pulled(glm::dmat3 hessian, const std::array<Coefficient, 6>& second, const LocalMap& map,
   const WorldVector& gradient)
 {
@@ -54,7 +58,9 @@ FieldPoint fieldPoint(const Jet& jet, double isovalue)
 
 bool isNearInReference(const FieldPoint& point)
 {
-  constexpr double near = 1e-3; // of the element
+  // Reference coordinates. Larger: particles beside folds pass that are far from the surface; smaller: no step of
+  // Newton's method ends beside a fold.
+  constexpr double near = 1e-3;
   const glm::dvec3 slope = glm::transpose(point.map.jacobian) * point.gradient.xyz;
   return std::abs(point.value) <= near * glm::length(slope);
 }
@@ -70,8 +76,9 @@ LevelSet faceLevels(const Jet& jet, const LocalMap& map, const Face& face)
   return { gradient, pulled(glm::dmat3(0.0), jet.second, map, gradient) };
 }
 
-WorldVector bendOfCrossing(const LevelSet& a, const LevelSet& b)
+WorldVector curvatureOfCrossing(const LevelSet& a, const LevelSet& b)
 {
+  // Sine of the angle between the level sets below which they are tangent: the vector is divided by its square.
   constexpr double parallel = 1e-6;
   const double lengthA = length(a.gradient);
   const double lengthB = length(b.gradient);
@@ -83,7 +90,7 @@ WorldVector bendOfCrossing(const LevelSet& a, const LevelSet& b)
   {
     return {};
   }
-  // Along the curve both functions stay what they are, to second order.
+  // Both functions are constant along the curve: their second derivatives by arc length vanish too.
   const glm::dvec3 tangent = along / sine;
   const double bendA = -glm::dot(tangent, a.hessian * tangent) / lengthA;
   const double bendB = -glm::dot(tangent, b.hessian * tangent) / lengthB;
@@ -104,8 +111,7 @@ Curvature curvature(const WorldVector& gradient, const glm::dmat3& hessian)
   const glm::dmat3 g = projector * hessian * projector / slope;
   const double trace = g[0][0] + g[1][1] + g[2][2];
   const double frobenius2 = glm::dot(g[0], g[0]) + glm::dot(g[1], g[1]) + glm::dot(g[2], g[2]);
-  // trace and frobenius2 are k1 + k2 and k1^2 + k2^2 for the normal +grad F; the mean curvature
-  // changes its sign with the normal.
+  // The trace is for the normal +grad F; the mean curvature and the shape operator change their signs with the normal.
   return { -0.5 * trace, 0.5 * (trace * trace - frobenius2), std::sqrt(frobenius2), -1.0 * g };
 }
 

@@ -11,7 +11,7 @@ namespace hop
 namespace
 {
 
-/// How fast the field changes along a face.
+/// Slope of the field along a face: length of its gradient's part in the face's plane.
 double slopeAlong(const ElementMesh& mesh, const Evaluated& at, int face)
 {
   const Face& which = mesh.face(at.location.element, face);
@@ -85,7 +85,7 @@ std::optional<SurfaceWalker::Behind> SurfaceWalker::behind(const Evaluated& here
   const Isosurface& surface = this->Surface;
   const int element = here.location.element;
   const bool mayEnd = surface.mayEnd(element, face);
-  if (mayEnd && !surface.isUndecided(element, face))
+  if (mayEnd && !surface.isOpenToBoth(element, face))
   {
     return std::nullopt;
   }
@@ -95,10 +95,10 @@ std::optional<SurfaceWalker::Behind> SurfaceWalker::behind(const Evaluated& here
     return std::nullopt;
   }
   const Behind there{ this->evaluate(place->location), place->face };
-  return goesOn(surface, here, face, there) ? std::optional<Behind>(there) : std::nullopt;
+  return continuesIn(surface, here, face, there) ? std::optional<Behind>(there) : std::nullopt;
 }
 
-bool SurfaceWalker::goesOn(
+bool SurfaceWalker::continuesIn(
   const Isosurface& surface, const Evaluated& here, int face, const Behind& there)
 {
   const double tolerance = surface.jumpTolerance(here.location.element, face);
@@ -106,28 +106,30 @@ bool SurfaceWalker::goesOn(
   const WorldVector& after = there.at.point.gradient;
   return !std::isfinite(tolerance) ||
     (jumpBetween(*surface.mesh, here, face, there) <= tolerance &&
-      dot(before, after) >= SameSheet * length(after) * length(before));
+      dot(before, after) >= SheetCosine * length(after) * length(before));
 }
 
 std::optional<SurfaceWalker::Behind> SurfaceWalker::behind(const Location& here, int face)
 {
-  const bool matters = this->Surface.isUndecided(here.element, face);
+  const bool matters = this->Surface.isOpenToBoth(here.element, face);
   return this->behind(matters ? this->evaluate(here) : Evaluated{ here, {} }, face);
 }
 
 bool SurfaceWalker::endsAt(const Evaluated& here, int face)
 {
   return isOnFace(*this->Surface.mesh, here.location, face) &&
-    this->Surface.mayEnd(here.location.element, face) && !this->behind(here, face);
+    this->Surface.mayEnd(here.location.element, face) &&
+    this->Surface.mayMeet(here.location.element, face) && !this->behind(here, face);
 }
 
-int SurfaceWalker::endCount(const Location& location)
+int SurfaceWalker::endFaceCount(const Location& location)
 {
   int count = 0;
   for (int f = 0; f < faceCountOf(*this->Surface.mesh, location); ++f)
   {
     count += isOnFace(*this->Surface.mesh, location, f) &&
-      this->Surface.mayEnd(location.element, f) && !this->behind(location, f);
+      this->Surface.mayEnd(location.element, f) && this->Surface.mayMeet(location.element, f) &&
+      !this->behind(location, f);
   }
   return count;
 }
@@ -172,11 +174,11 @@ Location SurfaceWalker::move(const Evaluated& start, const WorldVector& step)
     {
       break;
     }
-    // Where the walls of two elements meet, each sends the step into the other: straight back
-    // through the face it came by. Then it can only follow that face.
+    // Where the surface ends at faces of two neighbours that meet in an edge, each element sends the step into the
+    // other: straight back through the face by which it came. Then it can only follow that face.
     const bool comesBack = exit.face == entry && exit.fraction == 0.0 && active.count > 0;
-    const bool looked = this->Surface.mayEnd(at.location.element, exit.face);
-    at = looked ? this->evaluate(at.location) : at;
+    const bool evaluated = this->Surface.mayEnd(at.location.element, exit.face);
+    at = evaluated ? this->evaluate(at.location) : at;
     const auto next = comesBack ? std::nullopt : this->behind(at, exit.face);
     if (next)
     {
@@ -191,20 +193,24 @@ Location SurfaceWalker::move(const Evaluated& start, const WorldVector& step)
     else
     {
       active.add(exit.face);
-      at = looked ? at : this->evaluate(at.location);
+      at = evaluated ? at : this->evaluate(at.location);
     }
   }
   return at.location;
 }
 
-/// The step of Newton's method. One that would leave through the boundary looks for the surface along
-/// the boundary instead, and so do those that follow (`alongWall`): an overshoot would otherwise send
-/// the next one back inside, past the boundary curve.
-WorldVector SurfaceWalker::newtonStep(const Evaluated& at, bool& alongWall)
+/// The step of Newton's method. A step that would leave through a face at which the surface ends seeks the surface
+/// along that face instead, and so do the steps after it: an overshoot would otherwise send the next step back inside,
+/// past the boundary curve.
+/// \param alongFace whether the step before went along a face; receives whether this one does
+WorldVector SurfaceWalker::newtonStep(const Evaluated& at, bool& alongFace)
 {
   const WorldVector& gradient = at.point.gradient;
   const double slope2 = dot(gradient, gradient);
   WorldVector step = (-at.point.value / slope2) * gradient;
+  // Square of the sine of the angle between surface and face below which they are nearly tangent, so that there is no
+  // curve to find: sine 1e-3. Smaller: steps along the face may be more than a thousand times as long as Newton's.
+  constexpr double tangent = 1e-6;
 
   const ElementMesh& mesh = *this->Surface.mesh;
   const Domain domain = mesh.elements[at.location.element].domain;
@@ -214,12 +220,11 @@ WorldVector SurfaceWalker::newtonStep(const Evaluated& at, bool& alongWall)
     active.add(face);
     const WorldVector along = at.point.map.push(pullAlong(domain, active, at.point.map, gradient));
     const double rate = dot(along, gradient);
-    // Where the surface all but touches the boundary there is no curve to find.
-    step = rate > 1e-6 * slope2 ? (-at.point.value / rate) * along : WorldVector{};
+    step = rate > tangent * slope2 ? (-at.point.value / rate) * along : WorldVector{};
   };
-  if (const int wall = alongWall ? this->onlyEnd(at) : -1; wall >= 0)
+  if (const int face = alongFace ? this->onlyEnd(at) : -1; face >= 0)
   {
-    hold(wall);
+    hold(face);
   }
   while (active.count < 2)
   {
@@ -230,16 +235,16 @@ WorldVector SurfaceWalker::newtonStep(const Evaluated& at, bool& alongWall)
     }
     hold(exit.face);
   }
-  alongWall = active.count > 0;
+  alongFace = active.count > 0;
   return step;
 }
 
 bool SurfaceWalker::project(
-  const Location& start, double maximumTravel, Evaluated& result, bool keepWall)
+  const Location& start, double maximumTravel, Evaluated& result, bool keepFace)
 {
   Evaluated at = this->evaluate(start);
   double travel = 0.0;
-  bool alongWall = keepWall;
+  bool alongFace = keepFace;
   for (int step = 0; step < MaximumNewtonSteps; ++step)
   {
     const double slope = length(at.point.gradient);
@@ -252,7 +257,7 @@ bool SurfaceWalker::project(
       result = at;
       return true;
     }
-    const WorldVector motion = this->newtonStep(at, alongWall);
+    const WorldVector motion = this->newtonStep(at, alongFace);
     travel += length(motion);
     if (!(travel > 0.0) || travel > maximumTravel)
     {

@@ -18,29 +18,36 @@ struct Isosurface
   double tolerance = 0.0;
   /// Finds what lies behind faces that the mesh does not join; nullptr: nothing does.
   const FaceLocator* locator = nullptr;
-  /// MaximumFaces entries an element: by how much the two sides of the surface may miss each other at
-  /// that face and still count as one, world units; infinite where they are known to agree. nullptr:
-  /// infinite everywhere.
+  /// MaximumFaces entries an element: largest distance along the face between the curves in which the two elements'
+  /// surfaces meet it, up to which the surface goes on there (SurfaceWalker::jumpBetween), world units. Infinite where
+  /// the field is known to be continuous. nullptr: infinite everywhere.
   const std::vector<float>* jumpTolerances = nullptr;
-  /// As if the surface ended at every face at which it might.
-  bool walled = false;
+  /// Whether every face at which the surface may end counts as a boundary face.
+  bool endsWhereItMay = false;
 
-  /// Whether a place lies on the surface: to the tolerance, or to what rounding leaves of F - c, however small the
-  /// tolerance. Nothing is on a surface for rounding where the gradient itself is no more.
-  /// \param reach world length that rounding has to be small beside
+  /// Whether a place lies on the surface: |F - c| is within the tolerance, or within rounding errors of F - c, however
+  /// small the tolerance. Rounding does not count where it is not small beside the field's change over `reach`.
+  /// \param reach world units
   bool holds(const FieldPoint& point, double reach) const
   {
+    // Rounding errors of F - c in epsilons of c; chosen by experiment. Larger: particles farther off are accepted;
+    // smaller: particles are rejected where the field changes little beside its size.
+    constexpr double epsilons = 16.0;
+    // Largest rounding error that is accepted, in units of the field's change over `reach`; chosen by experiment.
+    // Larger: points in regions of nearly constant field pass; smaller: particles are rejected.
     constexpr double farFromNoise = 1e-4;
-    const double noise = 16.0 * std::numeric_limits<double>::epsilon() * std::abs(this->isovalue);
+    const double noise =
+      epsilons * std::numeric_limits<double>::epsilon() * std::abs(this->isovalue);
     const double slope = length(point.gradient);
     const double floor = noise < farFromNoise * reach * slope ? noise : 0.0;
     return std::abs(point.value) <= std::max(this->tolerance * slope, floor);
   }
 
-  Isosurface withWalls() const
+  /// The same surface, which ends at every face at which it may.
+  Isosurface endingWhereItMay() const
   {
     Isosurface result = *this;
-    result.walled = true;
+    result.endsWhereItMay = true;
     return result;
   }
 
@@ -50,15 +57,22 @@ struct Isosurface
                                 : std::numeric_limits<double>::infinity();
   }
 
-  /// Whether the surface may go on behind the face at some places, and end there at others.
-  bool isUndecided(int element, int face) const
+  /// Whether the surface may go on behind a face at some places of the face, and end at others.
+  bool isOpenToBoth(int element, int face) const
   {
     const bool joined = this->mesh->neighbor(element, face).element >= 0;
-    const bool open = joined || (this->locator && this->locator->mayGoOn(element, face));
-    return open && !this->walled && this->mayEnd(element, face);
+    const bool open = joined || (this->locator && this->locator->mayContinue(element, face));
+    return open && !this->endsWhereItMay && this->mayEnd(element, face);
   }
 
-  /// Whether there are places on the face at which the surface may end.
+  /// Whether the surface may meet a face, as far as that is known without a look at places on it.
+  bool mayMeet(int element, int face) const
+  {
+    return !this->locator || this->mesh->neighbor(element, face).element >= 0 ||
+      this->locator->mayMeet(element, face);
+  }
+
+  /// Whether there may be places on a face at which the surface ends.
   bool mayEnd(int element, int face) const
   {
     return this->mesh->neighbor(element, face).element < 0 ||
@@ -66,24 +80,27 @@ struct Isosurface
   }
 };
 
-/// Cosine of the largest angle between normals of one sheet where the field jumps: particles on sheets that are
-/// turned more do not keep each other off, and end at boundary curves of their own.
-constexpr double SameSheet = 0.5;
+/// Cosine of the largest angle, 60 degrees, between the normals of two elements' surfaces that count as one sheet where
+/// the field jumps; chosen by experiment. Surfaces with a larger angle end at boundary curves of their own, and their
+/// particles do not repel each other. Larger: the surface is cut open at creases; smaller: sheets are joined that only
+/// cross.
+constexpr double SheetCosine = 0.5;
 
-/// A place that was evaluated.
+/// A place at which the field was evaluated.
 struct Evaluated
 {
   Location location;
   FieldPoint point;
-  /// Zero unless asked for.
+  /// Of the field, in world space; zero where it was not asked for.
   glm::dmat3 hessian{ 0.0 };
 };
 
-/// Moves points through the mesh and onto the surface. Counts its evaluations. One a thread.
+/// Moves points through the mesh and onto the surface, and counts its evaluations. Each thread needs a walker of its
+/// own. See Documentation/algorithm.md, section Walking on the surface.
 class SurfaceWalker
 {
 public:
-  /// \param curved evaluates Hessians everywhere
+  /// \param curved whether evaluate() evaluates Hessians too
   explicit SurfaceWalker(const Isosurface& surface, bool curved = false)
     : Surface(surface)
     , Curved(curved)
@@ -96,59 +113,67 @@ public:
   /// Value, gradient and Hessian at a place.
   Evaluated evaluateCurved(const Location& location);
 
-  /// Value and derivatives to second order at a place; costs nothing where Hessians were evaluated last.
+  /// Value and derivatives to second order at a place. Free of cost if the last evaluation with a Hessian was there.
   const Jet& jetAt(const Location& location);
 
-  /// What lies behind a face, on which a place lies, where the surface goes on there: joined by the mesh or
-  /// found by the locator, and no farther off than the face's gap.
+  /// A place behind a face.
   struct Behind
   {
     Evaluated at;
-    /// The face of that element by which one enters it.
+    /// The face of its element by which one enters the element.
     int face = -1;
   };
+
+  /// The place behind a face if the surface goes on there: in the element that the mesh joins to the face or that the
+  /// locator finds, if the jump is within the face's tolerance.
+  /// \pre `here` lies on the face
   std::optional<Behind> behind(const Evaluated& here, int face);
-  /// The same; the place is evaluated only if that matters.
+  /// The same; the place is evaluated only where the surface may end at some places of the face.
   std::optional<Behind> behind(const Location& here, int face);
 
-  /// Distance along the face between the two curves in which the surface comes to it from either side, by
-  /// the field's values and slopes at a place; infinite or NaN where a slope is zero.
+  /// Distance along a face between the two curves in which the elements' surfaces meet it: the jump of the field over
+  /// its slope along the face, the smaller one of both elements. World units; infinite or NaN where the slope is zero.
   static double jumpBetween(
     const ElementMesh& mesh, const Evaluated& here, int face, const Behind& there);
 
-  /// Whether the surface goes on from a place to what lies behind a face there.
-  static bool goesOn(
+  /// Whether the surface goes on from a place on a face to a place behind it: the jump is within the face's tolerance,
+  /// and the normals are those of one sheet.
+  static bool continuesIn(
     const Isosurface& surface, const Evaluated& here, int face, const Behind& there);
 
-  /// Whether a place lies on that face of its element, and the surface ends there.
+  /// Whether a place lies on a face of its element, and the surface ends there.
   bool endsAt(const Evaluated& here, int face);
 
-  /// How many faces of its element there are for which it does.
-  int endCount(const Location& location);
+  /// Number of faces of its element for which endsAt() a place holds.
+  int endFaceCount(const Location& location);
 
-  /// Follows a world vector from a place, through as many elements as it takes: at each face the
-  /// rest of the vector, towards the same world target, is continued with the Jacobian of the next
-  /// element. At a boundary the rest slides along it. Within an element the step is first order
-  /// in u, so that the place reached lies near the target, not on it. Steps that would need more
-  /// than MaximumHops elements end at the last face.
+  /// Follows a world vector from a place through as many elements as it takes: at each face the rest of the vector,
+  /// towards the same world target, is continued with the Jacobian of the next element. Where the surface ends at a
+  /// face the rest slides along the face. Within an element the step is first order in u, so that the place reached
+  /// lies near the target, not on it. Steps that would pass more than MaximumHops faces end at the last one.
   Location move(const Evaluated& start, const WorldVector& step);
 
-  /// Newton's method u <- u - K F_x F/|F_x|^2 (the paper's eq. 1), across faces, and along the
-  /// boundary where the surface leaves the domain.
+  /// Newton's method u <- u - K F_x F/|F_x|^2 (Meyer et al. 2007, eq. 1), across faces, and along a face where the
+  /// surface ends there.
   /// \param maximumTravel give up when the steps add up to more (world units)
-  /// \param result the place on the surface, if the method converged
-  /// \return whether |F - c|/|grad F| fell to the tolerance
-  /// \param keepWall a start on the boundary stays on it
+  /// \param result receives the place on the surface if the method converged
+  /// \param keepFace whether a start on a face at which the surface ends stays on that face
+  /// \return whether the method converged: Isosurface::holds() at the result
   bool project(
-    const Location& start, double maximumTravel, Evaluated& result, bool keepWall = false);
+    const Location& start, double maximumTravel, Evaluated& result, bool keepFace = false);
 
   std::int64_t evaluations() const { return this->Evaluations; }
 
+  /// Faces that a step passes or is held back by, at most: steps are shorter than elements for the most part, so that
+  /// one that needs more goes in circles. Larger: such steps cost more evaluations; smaller: steps through small
+  /// elements end early.
   static constexpr int MaximumHops = 8;
+  /// Newton's method converges in some five steps; where it takes more than these it is given up. Smaller: particles on
+  /// strongly curved fields are rejected.
   static constexpr int MaximumNewtonSteps = 25;
 
 private:
-  WorldVector newtonStep(const Evaluated& at, bool& alongWall);
+  WorldVector newtonStep(const Evaluated& at, bool& alongFace);
   int onlyEnd(const Evaluated& here);
   std::optional<LocatedPlace> placeBehind(const Evaluated& here, int face);
 

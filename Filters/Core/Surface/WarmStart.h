@@ -8,18 +8,18 @@
 namespace hop
 {
 
-/// A place in a cell of the input, whichever elements a mesh has kept of it.
+/// A place in a cell of the input. It outlives the mesh, which keeps only cells that can hold surface.
 struct CellPlace
 {
   std::int64_t cell = -1;
   ReferencePoint u;
 };
 
-/// Where the particles of a run stood, but for those on boundary curves, which are placed anew.
+/// Where the particles of a run stood, without the particles on boundary curves: the next run places its own.
 Buffer<CellPlace> cellPlaces(
   const ElementMesh& mesh, const Buffer<Particle>& particles, const ParallelFor& parallelFor);
 
-/// Those of the places whose cells are elements of this mesh.
+/// The places whose cells are elements of this mesh, and that lie inside these elements.
 /// \pre elements ascend by cell, as in the input
 std::vector<Location> findPlaces(const ElementMesh& mesh, const Buffer<CellPlace>& places);
 

@@ -75,7 +75,7 @@ void expectSame(const Distribution& a, const Distribution& b)
   }
 }
 
-/// Zero for none: no particles are not evenly spaced.
+/// Zero without values, so that no particles do not pass for evenly spaced ones.
 double smallest(const std::vector<double>& values)
 {
   return values.empty() ? 0.0 : *std::min_element(values.begin(), values.end());
@@ -132,14 +132,14 @@ TEST_P(EvenCover, IsAsDenseAndAsEvenAsHexagonalPacking)
   EXPECT_FALSE(result.report.aborted);
   EXPECT_GT(result.report.evaluations, static_cast<std::int64_t>(result.particles.size()));
   expectHonestParticles(mesh, result, parameters.sizing);
-  const double wanted = hexagonalCount(which.surface.area, which.spacing);
-  EXPECT_NEAR(static_cast<double>(result.particles.size()), wanted, 0.05 * wanted);
+  const double expected = hexagonalCount(which.surface.area, which.spacing);
+  EXPECT_NEAR(static_cast<double>(result.particles.size()), expected, 0.05 * expected);
   const std::vector<double> nearest = nearestSpacings(result.particles);
   EXPECT_GE(smallest(nearest), 0.7);
   EXPECT_NEAR(mean(nearest), 1.0, 0.1);
   for (const Particle& p : result.particles)
   {
-    // As far from the analytic surface as the interpolation lets them be.
+    // The mesh interpolates the analytic surface.
     const glm::dvec3 x = p.position.xyz;
     EXPECT_LE(glm::distance(p.normal.xyz, which.surface.normal(x)), 0.06);
   }
@@ -166,7 +166,7 @@ TEST(ClassicDistribution, GivesExactlyTheNumberOfParticlesAskedFor)
 {
   const KnownSurface surface = sphere({ 0, 0, 0 }, 0.6);
   const ElementMesh mesh = straightMesh(surface);
-  // The first spacing is of no importance.
+  // The spacing at the start does not matter.
   for (const double spacing : { 0.02, 0.2 })
   {
     for (const std::int64_t count : { 60, 500, 1300 })
@@ -177,7 +177,7 @@ TEST(ClassicDistribution, GivesExactlyTheNumberOfParticlesAskedFor)
       const Distribution result = distribute(mesh, parameters);
       ASSERT_EQ(static_cast<std::int64_t>(result.particles.size()), count);
       EXPECT_TRUE(result.report.converged);
-      // The spacing that came out is that of so many particles on this surface.
+      // The spacing that comes out is the one at which hexagonal packing has this number.
       const double expected = std::sqrt(hexagonalCount(surface.area, 1.0) / count);
       EXPECT_NEAR(result.particles.front().spacing, expected, 0.05 * expected);
       const std::vector<double> nearest = nearestSpacings(result.particles);
@@ -218,12 +218,12 @@ TEST(ClassicDistribution, IsDenserWhereTheSurfaceBends)
   ASSERT_GT(waist.size(), 50u);
   EXPECT_LT(tipSpacing / tips.size(), 0.75 * waistSpacing / waist.size());
   EXPECT_GE(smallest(nearest), 0.5);
-  // In both places particles stand as far apart as the sizing function of spacing has it.
+  // In both places particles stand as far apart as the sizing function asks for.
   EXPECT_NEAR(mean(tips), 1.0, 0.15);
   EXPECT_NEAR(mean(waist), 1.0, 0.1);
 }
 
-TEST(ClassicDistribution, NumberFollowsTheLawOfSpacing)
+TEST(ClassicDistribution, NumberFollowsTheSizingFunction)
 {
   // On a sphere curvature is the same everywhere: sqrt(2)/r.
   const KnownSurface surface = sphere({ 0, 0, 0 }, 0.6);
@@ -232,11 +232,11 @@ TEST(ClassicDistribution, NumberFollowsTheLawOfSpacing)
   const double h = parameters.sizing.at(std::sqrt(2.0) / 0.6);
   ASSERT_LT(h, 0.12);
   const Distribution result = distribute(mesh, parameters);
-  const double wanted = hexagonalCount(surface.area, h);
-  EXPECT_NEAR(static_cast<double>(result.particles.size()), wanted, 0.05 * wanted);
+  const double expected = hexagonalCount(surface.area, h);
+  EXPECT_NEAR(static_cast<double>(result.particles.size()), expected, 0.05 * expected);
 }
 
-/// A surface that leaves the cube [-1,1]^3, with its area inside and the length of its boundary curve.
+/// A surface that leaves the cube [-1,1]^3, with its area inside and the length of its boundary curves.
 struct OpenCase
 {
   const char* name;
@@ -287,11 +287,11 @@ TEST_P(OpenCover, ReachesTheBoundaryAndStaysEven)
     onBoundary += atWall;
   }
   EXPECT_NEAR(onBoundary * spacing, open.boundary, 0.15 * open.boundary);
-  // Two particles on the boundary curve may face each other across a corner of the domain.
+  // Two particles on boundary curves may face each other across a corner of the domain.
   EXPECT_GE(smallest(nearestSpacings(result.particles)), 0.6);
-  // Particles on the boundary curve stand for half as much area as those inside.
-  const double wanted = hexagonalCount(open.area, spacing) + 0.5 * open.boundary / spacing;
-  EXPECT_NEAR(static_cast<double>(result.particles.size()), wanted, 0.05 * wanted);
+  // Half of the area around a particle on a boundary curve lies outside.
+  const double expected = hexagonalCount(open.area, spacing) + 0.5 * open.boundary / spacing;
+  EXPECT_NEAR(static_cast<double>(result.particles.size()), expected, 0.05 * expected);
 }
 
 TEST(ClassicDistribution, DependsOnTheSeedAndNotOnThreads)
@@ -359,9 +359,9 @@ TEST(ClassicDistribution, TwoSheetsCloseToEachOtherDoNotMix)
   const Distribution result = distribute(mesh, withSpacing(0.1));
   const auto above = std::count_if(result.particles.begin(), result.particles.end(),
     [](const Particle& p) { return p.position.xyz.z > 0.0; });
-  const double wanted = hexagonalCount(4.0, 0.1);
-  EXPECT_NEAR(static_cast<double>(above), wanted, 0.15 * wanted);
-  EXPECT_NEAR(static_cast<double>(result.particles.size() - above), wanted, 0.15 * wanted);
+  const double expected = hexagonalCount(4.0, 0.1);
+  EXPECT_NEAR(static_cast<double>(above), expected, 0.15 * expected);
+  EXPECT_NEAR(static_cast<double>(result.particles.size() - above), expected, 0.15 * expected);
   EXPECT_GE(smallest(nearestSpacings(result.particles)), 0.5);
 }
 

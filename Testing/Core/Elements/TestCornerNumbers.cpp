@@ -84,7 +84,7 @@ TEST(CornerNumbers, RoundingErrorsAreNoEdges)
 
 TEST(CornerNumbers, ASheetBetweenSolidsIsNotJumpedOver)
 {
-  // Those of the solids may be farther apart than the sheet is thick.
+  // Corners of the solids may be farther apart than the sheet is thick.
   const double offset = 1e5;
   const double thickness = 1e-3;
   ElementMesh mesh;

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
+#include <stdexcept>
 
 namespace hop::testing
 {
@@ -78,6 +80,112 @@ TEST(Domain, HasAsManyFacesAndCornersAsItShould)
   EXPECT_EQ(facts(Domain::Tetrahedron).corners.size(), 4u);
   EXPECT_EQ(facts(Domain::Wedge).faces.size(), 5u);
   EXPECT_EQ(facts(Domain::Wedge).corners.size(), 6u);
+}
+
+TEST(Domain, IsAProductOfSimplices)
+{
+  for (const Domain domain : allDomains)
+  {
+    SCOPED_TRACE(::testing::PrintToString(domain));
+    int axes = 0;
+    for (const SimplexFactor& factor : facts(domain).factors)
+    {
+      EXPECT_EQ(factor.axis, axes);
+      axes = factor.end();
+    }
+    EXPECT_EQ(axes, 3);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      EXPECT_LE(factorOf(domain, axis).axis, axis);
+      EXPECT_GT(factorOf(domain, axis).end(), axis);
+    }
+  }
+}
+
+/// What the switches say of lattices follows from the factors.
+TEST(Domain, LatticeIsTheProductOfTheLatticesOfItsSimplices)
+{
+  constexpr int most = 5;
+  for (const auto& [domain, degrees] : allElementCases())
+  {
+    SCOPED_TRACE(::testing::PrintToString(ElementCase{ domain, degrees }));
+    int count = 1;
+    for (const SimplexFactor& factor : facts(domain).factors)
+    {
+      // Binomial(degree + dimension, dimension) points.
+      int points = 1;
+      for (int d = 1; d <= factor.dimension; ++d)
+      {
+        points = points * (degrees[factor.axis] + d) / d;
+      }
+      count *= points;
+    }
+    EXPECT_EQ(coefficientCount(domain, degrees), count);
+    for (int n = 0; n < most * most * most; ++n)
+    {
+      const std::array<int, 3> index{ n % most, n / most % most, n / (most * most) };
+      bool inside = true;
+      for (const SimplexFactor& factor : facts(domain).factors)
+      {
+        int sum = 0;
+        for (int axis = factor.axis; axis < factor.end(); ++axis)
+        {
+          sum += index[axis];
+        }
+        inside = inside && sum <= degrees[factor.axis];
+      }
+      EXPECT_EQ(inLattice(domain, degrees, { index[0], index[1], index[2] }), inside) << n;
+    }
+  }
+}
+
+TEST(Domain, EdgesAreTheSidesOfFacesEachOnce)
+{
+  for (const Domain domain : allDomains)
+  {
+    SCOPED_TRACE(::testing::PrintToString(domain));
+    std::set<std::pair<int, int>> sides;
+    for (const Face& face : facts(domain).faces)
+    {
+      for (int c = 0; c < face.cornerCount; ++c)
+      {
+        sides.insert(std::minmax({ face.corners[c], face.corners[(c + 1) % face.cornerCount] }));
+      }
+    }
+    std::set<std::pair<int, int>> edges;
+    for (const auto& [a, b] : facts(domain).edges)
+    {
+      edges.insert(std::minmax({ a, b }));
+    }
+    EXPECT_EQ(edges, sides);
+    EXPECT_EQ(edges.size(), facts(domain).edges.size());
+  }
+}
+
+TEST(Domain, ANumberThatStandsForNoneIsRefused)
+{
+  const Domain none = static_cast<Domain>(allDomains.size());
+  EXPECT_THROW(facts(none), std::logic_error);
+  EXPECT_THROW(coefficientCount(none, { 1, 1, 1 }), std::logic_error);
+  EXPECT_THROW(coefficientIndex(none, { 1, 1, 1 }, { 0, 0, 0 }), std::logic_error);
+  EXPECT_THROW(inLattice(none, { 1, 1, 1 }, { 0, 0, 0 }), std::logic_error);
+}
+
+TEST(Domain, PointsHardlyOutsideAreBroughtInside)
+{
+  Random random(1);
+  for (const Domain domain : allDomains)
+  {
+    for (int n = 0; n < 200; ++n)
+    {
+      const ReferencePoint inside = randomPoint(domain, random);
+      EXPECT_EQ(broughtInside(domain, inside).xyz, inside.xyz);
+      const ReferencePoint u{ inside.xyz + 0.3 * randomVector(random) };
+      const ReferencePoint brought =
+        broughtInside(domain, { inside.xyz + 1e-3 * (u.xyz - inside.xyz) });
+      EXPECT_GE(insideMargin(domain, brought), -1e-9) << domain;
+    }
+  }
 }
 
 TEST(Domain, FaceHalfSpacesHoldTheDomainAndVanishOnTheFace)

@@ -66,8 +66,8 @@ std::vector<Meeting> allMeetings(Domain first, Domain second)
   return all;
 }
 
-/// An element of `domain` behind a face of another: an affine image of its reference domain in
-/// which the corners of its face stand on those of the first one's.
+/// An element of `domain` behind a face of another element: an affine image of its reference domain in
+/// which the corners of its face coincide with the corners of the other face.
 Block blockBehind(const Block& block, Domain domain, const Meeting& meeting)
 {
   const Face& here = facts(block.domain).faces[meeting.face];
@@ -87,7 +87,7 @@ Block blockBehind(const Block& block, Domain domain, const Meeting& meeting)
   {
     behind.numbers[apex] = behind.numbers[apex] < 0 ? fresh : behind.numbers[apex];
   }
-  // The corner that fixes the third direction: any one off the face, straight behind it.
+  // The third direction is fixed by any corner off the face, which is put straight behind it.
   apex = static_cast<int>(
     std::find_if(behind.numbers.begin(), behind.numbers.end(), [](auto i) { return i >= 100; }) -
     behind.numbers.begin());

@@ -17,7 +17,7 @@ namespace
 {
 
 /// A polynomial as a sum of shifted monomials, one for each point of the element's lattice: all
-/// polynomials that the element can hold, and evaluated without any Bernstein basis.
+/// polynomials that the element can hold, evaluated without any Bernstein basis.
 class MonomialSum
 {
 public:
@@ -322,8 +322,8 @@ std::array<double, 2> errorOfConversion(int degree, const Field& field, Random& 
   return result;
 }
 
-/// Smooth coordinates and fields, and values without any order: the worst that a file can hold, of which
-/// the coefficients grow too large for doubles (1e14 times the values at degree 15).
+/// Smooth coordinates and fields, and random values: the worst that a file can hold, because their coefficients grow
+/// too large for doubles (1e14 times the values at degree 15).
 TEST(NodalBasis, HighDegreesKeepTheirDigits)
 {
   Random random(11);

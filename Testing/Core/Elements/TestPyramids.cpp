@@ -15,8 +15,8 @@ namespace hop::testing
 namespace
 {
 
-/// Pyramids are polynomial on the hexahedron's domain; its four upper corners stand in one place. What
-/// follows speaks of solids by their distinct places.
+/// Pyramids are polynomial on the hexahedron's domain; its four upper corners stand in one place. The tests here count
+/// corners of solids by their distinct places.
 enum class Kind
 {
   Hexahedron,
@@ -146,7 +146,7 @@ void append(
   appendElement(mesh, recipe, solid.corners, solid.numbers);
 }
 
-/// A point on a face of the domain, off its boundary curve.
+/// A point on a face of the domain, away from its edges.
 ReferencePoint facePoint(Domain domain, int face, Random& random)
 {
   const Face& f = facts(domain).faces[face];
@@ -192,8 +192,8 @@ class PyramidWith : public ::testing::TestWithParam<Kind>
 INSTANTIATE_TEST_SUITE_P(ElementMesh, PyramidWith, ::testing::ValuesIn(allKinds),
   [](const auto& which) { return nameOf(which.param); });
 
-/// Corners that follow each other around a quadrilateral do so behind it, those in one place too: what is known
-/// along an edge of the domain is known along one there.
+/// Corners that follow each other around a quadrilateral follow each other in the neighbour's face too, even where two
+/// of them stand in one place: edges of a face are joined to edges.
 void expectRing(const ElementMesh& mesh, int element, int face)
 {
   const FaceNeighbor& neighbor = mesh.neighbor(element, face);

@@ -70,7 +70,7 @@ bool onCube(const glm::dvec3& x)
   return std::max({ std::abs(x.x), std::abs(x.y), std::abs(x.z) }) > 1.0 - 1e-11;
 }
 
-/// A surface that leaves the cube [-1,1]^3, with its area inside and the length of its boundary curve.
+/// A surface that leaves the cube [-1,1]^3, with its area inside and the length of its boundary curves.
 struct OpenCase
 {
   const char* name;
@@ -129,9 +129,9 @@ TEST_P(FastOpenCover, BoundariesAreClosedLinesOfParticles)
   EXPECT_GE(smallest(alongBoundary), 0.85);
   EXPECT_LE(*std::max_element(alongBoundary.begin(), alongBoundary.end()), 1.1);
   EXPECT_GE(smallest(nearestSpacings(result.particles)), 0.75);
-  // Particles on the boundary curve stand for half as much area as those inside.
-  const double wanted = hexagonalCount(open.area, spacing) + 0.5 * open.boundary / spacing;
-  EXPECT_NEAR(static_cast<double>(result.particles.size()), wanted, 0.03 * wanted);
+  // Half of the area around a particle on a boundary curve lies outside.
+  const double expected = hexagonalCount(open.area, spacing) + 0.5 * open.boundary / spacing;
+  EXPECT_NEAR(static_cast<double>(result.particles.size()), expected, 0.03 * expected);
 }
 
 TEST_P(FastOpenCover, ClipsWhereTheSurfaceEnds)
@@ -153,7 +153,7 @@ TEST_P(FastOpenCover, ClipsWhereTheSurfaceEnds)
     ++clipped;
     EXPECT_GE(p.clips[0].distance, 0.0);
     EXPECT_LE(p.clips[0].distance, 1.5 * spacing);
-    // Down to the wall along the surface, which may meet it at an angle.
+    // The distance is measured along the surface, which may meet the wall at an angle.
     EXPECT_GE(p.clips[0].distance, toWall - 0.2 * spacing);
   }
   EXPECT_GT(clipped * spacing, open.boundary);
@@ -205,8 +205,8 @@ TEST(FastDistribution, GivesExactlyTheNumberOfParticlesAskedFor)
   }
 }
 
-/// What elements want adds up to what comes out, if boundary curves count half.
-TEST(FastDistribution, SaysBeforehandHowManyParticlesElementsWant)
+/// The counts of the elements add up to the number that comes out if particles on boundary curves count half.
+TEST(FastDistribution, SaysBeforehandHowManyParticlesElementsTake)
 {
   constexpr double spacing = 0.05;
   for (const OpenCase& open : { OpenCase{ "Plane", plane({ 0, 0, 1 }, 0.05), 4.0, 8.0 },
@@ -214,21 +214,21 @@ TEST(FastDistribution, SaysBeforehandHowManyParticlesElementsWant)
   {
     SCOPED_TRACE(open.name);
     const ElementMesh mesh = meshOf(Domain::Hexahedron, 2, open.surface.field);
-    const std::vector<double> wanted =
-      wantedParticles({ &mesh, 0.0, tolerance }, { spacing, 0.0 }, {}, {});
-    ASSERT_EQ(wanted.size(), mesh.elements.size());
-    const double sum = std::accumulate(wanted.begin(), wanted.end(), 0.0);
-    // Each particle on the boundary curve counts half, and half of its own area lies outside.
+    const std::vector<double> counts =
+      particlesPerElement({ &mesh, 0.0, tolerance }, { spacing, 0.0 }, {}, {});
+    ASSERT_EQ(counts.size(), mesh.elements.size());
+    const double sum = std::accumulate(counts.begin(), counts.end(), 0.0);
+    // Each particle on a boundary curve counts half, and half of the area around it lies outside.
     const double expected = hexagonalCount(open.area, spacing) + 0.5 * open.boundary / spacing;
     EXPECT_NEAR(sum, expected, 0.03 * expected);
-    std::vector<double> found(wanted.size(), 0.0);
+    std::vector<double> found(counts.size(), 0.0);
     for (const Particle& p : distribute(mesh, withSpacing(spacing)).particles)
     {
       found[p.location.element] += 1.0;
     }
-    for (std::size_t e = 0; e < wanted.size(); ++e)
+    for (std::size_t e = 0; e < counts.size(); ++e)
     {
-      EXPECT_NEAR(found[e], wanted[e], 0.1 * wanted[e] + 0.5 * open.boundary / spacing);
+      EXPECT_NEAR(found[e], counts[e], 0.1 * counts[e] + 0.5 * open.boundary / spacing);
     }
   }
 }
@@ -237,10 +237,10 @@ TEST(FastDistribution, KeepsAFirstSpacingThatGivesTheNumber)
 {
   const ElementMesh mesh = meshOf(Domain::Hexahedron, 2, sphere({ 0, 0, 0 }, 0.6).field);
   constexpr double spacing = 0.0543;
-  const std::vector<double> wanted =
-    wantedParticles({ &mesh, 0.0, tolerance }, { spacing, 0.0 }, {}, {});
+  const std::vector<double> counts =
+    particlesPerElement({ &mesh, 0.0, tolerance }, { spacing, 0.0 }, {}, {});
   DistributionParameters parameters = withSpacing(1.0);
-  parameters.particleCount = std::llround(std::accumulate(wanted.begin(), wanted.end(), 0.0));
+  parameters.particleCount = std::llround(std::accumulate(counts.begin(), counts.end(), 0.0));
   parameters.firstSpacing = spacing;
   const Distribution result = distribute(mesh, parameters);
   EXPECT_EQ(static_cast<std::int64_t>(result.particles.size()), parameters.particleCount);
@@ -284,7 +284,7 @@ TEST(FastDistribution, DependsOnTheSeedAndNotOnThreads)
 
 TEST(FastDistribution, FindsComponentsFarSmallerThanTheSpacing)
 {
-  // Beside a large sphere, one that is a twentieth of a spacing across, even within a spacing of it.
+  // Beside a large sphere, one that is a twentieth of a spacing across: far from it, and within a spacing of it.
   const glm::dvec3 center(-0.25, -0.2, -0.2);
   for (const glm::dvec3& other : { glm::dvec3(0.8, 0.75, 0.7), glm::dvec3(0.45, -0.2, -0.2) })
   {
@@ -318,10 +318,10 @@ TEST(FastDistribution, TwoSheetsCloseToEachOtherDoNotMix)
   {
     sheets[p.position.xyz.z > 0.0].push_back(p);
   }
-  const double wanted = hexagonalCount(4.0, 0.1) + 0.5 * 8.0 / 0.1;
+  const double expected = hexagonalCount(4.0, 0.1) + 0.5 * 8.0 / 0.1;
   for (const auto& sheet : sheets)
   {
-    EXPECT_NEAR(static_cast<double>(sheet.size()), wanted, 0.06 * wanted);
+    EXPECT_NEAR(static_cast<double>(sheet.size()), expected, 0.06 * expected);
     EXPECT_GE(smallest(nearestSpacings(sheet)), 0.75);
   }
 }
@@ -334,7 +334,7 @@ TEST(FastDistribution, TwoSheetsInAThousandthOfAnElementAreAsManyAsEachAlone)
     {
       const glm::dvec3 normal = glm::normalize(direction);
       const auto distance = [&](const glm::dvec3& x) { return glm::dot(normal, x) - 0.137; };
-      const auto wanted = static_cast<double>(
+      const auto expected = static_cast<double>(
         distribute(meshOf(domain, 2, distance, 1), withSpacing(0.1)).particles.size());
       for (const double gap : { 0.02, 0.001 })
       {
@@ -351,7 +351,7 @@ TEST(FastDistribution, TwoSheetsInAThousandthOfAnElementAreAsManyAsEachAlone)
         }
         for (const auto& sheet : sheets)
         {
-          EXPECT_NEAR(static_cast<double>(sheet.size()), wanted, 0.03 * wanted)
+          EXPECT_NEAR(static_cast<double>(sheet.size()), expected, 0.03 * expected)
             << domain << ", gap " << gap;
           EXPECT_GE(smallest(nearestSpacings(sheet)), 0.75) << domain << ", gap " << gap;
         }
@@ -475,7 +475,7 @@ TEST(FastDistribution, RefusesMoreParticlesThanTheLimit)
 
 TEST(FastDistribution, CountsParticlesBeforehandWhereMostStandCloseBecauseTheSurfaceBends)
 {
-  // Two droplets far apart: at a thousandth of their distance they bend more than at the spacing wanted.
+  // Two droplets far apart: at a thousandth of their distance they bend more than at the spacing asked for.
   ElementMesh mesh;
   for (const double middle : { 0.0, 300.0 })
   {
@@ -542,7 +542,7 @@ TEST(FastDistribution, StopsSoonAfterTheMonitorAsksForIt)
 
 TEST(FastDistribution, ProgressRisesWhileOneElementIsSplit)
 {
-  // Asked some twenty times a second: the element has to keep it busy for longer than that.
+  // The monitor is asked some twenty times a second: the element has to take longer than that.
   const ElementMesh mesh = meshOf(Domain::Hexahedron, 8, torus(0.5, 0.22).field, 1);
   std::set<double> fractions;
   distribute(mesh, withSpacing(0.004),

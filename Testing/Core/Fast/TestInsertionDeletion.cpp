@@ -14,8 +14,8 @@ namespace hop::testing
 namespace
 {
 
-/// A hexagonal lattice in the plane z = 0, those inside a circle free, those around it fixed. Spacings
-/// wanted are 1.
+/// A hexagonal lattice in the plane z = 0. Particles inside a circle are free, the others fixed. The sizing function
+/// is 1 everywhere, whatever the spacing of the lattice.
 struct Lattice
 {
   Buffer<Patch> patches;
@@ -60,7 +60,7 @@ Relaxed relax(const Lattice& lattice, Balance::Extent extent,
   return relaxOnPatches(lattice.patches, { sweeps }, { extent, missing }, {});
 }
 
-std::ptrdiff_t removedOf(const Relaxed& relaxed)
+std::ptrdiff_t deletedOf(const Relaxed& relaxed)
 {
   return std::count(relaxed.kept.begin(), relaxed.kept.end(), 0);
 }
@@ -71,24 +71,24 @@ TEST(InsertionDeletion, LeavesAPerfectLatticeAlone)
   for (const auto extent : { Balance::None, Balance::Defects, Balance::Everywhere })
   {
     const Relaxed relaxed = relax(lattice, extent, 0.0);
-    EXPECT_EQ(removedOf(relaxed), 0);
-    EXPECT_TRUE(relaxed.splits.empty());
+    EXPECT_EQ(deletedOf(relaxed), 0);
+    EXPECT_TRUE(relaxed.insertions.empty());
   }
 }
 
-TEST(InsertionDeletion, AddsAndRemovesWhatSpacingsTell)
+TEST(InsertionDeletion, InsertsAndDeletesWhatSpacingsTell)
 {
   for (const double spacing : { 0.9, 0.95, 1.05, 1.1 })
   {
     const Lattice lattice(spacing);
     const auto count = static_cast<double>(lattice.freeCount());
-    // So that the mean energy of a perfect packing is taken for that of relaxed ones.
-    const double wanted = (spacing * spacing - 1.0) * count;
-    const Relaxed relaxed = relax(lattice, Balance::Everywhere, wanted);
+    // Given the number, the mean energy of a perfect lattice is corrected to the one of relaxed packings.
+    const double missing = (spacing * spacing - 1.0) * count;
+    const Relaxed relaxed = relax(lattice, Balance::Everywhere, missing);
     const auto change =
-      static_cast<double>(relaxed.splits.size()) - static_cast<double>(removedOf(relaxed));
-    EXPECT_NEAR(change, wanted, 0.1 * std::abs(wanted) + 1.0) << spacing;
-    EXPECT_EQ(spacing < 1.0 ? relaxed.splits.size() : removedOf(relaxed), 0u);
+      static_cast<double>(relaxed.insertions.size()) - static_cast<double>(deletedOf(relaxed));
+    EXPECT_NEAR(change, missing, 0.1 * std::abs(missing) + 1.0) << spacing;
+    EXPECT_EQ(spacing < 1.0 ? relaxed.insertions.size() : deletedOf(relaxed), 0u);
   }
 }
 
@@ -101,7 +101,7 @@ TEST(InsertionDeletion, EnergiesAloneTellNearlyAsMuch)
     const auto count = static_cast<double>(lattice.freeCount());
     const Relaxed relaxed = relax(lattice, Balance::Everywhere);
     const auto change =
-      static_cast<double>(relaxed.splits.size()) - static_cast<double>(removedOf(relaxed));
+      static_cast<double>(relaxed.insertions.size()) - static_cast<double>(deletedOf(relaxed));
     EXPECT_NEAR(change, (spacing * spacing - 1.0) * count, 0.05 * count) << spacing;
   }
 }
@@ -123,33 +123,33 @@ TEST(InsertionDeletion, FillsAHole)
   Relaxed relaxed{ std::vector<glm::vec2>(energies.size(), glm::vec2(0.0f)),
     std::vector<char>(energies.size(), 1), {} };
   insertAndDelete(lattice.patches, lists, energies, { Balance::Defects, {} }, {}, relaxed);
-  ASSERT_EQ(relaxed.splits.size(), 1u);
-  EXPECT_EQ(removedOf(relaxed), 0);
-  const Split& split = relaxed.splits.front();
-  const Patch& parent = lattice.patches[split.particle];
+  ASSERT_EQ(relaxed.insertions.size(), 1u);
+  EXPECT_EQ(deletedOf(relaxed), 0);
+  const Insertion& insertion = relaxed.insertions.front();
+  const Patch& parent = lattice.patches[insertion.beside];
   const auto tangents = tangentsOf(parent.normal);
   const glm::dvec3 place = parent.position +
-    glm::dvec3(split.displacement.x * tangents[0] + split.displacement.y * tangents[1]);
+    glm::dvec3(insertion.displacement.x * tangents[0] + insertion.displacement.y * tangents[1]);
   EXPECT_LT(glm::distance(place, hole), 0.2);
 }
 
-TEST(InsertionDeletion, RemovesOneOfTwoInOnePlace)
+TEST(InsertionDeletion, DeletesOneOfTwoInOnePlace)
 {
   Lattice lattice(1.0);
   Patch second = lattice.patches[lattice.nearest(glm::dvec3(0.0))];
   second.position.x += 0.05;
   lattice.patches.insert(lattice.patches.begin(), second);
   const Relaxed relaxed = relax(lattice, Balance::Defects, {}, 1);
-  EXPECT_EQ(removedOf(relaxed), 1);
-  const auto removed =
+  EXPECT_EQ(deletedOf(relaxed), 1);
+  const auto deleted =
     std::find(relaxed.kept.begin(), relaxed.kept.end(), 0) - relaxed.kept.begin();
-  EXPECT_LT(glm::distance(lattice.patches[removed].position, second.position), 0.1);
-  EXPECT_EQ(removedOf(relax(lattice, Balance::None, {}, 1)), 0);
+  EXPECT_LT(glm::distance(lattice.patches[deleted].position, second.position), 0.1);
+  EXPECT_EQ(deletedOf(relax(lattice, Balance::None, {}, 1)), 0);
 }
 
-TEST(InsertionDeletion, TwoInOnePlaceTellNothingAboutOthers)
+TEST(InsertionDeletion, TwoInOnePlaceTellNothingAboutOtherPlaces)
 {
-  // The energy of all who see two in one place is out of all proportion.
+  // All neighbours of two particles in one place have an energy out of all proportion.
   const Lattice lattice(1.0);
   const SpacedPoints points = spacedPoints(lattice.patches, {});
   const SeenLists lists(points.positions, points.spacings, 2.0, {});
@@ -162,8 +162,8 @@ TEST(InsertionDeletion, TwoInOnePlaceTellNothingAboutOthers)
   Relaxed relaxed{ std::vector<glm::vec2>(energies.size(), glm::vec2(0.0f)),
     std::vector<char>(energies.size(), 1), {} };
   insertAndDelete(lattice.patches, lists, energies, { Balance::Everywhere, {} }, {}, relaxed);
-  EXPECT_TRUE(relaxed.splits.empty());
-  EXPECT_LE(removedOf(relaxed), 5);
+  EXPECT_TRUE(relaxed.insertions.empty());
+  EXPECT_LE(deletedOf(relaxed), 5);
 }
 
 } // namespace

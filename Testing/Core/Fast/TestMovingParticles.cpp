@@ -25,7 +25,7 @@ ElementMesh sphereMesh()
   return makeMesh(recipe);
 }
 
-/// Particles at seeds, and three patches on boundary curves, which are told by their shape.
+/// Particles at seeds, and three patches on boundary curves, which are recognized by their shape.
 class Moving : public ::testing::Test
 {
 protected:
@@ -33,29 +33,29 @@ protected:
   {
     for (int i = 0; i < 3; ++i)
     {
-      this->Boundaries.emplace_back();
-      this->Boundaries.back().shape[0] = 100.0f + static_cast<float>(i);
+      this->BoundaryPatches.emplace_back();
+      this->BoundaryPatches.back().shape[0] = 100.0f + static_cast<float>(i);
     }
     this->Particles = std::make_unique<MovingParticles>(
-      this->Surface, this->Proxy, this->Boundaries, threadedFor(2));
+      this->Surface, this->Proxy, this->BoundaryPatches, threadedFor(2));
     this->Particles->add(
       this->Proxy.seeds(std::llround(this->Proxy.particleCount()), 0.5, threadedFor(2)));
   }
 
-  void expectBoundariesLast() const
+  void expectBoundaryPatchesLast() const
   {
     const Buffer<Patch>& patches = this->Particles->patches();
     ASSERT_EQ(this->Particles->size(), this->Particles->count() + 3);
     for (std::size_t i = 0; i < 3; ++i)
     {
-      EXPECT_EQ(patches[this->Particles->count() + i].shape[0], this->Boundaries[i].shape[0]);
+      EXPECT_EQ(patches[this->Particles->count() + i].shape[0], this->BoundaryPatches[i].shape[0]);
     }
   }
 
   ElementMesh Mesh = sphereMesh();
   Isosurface Surface{ &Mesh, 0.0, 1e-9 };
   SurfaceProxy Proxy{ Surface, { spacing, 0.0 }, findSurfaceBoxes(Mesh, 0.0, spacing, {}), {} };
-  Buffer<Patch> Boundaries;
+  Buffer<Patch> BoundaryPatches;
   std::unique_ptr<MovingParticles> Particles;
 };
 
@@ -69,11 +69,11 @@ std::vector<glm::dvec3> positionsOf(const MovingParticles& moving)
   return positions;
 }
 
-TEST_F(Moving, ThoseKeptStayAsTheyAre)
+TEST_F(Moving, KeptParticlesStayAsTheyAre)
 {
   const std::vector<glm::dvec3> before = positionsOf(*this->Particles);
   ASSERT_GT(before.size(), 50u);
-  // Marks of boundary curves count for nothing.
+  // Marks of particles on boundary curves count for nothing.
   std::vector<char> kept(this->Particles->size(), 0);
   std::vector<glm::dvec3> expected;
   for (std::size_t i = 0; i < before.size(); i += 3)
@@ -84,7 +84,7 @@ TEST_F(Moving, ThoseKeptStayAsTheyAre)
   kept.back() = 1;
   this->Particles->keep(kept);
   EXPECT_EQ(positionsOf(*this->Particles), expected);
-  this->expectBoundariesLast();
+  this->expectBoundaryPatchesLast();
   for (std::size_t i = 0; i < this->Particles->count(); ++i)
   {
     const Location& place = this->Particles->anchors()[i].place;
@@ -92,7 +92,7 @@ TEST_F(Moving, ThoseKeptStayAsTheyAre)
   }
 }
 
-TEST_F(Moving, ThoseAddedComeBeforeBoundaries)
+TEST_F(Moving, AddedParticlesComeBeforeBoundaryPatches)
 {
   const std::size_t count = this->Particles->count();
   const Buffer<Anchor> anchors{ this->Particles->anchors()[7] };
@@ -100,7 +100,7 @@ TEST_F(Moving, ThoseAddedComeBeforeBoundaries)
   this->Particles->add(anchors, patches);
   ASSERT_EQ(this->Particles->count(), count + 1);
   EXPECT_EQ(this->Particles->patches()[count].position, patches[0].position);
-  this->expectBoundariesLast();
+  this->expectBoundaryPatchesLast();
 }
 
 TEST_F(Moving, StepsEndOnTheSurfaceSortedByElement)
@@ -112,7 +112,7 @@ TEST_F(Moving, StepsEndOnTheSurfaceSortedByElement)
     count, { 0.3f * static_cast<float>(spacing), 0.1f * static_cast<float>(spacing) });
   this->Particles->commit(displacements, kept);
   EXPECT_EQ(this->Particles->count(), count - 2);
-  this->expectBoundariesLast();
+  this->expectBoundaryPatchesLast();
   int last = 0;
   for (std::size_t i = 0; i < this->Particles->count(); ++i)
   {

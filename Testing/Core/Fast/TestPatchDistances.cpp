@@ -32,27 +32,98 @@ TEST(PatchDistances, TheFirstOfTwoStays)
   EXPECT_EQ(thinOut(row, { 1, 1, 1, 1 }, 0.6, {}), (Marks{ 1, 0, 1, 1 }));
 }
 
-TEST(PatchDistances, ThoseThatAreNotWantedPushNoneAside)
+TEST(PatchDistances, PatchesThatAreNoCandidatesPushNoneAside)
 {
   const Buffer<Patch> row = inARow({ 0.0, 0.5, 1.0, 2.0 });
   EXPECT_EQ(thinOut(row, { 0, 1, 1, 1 }, 0.6, {}), (Marks{ 0, 1, 0, 1 }));
   EXPECT_EQ(thinOut(row, { 0, 1, 0, 1 }, 0.6, {}), (Marks{ 0, 1, 0, 1 }));
 }
 
-TEST(PatchDistances, ThoseBehindStayWhoeverIsNear)
+TEST(PatchDistances, PatchesBehindTheCandidatesStayWhoeverIsNear)
 {
   const Buffer<Patch> row = inARow({ 0.0, 2.0, 0.5 });
   EXPECT_EQ(thinOut(row, { 1, 1 }, 0.6, {}), (Marks{ 0, 1 }));
 }
 
-TEST(PatchDistances, SheetsThatAreTurnedAwayAreOthers)
+TEST(PatchDistances, SheetsThatAreTurnedAwayAreNotSeen)
 {
   Buffer<Patch> row = inARow({ 0.0, 0.1 });
   row[1].normal = { 0, 0, -1 };
   EXPECT_EQ(thinOut(row, { 1, 1 }, 0.6, {}), (Marks{ 1, 1 }));
 }
 
-/// The n-th of samples in the plane, at random places of a square; a few face down. Spacings grow along x.
+TEST(PatchDistances, AreFarInUnitsOfTheirOwnSpacing)
+{
+  Buffer<Patch> row = inARow({ 0.5, 0.7, 1.5 });
+  EXPECT_EQ(areFarFrom(row, 3, inARow({ 0.0 }), 0.6, {}), (Marks{ 0, 1, 1 }));
+  row[1].spacing = 2.0f;
+  EXPECT_EQ(areFarFrom(row, 3, inARow({ 0.0 }), 0.6, {}), (Marks{ 0, 0, 1 }));
+  EXPECT_EQ(areFarFrom(row, 1, inARow({ 0.0 }), 0.6, {}), Marks{ 0 });
+  row[0].normal = { 0, 0, -1 };
+  EXPECT_EQ(areFarFrom(row, 1, inARow({ 0.0 }), 0.6, {}), Marks{ 1 });
+}
+
+TEST(PatchDistances, AreSeparatedInUnitsOfTheSmallerSpacing)
+{
+  Buffer<Patch> row = inARow({ 0.0, 0.5, 2.0 });
+  EXPECT_EQ(areSeparated(row, 3, 0.6, {}), (Marks{ 0, 0, 1 }));
+  row[0].spacing = 0.8f;
+  EXPECT_EQ(areSeparated(row, 3, 0.6, {}), (Marks{ 1, 1, 1 }));
+}
+
+TEST(PatchDistances, ClearanceIsTheDistanceOfTheNearest)
+{
+  Buffer<Patch> row = inARow({ 0.0, 0.5, 1.25, 9.0 });
+  row[2].spacing = 1.5f;
+  const std::vector<double> found = clearances(row, 4, row, 2.0, {});
+  const std::vector<double> expected{ 0.5, 0.5, 0.5, 2.0 };
+  for (std::size_t i = 0; i < expected.size(); ++i)
+  {
+    EXPECT_NEAR(found[i], expected[i], 1e-12) << i;
+  }
+}
+
+TEST(PatchDistances, SelectedOnesAreTheFirstThatAreApart)
+{
+  const Buffer<Patch> row = inARow({ 0.0, 1.0, 2.0, 3.0, 4.0 });
+  using Indices = std::vector<int>;
+  EXPECT_EQ(selectSeparated(row, { 2, 1, 0, 4, 3 }, 2, 1.5, {}), (Indices{ 2, 0 }));
+  EXPECT_EQ(selectSeparated(row, { 2, 1, 0, 4, 3 }, 3, 1.5, {}), (Indices{ 2, 0, 4 }));
+  // No others are left that are apart.
+  EXPECT_EQ(selectSeparated(row, { 2, 1, 0, 4, 3 }, 4, 1.5, {}), (Indices{ 2, 0, 4, 1 }));
+}
+
+TEST(PatchDistances, ParticleCoversTheSamplesOnItsSheetWithinItsSpacing)
+{
+  const auto isCovered = [](const glm::dvec3& place, const glm::vec3& normal, float shape)
+  {
+    Buffer<Patch> particle = inARow({ 0.0 });
+    particle[0].shape = { shape, 0.0f, shape };
+    SurfaceProxy::Sample sample;
+    sample.found = true;
+    sample.patch.position = place;
+    sample.patch.normal = normal;
+    return findUncovered({ sample }, particle, {}) == Marks{ 0 };
+  };
+  const glm::vec3 up(0, 0, 1);
+  EXPECT_TRUE(isCovered({ 0.9, 0, 0.05 }, up, 0.0f));
+  EXPECT_FALSE(isCovered({ 1.1, 0, 0 }, up, 0.0f));
+  EXPECT_FALSE(isCovered({ 0, 0, 0.05 }, -up, 0.0f));
+  // Another sheet above it.
+  EXPECT_FALSE(isCovered({ 0.2, 0, 0.15 }, up, 0.0f));
+  EXPECT_FALSE(isCovered({ 0.1, 0, 0.3 }, up, 0.6f));
+  // On a curved patch, which falls by 0.3 t^2, and off a flat one.
+  EXPECT_TRUE(isCovered({ 0.9, 0, -0.243 }, up, 0.6f));
+  EXPECT_FALSE(isCovered({ 0.9, 0, -0.243 }, up, 0.0f));
+}
+
+TEST(PatchDistances, SamplesOffTheSurfaceNeedNoParticle)
+{
+  const std::vector<SurfaceProxy::Sample> samples(2);
+  EXPECT_EQ(findUncovered(samples, {}, {}), (Marks{ 0, 0 }));
+}
+
+/// A sample in the plane, at a random place of a square; one of five faces down. Spacings grow along x.
 SurfaceProxy::Sample randomSample(Random& random, double width)
 {
   SurfaceProxy::Sample sample;
@@ -75,7 +146,7 @@ std::vector<SurfaceProxy::Sample> randomSamples(std::size_t count, double width)
   return samples;
 }
 
-TEST(PatchDistances, ThoseChosenCoverTheOthers)
+TEST(PatchDistances, ChosenSamplesCoverAllOthers)
 {
   constexpr std::size_t count = 1000;
   const auto samples = randomSamples(count, 20.0);
@@ -100,7 +171,7 @@ TEST(PatchDistances, ThoseChosenCoverTheOthers)
   EXPECT_LT(expected.size(), 800u);
 }
 
-/// Looking at all of those chosen before would take 10^11 steps.
+/// Comparing each with all chosen before would take 10^11 steps.
 TEST(PatchDistances, ManyAreChosenInTime)
 {
   constexpr std::size_t count = 500'000;

@@ -16,7 +16,7 @@ namespace
 {
 
 constexpr double spacing = 0.1;
-/// Of the square [-1,1]^2.
+/// Particles of the square [-1,1]^2.
 const double packed = 4.0 * 2.0 / (std::sqrt(3.0) * spacing * spacing);
 
 MeshRecipe recipeOf(Domain domain, const Field& field)
@@ -27,7 +27,7 @@ MeshRecipe recipeOf(Domain domain, const Field& field)
   return recipe;
 }
 
-/// How many particles the triangles want.
+/// Number of particles that the triangles want.
 double wanted(const ElementMesh& mesh, double isovalue)
 {
   const FaceLocator locator(mesh, isovalue, {});
@@ -146,7 +146,7 @@ TEST(FaceSheets, TipsOfPyramidsAreNone)
   findFaceNeighbors(mesh, 1e-9);
   const std::vector<SurfaceBox> boxes = findSurfaceBoxes(mesh, 0.0, spacing, {});
   ASSERT_FALSE(boxes.empty());
-  const std::vector<SurfaceBox> same = giveFaceSheetsOnce({ &mesh, 0.0, 1e-9 }, boxes, {});
+  const std::vector<SurfaceBox> same = assignFaceSheets({ &mesh, 0.0, 1e-9 }, boxes, {});
   ASSERT_EQ(same.size(), boxes.size());
   for (std::size_t b = 0; b < boxes.size(); ++b)
   {

@@ -30,8 +30,7 @@ ElementMesh meshOf(Domain domain, int degree, int cells, const Field& field)
   return makeMesh(recipe);
 }
 
-/// Half the lengths of a box of a hexahedron: its middle is an odd multiple of them, as boxes come from
-/// halving.
+/// Half the edges of a box of a hexahedron: its middle is an odd multiple of them, as boxes come from bisections.
 glm::dvec3 halfLengths(const SurfaceBox& box)
 {
   glm::dvec3 half(1.0);
@@ -74,7 +73,7 @@ TEST(Isolation, TheFieldRisesAlongItsMeanGradientInCertifiedBoxes)
     const NodalBasis basis = NodalBasis::lagrange(Domain::Hexahedron, degrees, lattice);
     for (const SurfaceBox& box : findSurfaceBoxes(mesh, 0.0, anySize, {}))
     {
-      const bool isOneOfTwo = std::isfinite(box.ownValues);
+      const bool isOneOfTwo = std::isfinite(box.largestOwnValue);
       if (!box.certified || isOneOfTwo)
       {
         continue;
@@ -233,24 +232,24 @@ TEST(Isolation, ABlobAtEveryMaximumInOneElement)
   EXPECT_EQ(std::count(found.begin(), found.end(), 0), 0);
 }
 
-/// Surfaces that touch or cross faces, edges and nodes of the elements.
-struct Tangent
+/// Surfaces that are tangent to faces, edges and nodes of the elements, or cross them.
+struct SpecialPlace
 {
   const char* name;
   Field field;
   int cells;
 };
 
-const std::vector<Tangent>& tangencies()
+const std::vector<SpecialPlace>& specialPlaces()
 {
-  static const std::vector<Tangent> all{
+  static const std::vector<SpecialPlace> all{
     { "a sphere around a node", sphere({ 0, 0, 0 }, 0.5).field, 2 },
     { "a sphere around a middle of an edge", sphere({ 0, 0, 0.5 }, 0.31).field, 2 },
     { "a sphere around a middle of a face", sphere({ 0, 0.5, 0.5 }, 0.31).field, 2 },
     { "a sphere around a corner of the domain", sphere({ 1, 1, 1 }, 0.4).field, 1 },
     { "a sphere around a point of a wall", sphere({ 0.11, 0.23, 1 }, 0.3).field, 1 },
-    { "a sphere that touches a wall from inside", sphere({ 0.1, 0.2, 0.5 }, 0.5).field, 1 },
-    { "a sphere that touches an inner face", sphere({ 0.4, 0.3, 0.35 }, 0.35).field, 2 },
+    { "a sphere tangent to a wall from inside", sphere({ 0.1, 0.2, 0.5 }, 0.5).field, 1 },
+    { "a sphere tangent to an inner face", sphere({ 0.4, 0.3, 0.35 }, 0.35).field, 2 },
     { "a plane on inner faces", plane({ 1, 0, 0 }, 0.0).field, 2 },
     { "a plane on a wall", plane({ 0, 0, 1 }, 1.0).field, 1 },
     { "a plane through nodes", plane(glm::normalize(glm::dvec3(1, 1, 1)), 0.0).field, 2 },
@@ -258,9 +257,9 @@ const std::vector<Tangent>& tangencies()
   return all;
 }
 
-TEST_P(IsolationIn, SurfacesThatTouchFacesEdgesAndNodesAreSeededInTime)
+TEST_P(IsolationIn, SurfacesAtFacesEdgesAndNodesAreSeededInTime)
 {
-  for (const Tangent& which : tangencies())
+  for (const SpecialPlace& which : specialPlaces())
   {
     SCOPED_TRACE(which.name);
     const ElementMesh mesh = meshOf(this->GetParam(), 2, which.cells, which.field);
@@ -279,12 +278,12 @@ TEST_P(IsolationIn, SurfacesThatTouchFacesEdgesAndNodesAreSeededInTime)
   }
 }
 
-/// Zero sets that are no surfaces everywhere.
+/// Zero sets that are not surfaces everywhere.
 struct Singular
 {
   const char* name;
   Field field;
-  /// Singular points on them that are isolated.
+  /// Number of isolated singular points.
   int points;
 };
 
@@ -300,7 +299,7 @@ const std::vector<Singular>& singulars()
   return all;
 }
 
-/// Moves the singularity off the places where boxes are split.
+/// The field, moved so that its singularity is off the faces of boxes.
 Field shifted(const Field& field)
 {
   return [field](const glm::dvec3& x) { return field(x - glm::dvec3(0.113, -0.207, 0.171)); };
@@ -356,8 +355,8 @@ TEST_P(IsolationIn, ASingularPointIsFoundWhereItIs)
   }
 }
 
-/// The polynomials of a mesh from their values at the nodes, as if its Bezier cells had been written as
-/// Lagrange cells.
+/// The polynomials of a mesh, converted to their values at the nodes and back, as if its Bezier cells had been written
+/// as Lagrange cells.
 ElementMesh throughNodes(const ElementMesh& mesh)
 {
   ElementMesh result = mesh;
@@ -376,7 +375,7 @@ ElementMesh throughNodes(const ElementMesh& mesh)
   return result;
 }
 
-/// Boxes and seeds move by rounding errors only.
+/// Boxes and seeds move by no more than rounding errors.
 TEST(Isolation, TheSamePolynomialsAsBezierAndAsLagrangeGiveTheSameSeeds)
 {
   constexpr double wantedSize = 0.3;

@@ -12,7 +12,7 @@ namespace hop::testing
 namespace
 {
 
-/// The field's gradient in reference space.
+/// Gradient of the field in reference space.
 glm::dvec3 gradientAt(const BernsteinForm& form, const ReferencePoint& u)
 {
   return gradientOf(evaluateGradient(form, u));

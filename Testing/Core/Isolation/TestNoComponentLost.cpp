@@ -17,8 +17,8 @@ namespace hop::testing
 namespace
 {
 
-/// A random polynomial in Chebyshev form: sum c_ijk T_i(x) T_j(y) T_k(z), x = 2u - 1 and so on, over
-/// the lattice of the element. As wavy as its degree allows, and easily evaluated on a grid.
+/// A random polynomial in Chebyshev form: the sum of c_ijk T_i(x) T_j(y) T_k(z), x = 2u - 1 and so on, over the lattice
+/// of the element. It has as many waves as its degree allows, and is evaluated on a grid quickly.
 class ChebyshevSum
 {
 public:
@@ -88,7 +88,7 @@ private:
     return sum;
   }
 
-  /// Replaces the last axis, the slowest, by values at `points` places and makes it the first one.
+  /// Replaces the last axis, the slowest one, by values at `points` places and makes it the first axis.
   std::vector<double> expandLastAxis(
     const std::vector<double>& values, const std::vector<double>& chebyshev, int points) const
   {
@@ -115,8 +115,8 @@ private:
   std::vector<double> Factors;
 };
 
-/// The cells of a lattice of n^3 cubes over a reference domain in which values change their sign, in
-/// groups that touch. Of cubes that leave the domain only the corners inside count.
+/// Components of a surface on a lattice of n^3 cubes over a reference domain: groups of neighbouring cells in which
+/// values change their sign. Of a cube that leaves the domain only the corners inside count.
 class LatticeComponents
 {
 public:
@@ -125,7 +125,7 @@ public:
     , CellNumber(static_cast<std::size_t>(n) * n * n, -1)
   {
     this->findCells(domain, values, isovalue);
-    this->joinTouchingCells();
+    this->joinNeighbouringCells();
   }
 
   int count() const
@@ -157,7 +157,7 @@ public:
   }
 
 private:
-  /// Which sides of the isovalue the points are on, as bits; none for those outside the domain.
+  /// The side of the isovalue of each point, as a bit; no bit for points outside the domain.
   std::vector<unsigned char> sidesOfPoints(
     Domain domain, const std::vector<double>& values, double isovalue) const
   {
@@ -205,7 +205,7 @@ private:
     }
   }
 
-  void joinTouchingCells()
+  void joinNeighbouringCells()
   {
     this->Parent.resize(this->Cells.size());
     std::iota(this->Parent.begin(), this->Parent.end(), 0);

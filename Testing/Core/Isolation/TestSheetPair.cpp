@@ -65,7 +65,7 @@ TEST_P(PairIn, IsFoundWhateverItsDirectionAndSign)
   }
 }
 
-TEST_P(PairIn, IsNoSingleSheetNorOneThatTouchesNorNone)
+TEST_P(PairIn, IsNeitherASingleSheetNorATangencyNorNothing)
 {
   const auto distance = [](const glm::dvec3& x) { return 0.3 * x.x + 0.2 * x.y + x.z - 0.4; };
   const auto square = [&](const glm::dvec3& x) { return distance(x) * distance(x); };
@@ -78,7 +78,7 @@ TEST_P(PairIn, IsNoSingleSheetNorOneThatTouchesNorNone)
   EXPECT_FALSE(pairIn(domain, 2, [](const glm::dvec3&) { return 0.0; }));
 }
 
-TEST_P(PairIn, IsNoneWhereTheTwoMeetOrThereAreMore)
+TEST_P(PairIn, IsNoneWhereTheTwoMeetOrThereAreThree)
 {
   const Domain domain = this->GetParam();
   // A lens that ends within the element, and three sheets.

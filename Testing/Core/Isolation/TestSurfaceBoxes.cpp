@@ -19,7 +19,7 @@ namespace hop::testing
 namespace
 {
 
-/// A mesh of one straight unit element with random coefficients of f.
+/// A mesh of one straight unit element with random coefficients of the field.
 ElementMesh randomField(const ElementCase& which, Random& random)
 {
   ElementMesh mesh;
@@ -35,7 +35,7 @@ ElementMesh randomField(const ElementCase& which, Random& random)
   return mesh;
 }
 
-/// Every point of a box lies within its size of its middle.
+/// Whether a position may be in a box: every point of a box lies within the size of the box from its middle.
 bool inSomeBox(
   const ElementMesh& mesh, const std::vector<SurfaceBox>& boxes, const glm::dvec3& position)
 {
@@ -75,7 +75,7 @@ TEST(SurfaceBoxes, HoldAllOfTheSurface)
 
 TEST(SurfaceBoxes, LieNearTheSurface)
 {
-  // The other half of the bargain: the boxes are no more than they have to be.
+  // Boxes that hold all of the surface are no proof: all of the mesh would do.
   for (const Domain domain : allDomains)
   {
     MeshRecipe recipe;
@@ -135,9 +135,9 @@ TEST(SurfaceBoxes, ElementsWithoutSurfaceGiveNone)
   }
 }
 
-TEST(SurfaceBoxes, TouchingTheIsovalueCounts)
+TEST(SurfaceBoxes, HoldTangenciesToTheIsovalue)
 {
-  // f = x^2 touches zero in the plane x = 0 without a change of sign.
+  // f = x^2 is zero in the plane x = 0 without a change of sign.
   MeshRecipe recipe;
   recipe.cells = 1;
   recipe.field = [](const glm::dvec3& x) { return x.x * x.x; };
@@ -175,17 +175,17 @@ TEST(SurfaceBoxes, TellWhatShareOfTheWorkIsDone)
     const ElementMesh mesh = makeMesh(recipe);
     std::vector<double> shares;
     std::vector<double> work;
-    double looks = 0.0;
+    double boxesAsked = 0.0;
     const auto isSmall = [&](const SurfaceBox& box)
     {
-      ++looks;
+      ++boxesAsked;
       return box.size < 0.05;
     };
     findSurfaceBoxes(mesh, 0.0, isSmall, {},
       [&](double share)
       {
         shares.push_back(share);
-        work.push_back(looks);
+        work.push_back(boxesAsked);
       });
     ASSERT_GT(shares.size(), 50u);
     EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
@@ -194,7 +194,7 @@ TEST(SurfaceBoxes, TellWhatShareOfTheWorkIsDone)
     for (std::size_t n = 1; n < shares.size(); ++n)
     {
       ASSERT_LT(shares[n] - shares[n - 1], 0.1);
-      ASSERT_NEAR(shares[n], work[n] / looks, 0.25);
+      ASSERT_NEAR(shares[n], work[n] / boxesAsked, 0.25);
     }
   }
 }
@@ -212,7 +212,7 @@ TEST(SurfaceBoxes, WorkOnElementsWithoutSurfaceIsDoneAtOnce)
   EXPECT_EQ(shares.back(), 1.0);
 }
 
-TEST(SurfaceBoxes, ATinySphereInALargeElementIsFound)
+TEST(SurfaceBoxes, ASphereFarSmallerThanItsElementIsFound)
 {
   MeshRecipe recipe;
   recipe.cells = 1;
@@ -260,7 +260,7 @@ const std::vector<std::pair<const char*, Field>>& tangentFields()
   return all;
 }
 
-TEST(SurfaceBoxes, FieldsThatOnlyTouchAreGivenUpEarlyInFewBoxes)
+TEST(SurfaceBoxes, TangentFieldsAreLeftUndecidedEarlyInFewBoxes)
 {
   for (const Domain domain : allDomains)
   {
@@ -287,11 +287,11 @@ TEST(SurfaceBoxes, WhereTheSurfaceCrossesItselfBoxesAreBounded)
       oneCell(domain, 2, [](const glm::dvec3& x) { return (x.x - 0.113) * (x.y + 0.207); });
     const auto boxes = findSurfaceBoxes(mesh, 0.0, 10.0, {});
     EXPECT_GT(uncertifiedCount(boxes), 0) << domain;
-    EXPECT_LE(boxes.size(), 3 * MaximumLongPieces * mesh.elements.size()) << domain;
+    EXPECT_LE(boxes.size(), 3 * TooManyPieces::LongCount * mesh.elements.size()) << domain;
   }
 }
 
-TEST(SurfaceBoxes, WhatCrossesIsFoundBesideWhatOnlyTouches)
+TEST(SurfaceBoxes, ASphereIsFoundBesideATangency)
 {
   const glm::dvec3 center(0.312, -0.417, 0.233);
   for (const Domain domain : allDomains)
@@ -315,7 +315,7 @@ TEST(SurfaceBoxes, WhatCrossesIsFoundBesideWhatOnlyTouches)
   }
 }
 
-TEST(SurfaceBoxes, TwoSheetsNearEachOtherAreToldFromOneThatTouches)
+TEST(SurfaceBoxes, TwoSheetsNearEachOtherAreToldFromATangency)
 {
   for (const Domain domain : allDomains)
   {
@@ -360,9 +360,9 @@ TEST(SurfaceBoxes, TwoSheetsInAThousandthOfAnElementShareFewBoxes)
   }
 }
 
-TEST(SurfaceBoxes, BesideAWallOneThatIsMuchLargerThanItsDistanceWillDo)
+TEST(SurfaceBoxes, ABoxBesideAWallMayBeMuchLargerThanTheDistanceOfTheSurface)
 {
-  // The square of a speed that grows from the wall at z = -1, and is nearly zero.
+  // The square of a speed that grows from the wall at z = -1, less a small constant.
   const auto field = [](const glm::dvec3& x)
   { return (1.0 + x.z) * (1.0 + x.z) * (1.0 + 0.2 * x.x) - 1e-6; };
   for (const Domain domain : allDomains)
@@ -371,8 +371,8 @@ TEST(SurfaceBoxes, BesideAWallOneThatIsMuchLargerThanItsDistanceWillDo)
     EXPECT_GT(boxes.size(), 0u) << domain;
     EXPECT_LT(boxes.size(), 30u) << domain;
     EXPECT_EQ(uncertifiedCount(boxes), 0) << domain;
-    EXPECT_TRUE(
-      std::all_of(boxes.begin(), boxes.end(), [](const SurfaceBox& box) { return box.weakly; }))
+    EXPECT_TRUE(std::all_of(
+      boxes.begin(), boxes.end(), [](const SurfaceBox& box) { return box.risesWeakly; }))
       << domain;
   }
 }
@@ -390,7 +390,7 @@ TEST(SurfaceBoxes, AnElementMayCloseOnItself)
   recipe.field = [](const glm::dvec3& x) { return x.z + 0.05 * x.x; };
   constexpr double wanted = 0.5;
   const auto boxes = findSurfaceBoxes(makeMesh(recipe), 0.0, wanted, {});
-  // The ring's area over that of a box's face, and a few times as many.
+  // The ring's area over the area of a box's face, times one to twenty.
   EXPECT_GT(boxes.size(), 50u);
   EXPECT_LT(boxes.size(), 1000u);
 }

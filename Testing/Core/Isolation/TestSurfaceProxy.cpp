@@ -89,7 +89,7 @@ TEST_P(Proxy, LocatesPlacesNearSamplesOnly)
   EXPECT_GE(located, static_cast<int>(proxy.samples().size()) / 2);
 }
 
-TEST(SurfaceProxy, KnowsOfASmallSpacingHoweverLargeThoseAroundIt)
+TEST(SurfaceProxy, FeelsASmallSpacingHoweverLargeTheSpacingsAroundIt)
 {
   MeshRecipe recipe;
   recipe.cells = 4;
@@ -107,13 +107,13 @@ TEST(SurfaceProxy, KnowsOfASmallSpacingHoweverLargeThoseAroundIt)
   for (double distance = 0.0; distance < 4.0 * small; distance += 0.1 * small)
   {
     const glm::dvec3 aside(distance, 0.0, 0.0);
-    const double withGradation = SurfaceProxy::GradationSlope * distance;
-    EXPECT_NEAR(proxy.spacingAt(first + aside, 0.0f), small + withGradation, 1e-6);
-    EXPECT_NEAR(proxy.spacingAt(second + aside, 0.0f), 2.0 * small + withGradation, 1e-6);
+    const double growth = SizingField::GradationSlope * distance;
+    EXPECT_NEAR(proxy.spacingAt(first + aside, 0.0f), small + growth, 1e-6);
+    EXPECT_NEAR(proxy.spacingAt(second + aside, 0.0f), 2.0 * small + growth, 1e-6);
   }
 }
 
-/// A dent in a plane, in elements far smaller than spacings: elsewhere these are 0.5.
+/// A bump on a plane, in elements far smaller than the spacing on the plane, which is to be 0.5.
 ElementMesh fineMesh()
 {
   MeshRecipe recipe;
@@ -124,7 +124,7 @@ ElementMesh fineMesh()
   return makeMesh(recipe);
 }
 
-TEST(SurfaceProxy, OfSamplesCloserThanTheirSpacingsFewTellThem)
+TEST(SurfaceProxy, OfSamplesCloserThanTheirSpacingsFewLimitSpacings)
 {
   const ElementMesh mesh = fineMesh();
   const SurfaceProxy proxy(
@@ -139,14 +139,14 @@ TEST(SurfaceProxy, OfSamplesCloserThanTheirSpacingsFewTellThem)
     {
       limit = std::min(limit,
         other.patch.spacing +
-          SurfaceProxy::GradationSlope * glm::distance(one.patch.position, other.patch.position));
+          SizingField::GradationSlope * glm::distance(one.patch.position, other.patch.position));
     }
     ASSERT_LE(one.patch.spacing, 1.1 * limit);
     ASSERT_GE(one.patch.spacing, 0.999 * limit);
   }
 }
 
-TEST(SurfaceProxy, WhatMayBeNoSurfaceDoesNotTellSpacings)
+TEST(SurfaceProxy, SamplesThatMayBeNoSurfaceDoNotLimitSpacings)
 {
   const ElementMesh mesh = curvedMesh(Domain::Hexahedron);
   std::vector<SurfaceBox> boxes = findSurfaceBoxes(mesh, 0.0, 5.0 * spacing, {});
@@ -161,25 +161,25 @@ TEST(SurfaceProxy, WhatMayBeNoSurfaceDoesNotTellSpacings)
   EXPECT_EQ(places(), all - 1);
 }
 
-/// A loop of no length ends work as a loop of some length does.
-TEST(SurfaceProxy, AsksForAnEarlyEndWhileItGradesSpacings)
+/// Loops of no length ask the caller for an early end.
+TEST(SurfaceProxy, AsksForAnEarlyEndWhileItLimitsSpacings)
 {
   const ElementMesh mesh = fineMesh();
-  int askings = 0;
+  int questions = 0;
   const ParallelFor counting = [&](std::ptrdiff_t count, const LoopBody& body)
   {
-    askings += count == 0;
+    questions += count == 0;
     runInThreads({}, count, body);
   };
   const auto boxes = findSurfaceBoxes(mesh, 0.0, 3.0, {});
-  const auto askingsAt = [&](double wanted)
+  const auto questionsAt = [&](double wanted)
   {
-    askings = 0;
+    questions = 0;
     const SurfaceProxy proxy({ &mesh, 0.0, 1e-9 }, { wanted, 15.0 }, boxes, counting);
-    return askings;
+    return questions;
   };
-  // All of the samples are graded where spacings are small.
-  EXPECT_GT(askingsAt(0.02), askingsAt(0.5));
+  // All samples are places of the sizing field where spacings are small.
+  EXPECT_GT(questionsAt(0.02), questionsAt(0.5));
 }
 
 TEST(SampleComparison, KnowsSmallJumpsFromLargeOnes)
@@ -198,7 +198,7 @@ TEST(SampleComparison, KnowsSmallJumpsFromLargeOnes)
     const SurfaceProxy proxy = proxyOf(mesh, 4.0);
     const SampleComparison comparison(mesh, proxy);
     int meeting = 0;
-    int looked = 0;
+    int compared = 0;
     for (std::size_t b = 0; b < proxy.boxes().size(); ++b)
     {
       const SurfaceBox& box = proxy.boxes()[b];
@@ -208,13 +208,13 @@ TEST(SampleComparison, KnowsSmallJumpsFromLargeOnes)
         {
           if (std::abs(positionAt(mesh, crossing.location).x) < 1e-9)
           {
-            ++looked;
+            ++compared;
             meeting += comparison.meet(crossing, proxy.samples()[b], 0.1);
           }
         });
     }
-    ASSERT_GT(looked, 10);
-    EXPECT_EQ(meeting, jump < 0.1 ? looked : 0) << jump;
+    ASSERT_GT(compared, 10);
+    EXPECT_EQ(meeting, jump < 0.1 ? compared : 0) << jump;
   }
 }
 

@@ -10,21 +10,21 @@ namespace hop::testing
 namespace
 {
 
-/// Of a field over the reference domain, on an element of degree 4.
+/// The approach of a field over the reference domain, in an element of degree 4.
 Approach approachOf(Domain domain, const Field& field, double sign = 1.0)
 {
   const ElementMesh mesh = referenceMesh(domain, 4, field);
   return approachToZero(mesh.form(0), sign);
 }
 
-class Touch : public ::testing::TestWithParam<Domain>
+class Tangency : public ::testing::TestWithParam<Domain>
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(TangencyTest, Touch, ::testing::ValuesIn(allDomains),
+INSTANTIATE_TEST_SUITE_P(TangencyTest, Tangency, ::testing::ValuesIn(allDomains),
   [](const auto& which) { return ::testing::PrintToString(which.param); });
 
-TEST_P(Touch, SquaresTouch)
+TEST_P(Tangency, OfSquares)
 {
   const Domain domain = this->GetParam();
   const glm::dvec3 normal = glm::normalize(glm::dvec3(1.0, -0.4, 0.3));
@@ -41,7 +41,7 @@ TEST_P(Touch, SquaresTouch)
     Approach::Tangent);
 }
 
-TEST_P(Touch, SquaresTouchFacesEdgesAndCorners)
+TEST_P(Tangency, OfSquaresOnFacesEdgesAndCorners)
 {
   const Domain domain = this->GetParam();
   EXPECT_EQ(approachOf(domain, [](const glm::dvec3& x) { return x.z * x.z; }), Approach::Tangent);
@@ -51,7 +51,7 @@ TEST_P(Touch, SquaresTouchFacesEdgesAndCorners)
     approachOf(domain, [](const glm::dvec3& x) { return glm::dot(x, x); }), Approach::Tangent);
 }
 
-TEST_P(Touch, TwoSheetsCross)
+TEST_P(Tangency, IsNoneOfTwoSheets)
 {
   for (const double apart : { 0.3, 0.1, 0.01 })
   {
@@ -63,14 +63,14 @@ TEST_P(Touch, TwoSheetsCross)
   }
 }
 
-TEST_P(Touch, OtherFieldsMiss)
+TEST_P(Tangency, IsNoneOfFieldsApartFromZero)
 {
   const Domain domain = this->GetParam();
   EXPECT_EQ(
     approachOf(domain, [](const glm::dvec3& x) { return 0.01 + x.x * x.x; }), Approach::Apart);
   EXPECT_EQ(approachOf(domain, [](const glm::dvec3& x) { return 0.1 + x.x; }), Approach::Apart);
   EXPECT_EQ(approachOf(domain, [](const glm::dvec3&) { return 1.0; }), Approach::Apart);
-  // A zero at a corner that the field does not stay near.
+  // A zero at a corner from which the field rises.
   EXPECT_EQ(
     approachOf(domain, [](const glm::dvec3& x) { return x.x + x.y + x.z; }), Approach::Apart);
 }

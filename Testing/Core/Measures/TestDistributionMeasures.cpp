@@ -24,8 +24,8 @@ Particle particleAt(const glm::dvec3& position, const glm::dvec3& normal, double
   return particle;
 }
 
-/// Hexagonal packing at distance `distance`, in a tilted plane, out to a hexagon of so many rings
-/// around the first particle; the last 6 `rings` particles are its boundary curve.
+/// Hexagonal packing at distance `distance`, in a tilted plane, out to a hexagon of `rings` rings
+/// around the first particle; the last 6 `rings` particles are its border.
 Buffer<Particle> hexagonalLattice(int rings, double distance, double spacing)
 {
   const glm::dvec3 e1 = glm::normalize(glm::dvec3(1.0, 2.0, -0.5));
@@ -92,9 +92,9 @@ TEST(DistributionMeasures, HexagonalLatticeIsPerfect)
   }
 }
 
-TEST(DistributionMeasures, AreInUnitsOfTheSpacingWanted)
+TEST(DistributionMeasures, AreInUnitsOfTheSpacing)
 {
-  // Particles at 0.9 of what they want.
+  // Particles at 0.9 of their spacing.
   const Evenness evenness = measureEvenness(hexagonalLattice(4, 0.9, 1.0));
   EXPECT_NEAR(evenness.minSpacing, 0.9, 1e-12);
   EXPECT_NEAR(evenness.circumradius, 0.9 / std::sqrt(3.0), 1e-12);
@@ -147,7 +147,7 @@ TEST(DistributionMeasures, MissingParticleLeavesAHole)
 
 TEST(DistributionMeasures, ParticlesThatDoNotCountAreNeighborsStill)
 {
-  // Two that are too near to each other, in the middle.
+  // Two particles in the middle are too near to each other.
   Buffer<Particle> particles = hexagonalLattice(6, 1.0, 1.0);
   const glm::dvec3 middle = particles.front().position.xyz;
   particles.push_back(

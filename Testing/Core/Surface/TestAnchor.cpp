@@ -24,17 +24,18 @@ class Anchored : public ::testing::TestWithParam<Domain>
 INSTANTIATE_TEST_SUITE_P(Anchor, Anchored, ::testing::ValuesIn(allDomains),
   [](const auto& which) { return ::testing::PrintToString(which.param); });
 
-/// Largest misses, over many places that are so far from the isosurface through others.
-struct Misses
+/// Largest distances from the isosurface, over many places from which the surface is sought.
+struct Errors
 {
   /// Of the places to which anchors lead, and of the positions of patches.
   double place = 0.0, position = 0.0;
 };
 
-Misses missesAt(const ElementMesh& mesh, double distance)
+/// \param distance from each place to its isosurface, to first order
+Errors errorsAt(const ElementMesh& mesh, double distance)
 {
   Random random(3);
-  Misses result;
+  Errors result;
   for (int n = 0; n < 200; ++n)
   {
     const int element = n % static_cast<int>(mesh.elements.size());
@@ -54,9 +55,9 @@ Misses missesAt(const ElementMesh& mesh, double distance)
     // By one more step of Newton's method in the world, which is good to second order.
     const glm::dvec3 foot =
       at.map.position.xyz - at.value / glm::pow(length(at.gradient), 2.0) * at.gradient.xyz;
-    const glm::dvec3 miss = foot - patch.position;
+    const glm::dvec3 error = foot - patch.position;
     result.position =
-      std::max(result.position, std::abs(glm::dot(miss, at.gradient.xyz)) / length(at.gradient));
+      std::max(result.position, std::abs(glm::dot(error, at.gradient.xyz)) / length(at.gradient));
   }
   return result;
 }
@@ -70,9 +71,9 @@ TEST_P(Anchored, LeadsToTheSurfaceToThirdOrder)
   // No place where the gradient vanishes.
   recipe.field = [](const glm::dvec3& x) { return x.x + 0.2 * x.y * x.y + 0.1 * x.x * x.z; };
   const ElementMesh mesh = makeMesh(recipe);
-  const Misses far = missesAt(mesh, 0.08);
-  const Misses near = missesAt(mesh, 0.02);
-  // To third order a quarter of the distance leaves a 64th of the miss, to second order a 16th.
+  const Errors far = errorsAt(mesh, 0.08);
+  const Errors near = errorsAt(mesh, 0.02);
+  // To third order a quarter of the distance leaves a 64th of the error, to second order a 16th.
   EXPECT_LE(near.place, far.place / 40.0);
   EXPECT_LE(near.position, far.position / 40.0);
   EXPECT_LE(near.place, 1e-4);
@@ -81,14 +82,13 @@ TEST_P(Anchored, LeadsToTheSurfaceToThirdOrder)
 
 TEST_P(Anchored, TellsAboutPlacesAround)
 {
-  // In straight elements: what a patch says about places around it is worth what its surface is, to third
-  // order, its normals are to second.
+  // In straight elements the extrapolation is as exact as the patch: positions to third order, normals to second.
   MeshRecipe recipe;
   recipe.domain = this->GetParam();
   recipe.degrees = { 3, 3, 3 };
   recipe.field = [](const glm::dvec3& x) { return x.x + 0.2 * x.y * x.y + 0.1 * x.x * x.z * x.z; };
   const ElementMesh mesh = makeMesh(recipe);
-  const auto largestMisses = [&](double distance)
+  const auto largestErrors = [&](double distance)
   {
     Random random(5);
     double position = 0.0;
@@ -124,8 +124,8 @@ TEST_P(Anchored, TellsAboutPlacesAround)
     }
     return std::array<double, 2>{ position, normal };
   };
-  const auto far = largestMisses(0.08);
-  const auto near = largestMisses(0.02);
+  const auto far = largestErrors(0.08);
+  const auto near = largestErrors(0.02);
   EXPECT_LE(near[0], far[0] / 30.0);
   EXPECT_LE(near[1], far[1] / 10.0);
   EXPECT_LE(near[0], 1e-5);

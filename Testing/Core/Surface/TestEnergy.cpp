@@ -1,5 +1,4 @@
 #include "Surface/Energy.h"
-#include "Surface/SizingFunction.h"
 
 #include <gtest/gtest.h>
 
@@ -29,7 +28,7 @@ TEST(Energy, DerivativesAgreeWithFiniteDifferences)
   }
 }
 
-TEST(Energy, FallsFromFarTooMuchToNothingAtRangeOne)
+TEST(Energy, FallsToZeroAtDistanceOneAndIsConvex)
 {
   for (double r = 0.02; r < 1.0; r += 0.01)
   {
@@ -43,7 +42,7 @@ TEST(Energy, FallsFromFarTooMuchToNothingAtRangeOne)
     EXPECT_EQ(pairEnergyDerivative(r), 0.0);
     EXPECT_EQ(pairEnergySecondDerivative(r), 0.0);
   }
-  // Smooth there: all three end at zero, not only beyond it.
+  // Continuous at r = 1, with two derivatives.
   EXPECT_NEAR(pairEnergy(1.0 - 1e-6), 0.0, 1e-15);
   EXPECT_NEAR(pairEnergyDerivative(1.0 - 1e-6), 0.0, 1e-10);
   EXPECT_NEAR(pairEnergySecondDerivative(1.0 - 1e-6), 0.0, 1e-5);
@@ -55,32 +54,6 @@ TEST(Energy, IsFiniteForParticlesInOnePlace)
   EXPECT_TRUE(std::isfinite(pairEnergyDerivative(0.0)));
   EXPECT_TRUE(std::isfinite(pairEnergySecondDerivative(0.0)));
   EXPECT_GT(pairEnergy(0.0), 1e5);
-}
-
-TEST(SizingFunction, IsEvenWithoutAngularDensity)
-{
-  const SizingFunction sizing{ 0.3, 0.0 };
-  for (const double curvature : { 0.0, 1.0, 1e6 })
-  {
-    EXPECT_EQ(sizing.at(curvature), 0.3);
-    EXPECT_NEAR(sizing.range(curvature), std::sqrt(3.0) * 0.3, 1e-15);
-  }
-}
-
-TEST(SizingFunction, FollowsCurvatureUpToItsBound)
-{
-  const SizingFunction sizing{ 0.5, 7.0 };
-  EXPECT_DOUBLE_EQ(sizing.at(0.0), 0.5);
-  EXPECT_DOUBLE_EQ(sizing.at(2.0), 0.5 / (1.0 + 7.0 * 2.0 * 0.5 / (2.0 * Pi)));
-  EXPECT_LT(sizing.at(2.0), sizing.at(1.0));
-  EXPECT_DOUBLE_EQ(sizing.at(2.0 * Pi / 0.5), 0.5 / 8.0);
-  EXPECT_DOUBLE_EQ(sizing.at(1e9), 0.5 / 8.0);
-}
-
-TEST(SizingFunction, ScalesWithTheUnitOfLength)
-{
-  const SizingFunction metres{ 0.5, 7.0 }, millimetres{ 500.0, 7.0 };
-  EXPECT_NEAR(millimetres.at(2.0 / 1000.0), 1000.0 * metres.at(2.0), 1e-9);
 }
 
 } // namespace

@@ -106,7 +106,7 @@ bool isAtTheInterface(const Meeting& meeting, const glm::dvec3& x)
   return glm::distance(meeting.map({ 0, x.y, z }), x) < 1e-12;
 }
 
-/// Random places on faces behind which there may be something, with what the locator says.
+/// Calls use() with random places on faces behind which an element may lie, and what the locator finds there.
 template <class Use>
 void visitPlacesAtOpenFaces(const ElementMesh& mesh, const FaceLocator& locator, const Use& use)
 {
@@ -117,7 +117,7 @@ void visitPlacesAtOpenFaces(const ElementMesh& mesh, const FaceLocator& locator,
     const auto& faces = facts(domain).faces;
     for (int f = 0; f < static_cast<int>(faces.size()); ++f)
     {
-      for (int n = 0; locator.mayGoOn(e, f) && n < 20; ++n)
+      for (int n = 0; locator.mayContinue(e, f) && n < 20; ++n)
       {
         ReferencePoint u = randomPoint(domain, random);
         const double margin = glm::dot(faces[f].inward.xyz, u.xyz) + faces[f].offset;
@@ -167,7 +167,7 @@ TEST_P(FacesThatDoNotMatch, WalksEndWhereTheWorldVectorSays)
   const ElementMesh mesh = meshOf(this->GetParam());
   const FaceLocator locator(mesh, 0.0, {});
   SurfaceWalker walker({ &mesh, 0.0, 0.0, &locator });
-  SurfaceWalker walled({ &mesh, 0.0, 0.0 });
+  SurfaceWalker without({ &mesh, 0.0, 0.0 });
   Random random(3);
   int stopped = 0;
   for (int n = 0; n < 200; ++n)
@@ -175,8 +175,8 @@ TEST_P(FacesThatDoNotMatch, WalksEndWhereTheWorldVectorSays)
     const int element = static_cast<int>(random.uniform() * mesh.elements.size());
     const Location start{ element, randomPoint(mesh.elements[element].domain, random) };
     const glm::dvec3 target = this->GetParam().map(0.9 * randomVector(random));
-    // Steps are first order in bent elements: a few of them, each with what is left of the way.
-    const auto miss = [&](SurfaceWalker& which)
+    // Steps are first order in bent elements: each of them takes what the last one left of the way.
+    const auto errorOf = [&](SurfaceWalker& which)
     {
       Evaluated at = which.evaluate(start);
       for (int step = 0; step < 40; ++step)
@@ -186,8 +186,8 @@ TEST_P(FacesThatDoNotMatch, WalksEndWhereTheWorldVectorSays)
       }
       return glm::distance(at.point.map.position.xyz, target);
     };
-    ASSERT_LE(miss(walker), 1e-9) << "walk " << n;
-    stopped += miss(walled) > 1e-3;
+    ASSERT_LE(errorOf(walker), 1e-9) << "walk " << n;
+    stopped += errorOf(without) > 1e-3;
   }
   EXPECT_GT(stopped, 50) << "without the locator";
 }
@@ -205,29 +205,29 @@ TEST(FaceLocator, HasNothingToDoWhereAllFacesMatch)
     {
       for (int f = 0; f < MaximumFaces; ++f)
       {
-        EXPECT_FALSE(locator.mayGoOn(e, f)) << domain;
+        EXPECT_FALSE(locator.mayContinue(e, f)) << domain;
       }
     }
   }
 }
 
-TEST(FaceLocator, LooksOnlyWhereTheSurfaceIs)
+TEST(FaceLocator, KnowsOnlyFacesThatTheSurfacePasses)
 {
   // z = 0.5: on the right in the upper boxes only.
   MeshRecipe recipe;
   recipe.field = plane({ 0, 0, 1 }, 0.5).field;
   const ElementMesh mesh = hangingMesh(recipe, recipe);
   const FaceLocator locator(mesh, 0.0, {});
-  EXPECT_TRUE(locator.mayGoOn(0, 1));
+  EXPECT_TRUE(locator.mayContinue(0, 1));
   for (int e = 1; e < 5; ++e)
   {
     const bool upper = positionAt(mesh, { e, { { 0.5, 0.5, 0.5 } } }).z > 0.0;
-    EXPECT_EQ(locator.mayGoOn(e, 0), upper);
-    EXPECT_EQ(locator.mayGoOnIn(0, 1, e), upper);
+    EXPECT_EQ(locator.mayContinue(e, 0), upper);
+    EXPECT_EQ(locator.mayContinueIn(0, 1, e), upper);
   }
 }
 
-/// One box on the left, and on the right one before a quarter of its face, `gap` away from it.
+/// One box on the left, and one on the right that faces a quarter of the left one's face, `gap` away from it.
 ElementMesh quarterCovered(double gap)
 {
   MeshRecipe recipe;
@@ -257,8 +257,8 @@ TEST(FaceLocator, FindsNothingBesideASmallerFace)
   SurfaceWalker walker({ &mesh, 0.0, 0.0, &locator });
   EXPECT_FALSE(walker.endsAt(walker.evaluate({ 0, { { 1, 0.75, 0.75 } } }), 1));
   EXPECT_TRUE(walker.endsAt(walker.evaluate({ 0, { { 1, 0.25, 0.75 } } }), 1));
-  EXPECT_EQ(walker.endCount({ 0, { { 1, 0.75, 0.75 } } }), 0);
-  EXPECT_EQ(walker.endCount({ 0, { { 1, 0.25, 1.0 } } }), 2);
+  EXPECT_EQ(walker.endFaceCount({ 0, { { 1, 0.75, 0.75 } } }), 0);
+  EXPECT_EQ(walker.endFaceCount({ 0, { { 1, 0.25, 1.0 } } }), 2);
 }
 
 TEST(FaceLocator, PassesNoGapWiderThanTolerated)

@@ -152,10 +152,10 @@ TEST(SurfaceGeometry, CrossingsOfSpheresAndPlanesBendAsCirclesDo)
     const glm::dvec3 middle = glm::dot(x, normal) / glm::dot(normal, normal) * normal;
     const glm::dvec3 inward = middle - x;
     const glm::dvec3 expected = inward / glm::dot(inward, inward);
-    const WorldVector bend = bendOfCrossing(sphere, { { normal }, glm::dmat3(0.0) });
+    const WorldVector bend = curvatureOfCrossing(sphere, { { normal }, glm::dmat3(0.0) });
     EXPECT_LE(glm::distance(bend.xyz, expected), 1e-12);
   }
-  EXPECT_EQ(length(bendOfCrossing(sphere, sphere)), 0.0);
+  EXPECT_EQ(length(curvatureOfCrossing(sphere, sphere)), 0.0);
 }
 
 TEST_P(UnderABend, SpheresHaveTheirCurvature)

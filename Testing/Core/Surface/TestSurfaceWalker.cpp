@@ -12,7 +12,7 @@ namespace hop::testing
 namespace
 {
 
-/// No project takes more: each Newton step may cross the most hops, and ends with one evaluation.
+/// Bound on the evaluations of project(): each Newton step may take the most hops, and ends with one evaluation.
 constexpr std::int64_t mostEvaluations =
   1 + SurfaceWalker::MaximumNewtonSteps * (SurfaceWalker::MaximumHops + 1);
 
@@ -27,7 +27,7 @@ bool insideElement(const ElementMesh& mesh, const Location& location)
   return insideMargin(mesh.elements[location.element].domain, location.u) > -1e-12;
 }
 
-/// The point of the cube [-1,1]^3 next to x.
+/// The point of the cube [-1,1]^3 nearest to x.
 glm::dvec3 inCube(const glm::dvec3& x)
 {
   return glm::clamp(x, -1.0, 1.0);
@@ -83,7 +83,7 @@ TEST_P(WalkThrough, MovesToTheWorldTargetThroughCurvedElementsToFirstOrder)
 {
   const ElementMesh mesh = makeMesh(this->bent(4, 3, plane({ 1, 0, 0 }, 0.0).field));
   SurfaceWalker walker({ &mesh, 0.0, 0.0 });
-  const auto meanMiss = [&](double stepLength)
+  const auto meanError = [&](double stepLength)
   {
     Random random(2);
     double sum = 0.0;
@@ -98,10 +98,10 @@ TEST_P(WalkThrough, MovesToTheWorldTargetThroughCurvedElementsToFirstOrder)
     }
     return sum / 200.0;
   };
-  // Half the step misses by a quarter.
-  EXPECT_LT(meanMiss(0.2), 0.03 * 0.2);
-  EXPECT_LT(meanMiss(0.1), 0.4 * meanMiss(0.2));
-  EXPECT_LT(meanMiss(0.05), 0.4 * meanMiss(0.1));
+  // Half the step leaves a quarter of the error.
+  EXPECT_LT(meanError(0.2), 0.03 * 0.2);
+  EXPECT_LT(meanError(0.1), 0.4 * meanError(0.2));
+  EXPECT_LT(meanError(0.05), 0.4 * meanError(0.1));
 }
 
 TEST_P(WalkThrough, SlidesAlongTheBoundary)
@@ -109,8 +109,8 @@ TEST_P(WalkThrough, SlidesAlongTheBoundary)
   const ElementMesh mesh = makeMesh(this->recipe(1, 2));
   SurfaceWalker walker({ &mesh, 0.0, 0.0 });
   Random random(3);
-  int missed = 0;
-  int onWalls[4] = {};
+  int endedShort = 0;
+  int endsOnFaces[4] = {};
   for (int n = 0; n < 1000; ++n)
   {
     const Evaluated start = walker.evaluate(randomLocation(mesh, random));
@@ -118,17 +118,17 @@ TEST_P(WalkThrough, SlidesAlongTheBoundary)
     const Location end = walker.move(start, { target - start.point.map.position.xyz });
     EXPECT_TRUE(insideElement(mesh, end));
     const glm::dvec3 x = walker.evaluate(end).point.map.position.xyz;
-    const int walls =
+    const int faces =
       (std::abs(x.x) > 1.0 - 1e-12) + (std::abs(x.y) > 1.0 - 1e-12) + (std::abs(x.z) > 1.0 - 1e-12);
-    // Against a wall, an edge or a corner of the cube it ends at the point next to the target.
-    missed += glm::distance(x, inCube(target)) > 1e-12;
-    ++onWalls[walls];
+    // A step against a face, an edge or a corner of the cube ends at the point nearest to the target.
+    endedShort += glm::distance(x, inCube(target)) > 1e-12;
+    ++endsOnFaces[faces];
   }
-  EXPECT_GT(onWalls[0], 300);
-  EXPECT_GT(onWalls[1], 100);
-  EXPECT_GT(onWalls[2], 10);
-  // Where many simplices meet in an edge of the cube, some steps end short of it.
-  EXPECT_LE(missed, this->GetParam() == Domain::Hexahedron ? 0 : 20);
+  EXPECT_GT(endsOnFaces[0], 300);
+  EXPECT_GT(endsOnFaces[1], 100);
+  EXPECT_GT(endsOnFaces[2], 10);
+  // Where many simplices meet in an edge of the cube, some steps end short of that point.
+  EXPECT_LE(endedShort, this->GetParam() == Domain::Hexahedron ? 0 : 20);
 }
 
 TEST_P(WalkThrough, EndsInTheCorner)
@@ -171,7 +171,7 @@ TEST(SurfaceWalker, CountsEveryEvaluation)
   EXPECT_EQ(walker.evaluations(), 2);
 }
 
-/// Derivatives where it evaluated with a Hessian last are at hand, those of elsewhere are not.
+/// Derivatives are at hand at the place of the last evaluation with a Hessian, nowhere else.
 TEST(SurfaceWalker, KeepsTheLastDerivatives)
 {
   const ElementMesh mesh = makeMesh(MeshRecipe{});
@@ -184,7 +184,7 @@ TEST(SurfaceWalker, KeepsTheLastDerivatives)
   EXPECT_EQ(fieldPoint(walker.jetAt(elsewhere), 0.0).map.position.xyz,
     walker.evaluate(elsewhere).point.map.position.xyz);
   EXPECT_EQ(walker.evaluations(), 3);
-  // What others left behind must not make it cheaper.
+  // An evaluation is counted even where its result is at hand.
   walker.evaluateCurved(elsewhere);
   EXPECT_EQ(walker.evaluations(), 4);
 }
@@ -207,7 +207,7 @@ TEST_P(WalkThrough, ProjectsOntoTheSurfaceAcrossFaces)
     ASSERT_TRUE(walker.project(start, 1.0, on)) << from.x << ' ' << from.y << ' ' << from.z;
     EXPECT_LE(std::abs(on.point.value), 1e-11 * length(on.point.gradient));
     EXPECT_TRUE(insideElement(mesh, on.location));
-    // Newton runs along the gradient: the point found is not far from the next one.
+    // Newton's method follows the gradient: the point found is not far from the nearest one.
     const double distance = std::abs(glm::length(from) - 0.55);
     EXPECT_LE(glm::distance(on.point.map.position.xyz, from), 1.5 * distance + 1e-3);
     // The sphere itself lies within the interpolation error of the mesh.
@@ -256,7 +256,7 @@ TEST_P(WalkThrough, ProjectionConvergesQuadratically)
 
 TEST_P(WalkThrough, ProjectsAlongTheBoundary)
 {
-  // The sphere leaves the cube through all six walls.
+  // The sphere leaves the cube through all six sides.
   const ElementMesh mesh = makeMesh(this->bent(4, 2, sphere({ 0, 0, 0 }, 1.2).field));
   SurfaceWalker walker({ &mesh, 0.0, 1e-11 });
   Random random(7);
@@ -268,16 +268,16 @@ TEST_P(WalkThrough, ProjectsAlongTheBoundary)
     for (int f = 0; f < static_cast<int>(faces.size()); ++f)
     {
       const Face& face = faces[f];
-      // Start from a wall, well inside the sphere: the nearest surface lies beyond the wall.
+      // Start from a boundary face, well inside the sphere: the nearest point of the sphere lies beyond the face.
       const double distance = glm::dot(face.inward.xyz, start.u.xyz) + face.offset;
-      const Location wall{ start.element,
+      const Location onFace{ start.element,
         { start.u.xyz - distance / glm::dot(face.inward.xyz, face.inward.xyz) * face.inward.xyz } };
-      if (mesh.neighbor(start.element, f).element >= 0 || !insideElement(mesh, wall))
+      if (mesh.neighbor(start.element, f).element >= 0 || !insideElement(mesh, onFace))
       {
         continue;
       }
       Evaluated on;
-      if (walker.project(wall, 0.6, on))
+      if (walker.project(onFace, 0.6, on))
       {
         EXPECT_LE(std::abs(on.point.value), 1e-11 * length(on.point.gradient));
         EXPECT_TRUE(insideElement(mesh, on.location));
@@ -413,9 +413,9 @@ TEST(SurfaceWalker, NeverReturnsAPointOffTheSurfaceWhateverTheElement)
   }
 }
 
-TEST(SurfaceWalker, PassesAFaceWhereItsSidesMissEachOtherByNoMoreThanTheGap)
+TEST(SurfaceWalker, PassesAFaceWhoseJumpIsWithinTheTolerance)
 {
-  // Along the face x = 0 the field has slope 0.8, and jumps by 0.04: its sides are 0.05 apart.
+  // Along the face x = 0 the field has slope 0.8, and jumps by 0.04: both sides' curves are 0.05 apart.
   MeshRecipe left, right;
   left.field = [](const glm::dvec3& x) { return 0.6 * x.x + 0.8 * x.z; };
   right.field = [](const glm::dvec3& x) { return 0.6 * x.x + 0.8 * x.z - 0.04; };
@@ -429,20 +429,21 @@ TEST(SurfaceWalker, PassesAFaceWhereItsSidesMissEachOtherByNoMoreThanTheGap)
   const auto there = seamless.behind(here, 1);
   ASSERT_TRUE(there.has_value());
   EXPECT_NEAR(SurfaceWalker::jumpBetween(mesh, here, 1, *there), 0.05, 1e-12);
-  for (const float gap : { 0.049f, 0.051f })
+  for (const float tolerance : { 0.049f, 0.051f })
   {
-    const std::vector<float> gaps(2 * MaximumFaces, gap);
-    SurfaceWalker walker({ &mesh, 0.0, 1e-9, nullptr, &gaps });
-    const bool passes = gap > 0.05f;
+    const std::vector<float> jumpTolerances(2 * MaximumFaces, tolerance);
+    SurfaceWalker walker({ &mesh, 0.0, 1e-9, nullptr, &jumpTolerances });
+    const bool passes = tolerance > 0.05f;
     EXPECT_EQ(walker.endsAt(here, 1), !passes);
-    EXPECT_EQ(walker.endCount(place), passes ? 0 : 1);
+    EXPECT_EQ(walker.endFaceCount(place), passes ? 0 : 1);
     EXPECT_EQ(walker.move(here, { { 0.2, 0, 0 } }).element, passes ? 1 : 0);
-    SurfaceWalker walled(Isosurface{ &mesh, 0.0, 1e-9, nullptr, &gaps }.withWalls());
-    EXPECT_TRUE(walled.endsAt(here, 1));
+    SurfaceWalker ending(
+      Isosurface{ &mesh, 0.0, 1e-9, nullptr, &jumpTolerances }.endingWhereItMay());
+    EXPECT_TRUE(ending.endsAt(here, 1));
   }
 }
 
-TEST(SurfaceWalker, BoundaryFacesOfACornerAnEdgeAWallAndTheInside)
+TEST(SurfaceWalker, BoundaryFacesOfACornerAnEdgeAFaceAndTheInside)
 {
   MeshRecipe recipe;
   const ElementMesh mesh = makeMesh(recipe);

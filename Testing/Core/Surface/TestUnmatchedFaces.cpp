@@ -126,7 +126,7 @@ TEST_P(SurfaceThroughHangingNodes, IsClosedForTheClassicMethodToo)
   EXPECT_EQ(evenness.openStars, 0u);
 }
 
-TEST_P(SurfaceThroughHangingNodes, HasBoundariesAtTheOuterBoundaryOnly)
+TEST_P(SurfaceThroughHangingNodes, HasABoundaryCurveAtTheOuterBoundaryOnly)
 {
   constexpr double spacing = 0.05;
   const ElementMesh mesh = this->mesh(plane(glm::normalize(glm::dvec3(0.2, 0.3, 1.0)), 0.1).field);
@@ -137,17 +137,17 @@ TEST_P(SurfaceThroughHangingNodes, HasBoundariesAtTheOuterBoundaryOnly)
   {
     EXPECT_EQ(p.clips[0].exists() && p.clips[0].distance == 0.0, onCube(p.position.xyz));
   }
-  // Along the boundary curve no gap, where it passes from element to element at x = 0 neither.
-  Buffer<Particle> boundary;
-  std::copy_if(result.particles.begin(), result.particles.end(), std::back_inserter(boundary),
+  // The boundary curve has no gap, not even at x = 0, where it passes from element to element.
+  Buffer<Particle> onCurve;
+  std::copy_if(result.particles.begin(), result.particles.end(), std::back_inserter(onCurve),
     [](const Particle& p) { return onCube(p.position.xyz); });
-  for (const double distance : nearestSpacings(boundary))
+  for (const double distance : nearestSpacings(onCurve))
   {
     EXPECT_GE(distance, 0.85);
     EXPECT_LE(distance, 1.1);
   }
   const double length = 4.0 * (std::hypot(1.0, 0.2) + std::hypot(1.0, 0.3));
-  EXPECT_NEAR(static_cast<double>(boundary.size()) * spacing, length, 0.02 * length);
+  EXPECT_NEAR(static_cast<double>(onCurve.size()) * spacing, length, 0.02 * length);
 }
 
 TEST_P(SurfaceThroughHangingNodes, DoesNotDependOnThreads)
@@ -173,21 +173,21 @@ TEST_P(SurfaceThroughHangingNodes, EndsOnBothSidesWhereTheFieldJumps)
   constexpr double spacing = 0.05;
   const ElementMesh mesh = this->mesh(plane({ 0, 0, 1 }, 0.1).field, plane({ 0, 0, 1 }, 0.3).field);
   const Distribution result = distribute(mesh, spacing);
-  int boundaries[2] = {};
+  int onCurves[2] = {}; // of the right and of the left half
   for (const Particle& p : result.particles)
   {
     const glm::dvec3& x = p.position.xyz;
     if (std::abs(x.x) < 1e-11)
     {
       const bool left = std::abs(x.z - 0.1) < 1e-6;
-      ++boundaries[left];
-      // At the ends it may be seen from an element that has no face at x = 0.
+      ++onCurves[left];
+      // At the curve's ends a particle may belong to an element that has no face at x = 0.
       EXPECT_TRUE(onCube(x) || std::abs(p.jump - (left ? 0.2 : -0.2)) < 1e-6);
       EXPECT_TRUE(onCube(x) || std::abs(p.clips[0].normal.xyz.x) > 1.0 - 1e-6);
     }
   }
-  EXPECT_NEAR(boundaries[0], 2.0 / spacing, 3);
-  EXPECT_NEAR(boundaries[1], 2.0 / spacing, 3);
+  EXPECT_NEAR(onCurves[0], 2.0 / spacing, 3);
+  EXPECT_NEAR(onCurves[1], 2.0 / spacing, 3);
   EXPECT_GE(leastSpacing(result.particles), 0.75);
 }
 
@@ -234,7 +234,7 @@ TEST(UnmatchedFaces, AcrossASlitTheSurfaceEndsOnBothSidesIfItIsWide)
       });
     EXPECT_NEAR(
       static_cast<double>(onBoundary), slit > 0.4 * spacing ? 2.0 * 2.0 / spacing : 0.0, 4.0);
-    // Boundary curves nearer to each other than particles are: what Fast promises in any case.
+    // Boundary curves may be nearer to each other than particles are: this is what Fast promises in any case.
     EXPECT_GE(leastSpacing(result.particles), 0.59);
   }
 }
@@ -252,16 +252,16 @@ ElementMesh twoFields(const Field& left, const Field& right)
   return mesh;
 }
 
-TEST(FadingJump, HasBoundariesOnlyWhereTheSidesMissEachOther)
+TEST(FadingJump, HasBoundaryCurvesOnlyWhereItIsLarge)
 {
-  // z = 0 and z = (y - 0.2)^2/4 for y > 0.2 and y < 0.2 alike: 0.4 spacings apart at a distance of
-  // 0.28 from y = 0.2, all within one face and part of another.
+  // z = 0 on the left and z = (y - 0.2)^2/4 on the right: 0.4 spacings apart at a distance of 0.28 from y = 0.2 to
+  // either side, so that one face holds all of the place where both agree, and another face a part.
   constexpr double spacing = 0.05;
   const ElementMesh mesh = twoFields([](const glm::dvec3& x) { return x.z; },
     [](const glm::dvec3& x) { return x.z - 0.25 * (x.y - 0.2) * (x.y - 0.2); });
   const double agree = std::sqrt(4.0 * 0.4 * spacing);
   const Distribution result = distribute(mesh, spacing);
-  int boundaries[2] = {};
+  int onCurves[2] = {};
   for (const Particle& p : result.particles)
   {
     const glm::dvec3& x = p.position.xyz;
@@ -270,16 +270,16 @@ TEST(FadingJump, HasBoundariesOnlyWhereTheSidesMissEachOther)
       EXPECT_GT(std::abs(x.y - 0.2), agree - 0.5 * spacing);
       // The particle may be off by the tolerance, 1e-9, itself.
       EXPECT_NEAR(std::abs(p.jump), 0.25 * (x.y - 0.2) * (x.y - 0.2), 2e-9);
-      ++boundaries[std::abs(x.z) < 1e-9];
+      ++onCurves[std::abs(x.z) < 1e-9];
     }
   }
-  // Farther than 0.6 spacings apart both sides have one, nearer than that one for both.
+  // Where the curves are farther apart than 0.6 spacings both sides have particles, else both sides share them.
   const double both = 2.0 - 2.0 * std::sqrt(4.0 * 0.6 * spacing);
   const double one = 2.0 - 2.0 * agree;
-  EXPECT_NEAR(boundaries[0] + boundaries[1], (both + one) / spacing, 5);
-  EXPECT_GE(std::min(boundaries[0], boundaries[1]) * spacing, both - 3.0 * spacing);
+  EXPECT_NEAR(onCurves[0] + onCurves[1], (both + one) / spacing, 5);
+  EXPECT_GE(std::min(onCurves[0], onCurves[1]) * spacing, both - 3.0 * spacing);
   EXPECT_GE(leastSpacing(result.particles), 0.58);
-  // Where the sides agree, the surface is as if it were one.
+  // Where both sides agree, particles stand as on a continuous surface.
   Buffer<Particle> seam;
   std::copy_if(result.particles.begin(), result.particles.end(), std::back_inserter(seam),
     [&](const Particle& p)

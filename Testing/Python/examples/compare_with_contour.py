@@ -25,7 +25,7 @@ particles.Spacing = 0.02
 
 
 def largest_error(surface):
-    """Of the analytic field, at the points of the surface."""
+    """Errors of the analytic field at the points of the surface."""
     error = Calculator(Input=surface, ResultArrayName="error")
     error.Function = f"abs(sin(4*coordsX)*cos(3*coordsY) + cos(5*coordsZ)/2 - {isovalue})"
     error.UpdatePipeline()

@@ -1,0 +1,74 @@
+#pragma once
+
+#include "Common/Monitor.h"
+#include "Support/Buffer.h"
+#include "Surface/SizingFunction.h"
+
+#include <glm/glm.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace hop
+{
+
+class SpacingGrid;
+
+/// Spacing that particles want everywhere on the surface: the spacing of a sizing function at the curvature there, or
+/// less near places that limit it. Gradation limits how fast the spacing grows with the distance from a place, as
+/// neighbours can pack evenly only if their spacings differ little.
+class SizingField
+{
+public:
+  explicit SizingField(const SizingFunction& sizing);
+  SizingField(SizingField&&) noexcept;
+  ~SizingField();
+
+  /// A place at which particles are to have a spacing at most, world units.
+  struct Limit
+  {
+    glm::dvec3 position{ 0.0 };
+    float spacing = 0.0f;
+  };
+
+  /// Adds places. From the smallest spacing on, each new place then limits the spacings of all places around it.
+  /// \param parallelFor is asked for an early end now and then
+  void add(const std::vector<Limit>& limits, const ParallelFor& parallelFor);
+
+  /// Spacing that a particle wants.
+  float at(const glm::dvec3& position, float curvatureMagnitude) const
+  {
+    return this->limited(position, static_cast<float>(this->Sizing.at(curvatureMagnitude)));
+  }
+
+  /// The smaller one of a spacing and of what the places around a position allow.
+  float limited(const glm::dvec3& position, float spacing) const;
+
+  /// Spacing of a place, in the order in which places were added.
+  float spacingOf(std::size_t place) const { return this->Spacings[place]; }
+
+  std::size_t placeCount() const { return this->Spacings.size(); }
+
+  const SizingFunction& sizing() const { return this->Sizing; }
+
+  /// Growth of the spacing per length at most. In the measurement that chose it, fields without this limit left
+  /// particles at least distances of 0.41 to 0.50 spacings, fields with it at 0.77. A larger slope leaves particles
+  /// less even, a smaller one takes more of them around small spacings.
+  static constexpr double GradationSlope = 0.3;
+
+private:
+  void limitGradation(std::size_t first, const ParallelFor& parallelFor);
+
+  SizingFunction Sizing;
+  std::vector<glm::dvec3> Positions;
+  std::vector<float> Spacings;
+  /// For looking up the places around a position; nullptr until places were added.
+  std::unique_ptr<SpacingGrid> Grid;
+};
+
+/// Chooses places that stand for others close to them, compared with their spacings. Where places are dense, looking at
+/// all of them around each would be slow. Of a cell with many places only the one with the smallest spacing is marked.
+/// \return one mark a place
+std::vector<char> markRepresentatives(Span<glm::dvec3> positions, Span<float> spacings);
+
+} // namespace hop

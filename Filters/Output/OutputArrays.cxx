@@ -1,0 +1,191 @@
+#include "Output/OutputArrays.h"
+
+#include "Conversion/CellBases.h"
+
+#include "vtkDataObject.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace hop
+{
+
+namespace
+{
+
+void writeVector(const glm::dvec3& v, double* out)
+{
+  std::copy_n(&v.x, 3, out);
+}
+
+/// Writes a quantity of both clip planes.
+template <class Quantity>
+void writeOfClips(const ParticleRow& row, double* out, const Quantity& quantity)
+{
+  out[0] = quantity(row.particle->clips[0]);
+  out[1] = quantity(row.particle->clips[1]);
+}
+
+void writeShapeOperator(const ParticleRow& row, const RowCells&, double* out)
+{
+  const glm::dmat3& shape = row.particle->curvature.shape;
+  const double components[] = { shape[0][0], shape[1][1], shape[2][2], shape[0][1], shape[1][2],
+    shape[0][2] }; // VTK's order of symmetric tensors
+  std::copy(std::begin(components), std::end(components), out);
+}
+
+void writeParametricCoordinates(const ParticleRow& row, const RowCells& cells, double* out)
+{
+  // Places on a face may have left the domain by a rounding error.
+  const ReferencePoint u{ glm::clamp(row.particle->location.u.xyz, 0.0, 1.0) };
+  writeVector(parametricCoordinates(cells.cellTypeOf(row), u).xyz, out);
+}
+
+std::vector<ParticleArray> makeParticleArrays()
+{
+  return {
+    { NormalsArray, 3,
+      "Unit normal of the surface, -grad F/|grad F|: towards lower values, as Contour orients it.",
+      [](const ParticleRow& row, const RowCells&, double* out)
+      { writeVector(row.particle->normal.xyz, out); } },
+    { "Radius", 1,
+      "Radius of the particle's splat, world units: the distance to neighbours that the particle "
+      "wants; less where it stands alone on a component of the surface smaller than this distance.",
+      [](const ParticleRow& row, const RowCells&, double* out)
+      { *out = row.particle->radiusPerSpacing * row.particle->spacing; } },
+    { "Mean_Curvature", 1,
+      "Mean of the two principal curvatures with respect to Normals, 1/world units: 1/r on a "
+      "sphere of radius r with high values inside.",
+      [](const ParticleRow& row, const RowCells&, double* out)
+      { *out = row.particle->curvature.mean; } },
+    { "Gauss_Curvature", 1, "Product of the two principal curvatures, 1/world units squared.",
+      [](const ParticleRow& row, const RowCells&, double* out)
+      { *out = row.particle->curvature.gauss; } },
+    { "Shape_Operator", 6,
+      "Derivative of Normals along the surface, 1/world units: a symmetric tensor, xx, yy, zz, xy, "
+      "yz, xz.",
+      writeShapeOperator },
+    { "Residual", 1, "Distance from the isosurface to first order, |F - c|/|grad F|, world units.",
+      [](const ParticleRow& row, const RowCells&, double* out) { *out = row.particle->residual; } },
+    { "Clip_Normal", 6,
+      "Unit normals, pointing to the far side, of up to two planes near the particle at which the "
+      "surface ends (at boundary curves) or turns (at faces between elements); zero where there is "
+      "no plane. Splats are to be cut at boundary curves and at creases, and to give way to the "
+      "splats of the other side where Clip_Angle is below 10 degrees.",
+      [](const ParticleRow& row, const RowCells&, double* out)
+      {
+        writeVector(row.particle->clips[0].normal.xyz, out);
+        writeVector(row.particle->clips[1].normal.xyz, out + 3);
+      } },
+    { "Clip_Distance", 2,
+      "Distance of the particle from each of these planes, world units. A plane touches its "
+      "boundary curve or crease where this is nearest. Where creases meet, a plane is moved "
+      "outwards if nothing else would cover what it cuts off.",
+      [](const ParticleRow& row, const RowCells&, double* out)
+      { writeOfClips(row, out, [](const ClipPlane& plane) { return plane.distance; }); } },
+    { "Clip_Angle", 2,
+      "Largest angle seen at each of these planes between the normals of both sides, degrees: 180 "
+      "at boundary curves, else at least 1.5. A step of the surface counts as an angle of "
+      "step/spacing, below 10 degrees.",
+      [](const ParticleRow& row, const RowCells&, double* out)
+      {
+        writeOfClips(
+          row, out, [](const ClipPlane& plane) { return glm::degrees(plane.dihedralAngle); });
+      } },
+    { "Clip_Curvature", 2,
+      "Curvature of the boundary curve or crease at each of these planes, 1/world units: positive "
+      "where the edge bends towards the plane's normal, 0 where Clip_Angle is below 10 degrees.",
+      [](const ParticleRow& row, const RowCells&, double* out)
+      { writeOfClips(row, out, [](const ClipPlane& plane) { return plane.edgeCurvature; }); } },
+    { "Jump", 1,
+      "F - c on the other side, where the particle stands on a boundary curve at which the field "
+      "jumps from element to element; else 0.",
+      [](const ParticleRow& row, const RowCells&, double* out) { *out = row.particle->jump; } },
+    { IsovalueArray, 1, "The isovalue c of the particle's surface.",
+      [](const ParticleRow& row, const RowCells&, double* out) { *out = row.isovalue; } },
+    { "ParametricCoordinates", 3,
+      "Where the particle stands in its cell, in the parametric coordinates of VTK's cell.",
+      writeParametricCoordinates },
+    { CellIdsArray, 1, "Number of the particle's cell in the input grid.",
+      [](const ParticleRow& row, const RowCells& cells, vtkIdType* out)
+      { *out = cells.cellOf(row); } },
+  };
+}
+
+std::vector<vtkIdType> oneValue(std::int64_t value)
+{
+  return { static_cast<vtkIdType>(value) };
+}
+
+std::vector<ReportArray> makeReportArrays()
+{
+  return {
+    { "Evaluations", "Evaluations of element polynomials.",
+      [](const BlockReport& report) { return oneValue(report.sum.evaluations); } },
+    { "Iterations", "Sweeps of the relaxation.",
+      [](const BlockReport& report) { return oneValue(report.sum.iterations); } },
+    { "ElementsDropped", "Cells of the block that provably hold no surface.",
+      [](const BlockReport& report) { return oneValue(report.census.dropped); } },
+    { "CellsSkipped", "Cells of the block that were left out because something is wrong with them.",
+      [](const BlockReport& report) { return oneValue(report.census.skipped()); } },
+    { "BoxesUnresolved",
+      "Parts of cells that were split to 1/4096 of the cell without proof that they hold at most "
+      "one sheet of the surface.",
+      [](const BlockReport& report) { return oneValue(report.sum.boxesUndecided); } },
+    { "SingularPoints",
+      "Points near such parts at which the gradient vanishes on the surface: cones, isolated "
+      "points, crossings.",
+      [](const BlockReport& report) { return oneValue(report.sum.singularPoints); } },
+    { "ParticlesRejected", "Particles given up because they could not be put on the surface again.",
+      [](const BlockReport& report) { return oneValue(report.sum.particlesRejected); } },
+    { "ParticlesUndersampled",
+      "Particles at which the surface bends faster than their spacing can follow: curvature times "
+      "spacing above 2.",
+      [](const BlockReport& report) { return oneValue(report.sum.particlesUndersampled); } },
+    { "UnresolvedCellIds", "Cells of the block with the parts that BoxesUnresolved counts.",
+      [](const BlockReport& report) { return report.undecidedCells; } },
+  };
+}
+
+std::vector<OutputArray> makeDescriptions()
+{
+  std::vector<OutputArray> rows;
+  for (const ParticleArray& array : particleArrays())
+  {
+    rows.push_back({ array.name, vtkDataObject::POINT, array.components, array.meaning });
+  }
+  for (const ReportArray& array : reportArrays())
+  {
+    rows.push_back({ array.name, vtkDataObject::FIELD, 1, array.meaning });
+  }
+  return rows;
+}
+
+} // namespace
+
+const std::vector<ParticleArray>& particleArrays()
+{
+  static const std::vector<ParticleArray> table = makeParticleArrays();
+  return table;
+}
+
+const std::vector<ReportArray>& reportArrays()
+{
+  static const std::vector<ReportArray> table = makeReportArrays();
+  return table;
+}
+
+const std::vector<OutputArray>& describeOutputArrays()
+{
+  static const std::vector<OutputArray> rows = makeDescriptions();
+  return rows;
+}
+
+bool isOwnPointArray(const std::string& name)
+{
+  const std::vector<ParticleArray>& table = particleArrays();
+  return std::any_of(
+    table.begin(), table.end(), [&](const ParticleArray& array) { return array.name == name; });
+}
+
+} // namespace hop

@@ -1,0 +1,79 @@
+#pragma once
+
+#include "Conversion/CellCensus.h"
+#include "Output/ParticleRow.h"
+#include "Surface/Particles.h"
+
+#include "vtkType.h"
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace hop
+{
+
+// The two tables in OutputArrays.cxx are the one place where the filter's own arrays are named and explained.
+
+/// Names that other code has to know.
+constexpr const char* NormalsArray = "Normals";
+constexpr const char* IsovalueArray = "Isovalue";
+constexpr const char* CellIdsArray = "vtkOriginalCellIds";
+
+/// Writes the numbers of one particle.
+template <class Number>
+using RowWriter = void (*)(const ParticleRow& row, const RowCells& cells, Number* out);
+
+/// A point array that every output has, whatever arrays the input has.
+struct ParticleArray
+{
+  const char* name;
+  int components;
+  /// For users: what the numbers mean, and their unit.
+  const char* meaning;
+  /// Its kind is the type of the array: double or vtkIdType.
+  std::variant<RowWriter<double>, RowWriter<vtkIdType>> write;
+};
+
+/// What a run reports of one block.
+struct BlockReport
+{
+  /// Sums over all isovalues, of the whole mesh.
+  DistributionReport sum;
+  const CellCensus& census;
+  /// Cells of the block with undecided boxes, ascending.
+  std::vector<vtkIdType> undecidedCells;
+};
+
+/// A field-data array that every output has: integers, one component.
+struct ReportArray
+{
+  const char* name;
+  /// For users.
+  const char* meaning;
+  std::vector<vtkIdType> (*values)(const BlockReport& report);
+};
+
+/// In the order of the output.
+const std::vector<ParticleArray>& particleArrays();
+
+/// In the order of the output.
+const std::vector<ReportArray>& reportArrays();
+
+/// A row of either table, as users see it.
+struct OutputArray
+{
+  const char* name;
+  /// vtkDataObject::POINT or FIELD.
+  int association;
+  int components;
+  const char* meaning;
+};
+
+/// Both tables: the point arrays, then those of the field data.
+const std::vector<OutputArray>& describeOutputArrays();
+
+/// Whether particleArrays() has that name.
+bool isOwnPointArray(const std::string& name);
+
+} // namespace hop

@@ -1,0 +1,131 @@
+/**
+ * @struct SplatParticles
+ * @brief  the particles of a polydata, ready for the GPU
+ *
+ * Positions are kept relative to the middle of the particles, so that float32 resolves details of
+ * 1e-2 at coordinates of 1e6.
+ *
+ * There is one particle per point of a vertex cell, in the order of the cells; without vertex cells there is one per
+ * point. A particle that cannot be drawn (position or normal not finite, normal zero, radius not positive) keeps its
+ * place with radius 0, so that the numbers of particles stay the numbers of the cells.
+ */
+
+#pragma once
+
+#include "vtkType.h"
+
+#include <array>
+#include <vector>
+
+class vtkDataArray;
+class vtkPointData;
+class vtkPolyData;
+
+namespace hop
+{
+/** The point arrays that particles are made of. An array that is missing is nullptr. */
+struct ParticleArrays
+{
+  vtkDataArray* Radii = nullptr;   ///< one a point, world units
+  double FallbackRadius = 1.;      ///< radius of all particles if there are no Radii, world units
+  vtkDataArray* Normals = nullptr; ///< of any length but 0; without them normals stay (0, 0, 0)
+
+  ///@{
+  /**
+   * Up to two planes a point that cut its splat off. ClipNormals has 3 or 6 components: unit vectors to the side that
+   * is cut off, (0, 0, 0) for no plane. ClipDistances has 1 or 2: distance of the plane from the point along its
+   * vector, >= 0, world units.
+   */
+  vtkDataArray* ClipNormals = nullptr;
+  vtkDataArray* ClipDistances = nullptr;
+  ///@}
+
+  /**
+   * 1 or 2 dihedral angles of the surface at the planes, in degrees: the angle between the normals of its two sides, 0
+   * where it is smooth, 180 at a boundary curve. The smaller the angle, the farther beyond the plane a splat fills gaps
+   * that others leave, see OverlapAt(). Without angles splats end at all planes.
+   */
+  vtkDataArray* ClipAngles = nullptr;
+
+  /**
+   * 1 or 2 curvatures (1 / world units), within the surface, of the creases or boundary curves that the planes touch
+   * where they are nearest. Positive ones bend towards the plane's vector. Without curvatures the curves are straight.
+   */
+  vtkDataArray* ClipCurvatures = nullptr;
+
+  vtkDataArray* ShapeOperators =
+    nullptr; ///< dn/dx, 1 / world units; 6 components: xx, yy, zz, xy, yz, xz
+  vtkDataArray* Isovalues =
+    nullptr; ///< one a point; particles of different values are not averaged
+  vtkDataArray* CellColors = nullptr; ///< see vtkSurfaceSplatMapper::SetCellColorArrayName()
+
+  /** The arrays with the names that vtkSurfaceSplatMapper lists, without radii and colours. */
+  static ParticleArrays FromPointData(vtkPointData* data);
+};
+
+struct SplatParticles
+{
+  std::array<double, 3> Origin = { 0., 0., 0. };
+  std::vector<float> CentreRadius; ///< 4 a particle: position - Origin, radius (world units)
+  /**
+   * 4 a particle: unit normal, tag. The tag is twice the number of the particle's isovalue, plus 1 if its cell is
+   * translucent. Isovalues are numbered from 0 on, the smallest first.
+   */
+  std::vector<float> Normal;
+  /**
+   * 12 a particle: normal and distance of one plane, the same of another; two overlaps in radii, see OverlapAt(); two
+   * curvatures, see ParticleArrays::ClipCurvatures. Empty without planes.
+   */
+  std::vector<float> Clip;
+  /**
+   * 8 a particle: shape operator as xx, yy, zz, 0, xy, yz, xz, 0, fitted to the particles around
+   * (Particles/FitShapes.h). Empty if the surface bends so little over a splat that flat disks do as
+   * well.
+   */
+  std::vector<float> Shape;
+  std::vector<vtkIdType> PointIds; ///< 1 a particle: the point it was made from
+  std::vector<vtkIdType> CellIds;  ///< 1 a particle: its vertex cell; empty without vertex cells
+  /**
+   * One range for each isovalue that ParticleArrays::Isovalues tells apart, at least one range: all particles of the
+   * isovalue are from the first number to before the second. Particles of other isovalues may be among them.
+   */
+  std::vector<std::array<vtkIdType, 2>> IsovalueRanges;
+  vtkIdType Skipped = 0; ///< number of particles that cannot be drawn
+
+  /**
+   * Number of isovalues up to which they are told apart; particles of more are all of one class. The pixels of the
+   * visibility pass hold the number of an isovalue in 7 bits, so that it cannot be larger.
+   */
+  static constexpr int MaximumNumberOfIsovalues = 128;
+
+  vtkIdType GetNumberOfParticles() const { return static_cast<vtkIdType>(this->PointIds.size()); }
+
+  /**
+   * Distance of neighbours if so many points are spread evenly, as hexagons, over the sides of a box; or along the box,
+   * if it is a line. 0 if the box is a point.
+   */
+  static double EstimateDistance(const double bounds[6], vtkIdType count);
+
+  /**
+   * OverlapAt() a plane at which the surface is almost smooth, in radii. Chosen by experiment: a smaller overlap leaves
+   * gaps where a discontinuous field makes a step; with a larger one splats stand out at outlines.
+   */
+  static constexpr float SmoothOverlap = 0.35f;
+
+  /**
+   * A plane with at least this overlap (radii) is one at which the surface is almost smooth, for shaders too. Any value
+   * between the overlap of creases and SmoothOverlap does; this one is far from both, so that rounding cannot matter.
+   */
+  static constexpr float LeastSmoothOverlap = 0.25f;
+
+  /**
+   * How far, in radii, a splat fills gaps beyond a plane at which the surface has this dihedral angle, in degrees.
+   * SmoothOverlap below 10 degrees. At creases a little, for particles on both sides do not know the line between them
+   * exactly: the less the sharper the crease is, and nothing from 90 degrees on, where splats would stick out.
+   */
+  static float OverlapAt(double degrees);
+
+  /** Reads the particles of a polydata. */
+  static SplatParticles FromPolyData(vtkPolyData* input, const ParticleArrays& arrays);
+};
+}

@@ -1,0 +1,84 @@
+#include "Passes/SplatLayer.h"
+
+#include "Drawing/SplatDrawing.h"
+#include "Drawing/SplatView.h"
+#include "Passes/PassState.h"
+#include "Passes/PictureTiles.h"
+#include "vtkOpenGLRenderWindow.h"
+
+#include <algorithm>
+
+namespace hop
+{
+SplatLayer::SplatLayer(LayerSide side)
+  : Visibility(side)
+  , Accumulation(side, this->Visibility)
+  , Strongest(side, this->Visibility)
+  , Passes{ &this->Visibility, &this->Accumulation, &this->Strongest }
+{
+}
+
+//------------------------------------------------------------------------------
+bool SplatLayer::Update(const SplatDrawing& drawing)
+{
+  std::vector<double> key = drawing.GetWholeKey();
+  if (key == this->Key)
+  {
+    return true;
+  }
+  this->Key.clear();
+  // The passes clear, and draw in, all pixels that are looked at later.
+  PassState state(drawing.Window->GetState(), PictureTiles::GetNeighborhood(*drawing.View));
+  if (!std::all_of(this->Passes.begin(), this->Passes.end(),
+        [&](SplatPass* pass) { return pass->Prepare(drawing); }))
+  {
+    return false;
+  }
+  for (SplatPass* pass : this->Passes)
+  {
+    pass->Draw(drawing, this->Primitives);
+  }
+  this->Key = std::move(key);
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void SplatLayer::Activate()
+{
+  for (SplatPass* pass : this->Passes)
+  {
+    pass->Activate();
+  }
+}
+
+void SplatLayer::Deactivate()
+{
+  for (SplatPass* pass : this->Passes)
+  {
+    pass->Deactivate();
+  }
+}
+
+void SplatLayer::SetSamplers(vtkShaderProgram* program, const SplatLayer& front) const
+{
+  for (const SplatPass* pass : this->Passes)
+  {
+    pass->SetSamplers(program);
+  }
+  for (const SplatPass* pass : front.Passes)
+  {
+    pass->SetSamplers(program, "splatFront");
+  }
+}
+
+//------------------------------------------------------------------------------
+void SplatLayer::ReleaseGraphicsResources(vtkWindow* window)
+{
+  for (SplatPass* pass : this->Passes)
+  {
+    pass->ReleaseGraphicsResources(window);
+  }
+  this->Primitives.ReleaseGraphicsResources();
+  this->Key.clear();
+}
+}

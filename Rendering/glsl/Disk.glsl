@@ -1,0 +1,88 @@
+// One particle as a disk: what every vertex stage needs of it. Inserted into shaders at
+// //Splat::Disk::Dec.
+//
+// There are no vertex attributes: particles are fetched by gl_VertexID, so that nothing is stored three times.
+//
+// Suffixes name coordinate spaces: MC model (shifted to the middle of the particles, see SplatParticles), VC view,
+// DC device. Disk coordinates (u, v) are in radii along tangent and bitangent of the disk; u^2 + v^2 = 1 is the rim.
+
+uniform samplerBuffer splatCentreRadius; // xyz: centre (MC), w: radius, 0 = draw nothing
+// xyz: outward unit normal (MC); w: twice the number of the isovalue, plus 1 if the particle is translucent
+uniform samplerBuffer splatNormal;
+// Three texels a particle. First and second: xyz: unit normal of a plane (MC), w: distance (MC). Third: xy: overlaps,
+// see splatOverlaps(); zw: curvatures (1 / MC), within the surface, of the curves that the planes touch, positive
+// towards the planes' normals.
+uniform samplerBuffer splatClip;
+uniform int splatHasClip; // 0: there are no clip planes
+uniform float splatRadiusScale;
+uniform int splatFacesViewer;  // 1: the particles have no normals, their disks face the eye
+uniform int splatStride;       // every splatStride-th particle is drawn
+uniform int splatKind;         // which particles are drawn, see DrawnKind: 2 stands for all
+uniform int splatIsovalue;        // number of the isovalue whose particles are drawn; less than 0: all are
+uniform float splatHiddenSide; // particles seen from this side are not drawn, see CulledSide
+uniform vec4 splatEyeMC;       // position of the eye, or, with w = 0, the direction to it
+
+struct SplatDisk
+{
+  vec3 centreMC;
+  vec3 normalMC;    // outward
+  vec3 tangentMC;   // as long as the radius, as is the next; 0 if there is nothing to draw
+  vec3 bitangentMC;
+  float seenFrom;   // 1: from outward (the normal points at the eye), -1: from inward
+  int isovalue;     // its number
+};
+
+vec3 splatTangent(vec3 normal)
+{
+  // Either axis is at least 37 degrees away from the normal when it is taken: |normal.x| < 0.6 means 53 degrees from x,
+  // and from 0.6 on |normal.y| is at most 0.8, 37 degrees from y.
+  vec3 axis = abs(normal.x) < 0.6 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
+  return normalize(cross(axis, normal));
+}
+
+SplatDisk splatDiskOf(int particle)
+{
+  SplatDisk disk;
+  vec4 centreRadius = texelFetch(splatCentreRadius, particle);
+  disk.centreMC = centreRadius.xyz;
+  vec3 toEyeMC = splatEyeMC.xyz - splatEyeMC.w * disk.centreMC;
+  vec4 normal = texelFetch(splatNormal, particle);
+  disk.normalMC = splatFacesViewer == 1 ? normalize(toEyeMC) : normal.xyz;
+  // The eye lies on one side of the whole disk, so the centre decides for all its fragments.
+  disk.seenFrom = dot(disk.normalMC, toEyeMC) < 0.0 ? -1.0 : 1.0;
+  int tag = int(normal.w);
+  disk.isovalue = tag / 2;
+  bool drawn = (splatKind == 2 || tag % 2 == splatKind) &&
+    (splatIsovalue < 0 || disk.isovalue == splatIsovalue) && disk.seenFrom != splatHiddenSide;
+  float radius = drawn ? centreRadius.w * splatRadiusScale : 0.0;
+  disk.tangentMC = radius * splatTangent(disk.normalMC);
+  disk.bitangentMC = cross(disk.normalMC, disk.tangentMC);
+  return disk;
+}
+
+// Where a particle's clip plane, bent to the curve that it touches, crosses the disk: the disk coordinates (u, v) with
+//   x u + y v > z + w (x v - y u)^2
+// are cut off, where xyzw is what is returned. z is a length (MC).
+vec4 splatClipLine(int particle, int plane, SplatDisk disk)
+{
+  if (splatHasClip == 0)
+  {
+    return vec4(0.0);
+  }
+  vec4 clip = texelFetch(splatClip, 3 * particle + plane);
+  vec4 both = texelFetch(splatClip, 3 * particle + 2);
+  vec2 direction = vec2(dot(clip.xyz, disk.tangentMC), dot(clip.xyz, disk.bitangentMC));
+  float square = max(dot(direction, direction), 1e-30); // not 0 where there is no plane
+  float bend = 0.5 * both[2 + plane] * dot(disk.tangentMC, disk.tangentMC) / square;
+  return vec4(direction, clip.w, bend);
+}
+
+// How far beyond its clip planes a particle fills gaps that others leave, in radii.
+vec2 splatOverlaps(int particle)
+{
+  return splatHasClip == 0 ? vec2(0.0) : texelFetch(splatClip, 3 * particle + 2).xy;
+}
+
+// Corners of the equilateral triangle around the unit circle, counter-clockwise; 1.7320508 is sqrt(3).
+const vec2 splatCorner[3] =
+  vec2[3](vec2(0.0, 2.0), vec2(-1.7320508, -1.0), vec2(1.7320508, -1.0));

@@ -1,0 +1,194 @@
+// What the fragment stages of the splat passes share. Inserted at //Splat::Fragment::Dec, behind the definitions that
+// PassVS.glsl lists and these:
+//   SPLAT_HAS_CLIP          1: particles have clip planes
+//   SPLAT_GAP_SHARE         factor on the weight beyond a clip plane, see SplatPrimitives::GapShare
+//   SPLAT_CLIPPING_PLANES   number of the mapper's clipping planes
+
+#if SPLAT_POINTS
+flat in vec4 splatPixelToDisk;
+flat in vec2 splatCentrePixel;
+flat in vec3 splatDepths;
+vec2 splatDiskCoord;
+vec3 splatOffsetVC;
+float splatDepthVC;
+#elif SPLAT_CURVED
+in vec2 splatPlaneCoord;
+in vec3 splatPlaneOffset;
+flat in vec3 splatDual[2];
+flat in vec3 splatNormalMC;
+flat in vec3 splatBend;
+flat in vec3 splatNormalChange[2];
+flat in float splatCentreDepth;
+flat in vec2 splatClipDepths;
+flat in float splatRadiusVC;
+vec2 splatDiskCoord;
+float splatBelowDisk; // distance of the bent splat from its disk (MC)
+vec3 splatOffsetVC;
+float splatDepthVC;
+#else
+in vec2 splatDiskCoord;
+in vec3 splatOffsetVC;
+in float splatDepthVC;
+#endif
+flat in vec4 splatClipLines[2];
+flat in vec2 splatBeyondClip;
+float splatShare = 1.0; // factor on the weight of the splat
+in vec3 splatPointMC; // the fragment's place on the disk
+vec3 splatPlaceMC;    // the fragment's place on the splat, which may be bent
+flat in vec3 splatNormalVC;
+flat in float splatSeenFromSide;
+flat in float splatMark;
+flat in int splatParticle;
+
+uniform vec3 splatFalloff; // sharpness; the Gaussian at the rim; squared reach (radii^2), see SplatProfile
+uniform vec4 splatClippingPlane[6]; // MC
+
+#if SPLAT_POINTS
+//Splat::Ray::Dec
+
+// The private framebuffers begin at the viewport's corner.
+vec3 splatBehindPixel(vec2 pixel, float z)
+{
+  return splatOnRay(2.0 * pixel / splatViewport.zw - 1.0, z);
+}
+
+// Where the pixel's view ray meets the disk's plane, to first order.
+bool splatMeetRay()
+{
+  splatPlaceMC = splatPointMC;
+  splatDiskCoord = mat2(splatPixelToDisk.xy, splatPixelToDisk.zw) * (gl_FragCoord.xy - splatCentrePixel);
+  splatDepthVC = splatDepths.x + dot(splatDepths.yz, splatDiskCoord);
+  splatOffsetVC = splatBehindPixel(gl_FragCoord.xy, splatDepthVC) -
+    splatBehindPixel(splatCentrePixel, splatDepths.x);
+  return true;
+}
+#endif
+
+#if SPLAT_CURVED
+uniform vec4 splatEyeMC;
+uniform mat4 splatMCVC;
+
+vec3 splatSurfaceNormal()
+{
+  return normalize(
+    splatNormalVC + splatDiskCoord.x * splatNormalChange[0] + splatDiskCoord.y * splatNormalChange[1]);
+}
+
+// Whether the normal differs by more than 45 degrees from the particle's, for which its change is as long as itself.
+// Where the surface bends as much between particles, a paraboloid tells nothing of it; it would stick out.
+bool splatBendsAway()
+{
+  vec3 change = splatDiskCoord.x * splatNormalChange[0] + splatDiskCoord.y * splatNormalChange[1];
+  return dot(change, change) > dot(splatNormalVC, splatNormalVC);
+}
+
+// Where the pixel's view ray meets the splat, bent to the paraboloid at the height -Q(t) / 2 above the
+// disk at disk coordinates t; Q(t) = bend.x t.x^2 + 2 bend.y t.x t.y + bend.z t.y^2. From the place p
+// where the ray meets the plane of the disk the paraboloid is `along` e away, e the way to the eye:
+//   along e.n + Q(p + along e) / 2 = 0,
+// of which the solution on the side that is seen is taken. False if there is none: the ray passes the surface by.
+bool splatMeetRay()
+{
+  vec3 toEyeMC = splatEyeMC.xyz - splatEyeMC.w * splatPointMC;
+  vec2 e = vec2(dot(splatDual[0], toEyeMC), dot(splatDual[1], toEyeMC));
+  mat2 q = mat2(splatBend.x, splatBend.y, splatBend.y, splatBend.z);
+  float atPlace = dot(splatPlaneCoord, q * splatPlaneCoord);
+  float slope = dot(splatNormalMC, toEyeMC) + dot(splatPlaneCoord, q * e);
+  float square = slope * slope - dot(e, q * e) * atPlace;
+  float along = -atPlace / (slope + splatSeenFromSide * sqrt(max(square, 0.0)));
+  splatDiskCoord = splatPlaneCoord + along * e;
+  splatPlaceMC = splatPointMC + along * toEyeMC;
+  splatBelowDisk = -along * dot(splatNormalMC, toEyeMC);
+  splatOffsetVC = splatPlaneOffset + along * (mat3(splatMCVC) * toEyeMC);
+  splatDepthVC = splatCentreDepth + splatOffsetVC.z;
+  splatOffsetVC -= dot(splatOffsetVC, splatSurfaceNormal()) * splatSurfaceNormal();
+  return square >= 0.0 && !splatBendsAway();
+}
+#else
+vec3 splatSurfaceNormal()
+{
+  return splatNormalVC;
+}
+#endif
+
+#if !SPLAT_POINTS && !SPLAT_CURVED
+bool splatMeetRay()
+{
+  splatPlaceMC = splatPointMC;
+  return true;
+}
+#endif
+
+#if SPLAT_HAS_CLIP
+//Splat::Edge::Dec
+
+// How far the fragment lies behind one of the particle's clip planes (MC).
+float splatBehindClip(int plane)
+{
+  float behind = splatBehindLine(splatClipLines[plane], splatDiskCoord);
+#if SPLAT_CURVED
+  behind -= splatBelowDisk * splatClipDepths[plane];
+#endif
+  return behind;
+}
+#endif
+
+// Call this first. Whether the fragment is no part of the splat.
+bool splatOutside()
+{
+  // The comparison is also false where the disk coordinates are no numbers.
+  bool outside = !splatMeetRay() || !(dot(splatDiskCoord, splatDiskCoord) <= 1.0);
+#if SPLAT_HAS_CLIP
+  vec2 behind = vec2(splatBehindClip(0), splatBehindClip(1));
+  outside = outside || any(greaterThan(behind, splatBeyondClip));
+  splatShare = any(greaterThan(behind, vec2(0.0))) ? SPLAT_GAP_SHARE : 1.0;
+#endif
+#if SPLAT_CLIPPING_PLANES
+  for (int i = 0; i < SPLAT_CLIPPING_PLANES; ++i)
+  {
+    outside = outside || dot(splatClippingPlane[i], vec4(splatPlaceMC, 1.0)) < 0.0;
+  }
+#endif
+  return outside;
+}
+
+#if SPLAT_APART && (SPLAT_POINTS || SPLAT_CURVED)
+#if SPLAT_CURVED
+uniform mat4 splatVCDC;
+#endif
+
+// Depth of the splat itself, for the depth buffer. The rasterizer knows the depth of the splat's middle or of its plane
+// only, with which surfaces near each other would break through each other.
+float splatOwnDepth()
+{
+  float z = splatDepthVC;
+#if SPLAT_CURVED
+  // Later passes pull the plane by one radius, and the pulled plane must come before this depth: so the depth stays
+  // less than a radius from the plane. Half a radius was chosen by experiment.
+  float plane = splatCentreDepth + splatPlaneOffset.z;
+  z = clamp(z, plane - 0.5 * splatRadiusVC, plane + 0.5 * splatRadiusVC);
+#endif
+  float depth = splatVCDC[2][2] * z + splatVCDC[3][2];
+  return 0.5 * depth / (splatVCDC[2][3] * z + splatVCDC[3][3]) + 0.5;
+}
+#endif
+
+// Whether another side, or another isovalue, is seen at this pixel. Marks are whole 255ths.
+bool splatIsOfOther(sampler2D seen)
+{
+  float difference = texelFetch(seen, ivec2(gl_FragCoord.xy), 0).g - splatMark;
+  return abs(difference) > 0.5 / 255.0;
+}
+
+// Whether the fragment is farther from the particle than the splat makes a surface, see splatReach() in SplatProfile.h.
+bool splatBeyondReach()
+{
+  return dot(splatDiskCoord, splatDiskCoord) > splatFalloff.z;
+}
+
+// The weight of SplatProfile: a Gaussian, lowered so that it ends with zero at the rim; 1 in the middle.
+float splatWeight()
+{
+  float gaussian = exp(-splatFalloff.x * dot(splatDiskCoord, splatDiskCoord));
+  return splatShare * (gaussian - splatFalloff.y) / (1.0 - splatFalloff.y);
+}

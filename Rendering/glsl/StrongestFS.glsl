@@ -1,0 +1,28 @@
+//VTK::System::Dec
+
+// Third pass, where colours must not be mixed or particles are selected: the number of the particle with the largest
+// weight at a pixel. The pass has a depth buffer of its own, which compares logarithms of weights.
+
+//Splat::Fragment::Dec
+
+uniform sampler2D splatSeen;
+uniform sampler2D splatVisibleDepth;
+uniform float splatNearer; // 1: what lies before the visible depth is seen; -1: what lies behind it
+
+out uint splatNumber; // of the particle, from 1 on; 0 where there is none
+
+void main()
+{
+  float visible = texelFetch(splatVisibleDepth, ivec2(gl_FragCoord.xy), 0).r;
+  if (splatOutside() || splatIsOfOther(splatSeen) ||
+    splatNearer * (gl_FragCoord.z - visible) > 0.0)
+  {
+    discard;
+  }
+  // Logarithms tell small weights apart, where 1 minus the weight would be rounded to 1. `least` is smaller than all
+  // weights above 0 in float32: the smallest one, with the largest sharpness and in a gap, is about 2e-19. The factor
+  // 0.99 keeps weights of 0 nearer than the cleared depth, 1.
+  const float least = 1e-26;
+  gl_FragDepth = 0.99 * log(max(splatWeight(), least)) / log(least);
+  splatNumber = uint(splatParticle) + 1u;
+}
