@@ -16,7 +16,7 @@ packages=(
   g++ cmake ninja-build libglm-dev
   xvfb # pictures where there is no display
 )
-testing=(libgtest-dev libbenchmark-dev)
+testing=(libgtest-dev libbenchmark-dev doxygen)
 paraview=(
   paraview paraview-dev python3-paraview python3-dev
   # paraview-dev's CMake files look these up, but its package does not depend on them.

@@ -1,4 +1,4 @@
-"""What stock filters make of high-order cells, beside this plugin: the figures of the README.
+"""What stock filters make of high-order cells, beside this plugin: the figures of Documentation/performance.md.
 
     pvpython Testing/Benchmarks/stock_filters.py PLUGIN [--quick]
 

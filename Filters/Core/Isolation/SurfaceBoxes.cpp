@@ -32,10 +32,10 @@ std::vector<SurfaceBox> joined(const std::vector<std::vector<SurfaceBox>>& ofEle
 /// Splits elements one after the other, each by all threads.
 /// \param progress is told how many elements are done
 std::vector<SurfaceBox> splitInTurn(const ElementMesh& mesh, double isovalue,
-  const IsSmall& isSmall, const ParallelFor& parallelFor, const ReportProgress& progress)
+  const IsSmall& isFineEnough, const ParallelFor& parallelFor, const ReportProgress& progress)
 {
   std::vector<SurfaceBox> boxes;
-  ElementSplitter splitter(mesh, isovalue, isSmall);
+  ElementSplitter splitter(mesh, isovalue, isFineEnough);
   for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
   {
     splitter.split(
@@ -47,14 +47,14 @@ std::vector<SurfaceBox> splitInTurn(const ElementMesh& mesh, double isovalue,
 
 /// Splits many elements at a time, each by one thread. Parameters are those of splitInTurn.
 std::vector<SurfaceBox> splitAtOnce(const ElementMesh& mesh, double isovalue,
-  const IsSmall& isSmall, const ParallelFor& parallelFor, const ReportProgress& progress)
+  const IsSmall& isFineEnough, const ParallelFor& parallelFor, const ReportProgress& progress)
 {
   std::atomic<int> done{ 0 };
   std::vector<std::vector<SurfaceBox>> ofElement(mesh.elements.size());
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(mesh.elements.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
-      ElementSplitter splitter(mesh, isovalue, isSmall);
+      ElementSplitter splitter(mesh, isovalue, isFineEnough);
       for (std::ptrdiff_t e = begin; e < end; ++e)
       {
         splitter.split(static_cast<int>(e), {}, {}, ofElement[e]);
@@ -67,21 +67,21 @@ std::vector<SurfaceBox> splitAtOnce(const ElementMesh& mesh, double isovalue,
 } // namespace
 
 std::vector<SurfaceBox> findSurfaceBoxes(
-  const ElementMesh& mesh, double isovalue, double wantedSize, const ParallelFor& parallelFor)
+  const ElementMesh& mesh, double isovalue, double largestSize, const ParallelFor& parallelFor)
 {
   return findSurfaceBoxes(
-    mesh, isovalue, [wantedSize](const SurfaceBox& box) { return box.size <= wantedSize; },
+    mesh, isovalue, [largestSize](const SurfaceBox& box) { return box.size <= largestSize; },
     parallelFor);
 }
 
 std::vector<SurfaceBox> findSurfaceBoxes(const ElementMesh& mesh, double isovalue,
-  const IsSmall& isSmall, const ParallelFor& parallelFor, const ReportProgress& progress)
+  const IsSmall& isFineEnough, const ParallelFor& parallelFor, const ReportProgress& progress)
 {
   const auto reportElements = [&](double done)
   { report(progress, done / static_cast<double>(mesh.elements.size())); };
   return mesh.elements.size() < fewElements
-    ? splitInTurn(mesh, isovalue, isSmall, parallelFor, reportElements)
-    : splitAtOnce(mesh, isovalue, isSmall, parallelFor, reportElements);
+    ? splitInTurn(mesh, isovalue, isFineEnough, parallelFor, reportElements)
+    : splitAtOnce(mesh, isovalue, isFineEnough, parallelFor, reportElements);
 }
 
 } // namespace hop

@@ -10,14 +10,16 @@ namespace hop
 /// undecided (ElementSplitter.h). All of the surface lies in the boxes returned. Every component that is larger than
 /// 2^-(MaximumBisections/3) of an element, or has no critical point near it, lies in certified boxes. Bounds are
 /// widened by the rounding errors of the bisections. Elements with a coefficient that is NaN or infinite give no boxes.
-/// \param wantedSize largest SurfaceBox::size of certified boxes, world units, > 0
-/// \param isSmall whether a certified box is small enough, in place of wantedSize; called from several threads
-/// \param progress receives the share of the work that is done, 0 to 1; called from several threads
+/// \param largestSize largest SurfaceBox::size of certified boxes, world units, > 0
 /// \return boxes in the order of the elements, the same for any number of threads
 std::vector<SurfaceBox> findSurfaceBoxes(
-  const ElementMesh& mesh, double isovalue, double wantedSize, const ParallelFor& parallelFor);
+  const ElementMesh& mesh, double isovalue, double largestSize, const ParallelFor& parallelFor);
+
+/// The same with a size that depends on the box.
+/// \param isFineEnough whether a certified box is small enough; called from several threads
+/// \param progress receives the share of the work that is done, 0 to 1; called from several threads
 std::vector<SurfaceBox> findSurfaceBoxes(const ElementMesh& mesh, double isovalue,
-  const std::function<bool(const SurfaceBox&)>& isSmall, const ParallelFor& parallelFor,
+  const std::function<bool(const SurfaceBox&)>& isFineEnough, const ParallelFor& parallelFor,
   const std::function<void(double)>& progress = {});
 
 } // namespace hop
