@@ -88,12 +88,14 @@ def main():
     found = {"above": [], "below": [], "certified": []}
     split(coefficients(), 0.0, 0.0, 1.0, 1.0, False, found)
     figure, (whole, zoom) = plt.subplots(1, 2, figsize=(8.6, 4.4))
-    draw(whole, found, f"{len(found['certified'])} certified boxes (green), {len(found['above']) + len(found['below'])} dropped")
+    dropped = len(found["above"]) + len(found["below"])
+    draw(whole, found, f"{len(found['certified'])} certified boxes (green), {dropped} dropped")
     whole.set(xlim=(-0.01, 1.01), ylim=(-0.01, 1.01), xlabel="u", ylabel="v", xticks=[0, 0.5, 1], yticks=[0, 0.5, 1])
     reach = 0.075
     whole.add_patch(Rectangle(ISLAND - reach, 2 * reach, 2 * reach, fill=False, edgecolor=RED, lw=1.5))
     draw(zoom, found, "around the closed curve on the right")
-    zoom.set(xlim=ISLAND[0] + reach * np.array([-1, 1]), ylim=ISLAND[1] + reach * np.array([-1, 1]), xticks=[], yticks=[])
+    around = reach * np.array([-1, 1])
+    zoom.set(xlim=ISLAND[0] + around, ylim=ISLAND[1] + around, xticks=[], yticks=[])
     for spine in zoom.spines.values():
         spine.set(visible=True, edgecolor=RED, linewidth=1.5)
     figure.tight_layout()

@@ -25,8 +25,9 @@ def draw_curves(axes):
         axes.axvline(place, color=ORANGE, lw=1.2, ls="--")
         axes.text(place + 0.015, 1.45, text, color=ORANGE, va="top")
     axes.plot([BETA, BETA], [energy(BETA), slope(BETA)], "o", color=ORANGE, ms=5)
-    axes.annotate(f"$E(\\beta)={energy(BETA):.4f}$", (BETA, energy(BETA)), (0.68, 0.45), arrowprops={"arrowstyle": "-", "lw": 0.6})
-    axes.annotate(f"$E'(\\beta)={slope(BETA):.4f}$", (BETA, slope(BETA)), (0.66, -1.35), arrowprops={"arrowstyle": "-", "lw": 0.6})
+    line = {"arrowstyle": "-", "lw": 0.6}
+    axes.annotate(f"$E(\\beta)={energy(BETA):.4f}$", (BETA, energy(BETA)), (0.68, 0.45), arrowprops=line)
+    axes.annotate(f"$E'(\\beta)={slope(BETA):.4f}$", (BETA, slope(BETA)), (0.66, -1.35), arrowprops=line)
     axes.set(xlim=(0.2, 1.25), ylim=(-4, 1.5), xlabel="scaled distance $r=\\beta\\,d/h$")
     axes.legend(loc="lower right")
 
