@@ -57,8 +57,9 @@ void LatticeLines::bisect(std::vector<Value>& coefficients, std::vector<Value>& 
   }
 }
 
-/// Bound on the rounding errors of repeated bisection, relative to the largest coefficient. Each step of de Casteljau's
-/// algorithm rounds by half an epsilon of doubles at most: this covers ninety steps in a row that all err one way.
+/// Rounding errors of repeated bisection, relative to the largest coefficient. Each step of de Casteljau's algorithm
+/// rounds by half an epsilon of doubles at most: this covers ninety steps in a row that all err one way. It is an
+/// estimate, not a bound: 36 halvings of degree p are up to 36 p steps, whose errors cancel as a rule.
 /// Larger: pieces whose coefficients nearly reach the isovalue are split in vain; smaller: a piece that holds surface
 /// might be dropped.
 constexpr double BisectionRounding = 1e-14;

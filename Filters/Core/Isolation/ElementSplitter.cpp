@@ -95,9 +95,9 @@ std::vector<Piece> ElementSplitter::sortOut(std::vector<Piece> level, std::vecto
   for (std::size_t n = 0; n < level.size(); ++n)
   {
     Outcome& outcome = outcomes[n];
-    std::vector<SurfaceBox>& list = outcome.isOpenToBoth ? undecided.boxes : boxes;
+    std::vector<SurfaceBox>& list = outcome.isUndecided ? undecided.boxes : boxes;
     list.insert(list.end(), outcome.boxes.begin(), outcome.boxes.end());
-    if (outcome.isOpenToBoth)
+    if (outcome.isUndecided)
     {
       undecided.parts.insert(level[n].part);
     }
@@ -170,7 +170,7 @@ bool ElementSplitter::finishUndecided(
   }
   SurfaceBox box = boxOf(piece, this->Tests);
   box.certified = !mayBeTangent && this->Tests.rises(piece);
-  outcome.isOpenToBoth = mayBeTangent || (!box.certified && !box.straddles && !isDeep);
+  outcome.isUndecided = mayBeTangent || (!box.certified && !box.straddles && !isDeep);
   outcome.boxes.push_back(box);
   return true;
 }

@@ -42,7 +42,7 @@ private:
     std::vector<SurfaceBox> boxes;
     bool isHalved = false;
     /// The box may be replaced by a part of the element.
-    bool isOpenToBoth = false;
+    bool isUndecided = false;
     /// The second half.
     Piece second;
   };

@@ -34,7 +34,7 @@ public:
   /// \return what is certain of the derivative along the mean gradient
   Monotony monotony(const std::vector<double>& values) const;
 
-  /// Whether the polynomial rises along its mean gradient, risesWeakly at least.
+  /// Whether the polynomial rises along its mean gradient, weakly at least.
   bool rises(const std::vector<double>& values) const
   {
     return this->monotony(values) != Monotony::None;

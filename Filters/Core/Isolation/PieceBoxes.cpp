@@ -65,7 +65,7 @@ SurfaceBox boxOf(const Piece& piece, const PieceTests& tests)
 {
   SurfaceBox box = boxAround(piece, piece.cornerValues());
   box.certified = piece.certified();
-  // Where the field rose risesWeakly in a piece, it may rise strictly in a half of the piece.
+  // Where the field rose weakly in a piece, it may rise strictly in a half of the piece.
   box.risesWeakly = piece.sheet == Monotony::Weak && tests.monotony(piece) != Monotony::Strict;
   box.mayBeThin = piece.sheet == Monotony::Weak;
   findEnds(piece, box);

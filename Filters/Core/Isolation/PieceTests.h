@@ -30,7 +30,7 @@ public:
 
   /// How the field rises along its mean gradient.
   Monotony monotony(const Piece& piece) const;
-  /// Whether it does, risesWeakly at least.
+  /// Whether it does, weakly at least.
   bool rises(const Piece& piece) const;
 
   /// How the field rises, if the surface in the piece is proven to be one sheet: F - c has both signs at corners, or is
