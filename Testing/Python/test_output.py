@@ -70,7 +70,7 @@ def test_every_array_of_the_table_is_explained():
     assert not any(table.IsOwnPointArray(name) for name in REPORT)
 
 
-@pytest.mark.parametrize("page", ["README.md", "Plugin/HighOrderParticleIsosurface.xml"])
+@pytest.mark.parametrize("page", ["Documentation/user-guide.md", "Plugin/HighOrderParticleIsosurface.xml"])
 def test_pages_for_users_name_every_point_array(page):
     text = (PROJECT / page).read_text()
     assert [name for name in OWN_ARRAYS if not re.search(rf"\b{name}\b", text)] == []
