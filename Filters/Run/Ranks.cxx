@@ -17,7 +17,7 @@ namespace hop
 namespace
 {
 
-/// That of several ranks, or none.
+/// The controller of all ranks, or none where there is only one rank.
 vtkMultiProcessController* controllerOfRanks()
 {
   vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();

@@ -8,8 +8,8 @@ said. Each measurement is a process of its own. Wall times on one and two thread
 the run on one thread, from the VTK grid to the VTK polydata, the best of the repetitions; on a machine
 that does other work the processor time is the one to compare. Stages are those of one run on two
 threads, in processor time; isolation (to boxes of six spacings) is part of the distribution. 'smooth' are
-those particles alone whose splats reach no rim and no kink, and over whose spacing the surface bends by less
-than half a radian; the surface of Classic's, which know no rims, is taken for smooth there. 'sampled' cuts
+those particles alone whose splats reach no boundary curve and no crease, and over whose spacing the surface bends by
+less than half a radian; Classic knows no boundary curves, so all its particles count as smooth there. 'sampled' cuts
 every element that can hold surface into so many linear cells, and contours these in threads.
 """
 
