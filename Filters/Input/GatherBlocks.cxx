@@ -25,6 +25,17 @@ std::string nameOf(vtkDataObjectTreeIterator* node)
   return name ? name : "";
 }
 
+/// What messages call a leaf: "block 3", or "block 3 'name'".
+std::string labelOf(unsigned int flatIndex, const std::string& name)
+{
+  std::string label = "block " + std::to_string(flatIndex);
+  if (!name.empty())
+  {
+    label += " '" + name + "'";
+  }
+  return label;
+}
+
 GatheredBlocks gatherLeaves(vtkDataObjectTree* input, vtkDataObjectTree* output)
 {
   GatheredBlocks result;
@@ -36,15 +47,14 @@ GatheredBlocks gatherLeaves(vtkDataObjectTree* input, vtkDataObjectTree* output)
   for (node->InitTraversal(); !node->IsDoneWithTraversal(); node->GoToNextItem())
   {
     vtkDataObject* data = node->GetCurrentDataObject();
-    std::string name = nameOf(node);
+    const std::string ownName = nameOf(node);
     if (vtkCompositeDataSet::SafeDownCast(data))
     {
-      nameOfPieces = isCollection ? name : "";
+      nameOfPieces = isCollection ? ownName : "";
       continue;
     }
-    name = name.empty() ? nameOfPieces : name;
-    const std::string number = "block " + std::to_string(node->GetCurrentFlatIndex());
-    name = name.empty() ? number : number + " '" + name + "'";
+    const std::string name =
+      labelOf(node->GetCurrentFlatIndex(), ownName.empty() ? nameOfPieces : ownName);
     if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data))
     {
       const vtkNew<vtkPolyData> particles;
