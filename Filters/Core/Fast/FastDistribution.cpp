@@ -41,6 +41,20 @@ struct BoxDiagonal
   static constexpr double Thin = 1.0;
   /// Curvature magnitude times spacing from which on the surface counts as thin: its radius is a spacing.
   static constexpr double ThinBend = 1.0;
+
+  static double of(Domain domain)
+  {
+    switch (domain)
+    {
+      case Domain::Hexahedron:
+        return Hexahedron;
+      case Domain::Wedge:
+        return Wedge;
+      case Domain::Tetrahedron:
+        return Tetrahedron;
+    }
+    unknownDomain();
+  }
 };
 
 /// Spacing at which particles are counted before memory is allocated, in units of the mesh's diagonal. A flat surface
@@ -187,9 +201,7 @@ bool FastSystem::isFineEnough(const SurfaceBox& box, const SizingFunction& sizin
 {
   const int element = box.middle.element;
   const Domain domain = this->Mesh.elements[element].domain;
-  const double perSpacing = domain == Domain::Hexahedron ? BoxDiagonal::Hexahedron
-    : domain == Domain::Wedge                            ? BoxDiagonal::Wedge
-                                                         : BoxDiagonal::Tetrahedron;
+  const double perSpacing = BoxDiagonal::of(domain);
   const double largest = perSpacing * sizing.spacing;
   const double smallest =
     (box.mayBeThin ? sizing.spacing : largest) / (1.0 + sizing.angularDensity);
