@@ -44,4 +44,8 @@ for text in README.md CHANGELOG.md Documentation/*.md Testing/Data/README.md; do
     esac
   done < <(awk '/^ *```/ { code = !code; next } !code' "$text" | tr '\n' ' ' | grep -oE '\]\([^) ]+\)' | sed -E 's/^\]\((.*)\)$/\1/')
 done
+# Headers cite sections of the page on the algorithm.
+while read -r section; do
+  grep -qxF "## $section" Documentation/algorithm.md || complain "a header cites the section '$section', which is not there"
+done < <(grep -rhoE 'Derivation: Documentation/algorithm\.md, section [A-Za-z ]+' Filters | sed 's/.*section //' | sort -u)
 exit "$status"

@@ -28,6 +28,7 @@ namespace hop
 ///    energy is ideal, and the system settles again;
 ///  - a particle on a boundary curve misses the neighbours beyond it: its ideal energy counts the neighbours that can
 ///    exist (4 on a face of the domain, 2 on an edge).
+/// Derivation: Documentation/algorithm.md, section Classic distribution.
 Distribution distributeClassic(const Isosurface& surface, const DistributionParameters& parameters,
   const Monitor& monitor, const ParallelFor& parallelFor);
 

@@ -8,6 +8,7 @@ namespace hop
 
 /// Splits particles with little energy and deletes particles with much by the paper's biased coin; deletes overlapping
 /// particles always.
+/// Derivation: Documentation/algorithm.md, section Classic distribution.
 /// \return whether so many changed that the system has to settle again; if not, none did
 bool splitAndDelete(ClassicParticles& particles, Random& random);
 

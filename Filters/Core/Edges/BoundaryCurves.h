@@ -42,6 +42,7 @@ struct BoundaryParticle
 /// Particles on the boundary curves {F = c} of the surface, which run on the faces at which it ends. The curves pass
 /// from face to face around the edges of the mesh, always with the domain on the same side. They are closed, but for
 /// curves along jumps that fade, and beside elements that cover a part of a face.
+/// Derivation: Documentation/algorithm.md, section Boundary curves and creases.
 struct BoundaryCurves
 {
   Buffer<BoundaryParticle> particles;

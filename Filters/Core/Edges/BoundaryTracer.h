@@ -67,6 +67,7 @@ private:
 };
 
 /// Follows boundary curves of the isosurface: curves {F = c} on faces, as far as the surface ends there.
+/// Derivation: Documentation/algorithm.md, section Boundary curves and creases.
 class BoundaryTracer
 {
 public:

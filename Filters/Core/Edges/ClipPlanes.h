@@ -11,6 +11,7 @@ namespace hop
 /// nothing behind them covers what they cut off. In corners two planes meet; where creases meet, some planes are moved
 /// outwards (CreaseCorners.h). Beyond planes of smaller angles splats are not cut off, but count only where no other
 /// does.
+/// Derivation: Documentation/algorithm.md, section Boundary curves and creases.
 void markClipPlanes(
   const Isosurface& surface, const ParticleGrid& all, const ParallelFor& parallelFor);
 

@@ -11,6 +11,7 @@ namespace hop
 /// covers it.
 ///
 /// Planes of creases of more than 80 degrees stay: splats would stand off from what they are to cover.
+/// Derivation: Documentation/algorithm.md, section Boundary curves and creases.
 /// \pre all other planes are marked (ClipPlanes.h)
 void closeCreaseCorners(const ParticleGrid& all, const ParallelFor& parallelFor);
 

@@ -7,6 +7,7 @@ namespace hop
 
 /// The spacing that particles want at a crease of a dihedral angle (radians): the same as on a surface whose normal
 /// turns by that angle within one spacing s, D = angle/s. With rho = 0 it is s.
+/// Derivation: Documentation/algorithm.md, section Boundary curves and creases.
 inline double spacingAtCrease(const SizingFunction& sizing, double angle)
 {
   return sizing.at(angle / sizing.spacing);

@@ -6,6 +6,7 @@ namespace hop
 {
 
 /// What the surface does where it passes from element to element.
+/// Derivation: Documentation/algorithm.md, section Boundary curves and creases.
 struct FaceJumps
 {
   /// As Isosurface::jumpTolerances, world units: infinite at faces where no jump was seen, LargestJumpPerSpacing of the

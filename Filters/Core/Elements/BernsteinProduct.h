@@ -8,6 +8,7 @@ namespace hop
 /// A polynomial over a domain in the *scaled* Bernstein basis: every coefficient times the binomial or
 /// multinomial factor of its basis function. In this basis products are plain convolutions (Sanchez-Reyes 2003,
 /// Algebraic manipulation in the Bernstein form made simple via convolutions).
+/// Derivation: Documentation/algorithm.md, section Elements.
 struct ScaledPolynomial
 {
   Domain domain = Domain::Hexahedron;

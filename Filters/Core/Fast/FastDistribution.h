@@ -17,6 +17,7 @@ namespace hop
 /// A box whose piece of surface no particle stands on gets one of its own, so that no component is lost, however
 /// small. A particle stands on that piece if it is within its spacing of the box's sample, is not turned away, and its
 /// patch runs through the sample.
+/// Derivation: Documentation/algorithm.md, section Fast distribution.
 Distribution distributeFast(const Isosurface& surface, const DistributionParameters& parameters,
   const Monitor& monitor, const ParallelFor& parallelFor);
 

@@ -11,6 +11,7 @@ namespace hop
 {
 
 /// What a round does about the number of particles.
+/// Derivation: Documentation/algorithm.md, section Fast distribution.
 struct Balance
 {
   enum Extent

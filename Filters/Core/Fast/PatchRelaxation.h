@@ -12,6 +12,7 @@ namespace hop
 {
 
 /// How often particles are moved, and how far at most.
+/// Derivation: Documentation/algorithm.md, section Fast distribution.
 struct Sweeps
 {
   int count = 0;

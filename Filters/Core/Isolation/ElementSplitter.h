@@ -24,6 +24,7 @@ namespace hop
 /// pieces with one sign at their corners are replaced by a few large boxes that do not straddle: the parts of the
 /// element that hold them (UndecidedPieces.h).
 /// Certified pieces are split on until they are small enough, and dropped where they hold no surface.
+/// Derivation: Documentation/algorithm.md, section Isolation.
 class ElementSplitter
 {
 public:

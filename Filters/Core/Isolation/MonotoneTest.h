@@ -25,6 +25,7 @@ enum class Monotony
 /// from c' = p (c_(beta + e_a) - c_(beta + e_0)) and degree elevation; on products of simplices the
 /// same holds factor by factor. All three derivatives then share one lattice, and so does any linear
 /// combination of them.
+/// Derivation: Documentation/algorithm.md, section Isolation.
 class MonotoneTest
 {
 public:

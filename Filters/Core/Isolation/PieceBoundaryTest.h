@@ -17,6 +17,7 @@ namespace hop
 /// the signs of the ends differ. A face on which the field rises along some direction has no closed curve of zeros
 /// inside, so that two of its edges with a zero are the ends of one curve. Uniting edges through faces counts the
 /// closed curves.
+/// Derivation: Documentation/algorithm.md, section Isolation.
 class PieceBoundaryTest
 {
 public:

@@ -8,6 +8,7 @@ namespace hop
 {
 
 /// Two sheets of the surface close to each other, as the two sides of a film.
+/// Derivation: Documentation/algorithm.md, section Isolation.
 struct SheetPair
 {
   struct Sheet

@@ -17,6 +17,7 @@ class SpacingGrid;
 /// Spacing that particles want everywhere on the surface: the spacing of a sizing function at the curvature there, or
 /// less near places that limit it. Gradation limits how fast the spacing grows with the distance from a place, as
 /// neighbours can pack evenly only if their spacings differ little.
+/// Derivation: Documentation/algorithm.md, section Energy and sizing.
 class SizingField
 {
 public:

@@ -10,6 +10,7 @@ namespace hop
 /// undecided (ElementSplitter.h). All of the surface lies in the boxes returned. Every component that is larger than
 /// 2^-(MaximumBisections/3) of an element, or has no critical point near it, lies in certified boxes. Bounds are
 /// widened by the rounding errors of the bisections. Elements with a coefficient that is NaN or infinite give no boxes.
+/// Derivation: Documentation/algorithm.md, section Isolation.
 /// \param largestSize largest SurfaceBox::size of certified boxes, world units, > 0
 /// \return boxes in the order of the elements, the same for any number of threads
 std::vector<SurfaceBox> findSurfaceBoxes(

@@ -14,6 +14,7 @@ namespace hop
 /// A rough substitute for the surface: one sample of the surface in each surface box, triangles in the box that
 /// approximate the surface there, and the sizing field. It says how many particles the surface wants and where to put
 /// the first ones.
+/// Derivation: Documentation/algorithm.md, section Fast distribution.
 class SurfaceProxy
 {
 public:

@@ -6,6 +6,7 @@ namespace hop
 {
 
 /// How a field that has one sign at the corners approaches zero.
+/// Derivation: Documentation/algorithm.md, section Isolation.
 enum class Approach
 {
   /// The field has the other sign somewhere.
