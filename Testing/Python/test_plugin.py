@@ -67,6 +67,11 @@ def test_filter_has_its_label_and_its_place_in_the_filters_menu():
     assert callable(getattr(simple, NAME))
 
 
+def test_the_search_for_contour_finds_the_filter():
+    """From 5.13 on the quick launch also searches what it shows beside the name, the first help text of the proxy."""
+    assert "contour" in new_proxy("filters", NAME).GetDocumentation().GetShortHelp().lower()
+
+
 def test_filter_speaks_the_names_of_contour():
     properties = getattr(simple, NAME)(Input=simple.UnstructuredCellTypes()).ListProperties()
     wanted = {"ContourBy", "Isosurfaces", "Spacing", "AngularDensity", "Tolerance", "Method", "Seed"}
@@ -213,6 +218,26 @@ def test_an_array_that_is_not_there_has_no_components_of_another():
     assert proxy.GetProperty("Component").Available == [""]
     proxy.ContourBy = ["POINTS", "none"]
     assert "Magnitude" in proxy.GetProperty("Component").Available
+
+
+def test_vectors_start_at_their_magnitude():
+    ramp = np.linspace(-1.0, 1.0, 8)
+    proxy = filter_on(velocity=np.stack([ramp, 3 * ramp, 0 * ramp], axis=1))
+    assert proxy.ContourBy == ["POINTS", "velocity"] and proxy.Component == "Magnitude"
+    assert 0 < proxy.Isosurfaces[0] < np.sqrt(10)
+
+
+def test_a_vector_that_is_chosen_after_a_scalar_starts_at_its_magnitude():
+    ramp = np.linspace(-1.0, 1.0, 8)
+    proxy = filter_on(pressure=ramp - 5, velocity=np.stack([ramp, 3 * ramp, 0 * ramp], axis=1))
+    values = proxy.SMProxy.GetProperty("ContourValues").GetDomain("scalar_range")
+    assert proxy.ContourBy == ["POINTS", "pressure"] and proxy.Component == ""
+    assert (values.GetMinimum(0), values.GetMaximum(0)) == (-6.0, -4.0)
+    assert proxy.Isosurfaces[0] == -5.0
+    proxy.ContourBy = ["POINTS", "velocity"]
+    assert proxy.Component == "Magnitude"
+    proxy.Component = "Y"
+    assert (values.GetMinimum(0), values.GetMaximum(0)) == (-3.0, 3.0)
 
 
 def test_default_isovalue_of_a_magnitude():
