@@ -32,14 +32,14 @@ void addText(const char* text, ByteHash& hash)
 
 void addValues(vtkAbstractArray* array, ByteHash& hash)
 {
-  if (array->HasStandardMemoryLayout() && array->GetDataTypeSize() > 0)
+  auto* numbers = vtkDataArray::SafeDownCast(array);
+  if (numbers && array->HasStandardMemoryLayout() && array->GetDataTypeSize() > 0)
   {
     const vtkIdType bytes = array->GetNumberOfValues() * array->GetDataTypeSize();
     hash.add(bytes > 0 ? array->GetVoidPointer(0) : nullptr, static_cast<std::size_t>(bytes));
     return;
   }
-  // Arrays that are computed when they are asked for, bits and strings.
-  auto* numbers = vtkDataArray::SafeDownCast(array);
+  // Strings, bits, and arrays that are computed when they are asked for.
   const int components = array->GetNumberOfComponents();
   for (vtkIdType i = 0; i < array->GetNumberOfValues(); ++i)
   {

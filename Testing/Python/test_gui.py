@@ -66,11 +66,11 @@ def watch(process, screen_file, seconds):
 
 
 def start(display, home, plugin, *arguments):
-    """ParaView in a window that fills the screen, with the plugin and settings of its own."""
+    """ParaView in a window that fills the screen, with settings of its own, and the plugin if it is named."""
+    loaded = [f"--plugin-search-paths={plugin.parent}", f"--plugins={plugin.stem}"] if plugin else []
     homes = {"HOME": str(home), "XDG_CONFIG_HOME": str(home), "XDG_RUNTIME_DIR": str(home)}
     return subprocess.Popen(
-        [str(PARAVIEW), "-qwindowgeometry", f"{WIDTH}x{HEIGHT}+0+0", "--dr", f"--plugin-search-paths={plugin.parent}",
-         f"--plugins={plugin.stem}", *arguments],
+        [str(PARAVIEW), "-qwindowgeometry", f"{WIDTH}x{HEIGHT}+0+0", "--dr", *loaded, *arguments],
         env={**os.environ, **homes, "DISPLAY": display}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
 
@@ -100,6 +100,29 @@ def test_a_user_finds_the_filter_and_sees_the_surface(plugin, data, screen, tmp_
     surface = np.any(np.abs(view - background) > 8, axis=2)
     assert 0.05 < surface.mean() < 0.6
     assert np.unique(view[surface], axis=0).shape[0] > 1000, "shaded, and coloured by curvature"
+
+
+def test_the_icon_stands_behind_those_of_paraview(plugin, data, screen, tmp_path, monkeypatch):
+    """Also where the plugin is auto-loaded: ParaView then reads it before its own list of filters."""
+    display, screen_file = screen
+    auto = tmp_path / "plugins.xml"
+    auto.write_text(f'<Plugins><Plugin name="{plugin.stem}" filename="{plugin}" auto_load="1"/></Plugins>')
+    monkeypatch.setenv("PV_PLUGIN_CONFIG_FILE", str(auto))
+    script = tmp_path / "open.xml"
+    steps = [event(f"{PANEL}/Accept", "activate"), event("pqClientMainWindow", "pause", "4000")]
+    script.write_text("<pqevents>" + "\n".join(steps) + "</pqevents>")
+    process = start(display, tmp_path, None, f"--data={data('mfem_hex1_p8.vtu')}", f"--test-script={script}", "--exit")
+    try:
+        window = watch(process, screen_file, 120)
+        said = process.stdout.read()
+    finally:
+        process.kill()
+    write_png(Path(os.environ["HOP_BUILD"]) / "Testing" / "gui_toolbar.png", window)
+    assert process.returncode == 0, said
+    # The icon is the only one that is mostly blue.
+    blue = (window[..., 2] - window[..., 0] > 60) & (window[..., 2] - window[..., 1] > 30)
+    in_toolbar = [blue[105:140, x : x + 34].sum() for x in range(13, 430, 34)]
+    assert np.argmax(in_toolbar) == len(in_toolbar) - 2 and max(in_toolbar) > 150, in_toolbar
 
 
 PANEL = "pqClientMainWindow/propertiesDock/propertiesPanel"

@@ -68,8 +68,23 @@ def test_filter_has_its_label_and_its_place_in_the_filters_menu():
 
 
 def test_the_search_for_contour_finds_the_filter():
-    """From 5.13 on the quick launch also searches what it shows beside the name, the first help text of the proxy."""
+    """The quick launch searches labels; from 5.13 on also the short help."""
     assert "contour" in new_proxy("filters", NAME).GetDocumentation().GetShortHelp().lower()
+    other = new_proxy("filters", "ContourHighOrderCells")
+    assert other.GetXMLLabel() == "Contour High-Order Cells"
+    assert other.GetHints().FindNestedElementByName("ShowInMenu") is not None
+
+
+def test_the_other_name_is_the_same_filter(data):
+    reader = simple.XMLUnstructuredGridReader(FileName=[data("mfem_hex1_p8.vtu")])
+    reader.UpdatePipeline()
+    first, second = simple.HighOrderParticleIsosurface(Input=reader), simple.ContourHighOrderCells(Input=reader)
+    assert second.ListProperties() == first.ListProperties()
+    for name in set(first.ListProperties()) - {"Input"}:
+        assert first.GetPropertyValue(name) == second.GetPropertyValue(name), name
+    assert contents(output_of(first)) == contents(output_of(second))
+    shown = simple.Show(second, simple.CreateView("RenderView"))
+    assert shown.Representation == "Surface Splats"
 
 
 def test_filter_speaks_the_names_of_contour():

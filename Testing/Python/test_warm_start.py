@@ -6,6 +6,7 @@ from paraview import simple
 from paraview.vtk.util.numpy_support import numpy_to_vtk
 from support import (
     add_cell_array, add_point_array, array_of, contents, make_filter, nearest_neighbors, output_of, points_of, read, reported, run_quietly)
+from vtkmodules.vtkCommonCore import vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkStaticPointLocator
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
@@ -148,6 +149,7 @@ CHANGES = {
     "another array": lambda grid: add_point_array(grid, "more", np.arange(grid.GetNumberOfPoints())),
     "a cell array": lambda grid: add_cell_array(grid, "of_cells", np.arange(grid.GetNumberOfCells())),
     "a name": lambda grid: grid.GetPointData().GetArray("v").SetName("w"),
+    "a string": lambda grid: grid.GetFieldData().GetAbstractArray("text").SetValue(0, "then"),
     "field data": lambda grid: grid.GetFieldData().AddArray(named(numpy_to_vtk(np.arange(3.0), deep=True), "info")),
 }
 
@@ -162,6 +164,9 @@ def test_what_changed_is_computed_again(hexahedron, change):
     grid = output_of(hexahedron).NewInstance()
     grid.DeepCopy(output_of(hexahedron))
     add_point_array(grid, "v", 2 * array_of(grid, "u"))
+    text = named(vtkStringArray(), "text")
+    text.InsertNextValue("once")
+    grid.GetFieldData().AddArray(text)
     surface, _ = make_filter(grid, "u", 0.2, Spacing=2 * SPACING)
     algorithm = surface.GetClientSideObject()
 
