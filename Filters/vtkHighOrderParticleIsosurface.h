@@ -28,7 +28,7 @@
  * double precision (the contoured one holds the isovalue), and arrays of the filter's own:
  * - geometry: `Normals`, `Radius`, `Mean_Curvature`, `Gauss_Curvature`, `Residual`;
  * - where the particle is: `Isovalue`, `vtkOriginalCellIds`;
- * - for the renderer alone, in one hidden array (Common/SplatColumns.h): `Shape_Operator`; where the surface ends or
+ * - for the renderer alone, in the hidden array `__vtkValidMask__Splats`: `Shape_Operator`; where the surface ends or
  *   turns near the particle: `Clip_Normal`, `Clip_Distance`, `Clip_Angle`, `Clip_Curvature` (with method FAST).
  *
  * With PassDiagnostics these are arrays under their own names, and `Jump` and `ParametricCoordinates` come with them.

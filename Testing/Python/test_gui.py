@@ -102,29 +102,6 @@ def test_a_user_finds_the_filter_and_sees_the_surface(plugin, data, screen, tmp_
     assert np.unique(view[surface], axis=0).shape[0] > 1000, "shaded, and coloured by curvature"
 
 
-def test_the_icon_stands_behind_those_of_paraview(plugin, data, screen, tmp_path, monkeypatch):
-    """Also where the plugin is auto-loaded: ParaView then reads it before its own list of filters."""
-    display, screen_file = screen
-    auto = tmp_path / "plugins.xml"
-    auto.write_text(f'<Plugins><Plugin name="{plugin.stem}" filename="{plugin}" auto_load="1"/></Plugins>')
-    monkeypatch.setenv("PV_PLUGIN_CONFIG_FILE", str(auto))
-    script = tmp_path / "open.xml"
-    steps = [event(f"{PANEL}/Accept", "activate"), event("pqClientMainWindow", "pause", "4000")]
-    script.write_text("<pqevents>" + "\n".join(steps) + "</pqevents>")
-    process = start(display, tmp_path, None, f"--data={data('mfem_hex1_p8.vtu')}", f"--test-script={script}", "--exit")
-    try:
-        window = watch(process, screen_file, 120)
-        said = process.stdout.read()
-    finally:
-        process.kill()
-    write_png(Path(os.environ["HOP_BUILD"]) / "Testing" / "gui_toolbar.png", window)
-    assert process.returncode == 0, said
-    # The icon is the only one that is mostly blue.
-    blue = (window[..., 2] - window[..., 0] > 60) & (window[..., 2] - window[..., 1] > 30)
-    in_toolbar = [blue[105:140, x : x + 34].sum() for x in range(13, 430, 34)]
-    assert np.argmax(in_toolbar) == len(in_toolbar) - 2 and max(in_toolbar) > 150, in_toolbar
-
-
 PANEL = "pqClientMainWindow/propertiesDock/propertiesPanel"
 FILTERS_PANEL = f"{PANEL}/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/PropertiesFrame/ProxyPanel"
 
@@ -214,6 +191,36 @@ def test_every_property_is_edited_in_the_panel(plugin, data, screen, tmp_path):
     values = {p.get("name"): [e.get("value") for e in p.findall("Element")] for p in proxy.findall("Property")}
     assert len(values["ContourValues"]) == 2, "one more isovalue"
     assert {name: values[name] for name in EDITED} == EDITED
+
+
+def test_the_icon_stands_behind_those_of_paraview(plugin, data, screen, tmp_path, monkeypatch):
+    """Also where the plugin is auto-loaded: ParaView then reads it before its own list of filters."""
+    display, screen_file = screen
+    auto = tmp_path / "plugins.xml"
+    monkeypatch.setenv("PV_PLUGIN_CONFIG_FILE", str(auto))
+    script = tmp_path / "open.xml"
+    steps = [event(f"{PANEL}/Accept", "activate"), event("pqClientMainWindow", "pause", "4000")]
+    script.write_text("<pqevents>" + "\n".join(steps) + "</pqevents>")
+    windows = []
+    for plugins in ("<Plugins/>", f'<Plugins><Plugin name="{plugin.stem}" filename="{plugin}" auto_load="1"/></Plugins>'):
+        auto.write_text(plugins)
+        process = start(
+            display, tmp_path, None, f"--data={data('mfem_hex1_p8.vtu')}", f"--test-script={script}", "--exit")
+        try:
+            windows.append(watch(process, screen_file, 120))
+            said = process.stdout.read()
+        finally:
+            process.kill()
+        assert process.returncode == 0, said
+    without, window = windows
+    write_png(Path(os.environ["HOP_BUILD"]) / "Testing" / "gui_toolbar.png", window)
+    # The icon is the only one that is mostly blue.
+    blue = (window[..., 2] - window[..., 0] > 60) & (window[..., 2] - window[..., 1] > 30)
+    in_toolbar = [blue[105:140, x : x + 34].sum() for x in range(13, 430, 34)]
+    assert np.argmax(in_toolbar) == len(in_toolbar) - 2 and max(in_toolbar) > 150, in_toolbar
+    # ParaView's own icons are those that it has without the plugin, the later ones moved by one.
+    assert np.array_equal(window[105:140, 16:388], without[105:140, 16:388])
+    assert any(np.array_equal(window[105:140, 430:780], without[105:140, 430 - s : 780 - s]) for s in range(28, 42))
 
 
 # Runs in ParaView's window: the same filter twice; the first run is to be aborted.
