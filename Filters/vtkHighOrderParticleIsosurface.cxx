@@ -1,11 +1,14 @@
 #include "vtkHighOrderParticleIsosurface.h"
 
+#include "Input/Fingerprint.h"
 #include "Input/GatherBlocks.h"
 #include "Input/InputChecks.h"
 #include "Input/VtkCompatibility.h"
 #include "Output/OutputArrays.h"
+#include "Run/KeptOutput.h"
 #include "Run/ParticleRun.h"
 #include "Run/PreviousRun.h"
+#include "Run/Ranks.h"
 #include "Run/RunMessages.h"
 #include "Run/RunScale.h"
 
@@ -20,6 +23,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <string>
 #include <vector>
 
 namespace
@@ -47,6 +51,7 @@ vtkStandardNewMacro(vtkHighOrderParticleIsosurface);
 
 vtkHighOrderParticleIsosurface::vtkHighOrderParticleIsosurface()
   : Previous(std::make_unique<hop::PreviousRun>())
+  , Kept(std::make_unique<hop::KeptOutput>())
 {
   // VTK's list begins with one value, 0: filters whose properties were never set would draw it.
   this->ContourValues->SetNumberOfContours(0);
@@ -189,8 +194,29 @@ int vtkHighOrderParticleIsosurface::RequestDataObject(
 int vtkHighOrderParticleIsosurface::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  const hop::GatheredBlocks gathered =
-    hop::gatherBlocks(vtkDataObject::GetData(inputs[0], 0), vtkDataObject::GetData(outputs, 0));
+  vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
+  vtkDataObject* output = vtkDataObject::GetData(outputs, 0);
+  const std::uint64_t request = this->HashOfRequest(input);
+  const bool isKept = this->Kept->answers(request) && !hop::isAborted(this);
+  // A run takes all ranks: it is left out where none of them has anything new.
+  if (hop::largestOfRanks(isKept ? 0 : 1) == 0)
+  {
+    this->Kept->copyTo(output);
+    return 1;
+  }
+  this->Kept->forget();
+  this->HasFailed = false;
+  this->Run(input, output);
+  if (!this->HasFailed && !hop::isAborted(this))
+  {
+    this->Kept->keep(request, output);
+  }
+  return 1;
+}
+
+void vtkHighOrderParticleIsosurface::Run(vtkDataObject* input, vtkDataObject* output)
+{
+  const hop::GatheredBlocks gathered = hop::gatherBlocks(input, output);
   // Ranks agree on the scale before any of them may return.
   const hop::RunScale scale = hop::findScale(gathered.blocks, this->Spacing, this->Tolerance);
   if (!this->WarmStart)
@@ -200,7 +226,7 @@ int vtkHighOrderParticleIsosurface::RequestData(
   const hop::RunProperties properties = this->PropertiesOfRun();
   if (!this->Accepts(gathered, properties, scale))
   {
-    return 1;
+    return;
   }
   const hop::CheckedBlocks checked = hop::checkBlocks(gathered, this->GetInputArrayInformation(0));
   this->Tell(checked.messages);
@@ -208,7 +234,33 @@ int vtkHighOrderParticleIsosurface::RequestData(
   const hop::RunCaller caller = this->CallerOfRun();
   hop::ParticleRun(properties, scale, caller, *this->Previous)
     .run(hop::InputBlocks(checked.sound, hop::componentOf(checked.sound, this->Component)));
-  return 1;
+}
+
+/// One number for all that the output depends on but previous runs.
+std::uint64_t vtkHighOrderParticleIsosurface::HashOfRequest(vtkDataObject* input)
+{
+  hop::ByteHash hash;
+  const double* values = this->ContourValues->GetValues();
+  hash.add(values, sizeof(double) * this->ContourValues->GetNumberOfContours());
+  for (const double number : { this->Spacing, this->AngularDensity, this->Tolerance })
+  {
+    hash.add(number);
+  }
+  for (const vtkIdType number : { vtkIdType(this->Component), vtkIdType(this->NodeSpacing),
+         vtkIdType(this->Method), vtkIdType(this->Quality), vtkIdType(this->Seed),
+         this->NumberOfParticles, vtkIdType(this->WarmStart), vtkIdType(this->PassDiagnostics) })
+  {
+    hash.addWord(static_cast<std::uint64_t>(number));
+  }
+  if (vtkInformation* array = this->GetInputArrayInformation(0))
+  {
+    const char* name = array->Get(vtkDataObject::FIELD_NAME());
+    hash.add(std::string(name ? name : ""));
+    hash.addWord(array->Get(vtkDataObject::FIELD_ASSOCIATION()));
+    hash.addWord(array->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE()));
+  }
+  hop::addData(input, hash);
+  return hash.value();
 }
 
 hop::RunProperties vtkHighOrderParticleIsosurface::PropertiesOfRun() const
@@ -228,6 +280,7 @@ hop::RunProperties vtkHighOrderParticleIsosurface::PropertiesOfRun() const
   properties.numberOfParticles = this->NumberOfParticles;
   properties.isClassic = this->Method == CLASSIC;
   properties.isWarmStart = this->WarmStart;
+  properties.passesDiagnostics = this->PassDiagnostics;
   return properties;
 }
 
@@ -267,6 +320,7 @@ void vtkHighOrderParticleIsosurface::Tell(const hop::UserMessages& messages)
   {
     if (message.kind == hop::UserMessage::Error)
     {
+      this->HasFailed = true;
       vtkErrorMacro(<< message.text);
     }
     else
@@ -289,6 +343,7 @@ void vtkHighOrderParticleIsosurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "NumberOfParticles: " << this->NumberOfParticles << "\n";
   os << indent << "WarmStart: " << (this->WarmStart ? "On" : "Off") << "\n";
+  os << indent << "PassDiagnostics: " << (this->PassDiagnostics ? "On" : "Off") << "\n";
   os << indent << "ContourValues:\n";
   this->ContourValues->PrintSelf(os, indent.GetNextIndent());
 }

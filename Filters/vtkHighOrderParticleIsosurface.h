@@ -26,13 +26,15 @@
  *
  * Point data of the output: every numeric point array of the input, evaluated by the element's own polynomials in
  * double precision (the contoured one holds the isovalue), and arrays of the filter's own:
- * - geometry: `Normals`, `Radius`, `Mean_Curvature`, `Gauss_Curvature`, `Shape_Operator`, `Residual`;
- * - where the surface ends or turns near the particle: `Clip_Normal`, `Clip_Distance`, `Clip_Angle`, `Clip_Curvature`
- *   (with method FAST), and `Jump`;
- * - where the particle is: `Isovalue`, `ParametricCoordinates`, `vtkOriginalCellIds`.
+ * - geometry: `Normals`, `Radius`, `Mean_Curvature`, `Gauss_Curvature`, `Residual`;
+ * - where the particle is: `Isovalue`, `vtkOriginalCellIds`;
+ * - for the renderer alone, in the hidden array `__vtkValidMask__Splats`: `Shape_Operator`; where the surface ends or
+ *   turns near the particle: `Clip_Normal`, `Clip_Distance`, `Clip_Angle`, `Clip_Curvature` (with method FAST).
  *
- * Cell arrays are copied to the vertex cells. Field data of the output: those of the input, and a report of what the run
- * cost and could not do: `Evaluations`, `Iterations`, `ElementsDropped`, `CellsSkipped`, `BoxesUnresolved`,
+ * With PassDiagnostics these are arrays under their own names, and `Jump` and `ParametricCoordinates` come with them.
+ *
+ * Cell arrays are copied to the vertex cells. Field data of the output: those of the input, and with PassDiagnostics a
+ * report of what the run cost and could not do: `Evaluations`, `Iterations`, `ElementsDropped`, `CellsSkipped`, `BoxesUnresolved`,
  * `SingularPoints`, `ParticlesRejected`, `ParticlesUndersampled` and `UnresolvedCellIds`. In a composite, cells are
  * those of the block, and all other figures those of the whole mesh.
  *
@@ -40,7 +42,8 @@
  * the input with one of these names is not passed on; a warning names it.
  *
  * The same input and Seed give the same output, bit for bit, for any number of threads; where a previous run is
- * continued (WarmStart), the same sequence of runs does.
+ * continued (WarmStart), the same sequence of runs does. Where the pipeline asks again and neither a property nor any
+ * value of the input has changed, the output of the last run is given again: nothing is computed or told twice.
  *
  * Some twenty times a second the filter reports its progress and looks at AbortExecute. An aborted run leaves an empty
  * output, and so do later runs as long as the flag is up. The filter lowers it itself in the first run after a property,
@@ -54,13 +57,15 @@
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkTimeStamp.h" // for the last abort
 
-#include <memory> // for the previous run
-#include <vector> // for the messages
+#include <cstdint> // for a request's hash
+#include <memory>  // for the previous run
+#include <vector>  // for the messages
 
 class vtkContourValues;
 
 namespace hop
 {
+class KeptOutput;
 class PreviousRun;
 struct GatheredBlocks;
 struct RunCaller;
@@ -119,7 +124,7 @@ public:
   ///@{
   /**
    * Which component of a vector array to contour by; its number of components, or more, stands for its magnitude.
-   * Ignored for scalar arrays. Default 0.
+   * Ignored for scalar arrays. Default VTK_INT_MAX, the magnitude of any vector.
    */
   vtkSetClampMacro(Component, int, 0, VTK_INT_MAX);
   vtkGetMacro(Component, int);
@@ -202,14 +207,25 @@ public:
   vtkBooleanMacro(WarmStart, bool);
   ///@}
 
+  ///@{
   /**
-   * Whether the output has a point array of its own with this name, whatever arrays the input has.
+   * Whether the output tells how it was made: the arrays of the renderer under their names, more about the place of
+   * particles, and the report of the run. Default off: what only the renderer reads is one array, marked by
+   * vtkAbstractArray::GUI_HIDE.
+   */
+  vtkSetMacro(PassDiagnostics, bool);
+  vtkGetMacro(PassDiagnostics, bool);
+  vtkBooleanMacro(PassDiagnostics, bool);
+  ///@}
+
+  /**
+   * Whether the filter keeps a name for a point array of its own, whatever arrays the input has.
    */
   static bool IsOwnPointArray(const char* name);
 
   ///@{
   /**
-   * The arrays that every output has, whatever arrays the input has: name, vtkDataObject::POINT or FIELD, number of
+   * The arrays that outputs with PassDiagnostics have, whatever arrays the input has: name, vtkDataObject::POINT or FIELD, number of
    * components, and a text that says what the numbers mean and what their unit is. First the point arrays, then
    * those of the field data, each in the order of the output; i is 0 to GetNumberOfOutputArrays() - 1. For another i
    * the texts are nullptr, the association is -1 and the number 0.
@@ -244,6 +260,8 @@ private:
   void operator=(const vtkHighOrderParticleIsosurface&) = delete;
 
   bool IsAskedForMore(vtkInformationVector* outputs);
+  void Run(vtkDataObject* input, vtkDataObject* output);
+  std::uint64_t HashOfRequest(vtkDataObject* input);
   hop::RunProperties PropertiesOfRun() const;
   hop::RunCaller CallerOfRun();
   bool Accepts(const hop::GatheredBlocks& gathered, const hop::RunProperties& properties,
@@ -254,14 +272,18 @@ private:
   double Spacing = 0.0;
   double AngularDensity = 10.0;
   double Tolerance = 1e-10;
-  int Component = 0;
+  int Component = VTK_INT_MAX;
   int NodeSpacing = UNIFORM;
   int Method = FAST;
   int Quality = STANDARD;
   int Seed = 1;
   vtkIdType NumberOfParticles = 0;
   bool WarmStart = true;
+  bool PassDiagnostics = false;
   std::unique_ptr<hop::PreviousRun> Previous;
+  std::unique_ptr<hop::KeptOutput> Kept;
+  /** Whether the run at hand told an error: its output is not kept, for memory may suffice the next time. */
+  bool HasFailed = false;
   /** Time of the last abort, 0 if the last run was not aborted. An abort ends its run and every repetition of this
    * run: ParaView asks for an aborted output again and again. Once something has changed, the filter lowers the flag,
    * which ParaView 6.1 never does. */

@@ -38,6 +38,9 @@
  * derivative of the unit normal along the surface: xx, yy, zz, xy, yz, xz; 1 / world units). The paraboloids are
  * fitted to the particles around, as the surface may bend differently there.
  *
+ * Instead of these arrays there may be one that holds them side by side, see Common/SplatColumns.h. An array under its
+ * own name counts where there are both.
+ *
  * Without point normals the disks face the viewer; without radii all particles have the radius `Radius`. One
  * warning says both. A particle with a normal, radius or position
  * that is zero, negative or not finite (positions may of course be zero) is skipped. Where the

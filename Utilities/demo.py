@@ -87,7 +87,7 @@ def choose_color(reader, particles, array):
 
 def make_particles(reader, array, arguments):
     """The filter, run. Returns it and the seconds it took."""
-    options = {"Spacing": arguments.spacing, "AngularDensity": arguments.density, "Method": arguments.method}
+    options = {"PassDiagnostics": 1, "Spacing": arguments.spacing, "AngularDensity": arguments.density, "Method": arguments.method}
     particles = simple.HighOrderParticleIsosurface(
         Input=reader,
         ContourBy=["POINTS", array.GetName()],

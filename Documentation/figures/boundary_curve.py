@@ -62,7 +62,8 @@ def main():
     reader = simple.XMLUnstructuredGridReader(FileName=[FILE])
     reader.UpdatePipeline()
     particles = simple.HighOrderParticleIsosurface(
-        Input=reader, ContourBy=["POINTS", "u"], Isosurfaces=[0.2], Spacing=0.045, AngularDensity=0.0)
+        Input=reader, ContourBy=["POINTS", "u"], Isosurfaces=[0.2], Spacing=0.045, AngularDensity=0.0,
+        PassDiagnostics=1)
     particles.UpdatePipeline()
 
     view = simple.CreateView("RenderView")

@@ -1,5 +1,6 @@
 #include "Output/OutputArrays.h"
 
+#include "Common/SplatColumns.h"
 #include "Conversion/CellBases.h"
 
 #include "vtkDataObject.h"
@@ -41,6 +42,35 @@ void writeParametricCoordinates(const ParticleRow& row, const RowCells& cells, d
   writeVector(parametricCoordinates(cells.cellTypeOf(row), u).xyz, out);
 }
 
+/// The arrays that are columns of SplatColumnsArray, in its order.
+std::vector<const ParticleArray*> makeSplatColumns()
+{
+  std::vector<const ParticleArray*> columns;
+  for (const SplatColumn& column : SplatColumns)
+  {
+    const std::vector<ParticleArray>& table = particleArrays();
+    columns.push_back(&*std::find_if(table.begin(), table.end(),
+      [&](const ParticleArray& array) { return array.name == std::string(column.name); }));
+  }
+  return columns;
+}
+
+const std::vector<const ParticleArray*>& splatColumns()
+{
+  static const std::vector<const ParticleArray*> columns = makeSplatColumns();
+  return columns;
+}
+
+/// Writes the columns one after the other.
+void writeSplatColumns(const ParticleRow& row, const RowCells& cells, double* out)
+{
+  for (const ParticleArray* column : splatColumns())
+  {
+    std::get<RowWriter<double>>(column->write)(row, cells, out);
+    out += column->components;
+  }
+}
+
 std::vector<ParticleArray> makeParticleArrays()
 {
   return {
@@ -64,7 +94,7 @@ std::vector<ParticleArray> makeParticleArrays()
     { "Shape_Operator", 6,
       "Derivative of Normals along the surface, 1/world units: a symmetric tensor, xx, yy, zz, xy, "
       "yz, xz.",
-      writeShapeOperator },
+      writeShapeOperator, ArrayUse::Diagnostic },
     { "Residual", 1, "Distance from the isosurface to first order, |F - c|/|grad F|, world units.",
       [](const ParticleRow& row, const RowCells&, double* out) { *out = row.particle->residual; } },
     { "Clip_Normal", 6,
@@ -76,13 +106,15 @@ std::vector<ParticleArray> makeParticleArrays()
       {
         writeVector(row.particle->clips[0].normal.xyz, out);
         writeVector(row.particle->clips[1].normal.xyz, out + 3);
-      } },
+      },
+      ArrayUse::Diagnostic },
     { "Clip_Distance", 2,
       "Distance of the particle from each of these planes, world units. A plane touches its "
       "boundary curve or crease where this is nearest. Where creases meet, a plane is moved "
       "outwards if nothing else would cover what it cuts off.",
       [](const ParticleRow& row, const RowCells&, double* out)
-      { writeOfClips(row, out, [](const ClipPlane& plane) { return plane.distance; }); } },
+      { writeOfClips(row, out, [](const ClipPlane& plane) { return plane.distance; }); },
+      ArrayUse::Diagnostic },
     { "Clip_Angle", 2,
       "Largest angle seen at each of these planes between the normals of both sides, degrees: 180 "
       "at boundary curves, else at least 1.5. A step of the surface counts as an angle of "
@@ -91,24 +123,31 @@ std::vector<ParticleArray> makeParticleArrays()
       {
         writeOfClips(
           row, out, [](const ClipPlane& plane) { return glm::degrees(plane.dihedralAngle); });
-      } },
+      },
+      ArrayUse::Diagnostic },
     { "Clip_Curvature", 2,
       "Curvature of the boundary curve or crease at each of these planes, 1/world units: positive "
       "where the edge bends towards the plane's normal, 0 where Clip_Angle is below 10 degrees.",
       [](const ParticleRow& row, const RowCells&, double* out)
-      { writeOfClips(row, out, [](const ClipPlane& plane) { return plane.edgeCurvature; }); } },
+      { writeOfClips(row, out, [](const ClipPlane& plane) { return plane.edgeCurvature; }); },
+      ArrayUse::Diagnostic },
     { "Jump", 1,
       "F - c on the other side, where the particle stands on a boundary curve at which the field "
       "jumps from element to element; else 0.",
-      [](const ParticleRow& row, const RowCells&, double* out) { *out = row.particle->jump; } },
+      [](const ParticleRow& row, const RowCells&, double* out) { *out = row.particle->jump; },
+      ArrayUse::Diagnostic },
     { IsovalueArray, 1, "The isovalue c of the particle's surface.",
       [](const ParticleRow& row, const RowCells&, double* out) { *out = row.isovalue; } },
     { "ParametricCoordinates", 3,
       "Where the particle stands in its cell, in the parametric coordinates of VTK's cell.",
-      writeParametricCoordinates },
+      writeParametricCoordinates, ArrayUse::Diagnostic },
     { CellIdsArray, 1, "Number of the particle's cell in the input grid.",
       [](const ParticleRow& row, const RowCells& cells, vtkIdType* out)
       { *out = cells.cellOf(row); } },
+    { SplatColumnsArray, splatColumnCount(),
+      "What only the renderer reads: Clip_Normal, Clip_Distance, Clip_Angle, Clip_Curvature and "
+      "Shape_Operator side by side.",
+      writeSplatColumns, ArrayUse::Hidden },
   };
 }
 

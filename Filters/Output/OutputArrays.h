@@ -24,7 +24,17 @@ constexpr const char* CellIdsArray = "vtkOriginalCellIds";
 template <class Number>
 using RowWriter = void (*)(const ParticleRow& row, const RowCells& cells, Number* out);
 
-/// A point array that every output has, whatever arrays the input has.
+/// When an output has an array.
+enum class ArrayUse
+{
+  Always,
+  /// If diagnostics are asked for.
+  Diagnostic,
+  /// Always; ParaView is not to offer it to users.
+  Hidden,
+};
+
+/// A point array of the output, whatever arrays the input has.
 struct ParticleArray
 {
   const char* name;
@@ -33,6 +43,7 @@ struct ParticleArray
   const char* meaning;
   /// Its kind is the type of the array: double or vtkIdType.
   std::variant<RowWriter<double>, RowWriter<vtkIdType>> write;
+  ArrayUse use = ArrayUse::Always;
 };
 
 /// What a run reports of one block.
@@ -45,7 +56,7 @@ struct BlockReport
   std::vector<vtkIdType> undecidedCells;
 };
 
-/// A field-data array that every output has: integers, one component.
+/// A field-data array of outputs with diagnostics: integers, one component.
 struct ReportArray
 {
   const char* name;

@@ -11,6 +11,7 @@
 #include "vtkFieldData.h"
 #include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -99,12 +100,18 @@ BlockReport reportOf(const std::vector<IsovalueParticles>& isovalues, const Cell
   return result;
 }
 
+/// ParaView is not to offer an array to colour by.
+void hide(vtkAbstractArray* array)
+{
+  array->GetInformation()->Set(vtkAbstractArray::GUI_HIDE(), 1);
+}
+
 /// Writes the particles of one block.
 class Packer
 {
 public:
   Packer(const InputBlocks& blocks, std::size_t block, const GridElements& elements,
-    std::vector<ParticleRow> rows, Interruptible& work)
+    std::vector<ParticleRow> rows, bool withDiagnostics, Interruptible& work)
     : Blocks(blocks)
     , Grid(blocks[block].grid)
     , Scalars(blocks[block].scalars)
@@ -112,6 +119,7 @@ public:
     , Elements(elements)
     , Cells(blocks, block, elements)
     , Census(elements.census[block])
+    , WithDiagnostics(withDiagnostics)
     , Work(work)
     , Output(blocks[block].particles)
     , Rows(std::move(rows))
@@ -144,6 +152,7 @@ private:
   const GridElements& Elements;
   const RowCells Cells;
   const CellCensus& Census;
+  bool WithDiagnostics;
   Interruptible& Work;
   vtkPolyData* Output;
   std::vector<ParticleRow> Rows;
@@ -251,6 +260,10 @@ void Packer::addOwnArrays()
 {
   for (const ParticleArray& array : particleArrays())
   {
+    if (array.use == ArrayUse::Diagnostic && !this->WithDiagnostics)
+    {
+      continue;
+    }
     if (const auto* reals = std::get_if<RowWriter<double>>(&array.write))
     {
       this->addArray<vtkDoubleArray>(array.name, array.components,
@@ -262,6 +275,10 @@ void Packer::addOwnArrays()
       this->addArray<vtkIdTypeArray>(array.name, array.components,
         [this, write = *ids](const ParticleRow& row, vtkIdType* out)
         { write(row, this->Cells, out); });
+    }
+    if (array.use == ArrayUse::Hidden)
+    {
+      hide(this->Output->GetPointData()->GetAbstractArray(array.name));
     }
   }
   this->Output->GetPointData()->SetActiveNormals(NormalsArray);
@@ -336,12 +353,21 @@ void Packer::addReport(const std::vector<IsovalueParticles>& isovalues)
 {
   vtkFieldData* target = this->Output->GetFieldData();
   target->PassData(this->Grid->GetFieldData());
+  if (!this->WithDiagnostics)
+  {
+    for (const ReportArray& row : reportArrays())
+    {
+      target->RemoveArray(row.name);
+    }
+    return;
+  }
   const BlockReport report = reportOf(
     isovalues, this->Census, this->FirstCell, this->FirstCell + this->Grid->GetNumberOfCells());
   for (const ReportArray& row : reportArrays())
   {
     vtkNew<vtkIdTypeArray> array;
     array->SetName(row.name);
+    hide(array);
     for (const vtkIdType value : row.values(report))
     {
       array->InsertNextValue(value);
@@ -383,7 +409,7 @@ std::vector<std::string> replacedArrays(const std::vector<InputBlock>& blocks)
 }
 
 void packParticles(const InputBlocks& blocks, const GridElements& elements,
-  const std::vector<IsovalueParticles>& isovalues, Interruptible& work)
+  const std::vector<IsovalueParticles>& isovalues, bool withDiagnostics, Interruptible& work)
 {
   std::vector<std::vector<ParticleRow>> rows(blocks.size());
   for (const IsovalueParticles& some : isovalues)
@@ -395,7 +421,7 @@ void packParticles(const InputBlocks& blocks, const GridElements& elements,
   {
     work.raiseFraction(static_cast<double>(b) / static_cast<double>(blocks.size()));
     work.ask();
-    Packer(blocks, b, elements, std::move(rows[b]), work).pack(isovalues);
+    Packer(blocks, b, elements, std::move(rows[b]), withDiagnostics, work).pack(isovalues);
   }
 }
 

@@ -21,9 +21,10 @@ struct IsovalueParticles
 /// point arrays of the block's grid evaluated and its cell arrays copied. Particles in ghost cells are
 /// left out: they belong to another rank. See vtkHighOrderParticleIsosurface for names and meaning of
 /// the arrays.
+/// \param withDiagnostics whether to write all arrays of Output/OutputArrays.h, the report included
 /// \throw Interrupted if work's monitor asks for an early end; the outputs are unfinished then
 void packParticles(const InputBlocks& blocks, const GridElements& elements,
-  const std::vector<IsovalueParticles>& isovalues, Interruptible& work);
+  const std::vector<IsovalueParticles>& isovalues, bool withDiagnostics, Interruptible& work);
 
 /// Names the arrays of the input that packParticles() does not pass on because the output has an array of its own with
 /// this name: "point array 'Radius'", each once. Arrays without a meaning on the surface, ids for instance, are left

@@ -222,7 +222,7 @@ void GroupRun::fill(
   }
   const Work packing = work.part(ProgressAt::Distributed, 1.0);
   Interruptible loops(packing.monitor, packing.parallelFor);
-  packParticles(this->Blocks, elements, particles, loops);
+  packParticles(this->Blocks, elements, particles, this->Properties.passesDiagnostics, loops);
 }
 
 /// What the group's isosurfaces are made of, but for the isovalue.

@@ -28,6 +28,8 @@ struct RunProperties
   bool isClassic = false;
   /// Whether particles of the previous run go on where they can.
   bool isWarmStart = true;
+  /// Whether the output tells more than pictures need.
+  bool passesDiagnostics = false;
 };
 
 /// How a run speaks to the filter.

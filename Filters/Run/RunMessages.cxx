@@ -63,7 +63,7 @@ std::string describeUndecided(const InputBlocks& blocks, const DistributionRepor
   text
     << "in " << report.undecidedCells.size()
     << " cells (first: " << blocks.describe(report.undecidedCells.front())
-    << "; all: field data 'UnresolvedCellIds') " << report.boxesUndecided
+    << "; all, with PassDiagnostics: field data 'UnresolvedCellIds') " << report.boxesUndecided
     << " parts are not proven to hold at most one sheet of the surface; of the surface there some "
     << "may be missing, or all where sheets of it nearly coincide. Singular points found on it: "
     << report.singularPoints << ".";

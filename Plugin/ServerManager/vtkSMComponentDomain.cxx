@@ -31,9 +31,9 @@ void vtkSMComponentDomain::Update(vtkSMProperty* property)
   {
     this->OfferUsualNames();
   }
-  else if (this->HasEntryText(magnitude))
+  else if (this->GetNumberOfEntries() == 1 || this->HasEntryText(magnitude))
   {
-    this->NumberMagnitudeAsChosen();
+    this->NumberLastAsChosen();
   }
 }
 
@@ -48,25 +48,25 @@ void vtkSMComponentDomain::OfferUsualNames()
   this->DomainModified();
 }
 
-/// Gives the magnitude the property's value, if this is larger. Entries cannot be changed, so all are listed again.
-void vtkSMComponentDomain::NumberMagnitudeAsChosen()
+/// Gives the last entry, a magnitude or the only component, the property's value, if this is larger. Entries cannot be
+/// changed, so all are listed again.
+void vtkSMComponentDomain::NumberLastAsChosen()
 {
-  const int components = this->GetEntryValueForText(magnitude);
+  const int last = static_cast<int>(this->GetNumberOfEntries()) - 1;
   const int chosen = vtkSMUncheckedPropertyHelper(this->GetProperty()).GetAsInt();
-  if (chosen <= components)
+  if (chosen <= last)
   {
     return;
   }
   std::vector<std::string> names;
-  names.reserve(components);
-  for (int component = 0; component < components; ++component)
+  for (int number = 0; number <= last; ++number)
   {
-    names.emplace_back(this->GetEntryTextForValue(component));
+    const char* name = this->GetEntryTextForValue(number);
+    names.emplace_back(name ? name : "");
   }
   this->RemoveAllEntries();
-  for (const std::string& name : names)
+  for (int number = 0; number <= last; ++number)
   {
-    this->AddEntry(name.c_str(), static_cast<int>(this->GetNumberOfEntries()));
+    this->AddEntry(names[number].c_str(), number < last ? number : chosen);
   }
-  this->AddEntry(magnitude, chosen);
 }

@@ -8,7 +8,8 @@
  * be known; their numbers are accepted.
  *
  * The number of the magnitude is the number of components, as in vtkSMNumberOfComponentsDomain, or the property's own
- * value, if this is larger: it was chosen as the magnitude of an array not known yet, or of another array.
+ * value, if this is larger: it is the default, or was chosen as the magnitude of an array not known yet, or of another
+ * array. So is the number of a scalar's only component: a vector that is chosen afterwards starts at its magnitude.
  */
 #ifndef vtkSMComponentDomain_h
 #define vtkSMComponentDomain_h
@@ -37,7 +38,7 @@ private:
   void operator=(const vtkSMComponentDomain&) = delete;
 
   void OfferUsualNames();
-  void NumberMagnitudeAsChosen();
+  void NumberLastAsChosen();
 };
 
 #endif

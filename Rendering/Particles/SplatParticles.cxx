@@ -1,8 +1,10 @@
 #include "Particles/SplatParticles.h"
 
+#include "Common/SplatColumns.h"
 #include "Particles/FitShapes.h"
 #include "vtkCellArray.h"
 #include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
 #include "vtkMath.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -13,6 +15,7 @@
 #include <atomic>
 #include <cmath>
 #include <numeric>
+#include <string>
 
 namespace hop
 {
@@ -225,18 +228,54 @@ std::vector<double> FindIsovalues(vtkDataArray* values, const std::vector<vtkIdT
   std::sort(found.begin(), found.end());
   return found;
 }
+
+// Some columns of an array as an array; none where it has not as many.
+vtkSmartPointer<vtkDataArray> ColumnsOf(vtkDataArray* all, int first, int components)
+{
+  if (first + components > all->GetNumberOfComponents())
+  {
+    return nullptr;
+  }
+  auto columns = vtkSmartPointer<vtkDoubleArray>::New();
+  columns->SetNumberOfComponents(components);
+  columns->SetNumberOfTuples(all->GetNumberOfTuples());
+  for (int c = 0; c < components; ++c)
+  {
+    columns->CopyComponent(c, all, first + c);
+  }
+  return columns;
+}
+
+// The array with a name, or the columns that stand for it.
+vtkDataArray* FindArray(vtkPointData* data, const std::string& name, ParticleArrays& owner)
+{
+  vtkDataArray* packed = data->GetArray(SplatColumnsArray);
+  vtkDataArray* found = data->GetArray(name.c_str());
+  int first = 0;
+  for (const SplatColumn& column : SplatColumns)
+  {
+    if (!found && packed && column.name == name)
+    {
+      owner.Columns.push_back(ColumnsOf(packed, first, column.components));
+      return owner.Columns.back();
+    }
+    first += column.components;
+  }
+  return found;
+}
 }
 
 //------------------------------------------------------------------------------
 ParticleArrays ParticleArrays::FromPointData(vtkPointData* data)
 {
   ParticleArrays arrays;
+  const auto find = [&](const char* name) { return FindArray(data, name, arrays); };
   arrays.Normals = data->GetNormals();
-  arrays.ClipNormals = data->GetArray("Clip_Normal");
-  arrays.ClipDistances = data->GetArray("Clip_Distance");
-  arrays.ClipAngles = data->GetArray("Clip_Angle");
-  arrays.ClipCurvatures = data->GetArray("Clip_Curvature");
-  arrays.ShapeOperators = data->GetArray("Shape_Operator");
+  arrays.ClipNormals = find("Clip_Normal");
+  arrays.ClipDistances = find("Clip_Distance");
+  arrays.ClipAngles = find("Clip_Angle");
+  arrays.ClipCurvatures = find("Clip_Curvature");
+  arrays.ShapeOperators = find("Shape_Operator");
   arrays.Isovalues = data->GetArray("Isovalue");
   return arrays;
 }

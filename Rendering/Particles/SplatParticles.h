@@ -12,6 +12,7 @@
 
 #pragma once
 
+#include "vtkSmartPointer.h"
 #include "vtkType.h"
 
 #include <array>
@@ -58,6 +59,9 @@ struct ParticleArrays
   vtkDataArray* Isovalues =
     nullptr; ///< one a point; particles of different values are not averaged
   vtkDataArray* CellColors = nullptr; ///< see vtkSurfaceSplatMapper::SetCellColorArrayName()
+
+  /** Arrays made of columns, see Common/SplatColumns.h. */
+  std::vector<vtkSmartPointer<vtkDataArray>> Columns;
 
   /** The arrays with the names that vtkSurfaceSplatMapper lists, without radii and colours. */
   static ParticleArrays FromPointData(vtkPointData* data);

@@ -63,7 +63,7 @@ def measure(path, array, isovalue, component, finer):
         contour_seconds = timed(contour)
         contour_points = contour.GetDataInformation().GetNumberOfPoints()
     particles = simple.HighOrderParticleIsosurface(
-        Input=reader, ContourBy=["POINTS", array], Component=component, Isosurfaces=[isovalue]
+        Input=reader, ContourBy=["POINTS", array], Component=component, Isosurfaces=[isovalue], PassDiagnostics=1
     )
     particles.Spacing = particles.Spacing / finer
     seconds = timed(particles)

@@ -62,9 +62,9 @@ def output_of(proxy):
 
 def make_filter(data, array, isovalues, **properties):
     """The filter, not yet run, on a source or a data object; array: name of a point array or
-    [association, name]; isovalues: one or several. Returns proxy and Messages."""
+    [association, name]; isovalues: one or several. Its output has all arrays. Returns proxy and Messages."""
     source = data if hasattr(data, "SMProxy") else source_of(data)
-    proxy = simple.HighOrderParticleIsosurface(Input=source)
+    proxy = simple.HighOrderParticleIsosurface(Input=source, PassDiagnostics=1)
     proxy.ContourBy = ["POINTS", array] if isinstance(array, str) else array
     proxy.Isosurfaces = isovalues if isinstance(isovalues, (list, tuple)) else [isovalues]
     for name, value in properties.items():
@@ -112,7 +112,7 @@ def array_list(attributes):
 
 
 def own_arrays(association):
-    """{name: number of components} of the arrays that the filter says every output has, in their order; association:
+    """{name: number of components} of the arrays that the filter says outputs with diagnostics have, in their order; association:
     vtkDataObject.POINT or FIELD."""
     table = vtkHighOrderParticleIsosurface
     return {

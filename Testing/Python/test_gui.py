@@ -6,16 +6,20 @@ seen stays in gui.png in the build folder's Testing/.
 
 import json
 import os
+import re
 import shutil
 import struct
 import subprocess
 import time
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+import support
 from paraview import simple
 from pictures import write_png
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 WIDTH, HEIGHT = 1280, 800
 PARAVIEW = Path(os.environ["HOP_PVPYTHON"]).parent / "paraview"
@@ -62,11 +66,11 @@ def watch(process, screen_file, seconds):
 
 
 def start(display, home, plugin, *arguments):
-    """ParaView in a window that fills the screen, with the plugin and settings of its own."""
+    """ParaView in a window that fills the screen, with settings of its own, and the plugin if it is named."""
+    loaded = [f"--plugin-search-paths={plugin.parent}", f"--plugins={plugin.stem}"] if plugin else []
     homes = {"HOME": str(home), "XDG_CONFIG_HOME": str(home), "XDG_RUNTIME_DIR": str(home)}
     return subprocess.Popen(
-        [str(PARAVIEW), "-qwindowgeometry", f"{WIDTH}x{HEIGHT}+0+0", "--dr", f"--plugin-search-paths={plugin.parent}",
-         f"--plugins={plugin.stem}", *arguments],
+        [str(PARAVIEW), "-qwindowgeometry", f"{WIDTH}x{HEIGHT}+0+0", "--dr", *loaded, *arguments],
         env={**os.environ, **homes, "DISPLAY": display}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
 
@@ -96,6 +100,127 @@ def test_a_user_finds_the_filter_and_sees_the_surface(plugin, data, screen, tmp_
     surface = np.any(np.abs(view - background) > 8, axis=2)
     assert 0.05 < surface.mean() < 0.6
     assert np.unique(view[surface], axis=0).shape[0] > 1000, "shaded, and coloured by curvature"
+
+
+PANEL = "pqClientMainWindow/propertiesDock/propertiesPanel"
+FILTERS_PANEL = f"{PANEL}/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/PropertiesFrame/ProxyPanel"
+
+# What a user does to each property of the filter, in this order: name in the XML, widget, event, what it is set to.
+EDITS = {
+    "Contour By": ("SelectInputScalars", "ComboBox", "activated", "velocity"),
+    "Component": ("Component", "ComboBox", "activated", "Y"),
+    "Isosurfaces": ("ContourValues", "ScalarValueList/Add", "activate", ""),
+    "Spacing": ("Spacing", "DoubleRangeWidget/DoubleLineEdit", "set_string", "0.25"),
+    "Angular Density": ("AngularDensity", "DoubleRangeWidget/DoubleLineEdit", "set_string", "3"),
+    "Quality": ("Quality", "ComboBox", "activated", "High"),
+    "Tolerance": ("Tolerance", "DoubleLineEdit0", "set_string", "1e-06"),  # no slider
+    "Node Spacing": ("NodeSpacing", "ComboBox", "activated", "Gauss-Lobatto-Legendre"),
+    "Warm Start": ("WarmStart", "CheckBox", "set_boolean", "false"),
+    "Method": ("Method", "ComboBox", "activated", "Classic"),
+    "Seed": ("Seed", "LineEdit0", "set_string", "7"),
+    "Number Of Particles": ("NumberOfParticles", "LineEdit0", "set_string", "400"),
+    "Pass Diagnostics": ("PassDiagnostics", "CheckBox", "set_boolean", "true"),
+}
+# As the state file has them.
+EDITED = {
+    "SelectInputScalars": ["", "", "", "0", "velocity"], "Component": ["1"], "Spacing": ["0.25"], "AngularDensity": ["3"],
+    "Quality": ["2"], "Tolerance": ["0.000001"], "NodeSpacing": ["1"], "WarmStart": ["0"], "Method": ["0"], "Seed": ["7"],
+    "NumberOfParticles": ["400"], "PassDiagnostics": ["1"],
+}
+
+
+def event(path, command, arguments="", kind="pqevent"):
+    return f'<{kind} object="{path}" {"property" if kind == "pqcheck" else "command"}="{command}" arguments="{arguments}" />'
+
+
+def edit_every_property(state):
+    """A script of events: the filter is made on the open file, every property edited, the state saved."""
+    steps = [
+        event(f"{PANEL}/Accept", "activate"),
+        event("pqClientMainWindow/menubar", "activate", "menuFilters"),
+        event("pqClientMainWindow/menubar/menuFilters/Common", "activate", "HighOrderParticleIsosurface"),
+        event(f"{FILTERS_PANEL}/Component", "visible", "false", "pqcheck"),  # the first array is a scalar
+        event(f"{PANEL}/SearchBox/AdvancedButton", "set_boolean", "true"),
+    ]
+    for name, widget, command, value in EDITS.values():
+        steps.append(event(f"{FILTERS_PANEL}/{name}/{widget}", command, value))
+        if name == "SelectInputScalars":
+            steps.append(event(f"{FILTERS_PANEL}/Component", "visible", "true", "pqcheck"))
+            steps.append(event(f"{FILTERS_PANEL}/Component/ComboBox", "currentText", "Magnitude", "pqcheck"))
+    steps += [
+        event(f"{PANEL}/Accept", "activate"),
+        event("pqClientMainWindow/menubar/menu_File", "activate", "actionFileSaveServerState"),
+        event("pqClientMainWindow/FileSaveServerStateDialog", "filesSelected", state),
+        event("pqClientMainWindow", "pause", "4000"),
+    ]
+    return "<pqevents>" + "\n".join(steps) + "</pqevents>"
+
+
+def write_scalar_and_vector(data, path):
+    """A file with the scalar u and the vector velocity."""
+    grid = support.output_of(support.read(data("mfem_hex1_p8.vtu")))
+    support.add_point_array(grid, "velocity", support.points_of(grid))
+    writer = vtkXMLUnstructuredGridWriter()
+    writer.SetFileName(str(path))
+    writer.SetInputData(grid)
+    writer.SetDataModeToBinary()
+    writer.Write()
+
+
+def test_every_property_is_edited_in_the_panel(plugin, data, screen, tmp_path):
+    """Those of the guide's table. ParaView makes no widget for some kinds of properties, and says nothing."""
+    guide = (Path(__file__).resolve().parents[2] / "Documentation" / "user-guide.md").read_text()
+    table = guide.split("## Properties of the filter")[1].split("\n## ")[0]
+    labels = re.findall(r"^\| `\w+` \| ([^|]+) \|", table, re.MULTILINE)
+    assert set(labels) == {"Input", *EDITS}
+
+    display, screen_file = screen
+    write_scalar_and_vector(data, tmp_path / "both.vtu")
+    state, script = tmp_path / "edited.pvsm", tmp_path / "edits.xml"
+    script.write_text(edit_every_property(str(state)))
+    process = start(
+        display, tmp_path, plugin, f"--data={tmp_path / 'both.vtu'}", f"--test-script={script}", "--exit")
+    try:
+        window = watch(process, screen_file, 120)
+        said = process.stdout.read()
+    finally:
+        process.kill()
+    write_png(Path(os.environ["HOP_BUILD"]) / "Testing" / "gui_panel.png", window)
+    assert process.returncode == 0, said
+    proxy = ElementTree.parse(state).find(".//Proxy[@type='HighOrderParticleIsosurface']")
+    values = {p.get("name"): [e.get("value") for e in p.findall("Element")] for p in proxy.findall("Property")}
+    assert len(values["ContourValues"]) == 2, "one more isovalue"
+    assert {name: values[name] for name in EDITED} == EDITED
+
+
+def test_the_icon_stands_behind_those_of_paraview(plugin, data, screen, tmp_path, monkeypatch):
+    """Also where the plugin is auto-loaded: ParaView then reads it before its own list of filters."""
+    display, screen_file = screen
+    auto = tmp_path / "plugins.xml"
+    monkeypatch.setenv("PV_PLUGIN_CONFIG_FILE", str(auto))
+    script = tmp_path / "open.xml"
+    steps = [event(f"{PANEL}/Accept", "activate"), event("pqClientMainWindow", "pause", "4000")]
+    script.write_text("<pqevents>" + "\n".join(steps) + "</pqevents>")
+    windows = []
+    for plugins in ("<Plugins/>", f'<Plugins><Plugin name="{plugin.stem}" filename="{plugin}" auto_load="1"/></Plugins>'):
+        auto.write_text(plugins)
+        process = start(
+            display, tmp_path, None, f"--data={data('mfem_hex1_p8.vtu')}", f"--test-script={script}", "--exit")
+        try:
+            windows.append(watch(process, screen_file, 120))
+            said = process.stdout.read()
+        finally:
+            process.kill()
+        assert process.returncode == 0, said
+    without, window = windows
+    write_png(Path(os.environ["HOP_BUILD"]) / "Testing" / "gui_toolbar.png", window)
+    # The icon is the only one that is mostly blue.
+    blue = (window[..., 2] - window[..., 0] > 60) & (window[..., 2] - window[..., 1] > 30)
+    in_toolbar = [blue[105:140, x : x + 34].sum() for x in range(13, 430, 34)]
+    assert np.argmax(in_toolbar) == len(in_toolbar) - 2 and max(in_toolbar) > 150, in_toolbar
+    # ParaView's own icons are those that it has without the plugin, the later ones moved by one.
+    assert np.array_equal(window[105:140, 16:388], without[105:140, 16:388])
+    assert any(np.array_equal(window[105:140, 430:780], without[105:140, 430 - s : 780 - s]) for s in range(28, 42))
 
 
 # Runs in ParaView's window: the same filter twice; the first run is to be aborted.

@@ -67,6 +67,26 @@ def test_filter_has_its_label_and_its_place_in_the_filters_menu():
     assert callable(getattr(simple, NAME))
 
 
+def test_the_search_for_contour_finds_the_filter():
+    """The quick launch searches labels; from 5.13 on also the short help."""
+    assert "contour" in new_proxy("filters", NAME).GetDocumentation().GetShortHelp().lower()
+    other = new_proxy("filters", "ContourHighOrderCells")
+    assert other.GetXMLLabel() == "Contour High-Order Cells"
+    assert other.GetHints().FindNestedElementByName("ShowInMenu") is not None
+
+
+def test_the_other_name_is_the_same_filter(data):
+    reader = simple.XMLUnstructuredGridReader(FileName=[data("mfem_hex1_p8.vtu")])
+    reader.UpdatePipeline()
+    first, second = simple.HighOrderParticleIsosurface(Input=reader), simple.ContourHighOrderCells(Input=reader)
+    assert second.ListProperties() == first.ListProperties()
+    for name in set(first.ListProperties()) - {"Input"}:
+        assert first.GetPropertyValue(name) == second.GetPropertyValue(name), name
+    assert contents(output_of(first)) == contents(output_of(second))
+    shown = simple.Show(second, simple.CreateView("RenderView"))
+    assert shown.Representation == "Surface Splats"
+
+
 def test_filter_speaks_the_names_of_contour():
     properties = getattr(simple, NAME)(Input=simple.UnstructuredCellTypes()).ListProperties()
     wanted = {"ContourBy", "Isosurfaces", "Spacing", "AngularDensity", "Tolerance", "Method", "Seed"}
@@ -118,6 +138,7 @@ def test_the_default_isovalue_of_a_symmetric_field_is_beside_its_saddle(scale):
     add_point_array(grid, "u", scale * x.prod(axis=1) + 1e-17 * scale)
     proxy = simple.HighOrderParticleIsosurface(Input=source_of(grid), ContourBy=["POINTS", "u"])
     proxy.SMProxy.GetProperty("ContourValues").ResetToDomainDefaults()
+    proxy.PassDiagnostics = 1
     (isovalue,) = proxy.Isosurfaces
     assert 0.02 * scale < isovalue < 0.1 * scale
     assert float(f"{isovalue:.3g}") == isovalue
@@ -213,6 +234,26 @@ def test_an_array_that_is_not_there_has_no_components_of_another():
     assert proxy.GetProperty("Component").Available == [""]
     proxy.ContourBy = ["POINTS", "none"]
     assert "Magnitude" in proxy.GetProperty("Component").Available
+
+
+def test_vectors_start_at_their_magnitude():
+    ramp = np.linspace(-1.0, 1.0, 8)
+    proxy = filter_on(velocity=np.stack([ramp, 3 * ramp, 0 * ramp], axis=1))
+    assert proxy.ContourBy == ["POINTS", "velocity"] and proxy.Component == "Magnitude"
+    assert 0 < proxy.Isosurfaces[0] < np.sqrt(10)
+
+
+def test_a_vector_that_is_chosen_after_a_scalar_starts_at_its_magnitude():
+    ramp = np.linspace(-1.0, 1.0, 8)
+    proxy = filter_on(pressure=ramp - 5, velocity=np.stack([ramp, 3 * ramp, 0 * ramp], axis=1))
+    values = proxy.SMProxy.GetProperty("ContourValues").GetDomain("scalar_range")
+    assert proxy.ContourBy == ["POINTS", "pressure"] and proxy.Component == ""
+    assert (values.GetMinimum(0), values.GetMaximum(0)) == (-6.0, -4.0)
+    assert proxy.Isosurfaces[0] == -5.0
+    proxy.ContourBy = ["POINTS", "velocity"]
+    assert proxy.Component == "Magnitude"
+    proxy.Component = "Y"
+    assert (values.GetMinimum(0), values.GetMaximum(0)) == (-3.0, 3.0)
 
 
 def test_default_isovalue_of_a_magnitude():

@@ -3,9 +3,12 @@
 import numpy as np
 import pytest
 from paraview import simple
+from paraview.vtk.util.numpy_support import numpy_to_vtk
 from support import (
-    array_of, contents, make_filter, nearest_neighbors, output_of, points_of, read, reported, run_quietly)
+    add_cell_array, add_point_array, array_of, contents, make_filter, nearest_neighbors, output_of, points_of, read, reported, run_quietly)
+from vtkmodules.vtkCommonCore import vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkStaticPointLocator
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 SPACING = 0.05
 
@@ -91,6 +94,106 @@ def test_what_did_not_change_gives_the_same_again(hexahedron):
     assert len(contents(output_of(surface))["points"]) < len(first["points"])
     surface.Spacing = SPACING
     assert contents(output_of(surface)) == first
+
+
+@pytest.fixture
+def timed_file(data, tmp_path):
+    """A file with one time step, 12.2, as PyFR writes them: ParaView's animation stands at 0."""
+    grid = output_of(read(data("mfem_hex1_p8.vtu")))
+    time = numpy_to_vtk(np.array([12.2]), deep=True)
+    time.SetName("TimeValue")
+    timed = grid.NewInstance()
+    timed.ShallowCopy(grid)
+    timed.GetFieldData().AddArray(time)
+    writer = vtkXMLUnstructuredGridWriter()
+    writer.SetFileName(str(tmp_path / "timed.vtu"))
+    writer.SetInputData(timed)
+    writer.SetDataModeToBinary()
+    assert writer.Write() == 1
+    return str(tmp_path / "timed.vtu")
+
+
+def test_what_is_computed_once_is_kept(timed_file):
+    """Show() asks for the animation's time, and the reader reads the same data again."""
+    reader = read(timed_file)
+    readings, progress = [], []
+    surface, messages = make_filter(reader, "u", 0.2, Spacing=SPACING)
+    surface.UpdatePipeline()
+    for isovalue in (0.2, 0.21):  # the second surface goes on from the first one
+        surface.Isosurfaces = [isovalue]
+        surface.UpdatePipeline()
+        algorithm = surface.GetClientSideObject()
+        points = algorithm.GetOutputDataObject(0).GetPoints()
+        first = contents(algorithm.GetOutputDataObject(0))
+        reader.GetClientSideObject().AddObserver("StartEvent", lambda *_: readings.append(isovalue))
+        algorithm.AddObserver("ProgressEvent", lambda *_: progress.append(algorithm.GetProgress()))
+        for _ in range(2):
+            view = simple.CreateView("RenderView")
+            simple.Show(surface, view)
+            simple.Render(view)
+            surface.UpdatePipeline()
+            assert contents(algorithm.GetOutputDataObject(0)) == first
+        reader.GetClientSideObject().Modified()
+        surface.UpdatePipeline(12.2)
+        assert algorithm.GetOutputDataObject(0).GetPoints() is points, "computed once"
+        assert contents(algorithm.GetOutputDataObject(0)) == first
+        algorithm.RemoveObservers("ProgressEvent")
+    assert readings and not set(progress) - {0.0, 1.0}, "the pipeline asked again, and nothing was computed"
+    assert messages.errors + messages.warnings == []
+
+
+CHANGES = {
+    "a value": lambda grid: grid.GetPointData().GetArray("u").SetValue(0, 0.7),
+    "a point": lambda grid: grid.GetPoints().SetPoint(0, -0.51, -0.5, -0.5),
+    "a cell": lambda grid: grid.GetCells().GetConnectivityArray().SetValue(0, 1),
+    "another array": lambda grid: add_point_array(grid, "more", np.arange(grid.GetNumberOfPoints())),
+    "a cell array": lambda grid: add_cell_array(grid, "of_cells", np.arange(grid.GetNumberOfCells())),
+    "a name": lambda grid: grid.GetPointData().GetArray("v").SetName("w"),
+    "a string": lambda grid: grid.GetFieldData().GetAbstractArray("text").SetValue(0, "then"),
+    "field data": lambda grid: grid.GetFieldData().AddArray(named(numpy_to_vtk(np.arange(3.0), deep=True), "info")),
+}
+
+
+def named(array, name):
+    array.SetName(name)
+    return array
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_what_changed_is_computed_again(hexahedron, change):
+    grid = output_of(hexahedron).NewInstance()
+    grid.DeepCopy(output_of(hexahedron))
+    add_point_array(grid, "v", 2 * array_of(grid, "u"))
+    text = named(vtkStringArray(), "text")
+    text.InsertNextValue("once")
+    grid.GetFieldData().AddArray(text)
+    surface, _ = make_filter(grid, "u", 0.2, Spacing=2 * SPACING)
+    algorithm = surface.GetClientSideObject()
+
+    def computed():
+        algorithm.Modified()
+        algorithm.Update()
+        return algorithm.GetOutputDataObject(0).GetPoints()
+
+    first = computed()
+    assert computed() is first
+    CHANGES[change](grid)
+    assert computed() is not first
+
+
+@pytest.mark.parametrize("name, value", [
+    ("Isosurfaces", [0.21]), ("Spacing", 0.11), ("AngularDensity", 0), ("Tolerance", 1e-6), ("Quality", "High"),
+    ("NodeSpacing", "Gauss-Lobatto-Legendre"), ("WarmStart", 0), ("Method", "Classic"), ("Seed", 2),
+    ("NumberOfParticles", 200), ("ContourBy", ["POINTS", "v"]),
+])
+def test_every_property_is_heeded(hexahedron, name, value):
+    grid = output_of(hexahedron).NewInstance()
+    grid.DeepCopy(output_of(hexahedron))
+    add_point_array(grid, "v", 2 * array_of(grid, "u"))
+    surface, _ = make_filter(grid, "u", 0.2, Spacing=2 * SPACING)
+    first = output_of(surface).GetPoints()
+    setattr(surface, name, value)
+    assert output_of(surface).GetPoints() is not first
 
 
 def test_switched_off_the_output_depends_on_the_input_only(hexahedron):

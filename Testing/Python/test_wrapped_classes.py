@@ -21,6 +21,7 @@ def isosurface(path):
     surface.SetNumberOfContours(1)
     surface.SetValue(0, 0.2)
     surface.SetSpacing(0.03)
+    surface.SetPassDiagnostics(True)  # as by_proxy
     return surface
 
 

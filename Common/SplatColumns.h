@@ -1,0 +1,41 @@
+#pragma once
+
+namespace hop
+{
+
+/// What the renderer reads of a particle and nobody else: columns of one point array, so that the colour list, the
+/// spreadsheet and the text at the mouse are left to what users look at. It is a point array because all filters that
+/// keep points keep it; any of its columns may also be an array of its own, under its own name, and then counts.
+
+/// ParaView's spreadsheet leaves out columns whose names begin so; colour lists leave the array out for its key
+/// vtkAbstractArray::GUI_HIDE.
+constexpr const char* SplatColumnsArray = "__vtkValidMask__Splats";
+
+struct SplatColumn
+{
+  /// As in the table of Filters/Output/OutputArrays.cxx.
+  const char* name;
+  int components;
+};
+
+/// In the order of the components. New ones belong at the end: files keep the array as it was.
+constexpr SplatColumn SplatColumns[] = {
+  { "Clip_Normal", 6 },
+  { "Clip_Distance", 2 },
+  { "Clip_Angle", 2 },
+  { "Clip_Curvature", 2 },
+  { "Shape_Operator", 6 },
+};
+
+/// Components of the array.
+constexpr int splatColumnCount()
+{
+  int count = 0;
+  for (const SplatColumn& column : SplatColumns)
+  {
+    count += column.components;
+  }
+  return count;
+}
+
+} // namespace hop
