@@ -385,7 +385,7 @@ def test_more_particles_than_a_tiny_surface_has_room_for_at_first(number, method
 
 @pytest.mark.parametrize("given, advice", [
     ({"Spacing": 0.5}, "Choose a Spacing of "),
-    ({"NumberOfParticles": 4}, "Choose a larger NumberOfParticles or"),
+    ({"NumberOfParticles": 4}, "Choose a NumberOfParticles of "),
 ])
 def test_too_few_particles_are_told_what_there_is_to_change(good, given, advice):
     particles, messages = support.run(good, "F", 0.2, AngularDensity=0, **given)
