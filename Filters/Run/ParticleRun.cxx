@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <numeric>
 #include <optional>
 
 namespace hop
@@ -242,13 +243,16 @@ void GroupRun::reviewSpacing(const GridElements& elements, const RunOrigin& orig
   }
   const std::int64_t number = this->Properties.numberOfParticles;
   const Work rest = work.part(ProgressAt::Distributed, ProgressAt::Distributed);
-  const SpacingAdvice advice = adviseSpacing(distribution, number > 0 ? 0.0 : this->Scale.spacing,
-    [&](double spacing)
-    {
-      return estimateSizing(
-        { &elements.mesh, elements.fieldIsovalue(origin.isovalue), this->Scale.tolerance },
-        { spacing, this->Properties.angularDensity }, rest.monitor, rest.parallelFor);
-    });
+  const SizingFunction sizing{ number > 0 ? 0.0 : this->Scale.spacing,
+    this->Properties.angularDensity };
+  const auto countAt = [&](double spacing)
+  {
+    const std::vector<double> counts = particlesPerElement(
+      { &elements.mesh, elements.fieldIsovalue(origin.isovalue), this->Scale.tolerance },
+      { spacing, this->Properties.angularDensity }, rest.monitor, rest.parallelFor);
+    return std::accumulate(counts.begin(), counts.end(), 0.0);
+  };
+  const SpacingAdvice advice = adviseSpacing(distribution, sizing, countAt);
   const int worst = distribution.particles[advice.worst].location.element;
   this->Caller.tell({ reviewUndersampled(this->Blocks, distribution, advice,
     elements.mesh.elements[worst].cell, origin.isovalue, number) });

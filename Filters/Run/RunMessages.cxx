@@ -63,13 +63,9 @@ std::string describeAdvice(
   }
   else
   {
-    text << "It bends with a radius of about " << 1.0 / worst.curvature.magnitude << " there";
-    if (advice.isEstimated)
-    {
-      text << ", which more than " << SpacingAdvice::MostTimes
-           << " times the particles would be needed to follow";
-    }
-    text << ".";
+    text << "It bends with a radius of about " << 1.0 / worst.curvature.magnitude
+         << " there, which more than " << SpacingAdvice::MostTimes
+         << " times the particles would be needed to follow.";
   }
   return text.str();
 }

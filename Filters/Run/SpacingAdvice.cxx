@@ -21,14 +21,11 @@ struct UndersampledShare
 /// Which spacings are tried.
 struct Trial
 {
-  /// Most particles for which spacings are tried. Trials take about as long as the run then, a second or two; with more
-  /// particles the user would wait too long for a warning. Chosen by experiment.
-  static constexpr std::size_t MostParticles = 100'000;
   /// Ratio of one spacing to the next: each takes twice the particles of a flat surface. Closer ones would find a
-  /// spacing that takes a little less, and cost more trials.
+  /// spacing that takes a little less. Chosen by experiment.
   static constexpr double Ratio = 0.7071;
   /// Largest number of trials. At the default angular density a spacing 16 times smaller may take less than ten times
-  /// the particles; there is little to win beyond it.
+  /// the particles; smaller ones hardly ever do.
   static constexpr int Times = 8;
 };
 
@@ -66,6 +63,22 @@ double largestSpacing(const Buffer<Particle>& particles)
   return largest;
 }
 
+/// The share of particles that could not follow the surface with another sizing function.
+double undersampledShare(const Buffer<Particle>& particles, const SizingFunction& sizing)
+{
+  double all = 0.0;
+  double undersampled = 0.0;
+  for (const Particle& particle : particles)
+  {
+    const double bending = particle.curvature.magnitude;
+    const double spacing = sizing.at(bending);
+    const double count = (particle.spacing / spacing) * (particle.spacing / spacing);
+    all += count;
+    undersampled += bending * spacing > Particle::LargestCurvatureTimesSpacing ? count : 0.0;
+  }
+  return undersampled / all;
+}
+
 } // namespace
 
 bool hasTooManyUndersampled(const Distribution& distribution)
@@ -74,28 +87,27 @@ bool hasTooManyUndersampled(const Distribution& distribution)
     UndersampledShare::Warned * static_cast<double>(distribution.particles.size());
 }
 
-SpacingAdvice adviseSpacing(const Distribution& distribution, double spacing,
-  const std::function<SizingEstimate(double spacing)>& estimateAt)
+SpacingAdvice adviseSpacing(const Distribution& distribution, SizingFunction sizing,
+  const std::function<double(double spacing)>& countAt)
 {
   const Buffer<Particle>& particles = distribution.particles;
   SpacingAdvice advice;
   advice.worst = worstOf(particles);
   advice.isSingular =
     distribution.report.singularPoints > 0 || isSingularAt(particles[advice.worst]);
-  advice.isEstimated = particles.size() <= Trial::MostParticles;
-  double tried = spacing > 0.0 ? spacing : largestSpacing(particles);
-  for (int n = 0; n < Trial::Times && advice.isEstimated && advice.spacing == 0.0; ++n)
+  double exact = sizing.spacing > 0.0 ? sizing.spacing : largestSpacing(particles);
+  for (int n = 0; n < Trial::Times; ++n)
   {
-    tried *= Trial::Ratio;
-    const SizingEstimate estimate = estimateAt(rounded(tried));
-    if (estimate.count > SpacingAdvice::MostTimes * static_cast<double>(particles.size()))
+    exact *= Trial::Ratio;
+    sizing.spacing = rounded(exact);
+    if (undersampledShare(particles, sizing) <= UndersampledShare::Advised)
     {
+      const double count = countAt(sizing.spacing);
+      const bool isAffordable =
+        count <= SpacingAdvice::MostTimes * static_cast<double>(particles.size());
+      advice.spacing = isAffordable ? sizing.spacing : 0.0;
+      advice.count = isAffordable ? std::llround(count) : 0;
       break;
-    }
-    if (estimate.undersampled <= UndersampledShare::Advised * estimate.count)
-    {
-      advice.spacing = rounded(tried);
-      advice.count = std::llround(estimate.count);
     }
   }
   return advice;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "Fast/FastDistribution.h"
 #include "Surface/Particles.h"
+#include "Surface/SizingFunction.h"
 
 #include <cstdint>
 #include <functional>
@@ -16,8 +16,6 @@ struct SpacingAdvice
   double spacing = 0.0;
   /// Number of particles that it takes.
   std::int64_t count = 0;
-  /// Whether spacings were tried at all.
-  bool isEstimated = false;
   /// Index of the particle where the surface bends most for its spacing.
   std::size_t worst = 0;
   /// Whether the gradient of the field vanishes on the surface, or nearly so.
@@ -31,11 +29,12 @@ struct SpacingAdvice
 /// Whether particles that cannot follow the surface are so many that the user is told.
 bool hasTooManyUndersampled(const Distribution& distribution);
 
-/// Looks for the largest spacing that follows the surface.
-/// \param spacing that the distribution was made with, world units; 0 if a number of particles was given
-/// \param estimateAt what the surface takes at a spacing
+/// Looks for the largest spacing that follows the surface: each particle stands for its part of the surface, which takes
+/// more particles at a smaller spacing and bends as the particle's place does.
+/// \param sizing that the distribution was made with; spacing 0 if a number of particles was given
+/// \param countAt the number of particles that the surface takes at a spacing; asked once at most
 /// \pre hasTooManyUndersampled(distribution)
-SpacingAdvice adviseSpacing(const Distribution& distribution, double spacing,
-  const std::function<SizingEstimate(double spacing)>& estimateAt);
+SpacingAdvice adviseSpacing(const Distribution& distribution, SizingFunction sizing,
+  const std::function<double(double spacing)>& countAt);
 
 } // namespace hop

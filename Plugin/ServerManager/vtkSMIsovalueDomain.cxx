@@ -88,14 +88,15 @@ void vtkSMIsovalueDomain::FollowChoice(bool useUnchecked)
 {
   vtkSMProperty* property = this->GetProperty();
   const std::string choice = this->GetChoice(useUnchecked);
-  if (useUnchecked && choice == this->GetChoice(false))
+  const std::vector<double> applied = vtkSMPropertyHelper(property).GetDoubleArray();
+  const std::vector<double> typed = vtkSMUncheckedPropertyHelper(property).GetDoubleArray();
+  if (useUnchecked && choice == this->GetChoice(false) && typed == applied)
   {
     this->Unchecked = this->Checked; // so it is where unchecked values were given up
   }
   const Default& last = useUnchecked ? this->Unchecked : this->Checked;
   const bool isUntouched =
-    vtkSMUncheckedPropertyHelper(property).GetDoubleArray() == this->Unchecked.Isovalue &&
-    (useUnchecked || vtkSMPropertyHelper(property).GetDoubleArray() == last.Isovalue);
+    typed == this->Unchecked.Isovalue && (useUnchecked || applied == last.Isovalue);
   if (!last.Isovalue.empty() && choice != last.Choice && isUntouched)
   {
     this->SetDefaultValues(property, useUnchecked);

@@ -145,7 +145,6 @@ public:
 
   Distribution run();
   std::vector<double> countsOfElements();
-  SizingEstimate estimate();
 
 private:
   void make();
@@ -544,32 +543,6 @@ std::vector<double> FastSystem::countsOfElements()
   return counts;
 }
 
-SizingEstimate FastSystem::estimate()
-{
-  SizingEstimate result;
-  if (this->Mesh.elements.empty())
-  {
-    return result;
-  }
-  this->prepareSurface();
-  const std::vector<SurfaceProxy::Sample>& samples = this->Proxy->samples();
-  for (std::size_t b = 0; b < samples.size(); ++b)
-  {
-    const double count = this->Proxy->particleCountOfBox(b);
-    const Patch& patch = samples[b].patch;
-    const bool isUndersampled = samples[b].found &&
-      patch.curvatureMagnitude() * patch.spacing > Particle::LargestCurvatureTimesSpacing;
-    result.count += count;
-    result.undersampled += isUndersampled ? count : 0.0;
-  }
-  for (const BoundaryParticle& boundary : this->Curves.particles)
-  {
-    result.count += OnBoundary::Count;
-    result.undersampled += boundary.particle.isUndersampled();
-  }
-  return result;
-}
-
 Distribution FastSystem::run()
 {
   if (this->Mesh.elements.empty())
@@ -594,14 +567,6 @@ Distribution distributeFast(const Isosurface& surface, const DistributionParamet
 {
   return unlessInterrupted(
     [&]() { return FastSystem(surface, parameters, monitor, parallelFor).run(); });
-}
-
-SizingEstimate estimateSizing(const Isosurface& surface, const SizingFunction& sizing,
-  const Monitor& monitor, const ParallelFor& parallelFor)
-{
-  DistributionParameters parameters;
-  parameters.sizing = sizing;
-  return FastSystem(surface, parameters, monitor, parallelFor).estimate();
 }
 
 std::vector<double> particlesPerElement(const Isosurface& surface, const SizingFunction& sizing,

@@ -27,18 +27,4 @@ Distribution distributeFast(const Isosurface& surface, const DistributionParamet
 std::vector<double> particlesPerElement(const Isosurface& surface, const SizingFunction& sizing,
   const Monitor& monitor, const ParallelFor& parallelFor);
 
-/// What a surface is expected to take at a sizing function.
-struct SizingEstimate
-{
-  /// Number of particles, to a few percent where they are many.
-  double count = 0.0;
-  /// How many of them cannot follow the surface (Particle::isUndersampled), in a sample of it.
-  double undersampled = 0.0;
-};
-
-/// Estimates what distributeFast would give, at the cost of isolating the surface and tracing its boundary curves.
-/// \throw Interrupted if the monitor asks for an early end
-SizingEstimate estimateSizing(const Isosurface& surface, const SizingFunction& sizing,
-  const Monitor& monitor, const ParallelFor& parallelFor);
-
 } // namespace hop

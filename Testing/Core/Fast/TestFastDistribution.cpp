@@ -503,27 +503,6 @@ TEST(FastDistribution, ReportsUndersampledParticles)
   EXPECT_EQ(distribute(mesh, withSpacing(0.1)).report.particlesUndersampled, 0);
 }
 
-/// A tube of radius 0.1 beside a plane, in the cube from -1 to 1: particles on the tube are undersampled at large
-/// spacings, particles on the plane never.
-TEST(FastDistribution, EstimatesBeforehandWhatCannotFollowTheSurface)
-{
-  const auto field = [](const glm::dvec3& x)
-  { return (x.x - 0.5) * ((x.x + 0.3) * (x.x + 0.3) + x.y * x.y - 0.01); };
-  const ElementMesh mesh = meshOf(Domain::Hexahedron, 3, field);
-  for (const double spacing : { 0.3, 0.25, 0.15, 0.1, 0.05 })
-  {
-    SCOPED_TRACE(spacing);
-    const SizingEstimate estimate =
-      estimateSizing({ &mesh, 0.0, tolerance }, { spacing, 0.0 }, {}, {});
-    const Distribution found = distribute(mesh, withSpacing(spacing));
-    const auto count = static_cast<double>(found.particles.size());
-    EXPECT_NEAR(estimate.count, count, 0.3 * count);
-    EXPECT_NEAR(estimate.undersampled / estimate.count,
-      static_cast<double>(found.report.particlesUndersampled) / count, 0.15);
-    EXPECT_EQ(estimate.undersampled > 0.0, spacing > 0.2);
-  }
-}
-
 TEST(FastDistribution, StopsSoonAfterTheMonitorAsksForIt)
 {
   using Clock = std::chrono::steady_clock;
