@@ -29,8 +29,8 @@ struct MisorderedCells
 
 /// Finds the cells of one kind whose nodes are in another order than VTK's. Three orders of a cell are tried, and the
 /// orders of a few other cells: that in which each node stands nearest to its place in the straight-sided cell with the
-/// same corners, and two lexicographic orders. If most folded cells become sound, these cells are found; if they do not,
-/// but most cells of the kind are folded, all folded ones. Else there are none: a few bad cells are the mesh's own.
+/// same corners, and two lexicographic orders. If most folded cells become sound, these cells are found; if they do
+/// not, but most cells of the kind are folded, all folded ones. Else there are none: a few bad cells are the mesh's own.
 /// \param folded some cells of the kind, at least one
 /// \param areMost whether these are most of the cells at the surface
 /// \param kinds have the basis `cell`

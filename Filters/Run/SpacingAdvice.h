@@ -29,8 +29,8 @@ struct SpacingAdvice
 /// Whether particles that cannot follow the surface are so many that the user is told.
 bool hasTooManyUndersampled(const Distribution& distribution);
 
-/// Looks for the largest spacing that follows the surface: each particle stands for its part of the surface, which takes
-/// more particles at a smaller spacing and bends as the particle's place does.
+/// Looks for the largest spacing that follows the surface: each particle stands for its part of the surface, which
+/// takes more particles at a smaller spacing and bends as the particle's place does.
 /// \param sizing that the distribution was made with; spacing 0 if a number of particles was given
 /// \param countAt the number of particles that the surface takes at a spacing; asked once at most
 /// \pre hasTooManyUndersampled(distribution)

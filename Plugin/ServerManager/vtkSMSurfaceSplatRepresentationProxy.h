@@ -4,8 +4,8 @@
  *
  * ParaView's first range of a legend is that of all values. Near tips and crossings of the surface the curvature of a
  * few particles is large without bound, and everything else has one colour. Here the first range of a legend of
- * curvature leaves out the lowest and the highest fiftieth of the values, and ParaView's automatic rescaling is switched
- * off for this legend. Rescaling by hand, to the range of the data or to any other, works as for all legends.
+ * curvature leaves out the lowest and the highest fiftieth of the values, and ParaView's automatic rescaling is
+ * switched off for this legend. Rescaling by hand, to the range of the data or to any other, works as for all legends.
  */
 #ifndef vtkSMSurfaceSplatRepresentationProxy_h
 #define vtkSMSurfaceSplatRepresentationProxy_h

@@ -268,7 +268,8 @@ def test_a_magnitude_is_never_negative(good, properties):
     alone = support.run_quietly(good, "V", [0.5], Component=3, **properties)
     assert alone.GetNumberOfPoints() > 100
     for isovalues in ([-0.5, 0.5], [0.5, -0.5]):
-        both = expect_no_surface(good, "V", isovalues, "Isovalue -0.5: no", "The magnitude of 'V'", Component=3, **properties)
+        words = "Isovalue -0.5: no", "The magnitude of 'V'"
+        both = expect_no_surface(good, "V", isovalues, *words, Component=3, **properties)
         assert np.array_equal(support.points_of(both), support.points_of(alone))
         assert np.all(support.array_of(both, "Isovalue") == 0.5)
     assert_empty(expect_no_surface(good, "V", -0.5, Component=3, **properties))

@@ -89,6 +89,6 @@ def test_sheets_that_cross_are_called_singular():
 
 
 def test_hundredths_are_not_worth_a_warning():
-    particles, warning = run(field("saddles"), 0.0001, Spacing=0.05, AngularDensity=0)
+    particles, warning = run(field("saddles"), 0.0001, Spacing=0.044, AngularDensity=0)
     assert 0.01 < support.reported(particles, "ParticlesUndersampled") / particles.GetNumberOfPoints() < 0.02
     assert warning == ""
