@@ -231,9 +231,18 @@ void vtkHighOrderParticleIsosurface::Run(vtkDataObject* input, vtkDataObject* ou
   const hop::CheckedBlocks checked = hop::checkBlocks(gathered, this->GetInputArrayInformation(0));
   this->Tell(checked.messages);
   this->Tell(hop::reviewArrays(checked.sound));
-  const hop::RunCaller caller = this->CallerOfRun();
-  hop::ParticleRun(properties, scale, caller, *this->Previous)
-    .run(hop::InputBlocks(checked.sound, hop::componentOf(checked.sound, this->Component)));
+  bool hasTold = !checked.messages.empty();
+  hop::RunCaller caller = this->CallerOfRun();
+  caller.tell = [&](const hop::UserMessages& messages)
+  {
+    hasTold = hasTold || !messages.empty();
+    this->Tell(messages);
+  };
+  const hop::InputBlocks blocks(checked.sound, hop::componentOf(checked.sound, this->Component));
+  const std::vector<std::int64_t> counts =
+    hop::ParticleRun(properties, scale, caller, *this->Previous).run(blocks);
+  this->Tell(
+    hop::reviewSurfaces(blocks, properties.isovalues, counts, hasTold || hop::isAborted(this)));
 }
 
 /// One number for all that the output depends on but previous runs.

@@ -165,6 +165,18 @@ std::vector<double> shapeFunctions(vtkCell* cell, const ReferencePoint& u)
   return weights;
 }
 
+/// Where VTK has the nodes of a cell; see CellBasis::nodes.
+std::vector<ReferencePoint> placesOfNodes(vtkCell* cell)
+{
+  const double* parametric = cell->GetParametricCoords();
+  std::vector<ReferencePoint> places;
+  for (vtkIdType n = 0; parametric && n < cell->GetNumberOfPoints(); ++n, parametric += 3)
+  {
+    places.push_back({ { parametric[0], parametric[1], parametric[2] } });
+  }
+  return cell->GetCellType() == VTK_TRIQUADRATIC_PYRAMID ? std::vector<ReferencePoint>() : places;
+}
+
 /// Whether a basis gives back VTK's shape functions away from the points where it was sampled.
 bool reproduces(vtkCell* cell, const NodalBasis& basis)
 {
@@ -227,7 +239,7 @@ std::unique_ptr<const CellBasis> sampleBasis(vtkCell* cell, Domain domain)
     const NodalBasis basis = NodalBasis::sampled(domain, degrees, samples);
     if (reproduces(cell, basis))
     {
-      return std::make_unique<const CellBasis>(CellBasis(basis, false));
+      return std::make_unique<const CellBasis>(CellBasis(basis, false, placesOfNodes(cell)));
     }
   }
   return nullptr;
@@ -296,9 +308,11 @@ std::unique_ptr<const CellBasis> CellBases::makeLatticeBasis(
     { return static_cast<int>(std::lround(parametric[3 * node + axis] * degrees[axis])); };
     order.push_back({ onLattice(0), onLattice(1), onLattice(2) });
   }
-  return std::make_unique<const CellBasis>(isBezier(vtk->GetCellType())
-      ? CellBasis(NodalBasis::bezier(domain, degrees, order), true)
-      : CellBasis(NodalBasis::lagrange(domain, degrees, order, this->Spacing), false));
+  const bool bezier = isBezier(vtk->GetCellType());
+  return std::make_unique<const CellBasis>(bezier
+      ? NodalBasis::bezier(domain, degrees, order)
+      : NodalBasis::lagrange(domain, degrees, order, this->Spacing),
+    bezier, placesOfNodes(vtk));
 }
 
 BasisLookup::BasisLookup(CellBases& bases)

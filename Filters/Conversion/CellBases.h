@@ -11,6 +11,7 @@
 #include <mutex>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 class vtkCell;
 class vtkUnstructuredGrid;
@@ -21,10 +22,11 @@ namespace hop
 /// How the cells of one kind are rewritten as elements.
 struct CellBasis
 {
-  CellBasis(NodalBasis nodal, bool isBezier)
+  CellBasis(NodalBasis nodal, bool isBezier, std::vector<ReferencePoint> places)
     : basis(std::move(nodal))
     , jacobian(basis.domain(), basis.degrees())
     , bezier(isBezier)
+    , nodes(std::move(places))
   {
   }
 
@@ -32,6 +34,8 @@ struct CellBasis
   JacobianTest jacobian;
   /// Whether nodal values are Bernstein coefficients, and the grid's RationalWeights apply.
   bool bezier = false;
+  /// Where VTK has the nodes, in the mesh's order; empty where VTK's parametric coordinates are not the element's.
+  std::vector<ReferencePoint> nodes;
 };
 
 /// A kind of cells: VTK cell type, number of points, and degrees; zeros where the degrees follow from the number of

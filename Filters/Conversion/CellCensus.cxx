@@ -22,12 +22,14 @@ std::string nameOfCellType(int type)
   return cell ? cell->GetClassName() : CellTypeNames::GetClassNameFromTypeId(type);
 }
 
-void describeCells(std::ostream& text, const SkippedCells& cells, const std::string& reason)
+/// \param advice follows the cells; may be empty
+void describeCells(std::ostream& text, const SkippedCells& cells, const std::string& reason,
+  const std::string& advice = "")
 {
   if (cells.count > 0)
   {
     text << "\n  " << cells.count << (cells.count == 1 ? " cell " : " cells ") << reason
-         << " (first: cell " << cells.first << ")";
+         << " (first: cell " << cells.first << ")" << advice;
   }
 }
 
@@ -73,6 +75,10 @@ void CellCensus::add(const CellCensus& others)
   this->badWeights.add(others.badWeights);
   this->level.add(others.level);
   this->collapsed.add(others.collapsed);
+  for (const auto& [which, cells] : others.misordered)
+  {
+    this->misordered[which].add(cells);
+  }
   this->folded.add(others.folded);
 }
 
@@ -81,6 +87,10 @@ vtkIdType CellCensus::skipped() const
   vtkIdType sum = this->brokenConnectivity.count + this->notFinite.count + this->badWeights.count +
     this->level.count + this->collapsed.count;
   for (const auto& [type, cells] : this->unsupported)
+  {
+    sum += cells.count;
+  }
+  for (const auto& [which, cells] : this->misordered)
   {
     sum += cells.count;
   }
@@ -105,6 +115,15 @@ std::string CellCensus::describe() const
   describeCells(
     text, this->level, "skipped: the field is the isovalue throughout, which is no surface");
   describeCells(text, this->collapsed, "skipped: without volume");
+  for (const auto& [which, cells] : this->misordered)
+  {
+    const std::string& remedy = which.second;
+    describeCells(text, cells,
+      "of type " + nameOfCellType(which.first) + " skipped: partly inverted, " +
+        (remedy.empty() ? "as most cells of the type are" : "but sound with " + remedy),
+      ". The file seems to have its nodes in another order than VTK's, as Gmsh's is for instance: "
+      "check what wrote it");
+  }
   describeCells(text, this->folded, "kept, but partly inverted: the Jacobian changes its sign");
   return text.str();
 }

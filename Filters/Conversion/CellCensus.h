@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 
 namespace hop
 {
@@ -55,6 +56,9 @@ struct CellCensus
   SkippedCells level;
   /// The Jacobian determinant is zero everywhere, to rounding: no volume.
   SkippedCells collapsed;
+  /// By VTK cell type, and by what makes them sound if that is known (MisorderedCells::remedy): partly inverted cells
+  /// whose nodes seem to be in another order than VTK's. Cells without surface are counted, too.
+  std::map<std::pair<int, std::string>, SkippedCells> misordered;
   /// Kept cells whose Jacobian determinant changes its sign: partly inverted.
   SkippedCells folded;
 

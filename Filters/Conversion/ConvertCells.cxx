@@ -1,6 +1,5 @@
 #include "Conversion/ConvertCells.h"
 
-#include "Conversion/CellValues.h"
 #include "Conversion/GatherValues.h"
 #include "Elements/BernsteinProduct.h"
 
@@ -184,6 +183,38 @@ std::vector<JacobianSign> convertCells(const InputBlocks& blocks,
       }
     });
   return signs;
+}
+
+JacobianSign signInOrder(const InputBlocks& blocks, const BlockCell& where, const CellBasis& cell,
+  const std::vector<int>& order, CellValues& values)
+{
+  if (readCell(blocks, where, cell, values) != Verdict::Keep)
+  {
+    return JacobianSign::NotFinite;
+  }
+  std::vector<vtkIdType> ids;
+  std::vector<double> weights;
+  for (const int node : order)
+  {
+    ids.push_back(values.ids[node]);
+    if (!values.weights.empty())
+    {
+      weights.push_back(values.weights[node]);
+    }
+  }
+  values.ids = ids.data();
+  values.weights = std::move(weights);
+  values.components = 0; // the field does not matter
+  constexpr int width = 3;
+  const std::vector<Coefficient> coefficients = coefficientsOf(
+    controlRows(cell, nodalRows(blocks[where.block].grid, cell.basis.nodeCount(), values), width),
+    width);
+  const std::vector<double> control = controlWeights(cell, values);
+  const JacobianSign sign = jacobianSign(cell,
+    { cell.basis.domain(), cell.basis.degrees(), coefficients.data(),
+      values.weights.empty() ? nullptr : control.data() });
+  values.ids = nullptr; // they end here
+  return sign;
 }
 
 } // namespace hop

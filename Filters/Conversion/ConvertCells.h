@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Conversion/CellBases.h"
+#include "Conversion/CellValues.h"
 #include "Elements/ElementMesh.h"
 #include "Input/InputBlocks.h"
 
@@ -26,5 +27,12 @@ struct FieldRange
 std::vector<JacobianSign> convertCells(const InputBlocks& blocks,
   const std::vector<const CellBasis*>& bases, const FieldRange& range, ElementMesh& mesh,
   const ParallelFor& parallelFor);
+
+/// The sign of the Jacobian determinant that a cell has if its nodes are taken in an order: first node order[0] of the
+/// mesh, then node order[1], and so on.
+/// \param values memory to use
+/// \return NotFinite also where the cell cannot be read
+JacobianSign signInOrder(const InputBlocks& blocks, const BlockCell& where, const CellBasis& cell,
+  const std::vector<int>& order, CellValues& values);
 
 } // namespace hop

@@ -3,10 +3,12 @@
 #include "Conversion/CellValues.h"
 #include "Conversion/ConvertCells.h"
 #include "Conversion/JudgeCells.h"
+#include "Conversion/NodeOrder.h"
 #include "Elements/CornerNumbers.h"
 #include "Support/KeepMarked.h"
 
 #include "vtkDataArray.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -96,6 +98,10 @@ private:
   Room roomFor(const JudgedCells& range) const;
   void makeElements(const JudgedCells& range, const Room& before);
   Degrees elementDegrees(const CellBasis& cell) const;
+  void dropMisordered(std::vector<JacobianSign>& signs);
+  void drop(const MisorderedCells& misordered, std::vector<JacobianSign>& signs);
+  std::vector<BlockCell> foldedCells(
+    const std::vector<JacobianSign>& signs, const CellBasis* cell, bool& areMost) const;
   void dropCollapsed(const std::vector<JacobianSign>& signs);
   void dropDoubledGhosts(std::vector<double>& tolerances);
   void keep(const std::vector<char>& marks);
@@ -113,9 +119,10 @@ GridElements Builder::build()
   this->makeElements(
     judgeCells(this->Blocks, this->Isovalues, *this->Result.kinds, this->Parallel));
   this->Reached(ConversionProgress::Judged);
-  const std::vector<JacobianSign> signs = convertCells(this->Blocks, this->Result.bases,
+  std::vector<JacobianSign> signs = convertCells(this->Blocks, this->Result.bases,
     { this->Isovalues, this->Result.origin }, mesh, this->Parallel);
   this->Reached(ConversionProgress::Converted);
+  this->dropMisordered(signs);
   this->dropCollapsed(signs);
   std::vector<double> tolerances = cornerTolerances(mesh, this->Parallel);
   this->Reached(ConversionProgress::CornersFound);
@@ -187,6 +194,78 @@ Degrees Builder::elementDegrees(const CellBasis& cell) const
 {
   const Degrees& d = cell.basis.degrees();
   return this->Result.squared ? Degrees{ 2 * d[0], 2 * d[1], 2 * d[2] } : d;
+}
+
+/// Removes elements whose cells have their nodes in another order than VTK; their signs, too.
+void Builder::dropMisordered(std::vector<JacobianSign>& signs)
+{
+  std::vector<const CellBasis*> folded; // in the order of the cells, not of addresses
+  for (std::size_t e = 0; e < signs.size(); ++e)
+  {
+    const CellBasis* cell = this->Result.bases[e];
+    if (signs[e] == JacobianSign::Mixed &&
+      std::find(folded.begin(), folded.end(), cell) == folded.end())
+    {
+      folded.push_back(cell);
+    }
+  }
+  for (const CellBasis* cell : folded)
+  {
+    bool areMost = false;
+    const std::vector<BlockCell> cells = this->foldedCells(signs, cell, areMost);
+    const MisorderedCells misordered =
+      findMisordered(this->Blocks, cells, areMost, *cell, *this->Result.kinds, this->Parallel);
+    if (!misordered.isEmpty())
+    {
+      this->drop(misordered, signs);
+    }
+  }
+}
+
+/// The folded cells of a kind.
+/// \param areMost receives whether these are most of the kind's elements
+std::vector<BlockCell> Builder::foldedCells(
+  const std::vector<JacobianSign>& signs, const CellBasis* cell, bool& areMost) const
+{
+  // Of fewer cells nothing is said: a few bad cells are more likely than a wrong order. Chosen by experiment.
+  constexpr std::size_t leastToTell = 10;
+  std::size_t count = 0;
+  std::vector<BlockCell> cells;
+  for (std::size_t e = 0; e < signs.size(); ++e)
+  {
+    const bool isOfKind = this->Result.bases[e] == cell;
+    count += isOfKind;
+    if (isOfKind && signs[e] == JacobianSign::Mixed)
+    {
+      cells.push_back(this->Blocks.locate(this->Result.mesh.elements[e].cell));
+    }
+  }
+  areMost = cells.size() >= leastToTell && 2 * cells.size() > count;
+  return cells;
+}
+
+/// Counts misordered cells and removes their elements.
+void Builder::drop(const MisorderedCells& misordered, std::vector<JacobianSign>& signs)
+{
+  for (std::size_t b = 0; b < this->Blocks.size(); ++b)
+  {
+    const std::vector<vtkIdType>& cells = misordered.cells[b];
+    if (!cells.empty())
+    {
+      const int type = this->Blocks[b].grid->GetCellType(cells.front());
+      this->Result.census[b].misordered[{ type, misordered.remedy }].add(
+        { static_cast<vtkIdType>(cells.size()), cells.front() });
+    }
+  }
+  std::vector<char> marks(signs.size(), 1);
+  for (std::size_t e = 0; e < signs.size(); ++e)
+  {
+    const BlockCell where = this->Blocks.locate(this->Result.mesh.elements[e].cell);
+    const std::vector<vtkIdType>& cells = misordered.cells[where.block];
+    marks[e] = !std::binary_search(cells.begin(), cells.end(), where.cell);
+  }
+  keepMarked(signs, marks);
+  this->keep(marks);
 }
 
 /// Removes elements without volume or with coordinates that are not finite.

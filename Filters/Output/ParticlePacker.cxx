@@ -159,10 +159,12 @@ private:
   /// Each writes rows begin to end - 1 of one array.
   std::vector<std::function<void(std::ptrdiff_t begin, std::ptrdiff_t end)>> Writers;
   std::vector<EvaluatedArray> Evaluated;
+  bool HasSeveralIsovalues = false;
 };
 
 void Packer::pack(const std::vector<IsovalueParticles>& isovalues)
 {
+  this->HasSeveralIsovalues = isovalues.size() > 1;
   this->addPoints();
   this->addVertices();
   this->addPointArrays();
@@ -303,7 +305,11 @@ void Packer::addPointArrays()
       // Contour does the same: the array holds the isovalue, without noise of the tolerance's size.
       values = this->addArray<vtkDoubleArray>(
         name, 1, [](const ParticleRow& row, double* out) { *out = row.isovalue; });
-      this->Output->GetPointData()->SetScalars(values);
+      // ParaView colours by the active scalars at first: on one isosurface that would be one colour of a legend.
+      if (this->HasSeveralIsovalues)
+      {
+        this->Output->GetPointData()->SetScalars(values);
+      }
     }
     else
     {

@@ -9,6 +9,7 @@
 #include "Run/ParticleLimit.h"
 #include "Run/Ranks.h"
 #include "Run/RunMessages.h"
+#include "Run/SpacingAdvice.h"
 #include "Support/Interruptible.h"
 #include "Surface/SpacingSearch.h"
 
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <numeric>
 #include <optional>
 
 namespace hop
@@ -96,7 +98,8 @@ public:
   {
   }
 
-  void run(const Work& work);
+  /// \param counts one an isovalue; receives the numbers of particles in addition to what is there
+  void run(const Work& work, std::vector<std::int64_t>& counts);
 
 private:
   template <class Use>
@@ -108,8 +111,10 @@ private:
   std::vector<RankShare> shareOut(const GridElements& elements, const Work& work) const;
   SurfaceCount countWanted(
     const GridElements& elements, double isovalue, double spacing, const Work& work) const;
-  void fill(
-    const GridElements& elements, const std::vector<RankShare>& shares, const Work& work) const;
+  void fill(const GridElements& elements, const std::vector<RankShare>& shares, const Work& work,
+    std::vector<std::int64_t>& counts) const;
+  void reviewSpacing(const GridElements& elements, const RunOrigin& origin,
+    const Distribution& distribution, const Work& work) const;
   RunOrigin makeOrigin() const;
   Distribution distribute(const GridElements& elements, const RunOrigin& origin, std::size_t number,
     const RankShare& share, const Work& work) const;
@@ -124,7 +129,7 @@ private:
 
 /// Distributes the particles of all isovalues. A rank without blocks, or one that is to stop, takes part in what ranks
 /// agree on.
-void GroupRun::run(const Work& work)
+void GroupRun::run(const Work& work, std::vector<std::int64_t>& counts)
 {
   std::optional<GridElements> elements;
   this->unlessAborted([&]() { elements = this->convert(work.part(0.0, ProgressAt::Converted)); });
@@ -133,7 +138,7 @@ void GroupRun::run(const Work& work)
     elements ? *elements : none, work.part(ProgressAt::Converted, ProgressAt::Converted));
   if (elements)
   {
-    this->unlessAborted([&]() { this->fill(*elements, shares, work); });
+    this->unlessAborted([&]() { this->fill(*elements, shares, work, counts); });
   }
 }
 
@@ -202,8 +207,8 @@ SurfaceCount GroupRun::countWanted(
 
 /// Distributes particles and packs them.
 /// \throw Interrupted
-void GroupRun::fill(
-  const GridElements& elements, const std::vector<RankShare>& shares, const Work& work) const
+void GroupRun::fill(const GridElements& elements, const std::vector<RankShare>& shares,
+  const Work& work, std::vector<std::int64_t>& counts) const
 {
   const std::vector<double>& isovalues = this->Properties.isovalues;
   const double shareOfIsovalue =
@@ -217,12 +222,40 @@ void GroupRun::fill(
     particles.push_back({ origin.isovalue,
       this->distribute(elements, origin, this->Group * isovalues.size() + i, shares[i],
         work.part(begin, begin + shareOfIsovalue)) });
+    counts[i] += static_cast<std::int64_t>(particles.back().distribution.particles.size());
     this->Caller.tell(reviewDistribution(this->Blocks, particles.back().distribution,
       origin.isovalue, this->Properties.numberOfParticles));
+    this->reviewSpacing(elements, origin, particles.back().distribution, work);
   }
   const Work packing = work.part(ProgressAt::Distributed, 1.0);
   Interruptible loops(packing.monitor, packing.parallelFor);
   packParticles(this->Blocks, elements, particles, this->Properties.passesDiagnostics, loops);
+}
+
+/// Tells of places where the surface bends faster than the particles can follow, and what it takes to follow it.
+/// \throw Interrupted
+void GroupRun::reviewSpacing(const GridElements& elements, const RunOrigin& origin,
+  const Distribution& distribution, const Work& work) const
+{
+  if (distribution.report.aborted || !hasTooManyUndersampled(distribution))
+  {
+    return;
+  }
+  const std::int64_t number = this->Properties.numberOfParticles;
+  const Work rest = work.part(ProgressAt::Distributed, ProgressAt::Distributed);
+  const SizingFunction sizing{ number > 0 ? 0.0 : this->Scale.spacing,
+    this->Properties.angularDensity };
+  const auto countAt = [&](double spacing)
+  {
+    const std::vector<double> counts = particlesPerElement(
+      { &elements.mesh, elements.fieldIsovalue(origin.isovalue), this->Scale.tolerance },
+      { spacing, this->Properties.angularDensity }, rest.monitor, rest.parallelFor);
+    return std::accumulate(counts.begin(), counts.end(), 0.0);
+  };
+  const SpacingAdvice advice = adviseSpacing(distribution, sizing, countAt);
+  const int worst = distribution.particles[advice.worst].location.element;
+  this->Caller.tell({ reviewUndersampled(this->Blocks, distribution, advice,
+    elements.mesh.elements[worst].cell, origin.isovalue, number) });
 }
 
 /// What the group's isosurfaces are made of, but for the isovalue.
@@ -277,8 +310,9 @@ ParticleRun::ParticleRun(const RunProperties& properties, const RunScale& scale,
 {
 }
 
-void ParticleRun::run(const InputBlocks& blocks) const
+std::vector<std::int64_t> ParticleRun::run(const InputBlocks& blocks) const
 {
+  std::vector<std::int64_t> counts(this->Properties.isovalues.size(), 0);
   const std::vector<InputBlocks> groups = this->groupsOf(blocks);
   const InputBlocks none({}, blocks.component());
   // A number of particles is shared out group by group, also by ranks that have fewer of them.
@@ -294,9 +328,10 @@ void ParticleRun::run(const InputBlocks& blocks) const
       [&](const ParallelFor& parallelFor)
       {
         const Work whole{ { this->Caller.report }, parallelFor };
-        group.run(whole.part(begin, begin + share));
+        group.run(whole.part(begin, begin + share), counts);
       });
   }
+  return counts;
 }
 
 /// Blocks that are contoured as one mesh each; none where the run is to stop.

@@ -57,7 +57,8 @@ public:
     PreviousRun& previous);
 
   /// Every rank has to call this, also one without blocks.
-  void run(const InputBlocks& blocks) const;
+  /// \return the number of this rank's particles, one an isovalue
+  std::vector<std::int64_t> run(const InputBlocks& blocks) const;
 
 private:
   std::vector<InputBlocks> groupsOf(const InputBlocks& blocks) const;

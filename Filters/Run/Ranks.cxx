@@ -145,6 +145,12 @@ bool isOneOfRanks()
   return controllerOfRanks() != nullptr;
 }
 
+bool isFirstOfRanks()
+{
+  vtkMultiProcessController* controller = controllerOfRanks();
+  return !controller || controller->GetLocalProcessId() == 0;
+}
+
 std::size_t largestOfRanks(std::size_t local)
 {
   const std::vector<double> all = gather({ static_cast<double>(local) })[0];

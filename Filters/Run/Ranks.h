@@ -45,6 +45,9 @@ struct RankShare
 /// Whether there are other ranks.
 bool isOneOfRanks();
 
+/// Whether this rank is the one that says what all ranks know.
+bool isFirstOfRanks();
+
 /// Shares out a number of particles of each of some isosurfaces so that they stand as dense on all ranks:
 /// to each rank the part that it wants of what all want at the same spacing, rounded by largest remainders, so
 /// that the sum of those not in ghost cells is the number.

@@ -1,8 +1,13 @@
 #include "Run/RunMessages.h"
 
 #include "Output/ParticlePacker.h"
+#include "Run/Ranks.h"
+
+#include "vtkBoundingBox.h"
+#include "vtkDataArray.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -12,43 +17,10 @@ namespace hop
 namespace
 {
 
-/// Fraction of undersampled particles above which there is a warning, and which the recommended spacing leaves; the
-/// text says 1%. Smaller values warn of a few particles at a tip, larger ones hide visible flaws. Chosen by experiment.
-constexpr double warnUndersampledShare = 0.01;
-
-/// The spacing at which all but this fraction of the particles would follow the surface, if spread evenly.
-double resolvingSpacing(const Buffer<Particle>& particles)
-{
-  std::vector<double> curvatures;
-  curvatures.reserve(particles.size());
-  for (const Particle& particle : particles)
-  {
-    curvatures.push_back(particle.curvature.magnitude);
-  }
-  const auto above =
-    static_cast<std::ptrdiff_t>(warnUndersampledShare * static_cast<double>(curvatures.size()));
-  const auto rank = static_cast<std::ptrdiff_t>(curvatures.size()) - 1 - above;
-  std::nth_element(curvatures.begin(), curvatures.begin() + rank, curvatures.end());
-  return Particle::LargestCurvatureTimesSpacing / curvatures[rank];
-}
-
 /// What a user has to choose for fewer particles.
 const char* fewerParticles(std::int64_t numberOfParticles)
 {
   return numberOfParticles > 0 ? "a smaller NumberOfParticles" : "a larger Spacing";
-}
-
-/// What a user has to choose for particles that follow the curvature of the surface.
-std::string moreParticles(const Distribution& distribution, std::int64_t numberOfParticles)
-{
-  if (numberOfParticles > 0)
-  {
-    return "a larger NumberOfParticles";
-  }
-  std::ostringstream text;
-  text << "a Spacing of " << resolvingSpacing(distribution.particles)
-       << ", which follows all but 1%,";
-  return text.str();
 }
 
 std::string describeError(const DistributionReport& report, std::int64_t numberOfParticles)
@@ -70,15 +42,80 @@ std::string describeUndecided(const InputBlocks& blocks, const DistributionRepor
   return text.str();
 }
 
-std::string describeUndersampled(const Distribution& distribution, std::int64_t numberOfParticles)
+/// What to do where the surface bends too fast, or why there is nothing to do.
+std::string describeAdvice(
+  const SpacingAdvice& advice, const Particle& worst, std::int64_t numberOfParticles)
+{
+  std::ostringstream text;
+  if (advice.spacing > 0.0 && numberOfParticles > 0)
+  {
+    text << "Choose a NumberOfParticles of " << advice.count << ".";
+  }
+  else if (advice.spacing > 0.0)
+  {
+    text << "Choose a Spacing of " << advice.spacing << ", which takes about " << advice.count
+         << " particles.";
+  }
+  else if (advice.isSingular)
+  {
+    text << "The place is singular: the gradient of the field vanishes on the surface, or nearly "
+            "so, and no spacing can follow it. Another isovalue may avoid it.";
+  }
+  else
+  {
+    text << "It bends with a radius of about " << 1.0 / worst.curvature.magnitude
+         << " there, which more than " << SpacingAdvice::MostTimes
+         << " times the particles would be needed to follow.";
+  }
+  return text.str();
+}
+
+std::string describeUndersampled(const InputBlocks& blocks, const Distribution& distribution,
+  const SpacingAdvice& advice, std::int64_t cell, std::int64_t numberOfParticles)
 {
   const std::size_t count = distribution.particles.size();
   const std::int64_t undersampled = distribution.report.particlesUndersampled;
+  const Particle& worst = distribution.particles[advice.worst];
+  const glm::dvec3& x = worst.position.xyz;
   std::ostringstream text;
   text << "at " << undersampled << " of " << count << " particles ("
-       << std::lround(100.0 * undersampled / static_cast<double>(count))
-       << "%) the surface bends faster than their spacing can follow. Choose "
-       << moreParticles(distribution, numberOfParticles) << " or a larger AngularDensity.";
+       << std::lround(100.0 * static_cast<double>(undersampled) / static_cast<double>(count))
+       << "%) the surface bends faster than their spacing can follow, most at (" << x.x << ", "
+       << x.y << ", " << x.z << ") in " << blocks.describe(cell) << ". "
+       << describeAdvice(advice, worst, numberOfParticles);
+  return text.str();
+}
+
+/// Lowest and highest value of the chosen scalar on all ranks, magnitudes where they are contoured; the lowest is above
+/// the highest where there are no values.
+std::array<double, 2> rangeOfValues(const InputBlocks& blocks)
+{
+  constexpr int magnitude = -1; // as VTK numbers it
+  vtkBoundingBox box;
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+  {
+    double range[2];
+    blocks[b].scalars->GetFiniteRange(range, blocks.isMagnitude() ? magnitude : blocks.component());
+    if (range[0] <= range[1])
+    {
+      box.AddPoint(range[0], 0.0, 0.0);
+      box.AddPoint(range[1], 0.0, 0.0);
+    }
+  }
+  const vtkBoundingBox all = overAllRanks(box);
+  return { all.GetBound(0), all.GetBound(1) };
+}
+
+/// "Isovalue 7: no surface. 'u' goes from 0 to 1."
+std::string describeMissing(const InputBlocks& blocks, const std::vector<std::string>& isovalues,
+  const std::array<double, 2>& range)
+{
+  const char* name = blocks.size() > 0 ? blocks[0].scalars->GetName() : nullptr;
+  std::ostringstream text;
+  text << (isovalues.size() == 1 ? "Isovalue " : "Isovalues ") << listOf(isovalues)
+       << ": no surface. " << (blocks.isMagnitude() ? "The magnitude of " : "")
+       << (name ? "'" + std::string(name) + "'" : std::string("The array")) << " goes from "
+       << range[0] << " to " << range[1] << ".";
   return text.str();
 }
 
@@ -145,12 +182,45 @@ UserMessages reviewDistribution(const InputBlocks& blocks, const Distribution& d
   {
     add(UserMessage::Warning, describeUndecided(blocks, report));
   }
-  if (report.particlesUndersampled >
-    warnUndersampledShare * static_cast<double>(distribution.particles.size()))
-  {
-    add(UserMessage::Warning, describeUndersampled(distribution, numberOfParticles));
-  }
   return messages;
+}
+
+UserMessage reviewUndersampled(const InputBlocks& blocks, const Distribution& distribution,
+  const SpacingAdvice& advice, std::int64_t cell, double isovalue, std::int64_t numberOfParticles)
+{
+  std::ostringstream whole;
+  whole << "Isovalue " << isovalue << ": "
+        << describeUndersampled(blocks, distribution, advice, cell, numberOfParticles);
+  return { UserMessage::Warning, whole.str() };
+}
+
+UserMessages reviewSurfaces(const InputBlocks& blocks, const std::vector<double>& isovalues,
+  const std::vector<std::int64_t>& counts, bool isExplained)
+{
+  const bool explained = sumOfRanks(isExplained ? 1.0 : 0.0) > 0.0;
+  const bool isEmpty = sumOfRanks(static_cast<double>(blocks.cellCount())) == 0.0;
+  const std::array<double, 2> range = rangeOfValues(blocks);
+  std::vector<std::string> missing;
+  for (std::size_t i = 0; i < isovalues.size(); ++i)
+  {
+    const bool isOutside = isovalues[i] < range[0] || isovalues[i] > range[1];
+    if (sumOfRanks(static_cast<double>(counts[i])) == 0.0 && (isOutside || !explained))
+    {
+      std::ostringstream text;
+      text << isovalues[i];
+      missing.push_back(text.str());
+    }
+  }
+  UserMessages messages;
+  if (isEmpty && !explained)
+  {
+    messages.push_back({ UserMessage::Warning, "There is no surface: the input has no cells." });
+  }
+  else if (!isEmpty && !missing.empty())
+  {
+    messages.push_back({ UserMessage::Warning, describeMissing(blocks, missing, range) });
+  }
+  return isFirstOfRanks() ? messages : UserMessages();
 }
 
 } // namespace hop

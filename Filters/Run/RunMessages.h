@@ -3,6 +3,7 @@
 #include "Conversion/CellCensus.h"
 #include "Input/InputBlocks.h"
 #include "Input/UserMessage.h"
+#include "Run/SpacingAdvice.h"
 #include "Surface/Particles.h"
 
 #include <cstdint>
@@ -29,5 +30,18 @@ UserMessages reviewCells(const InputBlocks& blocks, const std::vector<CellCensus
 /// Tells what a distribution could not do.
 UserMessages reviewDistribution(const InputBlocks& blocks, const Distribution& distribution,
   double isovalue, std::int64_t numberOfParticles);
+
+/// Tells of a surface that bends faster than the spacing of its particles can follow.
+/// \param cell of the particle advice.worst
+UserMessage reviewUndersampled(const InputBlocks& blocks, const Distribution& distribution,
+  const SpacingAdvice& advice, std::int64_t cell, double isovalue, std::int64_t numberOfParticles);
+
+/// Tells which isovalues have no surface in any block on any rank, and the range of the values. Every rank has to call
+/// this.
+/// \param counts of this rank's particles, one an isovalue
+/// \param isExplained whether the run was ended early, or something else was told that may be the reason: then only
+///   isovalues out of the range are named
+UserMessages reviewSurfaces(const InputBlocks& blocks, const std::vector<double>& isovalues,
+  const std::vector<std::int64_t>& counts, bool isExplained);
 
 } // namespace hop

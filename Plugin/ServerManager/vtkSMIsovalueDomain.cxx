@@ -17,6 +17,8 @@ namespace
 /// of 0.9. Division by a power of ten leaves the decimal that a user reads; multiplication by 0.001 would not.
 double roundedToRange(double value, double range)
 {
+  // Digits of the range, without unit. More would show rounding errors of the quantiles as if they meant something,
+  // fewer would move the value by more than a hundredth of the range. Chosen for how it reads.
   constexpr int digits = 3;
   const double exponent = digits - 1 - std::floor(std::log10(range));
   const double scale = std::pow(10.0, std::abs(exponent));
@@ -31,6 +33,8 @@ double roundedToRange(double value, double range)
 /// range beside it there is none.
 double isovalueBetween(double low, double high)
 {
+  // Share of the range, without unit. Smaller: near the saddle of xyz the surface still bends too fast for the default
+  // spacing; larger: the value may leave the range in which most of a skewed field lies. Chosen by experiment.
   constexpr double aside = 0.05;
   const double range = high - low;
   const double middle = 0.5 * (low + high);
@@ -66,7 +70,47 @@ int vtkSMIsovalueDomain::SetDefaultValues(vtkSMProperty* property, bool useUnche
   isovalues.SetUseUnchecked(useUnchecked);
   isovalues.SetNumberOfElements(1);
   isovalues.Set(0, isovalue);
+  this->Unchecked = { this->GetChoice(true), { isovalue } };
+  this->Checked = useUnchecked ? this->Checked : this->Unchecked;
   return 1;
+}
+
+void vtkSMIsovalueDomain::Update(vtkSMProperty* changed)
+{
+  this->Superclass::Update(changed);
+  this->FollowChoice(false);
+  this->FollowChoice(true);
+}
+
+/// Sets the default of the array that is chosen, if the default for another array still stands. A value that the user
+/// typed but has not applied yet counts as touched.
+void vtkSMIsovalueDomain::FollowChoice(bool useUnchecked)
+{
+  vtkSMProperty* property = this->GetProperty();
+  const std::string choice = this->GetChoice(useUnchecked);
+  const std::vector<double> applied = vtkSMPropertyHelper(property).GetDoubleArray();
+  const std::vector<double> typed = vtkSMUncheckedPropertyHelper(property).GetDoubleArray();
+  if (useUnchecked && choice == this->GetChoice(false) && typed == applied)
+  {
+    this->Unchecked = this->Checked; // so it is where unchecked values were given up
+  }
+  const Default& last = useUnchecked ? this->Unchecked : this->Checked;
+  const bool isUntouched =
+    typed == this->Unchecked.Isovalue && (useUnchecked || applied == last.Isovalue);
+  if (!last.Isovalue.empty() && choice != last.Choice && isUntouched)
+  {
+    this->SetDefaultValues(property, useUnchecked);
+  }
+}
+
+std::string vtkSMIsovalueDomain::GetChoice(bool useUnchecked)
+{
+  vtkSMPropertyHelper array(this->GetRequiredProperty("ArraySelection"));
+  vtkSMPropertyHelper component(this->GetRequiredProperty("ComponentSelection"));
+  array.SetUseUnchecked(useUnchecked);
+  component.SetUseUnchecked(useUnchecked);
+  const char* name = array.GetInputArrayNameToProcess();
+  return std::to_string(component.GetAsInt()) + " " + (name ? name : "");
 }
 
 /// Gathers the values of the chosen array. Where every MPI rank runs the same script nothing is gathered: each rank

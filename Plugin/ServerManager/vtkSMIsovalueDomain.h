@@ -6,12 +6,18 @@
  * moves to where there is nothing to see. Here it is the middle of what remains without the lowest and the
  * highest hundredth of the nodal values, rounded to three digits of their range. Where that is 0 and values of both
  * signs exist, it is a twentieth of the range: fields that are symmetric about 0 often have a saddle at 0.
+ *
+ * Where another array or component is chosen, an isovalue that is still the default of the last choice becomes the
+ * default of the new one. In the panel, before Apply, this is the unchecked value.
  */
 #ifndef vtkSMIsovalueDomain_h
 #define vtkSMIsovalueDomain_h
 
 #include "vtkHighOrderParticleServerManagerModule.h" // for the export macro
 #include "vtkSMArrayRangeDomain.h"
+
+#include <string> // for the chosen array
+#include <vector> // for the default isovalue
 
 class vtkPVQuantileInformation;
 
@@ -26,6 +32,11 @@ public:
    */
   int SetDefaultValues(vtkSMProperty* property, bool useUnchecked) override;
 
+  /**
+   * Finds the range, and another default where another array or component is chosen and the isovalue is untouched.
+   */
+  void Update(vtkSMProperty* changed) override;
+
 protected:
   vtkSMIsovalueDomain();
   ~vtkSMIsovalueDomain() override;
@@ -34,7 +45,21 @@ private:
   vtkSMIsovalueDomain(const vtkSMIsovalueDomain&) = delete;
   void operator=(const vtkSMIsovalueDomain&) = delete;
 
+  /// A default, and the array and component for which it was found; no value: there was none.
+  struct Default
+  {
+    std::string Choice;
+    std::vector<double> Isovalue;
+  };
+
+  /// Array and component, as text.
+  std::string GetChoice(bool useUnchecked);
+  void FollowChoice(bool useUnchecked);
   void LookAtValues(vtkPVQuantileInformation* values);
+
+  /// Of the property's values, and of its unchecked values.
+  Default Checked;
+  Default Unchecked;
 };
 
 #endif

@@ -1,12 +1,15 @@
 """Cells that contradict themselves: left out with one clear warning that names the first and counts
 them, while the rest of the grid comes out as if they were not there."""
 
+import time
+
 import cells
 import numpy as np
 import pytest
 import support
 from paraview import simple
 from paraview.vtk.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonCore import reference
 
 SPACING = 0.08
 ISOVALUE = 0.09
@@ -265,3 +268,165 @@ def test_cells_without_volume():
     points[54:81, 2] = 0.5
     cells.set_points(grid, points)
     on_their_balls(expect_skipped(grid, [2], "without volume"))
+
+
+# Nodes in the order of another program
+
+
+def places_as_gmsh_numbers_them(corners, edges, middles=()):
+    """Nodes of degree 2 at the corners, in the middles of edges, and at `middles`."""
+    corners = np.array(corners, dtype=float)
+    return np.r_[corners, [(corners[a] + corners[b]) / 2 for a, b in edges], np.reshape(middles, (-1, 3))]
+
+
+CUBE = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
+EDGES_OF_CUBE = [(0, 1), (0, 3), (0, 4), (1, 2), (1, 5), (2, 3), (2, 6), (3, 7), (4, 5), (4, 7), (5, 6), (6, 7)]
+FACES_OF_CUBE = [(.5, .5, 0), (.5, 0, .5), (0, .5, .5), (1, .5, .5), (.5, 1, .5), (.5, .5, 1)]  # fmt: skip
+TETRAHEDRON = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+PRISM = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (0, 1, 1)]
+GMSH = {
+    "QUADRATIC_TETRA": places_as_gmsh_numbers_them(TETRAHEDRON, [(0, 1), (1, 2), (2, 0), (3, 0), (2, 3), (1, 3)]),
+    "QUADRATIC_HEXAHEDRON": places_as_gmsh_numbers_them(CUBE, EDGES_OF_CUBE),
+    "TRIQUADRATIC_HEXAHEDRON": places_as_gmsh_numbers_them(CUBE, EDGES_OF_CUBE, FACES_OF_CUBE + [(.5, .5, .5)]),
+    "QUADRATIC_WEDGE": places_as_gmsh_numbers_them(
+        PRISM, [(0, 1), (0, 2), (0, 3), (1, 2), (1, 4), (2, 5), (3, 4), (3, 5), (4, 5)]),
+}  # fmt: skip
+
+
+def grid_in_order(name, order=None, nodes=None, share=1.0, blocks=4, bent=0.0):
+    """A box of cells, of which a share lists its nodes as `nodes` maps VTK's list, with the field f."""
+    grid = cells.straight_grid(name, order, blocks)
+    points = support.points_of(grid)
+    points = 2 * points / points.max() - 1
+    points += bent * np.sin(3 * points[:, [1, 2, 0]])
+    dice = np.random.default_rng(1)
+    parts = []
+    for cell in range(grid.GetNumberOfCells()):
+        ids = cells.ids_of(grid, cell)
+        parts.append((grid.GetCellType(cell), nodes(ids) if dice.random() < share else ids))
+    changed = support.grid_of_cells(points, parts)
+    support.add_point_array(changed, "f", (points**2).sum(axis=1))
+    return changed
+
+
+def expect_misordered(grid, remedy, count, isovalue=0.36):
+    started = time.process_time()
+    particles, messages = support.run(grid, "f", isovalue, Spacing=SPACING)
+    assert time.process_time() - started < 3, "such files took a quarter of a minute"
+    assert messages.errors == []
+    (warning,) = [text for text in messages.warnings if "Not every cell" in text]
+    assert f"{count} cells of type vtk" in warning and "skipped: partly inverted, but sound with " + remedy in warning
+    assert "in another order than VTK's" in warning and "check what wrote it" in warning
+    assert support.reported(particles, "CellsSkipped") == count
+    return particles
+
+
+def swapped(a, b):
+    def swap(ids):
+        ids = list(ids)
+        ids[a], ids[b] = ids[b], ids[a]
+        return ids
+
+    return swap
+
+
+def parametric_nodes(name, order=None):
+    """Where VTK has the nodes of a cell."""
+    grid = cells.straight_grid(name, order)
+    cell = grid.GetCell(0)
+    places = []
+    # A cell's array of coordinates reaches Python without its length: asked for by evaluating the nodes instead.
+    for n in range(cell.GetNumberOfPoints()):
+        place = [0.0, 0.0, 0.0]
+        cell.EvaluatePosition(cell.GetPoints().GetPoint(n), [0.0] * 3, reference(0), place, reference(0.0), [0.0] * 64)
+        places.append(place)
+    return np.array(places)
+
+
+@pytest.mark.parametrize("bent", [0.0, 0.08])
+@pytest.mark.parametrize("name", GMSH)
+def test_nodes_in_the_order_of_gmsh(name, bent):
+    places = parametric_nodes(name)
+    listed = [int(np.linalg.norm(places - at, axis=1).argmin()) for at in GMSH[name]]
+    assert sorted(listed) == list(range(len(places))), "no order of these nodes"
+    grid = grid_in_order(name, None, lambda ids: [ids[n] for n in listed], bent=bent)
+    expected = "nodes 8 and 9 exchanged" if name == "QUADRATIC_TETRA" else "their nodes in the order 0 1 2 3"
+    particles = expect_misordered(grid, expected, grid.GetNumberOfCells())
+    assert particles.GetNumberOfPoints() == 0
+
+
+def test_sound_cells_beside_misordered_ones_keep_their_particles():
+    grid = grid_in_order("QUADRATIC_TETRA", None, swapped(8, 9), share=0.4)
+    sound = support.run_quietly(grid_in_order("QUADRATIC_TETRA", None, list), "f", 0.36, Spacing=SPACING)
+    bad = np.flatnonzero(np.random.default_rng(1).random(grid.GetNumberOfCells()) < 0.4)
+    particles = expect_misordered(grid, "nodes 8 and 9 exchanged", len(bad))
+    found = support.array_of(particles, "vtkOriginalCellIds")
+    assert not np.isin(found, bad).any()
+    assert 0.5 < particles.GetNumberOfPoints() / sound.GetNumberOfPoints() < 0.8
+    np.testing.assert_allclose(np.linalg.norm(support.points_of(particles), axis=1), 0.6, atol=1e-8)
+
+
+@pytest.mark.parametrize("degree", [2, 3])
+def test_edges_numbered_as_before_vtk_9_1(degree):
+    """Two vertical edges of Lagrange hexahedra changed places then."""
+    n = degree - 1
+    start = 8 + 10 * n
+
+    def exchange(ids):
+        return ids[:start] + ids[start + n : start + 2 * n] + ids[start : start + n] + ids[start + 2 * n :]
+
+    grid = grid_in_order("LAGRANGE_HEXAHEDRON", degree, exchange, blocks=3)
+    remedy = "nodes 18 and 19 exchanged" if degree == 2 else "4 of their 64 nodes in other places"
+    expect_misordered(grid, remedy, 27)
+
+
+@pytest.mark.parametrize("name, degree", [("HEXAHEDRON", None), ("LAGRANGE_HEXAHEDRON", 2), ("LAGRANGE_WEDGE", 3)])
+def test_lexicographic_nodes(name, degree):
+    places = parametric_nodes(name, degree)
+    listed = np.lexsort(np.round(places, 9).T)
+    grid = grid_in_order(name, degree, lambda ids: [ids[n] for n in listed])
+    expect_misordered(grid, "", grid.GetNumberOfCells())
+
+
+def test_orders_that_differ_from_cell_to_cell():
+    """Of cubic tetrahedra, edges that run one way or the other."""
+    dice = np.random.default_rng(3)
+
+    def turn(ids):
+        ids = list(ids)
+        for edge in range(6):
+            if dice.random() < 0.5:
+                a = 4 + 2 * edge
+                ids[a], ids[a + 1] = ids[a + 1], ids[a]
+        return ids
+
+    grid = grid_in_order("LAGRANGE_TETRAHEDRON", 3, turn, blocks=3)
+    particles, messages = support.run(grid, "f", 0.36, Spacing=SPACING)
+    assert len(messages.warnings) == 1
+    assert "their nodes in other orders, which differ from cell to cell" in messages.warnings[0]
+    # One in 64 cells has all edges the right way round.
+    assert grid.GetNumberOfCells() * 0.95 < support.reported(particles, "CellsSkipped") < grid.GetNumberOfCells()
+
+
+def test_an_order_that_is_not_recognised_is_suspected_where_most_cells_are_folded():
+    nodes = np.random.default_rng(1).permutation(40)
+    grid = grid_in_order("LAGRANGE_WEDGE", 3, lambda ids: [ids[n] for n in nodes])
+    particles, messages = support.run(grid, "f", 0.36, Spacing=SPACING)
+    (warning,) = messages.warnings
+    assert "128 cells of type vtkLagrangeWedge skipped: partly inverted, as most cells of the type are" in warning
+    assert "in another order than VTK's" in warning
+    assert support.reported(particles, "CellsSkipped") == 128
+
+
+def test_no_wrong_order_is_suspected_in_a_mesh_with_bad_cells():
+    """A node of some cells is moved far enough to fold them."""
+    for name, order in (("QUADRATIC_TETRA", None), ("LAGRANGE_HEXAHEDRON", 3), ("HEXAHEDRON", None)):
+        grid = grid_in_order(name, order, list)
+        dice = np.random.default_rng(2)
+        points = support.points_of(grid).copy()
+        some = dice.choice(len(points), grid.GetNumberOfCells() // 8, replace=False)
+        points[some] += dice.normal(0.0, 0.3, (len(some), 3))
+        cells.set_points(grid, points)
+        _, messages = support.run(grid, "f", 0.36, Spacing=SPACING)
+        (warning,) = [text for text in messages.warnings if "Not every cell" in text]
+        assert "kept, but partly inverted" in warning and "order" not in warning

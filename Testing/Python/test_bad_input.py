@@ -94,6 +94,13 @@ def assert_one_error(messages, *words):
         assert word in messages.errors[0]
 
 
+def expect_no_surface(data, array, isovalue, *words, **properties):
+    """One line says that there is no surface; returns the output."""
+    output, messages = support.run(data, array, isovalue, **properties)
+    assert_one_warning(messages, "no surface", *words)
+    return output
+
+
 def assert_one_warning(messages, *words):
     assert messages.errors == [] and len(messages.warnings) == 1
     for word in words:
@@ -136,7 +143,7 @@ def test_a_cell_array_asked_for_as_a_point_array(good):
     """ParaView itself averages a cell array to the points before any filter sees it. Here every cell has its own
     points, so that the array is constant in each cell and has no isosurface."""
     support.add_cell_array(good, "attribute", np.arange(float(good.GetNumberOfCells())))
-    assert_empty(support.run_quietly(good, "attribute", 1.5))
+    expect_no_surface(good, "attribute", 1.5)
 
 
 def test_a_block_without_the_array_leaves_the_others_right(good):
@@ -224,15 +231,27 @@ def test_weights_that_are_too_few_are_ignored(good):
 
 @pytest.mark.parametrize("isovalue", [-9.0, 99.0, 1e300])
 def test_an_isovalue_outside_the_range_is_no_error(good, isovalue):
-    particles = support.run_quietly(good, "F", isovalue)
+    low, high = np.sort(support.array_of(good, "F"))[[0, -1]]
+    line = f"Isovalue {isovalue:g}: no surface. 'F' goes from {low:g} to {high:g}."
+    particles = expect_no_surface(good, "F", isovalue, line)
     assert_empty(particles)
     assert support.reported(particles, "ElementsDropped") == CELLS**3
 
 
-def test_an_isovalue_outside_the_range_beside_one_inside(good):
+def test_isovalues_outside_the_range_beside_one_inside(good):
     alone = support.run_quietly(good, **SPHERE)
-    both = support.run_quietly(good, "F", [99.0, 1.0], Spacing=SPHERE["Spacing"])
+    both = expect_no_surface(good, "F", [99.0, 1.0, -7.0], "Isovalues 99, -7: no", Spacing=SPHERE["Spacing"])
     assert np.array_equal(support.points_of(both), support.points_of(alone))
+
+
+def test_blocks_of_which_only_one_has_surface_give_no_message(good):
+    far = block()
+    support.add_point_array(far, "F", support.array_of(good, "F") + 50.0)
+    composite = vtkMultiBlockDataSet()
+    for b, grid in enumerate((far, good)):
+        composite.SetBlock(b, grid)
+    support.run_quietly(composite, "F", 1.0, Spacing=0.2)
+    expect_no_surface(composite, "F", 99.0, "Isovalue 99: no surface. 'F' goes from")
 
 
 def test_an_isovalue_at_the_end_of_the_range(good):
@@ -249,10 +268,11 @@ def test_a_magnitude_is_never_negative(good, properties):
     alone = support.run_quietly(good, "V", [0.5], Component=3, **properties)
     assert alone.GetNumberOfPoints() > 100
     for isovalues in ([-0.5, 0.5], [0.5, -0.5]):
-        both = support.run_quietly(good, "V", isovalues, Component=3, **properties)
+        words = "Isovalue -0.5: no", "The magnitude of 'V'"
+        both = expect_no_surface(good, "V", isovalues, *words, Component=3, **properties)
         assert np.array_equal(support.points_of(both), support.points_of(alone))
         assert np.all(support.array_of(both, "Isovalue") == 0.5)
-    assert_empty(support.run_quietly(good, "V", -0.5, Component=3, **properties))
+    assert_empty(expect_no_surface(good, "V", -0.5, Component=3, **properties))
 
 
 @pytest.mark.parametrize("isovalue", [np.nan, np.inf, -np.inf])
@@ -366,7 +386,7 @@ def test_more_particles_than_a_tiny_surface_has_room_for_at_first(number, method
 
 @pytest.mark.parametrize("given, advice", [
     ({"Spacing": 0.5}, "Choose a Spacing of "),
-    ({"NumberOfParticles": 4}, "Choose a larger NumberOfParticles or"),
+    ({"NumberOfParticles": 4}, "Choose a NumberOfParticles of "),
 ])
 def test_too_few_particles_are_told_what_there_is_to_change(good, given, advice):
     particles, messages = support.run(good, "F", 0.2, AngularDensity=0, **given)
@@ -467,7 +487,7 @@ def test_a_constant_vector_is_no_reason_to_complain(good):
     """A free stream: for smaller magnitudes there is no surface, for its own magnitude the surface is everywhere."""
     support.add_point_array(good, "V", np.tile([3.0, 0.0, 4.0], (good.GetNumberOfPoints(), 1)))
     for isovalue in (0.0, 0.5, 4.9, 5.1):
-        particles = support.run_quietly(good, "V", isovalue, Component=3)
+        particles = expect_no_surface(good, "V", isovalue, "goes from 5 to 5", Component=3)
         assert_empty(particles)
         assert support.reported(particles, "CellsSkipped") == 0
         assert support.reported(particles, "ElementsDropped") == CELLS**3
@@ -488,19 +508,19 @@ def test_a_field_that_is_the_isovalue_on_one_side():
 
 
 def test_an_empty_grid():
-    assert_empty(support.run_quietly(vtkUnstructuredGrid(), "F", 1.0))
+    assert_empty(expect_no_surface(vtkUnstructuredGrid(), "F", 1.0, "the input has no cells"))
 
 
 def test_points_without_cells():
     grid = support.grid_of_cells(np.eye(3), [])
     support.add_point_array(grid, "F", np.arange(3.0))
-    assert_empty(support.run_quietly(grid, "F", 1.0))
+    assert_empty(expect_no_surface(grid, "F", 1.0, "the input has no cells"))
 
 
 def test_an_empty_composite():
     composite = vtkMultiBlockDataSet()
     composite.SetNumberOfBlocks(2)
-    output = support.run_quietly(composite, "F", 1.0)
+    output = expect_no_surface(composite, "F", 1.0, "the input has no cells")
     assert output.IsA("vtkMultiBlockDataSet") and output.GetNumberOfBlocks() == 2
 
 

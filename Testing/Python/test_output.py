@@ -112,9 +112,13 @@ def test_one_vertex_cell_a_particle(cylinder):
 
 
 def test_active_normals_and_scalars(cylinder):
+    """ParaView colours by the active scalars at first: not by an array that is constant on the surface."""
     attributes = support.run_quietly(cylinder, **CYLINDER).GetPointData()
     assert attributes.GetNormals().GetName() == "Normals"
-    assert attributes.GetScalars().GetName() == "pressure"
+    assert attributes.GetScalars() is None
+    isovalues = [CYLINDER["isovalues"], CYLINDER["isovalues"] * 1.001]
+    several = support.run_quietly(cylinder, **{**CYLINDER, "isovalues": isovalues}).GetPointData()
+    assert several.GetScalars().GetName() == "pressure"
 
 
 def test_report_is_in_the_field_data(cylinder):

@@ -3,10 +3,11 @@
 import re
 from pathlib import Path
 
+import cells
 import numpy as np
 import pytest
 from paraview import servermanager, simple
-from support import add_point_array, contents, grid_of_cells, output_of, points_of, reported, source_of
+from support import add_point_array, array_of, contents, grid_of_cells, output_of, points_of, reported, source_of
 from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON
 
 NAME = "HighOrderParticleIsosurface"
@@ -145,6 +146,125 @@ def test_the_default_isovalue_of_a_symmetric_field_is_beside_its_saddle(scale):
     output = output_of(proxy)
     assert output.GetNumberOfPoints() > 0
     assert reported(output, "SingularPoints") == 0
+
+
+def choose(proxy, array, unchecked=False):
+    """Contours by an array, or, as the panel does before Apply, chooses it unchecked."""
+    if unchecked:
+        proxy.SMProxy.GetProperty("SelectInputScalars").SetUncheckedElement(4, array)
+    else:
+        proxy.ContourBy = ["POINTS", array]
+
+
+def unchecked_isovalues(proxy):
+    isovalues = proxy.SMProxy.GetProperty("ContourValues")
+    return [isovalues.GetUncheckedElement(i) for i in range(isovalues.GetNumberOfUncheckedElements())]
+
+
+def test_an_untouched_isovalue_follows_contour_by():
+    ramp = np.linspace(0.0, 1.0, 8)
+    proxy = filter_on(u=ramp, v=10 * ramp, w=np.c_[100 * ramp, 50 * ramp, 0 * ramp])
+    assert list(proxy.Isosurfaces) == [0.5]
+    choose(proxy, "v")
+    assert list(proxy.Isosurfaces) == [5.0]
+    choose(proxy, "w")
+    assert list(proxy.Isosurfaces) == [50.0]
+    proxy.Component = "Y"
+    assert list(proxy.Isosurfaces) == [25.0]
+
+
+def test_an_isovalue_of_the_user_stays_when_contour_by_changes():
+    ramp = np.linspace(0.0, 1.0, 8)
+    proxy = filter_on(u=ramp, v=10 * ramp)
+    proxy.Isosurfaces = [0.25]
+    choose(proxy, "v")
+    assert list(proxy.Isosurfaces) == [0.25]
+    proxy.Isosurfaces = [1.0, 2.0]
+    choose(proxy, "u")
+    assert list(proxy.Isosurfaces) == [1.0, 2.0]
+
+
+def test_an_untouched_isovalue_follows_the_panel_before_apply():
+    ramp = np.linspace(0.0, 1.0, 8)
+    proxy = filter_on(u=ramp, v=10 * ramp, w=20 * ramp)
+    isovalues = proxy.SMProxy.GetProperty("ContourValues")
+    for array, expected in (("v", 5.0), ("w", 10.0), ("u", 0.5), ("v", 5.0)):
+        choose(proxy, array, unchecked=True)
+        assert unchecked_isovalues(proxy) == [expected]
+        assert list(proxy.Isosurfaces) == [0.5], "nothing is applied yet"
+    isovalues.SetUncheckedElement(0, 7.0)
+    choose(proxy, "w", unchecked=True)
+    assert unchecked_isovalues(proxy) == [7.0], "typed by the user"
+    choose(proxy, "w")  # Apply
+    assert unchecked_isovalues(proxy) == [7.0]
+
+
+@pytest.mark.parametrize("isovalue", [0.5, 3.0])
+def test_a_state_keeps_its_isovalue(tmp_path, isovalue):
+    """Also one that is the default of the array by which the filter would contour by itself."""
+    ramp = np.linspace(0.0, 1.0, 8)
+    proxy = filter_on(u=ramp, v=10 * ramp)
+    path = str(tmp_path / "grid.vtu")
+    simple.SaveData(path, proxy.Input)
+    reader = simple.XMLUnstructuredGridReader(FileName=[path])
+    reader.UpdatePipeline()
+    particles = simple.HighOrderParticleIsosurface(registrationName="particles", Input=reader)
+    choose(particles, "v")
+    particles.Isosurfaces = [isovalue]
+    for _ in range(2):
+        state = str(tmp_path / "state.pvsm")
+        simple.SaveState(state)
+        simple.ResetSession()
+        simple.LoadState(state)
+        loaded = simple.FindSource("particles")
+        assert loaded is not None
+        assert loaded.ContourBy == ["POINTS", "v"]
+        assert list(loaded.Isosurfaces) == [isovalue]
+        loaded.UpdatePipeline()
+        assert list(loaded.Isosurfaces) == [isovalue]
+
+
+def shown(isovalues):
+    """A cone that is a narrow neck where its tip was, covered with particles and shown. Returns filter and display."""
+    grid = cells.straight_grid("LAGRANGE_HEXAHEDRON", 2, 3)
+    x = points_of(grid) / points_of(grid).max() * 2 - 1
+    add_point_array(grid, "u", np.sum(x[:, :2] ** 2, axis=1) - x[:, 2] ** 2)
+    view = simple.CreateView("RenderView")
+    proxy = simple.HighOrderParticleIsosurface(Input=source_of(grid), ContourBy=["POINTS", "u"], Isosurfaces=isovalues)
+    return proxy, simple.Show(proxy, view)
+
+
+def range_of(table):
+    return [table.RGBPoints[0], table.RGBPoints[-4]]
+
+
+def test_one_isosurface_is_not_coloured_by_its_constant_isovalue():
+    _, display = shown([0.1])
+    assert display.ColorArrayName[1] == ""
+    _, display = shown([0.1, 0.2])
+    assert display.ColorArrayName[:] == ["POINTS", "u"]
+
+
+@pytest.mark.parametrize("name", ["Mean_Curvature", "Gauss_Curvature"])
+def test_the_first_legend_of_a_curvature_leaves_out_the_extremes(name):
+    proxy, display = shown([0.001])
+    values = array_of(output_of(proxy), name)
+    simple.ColorBy(display, ("POINTS", name))
+    table = simple.GetColorTransferFunction(name)
+    np.testing.assert_allclose(range_of(table), np.quantile(values, [0.02, 0.98]), rtol=0.02)
+    assert values.max() - values.min() > 2 * (range_of(table)[1] - range_of(table)[0])
+    simple.Render()
+    np.testing.assert_allclose(range_of(table), np.quantile(values, [0.02, 0.98]), rtol=0.02)
+    display.RescaleTransferFunctionToDataRange(False, True)
+    np.testing.assert_allclose(range_of(table), [values.min(), values.max()], err_msg="by hand, all are shown")
+
+
+def test_other_legends_have_the_range_of_the_data():
+    proxy, display = shown([0.001])
+    simple.ColorBy(display, ("POINTS", "Radius"))
+    values = array_of(output_of(proxy), "Radius")
+    np.testing.assert_allclose(
+        range_of(simple.GetColorTransferFunction("Radius")), [values.min(), values.max()])
 
 
 def test_one_odd_value_does_not_move_the_default_isovalue():
