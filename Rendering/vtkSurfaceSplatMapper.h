@@ -38,6 +38,10 @@
  * derivative of the unit normal along the surface: xx, yy, zz, xy, yz, xz; 1 / world units). The paraboloids are
  * fitted to the particles around, as the surface may bend differently there.
  *
+ * Particles that were moved after they had been computed take radii, shape operators and planes along, if one affine
+ * map (or one for each run of points) has moved them and a point array `Original_Placement` says where they were: 6
+ * components, position and unit normal as computed. A warning says that they were moved in another way.
+ *
  * Without point normals the disks face the viewer; without radii all particles have the radius `Radius`. One
  * warning says both. A particle with a normal, radius or position
  * that is zero, negative or not finite (positions may of course be zero) is skipped. Where the

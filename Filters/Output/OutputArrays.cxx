@@ -34,6 +34,12 @@ void writeShapeOperator(const ParticleRow& row, const RowCells&, double* out)
   std::copy(std::begin(components), std::end(components), out);
 }
 
+void writePlacement(const ParticleRow& row, const RowCells&, double* out)
+{
+  writeVector(row.particle->position.xyz, out);
+  writeVector(row.particle->normal.xyz, out + 3);
+}
+
 void writeParametricCoordinates(const ParticleRow& row, const RowCells& cells, double* out)
 {
   // Places on a face may have left the domain by a rounding error.
@@ -97,6 +103,11 @@ std::vector<ParticleArray> makeParticleArrays()
       "where the edge bends towards the plane's normal, 0 where Clip_Angle is below 10 degrees.",
       [](const ParticleRow& row, const RowCells&, double* out)
       { writeOfClips(row, out, [](const ClipPlane& plane) { return plane.edgeCurvature; }); } },
+    { "Original_Placement", 6,
+      "Position and Normals of the particle as computed. Renderers compare them with the points to "
+      "take radii, planes "
+      "and curvatures along where a filter has moved particles.",
+      writePlacement },
     { "Jump", 1,
       "F - c on the other side, where the particle stands on a boundary curve at which the field "
       "jumps from element to element; else 0.",
