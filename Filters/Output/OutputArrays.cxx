@@ -13,7 +13,8 @@ namespace hop
 namespace
 {
 
-void writeVector(const glm::dvec3& v, double* out)
+template <class Number>
+void writeVector(const glm::vec<3, Number>& v, Number* out)
 {
   std::copy_n(&v.x, 3, out);
 }
@@ -52,8 +53,8 @@ std::vector<ParticleArray> makeParticleArrays()
   return {
     { NormalsArray, 3,
       "Unit normal of the surface, -grad F/|grad F|: towards lower values, as Contour orients it.",
-      [](const ParticleRow& row, const RowCells&, double* out)
-      { writeVector(row.particle->normal.xyz, out); } },
+      [](const ParticleRow& row, const RowCells&, float* out)
+      { writeVector(glm::vec3(row.particle->normal.xyz), out); } },
     { "Radius", 1,
       "Radius of the particle's splat, world units: the distance to neighbours that the particle "
       "wants; less where it stands alone on a component of the surface smaller than this distance.",

@@ -46,7 +46,8 @@ void vtkSMParticleDisplayHelper::PostInitializeProxy(
   vtkSMProperty* kind = proxy->GetProperty("Representation");
   if (kind && kind->GetMTime() <= initializationTimeStamp && IsParticles(InputOf(proxy)))
   {
-    vtkSMPropertyHelper(kind).Set("Surface Splats"); // ParaView leaves properties alone that were set here
+    vtkSMPropertyHelper(kind).Set(
+      "Surface Splats"); // ParaView leaves properties alone that were set here
     proxy->UpdateVTKObjects();
   }
 }

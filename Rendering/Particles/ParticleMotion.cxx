@@ -4,7 +4,9 @@
 #include "vtkMath.h"
 #include "vtkPoints.h"
 #include "vtkVector.h"
+#if __has_include("vtkVectorOperators.h") // newer VTK has the operators in vtkVector.h
 #include "vtkVectorOperators.h"
+#endif
 
 #include <algorithm>
 #include <cmath>
