@@ -4,9 +4,12 @@
 #include "vtkObjectFactory.h"
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
+#include "vtkSMInputProperty.h"
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
+#include "vtkSMPropertyIterator.h"
 #include "vtkSMSourceProxy.h"
+#include "vtkSmartPointer.h"
 
 namespace
 {
@@ -23,15 +26,34 @@ bool IsParticles(vtkPVDataInformation* data)
     HasArray(data, "Radius", 1) && HasArray(data, "Isovalue", 1);
 }
 
-vtkPVDataInformation* InputOf(vtkSMProxy* representation)
+vtkPVDataInformation* DataOf(vtkSMProperty* input)
 {
-  if (!representation->GetProperty("Input"))
+  const vtkSMPropertyHelper helper(input);
+  auto* source = vtkSMSourceProxy::SafeDownCast(helper.GetAsProxy());
+  return source ? source->GetDataInformation(helper.GetOutputPort()) : nullptr;
+}
+
+// No points, or a probe's points of which none lies in a cell.
+bool IsNothing(vtkPVDataInformation* data)
+{
+  vtkPVArrayInformation* found =
+    data->GetArrayInformation("vtkValidPointMask", vtkDataObject::POINT);
+  return data->GetNumberOfPoints() == 0 || (found && found->GetComponentRange(0)[1] <= 0.);
+}
+
+bool HasParticlesAsInput(vtkSMProxy* filter)
+{
+  vtkSmartPointer<vtkSMPropertyIterator> properties;
+  properties.TakeReference(filter->NewPropertyIterator());
+  for (properties->Begin(); !properties->IsAtEnd(); properties->Next())
   {
-    return nullptr;
+    auto* input = vtkSMInputProperty::SafeDownCast(properties->GetProperty());
+    if (input && input->GetNumberOfProxies() > 0 && IsParticles(DataOf(input)))
+    {
+      return true;
+    }
   }
-  const vtkSMPropertyHelper input(representation, "Input");
-  auto* source = vtkSMSourceProxy::SafeDownCast(input.GetAsProxy());
-  return source ? source->GetDataInformation(input.GetOutputPort()) : nullptr;
+  return false;
 }
 }
 
@@ -43,11 +65,26 @@ vtkSMParticleDisplayHelper::~vtkSMParticleDisplayHelper() = default;
 void vtkSMParticleDisplayHelper::PostInitializeProxy(
   vtkSMProxy* proxy, vtkPVXMLElement*, vtkMTimeType initializationTimeStamp)
 {
+  vtkSMProperty* input = proxy->GetProperty("Input");
   vtkSMProperty* kind = proxy->GetProperty("Representation");
-  if (kind && kind->GetMTime() <= initializationTimeStamp && IsParticles(InputOf(proxy)))
+  vtkPVDataInformation* data = input ? DataOf(input) : nullptr;
+  if (!data || !kind)
   {
-    vtkSMPropertyHelper(kind).Set(
-      "Surface Splats"); // ParaView leaves properties alone that were set here
+    return;
+  }
+  if (kind->GetMTime() <= initializationTimeStamp && IsParticles(data))
+  {
+    // ParaView leaves properties alone that were set here.
+    vtkSMPropertyHelper(kind).Set("Surface Splats");
     proxy->UpdateVTKObjects();
+  }
+  vtkSMProxy* filter = vtkSMPropertyHelper(input).GetAsProxy();
+  if (IsNothing(data) && HasParticlesAsInput(filter))
+  {
+    vtkWarningMacro(<< filter->GetXMLLabel()
+                    << " found nothing in particles, which are points without cells around "
+                    << "them: use filters that look for cells or cut them (Plot Over Line, Probe, "
+                       "Resample, Slice, "
+                    << "Contour) on the grid.");
   }
 }

@@ -20,7 +20,8 @@ public:
 
   /**
    * Chooses 'Surface Splats' where the input of the representation is particles, unless the user has chosen: points with
-   * the arrays `Normals`, `Radius` and `Isovalue` and one cell each. Meshes have other numbers of cells.
+   * the arrays `Normals`, `Radius` and `Isovalue` and one cell each. Meshes have other numbers of cells. Warns where a filter
+   * found nothing in particles, because it looks for cells.
    */
   void PostInitializeProxy(
     vtkSMProxy* proxy, vtkPVXMLElement* xml, vtkMTimeType initializationTimeStamp) override;

@@ -87,6 +87,26 @@ def test_hints_of_representations_stay(plugin):
     assert hints.FindNestedElementByName("InitializationHelper") is not None
 
 
+# Filters that look for cells
+
+
+LOOK_FOR_CELLS = {
+    "Plot Over Line": lambda p, grid: simple.PlotOverLine(Input=p),
+    "Probe": lambda p, grid: simple.ProbeLocation(Input=p, ProbeType="Fixed Radius Point Source"),
+    "Resample With Dataset": lambda p, grid: simple.ResampleWithDataset(SourceDataArrays=p, DestinationMesh=grid),
+    "Slice": lambda p, grid: simple.Slice(Input=p),
+}
+
+
+@pytest.mark.parametrize("name", LOOK_FOR_CELLS)
+def test_filters_that_look_for_cells_say_why_nothing_comes(particles, grid, name, capfd):
+    shown_as(LOOK_FOR_CELLS[name](particles, grid))
+    said = "".join(capfd.readouterr())
+    assert said.count("found nothing in particles") == 1, said
+    shown_as(LOOK_FOR_CELLS[name](grid, grid))
+    assert "found nothing" not in "".join(capfd.readouterr())
+
+
 # How moved particles look
 
 
