@@ -28,7 +28,7 @@
  * double precision (the contoured one holds the isovalue), and arrays of the filter's own:
  * - geometry: `Normals`, `Radius`, `Mean_Curvature`, `Gauss_Curvature`, `Shape_Operator`, `Residual`;
  * - where the surface ends or turns near the particle: `Clip_Normal`, `Clip_Distance`, `Clip_Angle`, `Clip_Curvature`
- *   (with method FAST), and `Jump`;
+ *   (with method FAST), and `Jump`; where it was computed, for filters that move it: `Original_Placement`;
  * - where the particle is: `Isovalue`, `ParametricCoordinates`, `vtkOriginalCellIds`.
  *
  * Cell arrays are copied to the vertex cells. Field data of the output: those of the input, and a report of what the run
