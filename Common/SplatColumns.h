@@ -25,6 +25,7 @@ constexpr SplatColumn SplatColumns[] = {
   { "Clip_Angle", 2 },
   { "Clip_Curvature", 2 },
   { "Shape_Operator", 6 },
+  { "Original_Placement", 6 },
 };
 
 /// Components of the array.

@@ -29,7 +29,8 @@
  * - geometry: `Normals`, `Radius`, `Mean_Curvature`, `Gauss_Curvature`, `Residual`;
  * - where the particle is: `Isovalue`, `vtkOriginalCellIds`;
  * - for the renderer alone, in the hidden array `__vtkValidMask__Splats`: `Shape_Operator`; where the surface ends or
- *   turns near the particle: `Clip_Normal`, `Clip_Distance`, `Clip_Angle`, `Clip_Curvature` (with method FAST).
+ *   turns near the particle: `Clip_Normal`, `Clip_Distance`, `Clip_Angle`, `Clip_Curvature` (with method FAST);
+ *   where the particle was computed, for filters that move it: `Original_Placement`.
  *
  * With PassDiagnostics these are arrays under their own names, and `Jump` and `ParametricCoordinates` come with them.
  *

@@ -126,6 +126,7 @@ struct vtkSurfaceSplatMapper::Internals
 
   bool SaidNoNormals = false;
   bool SaidNoRadius = false;
+  bool SaidWarped = false;
 
   // The layers of an isovalue. As far as memory goes each isovalue has its own, so that each pass of depth peeling
   // finds them drawn.
@@ -331,6 +332,15 @@ void vtkSurfaceSplatMapper::UploadParticles(vtkRenderer* renderer, vtkPolyData* 
       << gpu.Buffers.GetNumberOfParticles() << " of " << particles.GetNumberOfParticles()
       << " particles; the others are not drawn.");
   }
+  if (particles.Warped && !gpu.SaidWarped)
+  {
+    vtkWarningMacro("The particles have been moved, and not all of them by one affine map such as "
+                    "a rotation: their "
+                    "splats are drawn flat and reach over edges, as curvatures and edges are those "
+                    "of the surface "
+                    "before. Move the grid instead, and compute the particles on it.");
+  }
+  gpu.SaidWarped = particles.Warped;
   vtkDebugMacro(<< particles.Skipped << " particles cannot be drawn");
   gpu.PointIds = std::move(particles.PointIds);
   gpu.CellIds = std::move(particles.CellIds);

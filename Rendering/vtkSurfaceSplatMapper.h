@@ -41,6 +41,10 @@
  * Instead of these arrays there may be one that holds them side by side, see Common/SplatColumns.h. An array under its
  * own name counts where there are both.
  *
+ * Particles that were moved after they had been computed take radii, shape operators and planes along, if one affine
+ * map (or one for each run of points) has moved them and a point array `Original_Placement` says where they were: 6
+ * components, position and unit normal as computed. A warning says that they were moved in another way.
+ *
  * Without point normals the disks face the viewer; without radii all particles have the radius `Radius`. One
  * warning says both. A particle with a normal, radius or position
  * that is zero, negative or not finite (positions may of course be zero) is skipped. Where the

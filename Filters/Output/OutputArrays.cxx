@@ -14,7 +14,8 @@ namespace hop
 namespace
 {
 
-void writeVector(const glm::dvec3& v, double* out)
+template <class Number>
+void writeVector(const glm::vec<3, Number>& v, Number* out)
 {
   std::copy_n(&v.x, 3, out);
 }
@@ -33,6 +34,12 @@ void writeShapeOperator(const ParticleRow& row, const RowCells&, double* out)
   const double components[] = { shape[0][0], shape[1][1], shape[2][2], shape[0][1], shape[1][2],
     shape[0][2] }; // VTK's order of symmetric tensors
   std::copy(std::begin(components), std::end(components), out);
+}
+
+void writePlacement(const ParticleRow& row, const RowCells&, double* out)
+{
+  writeVector(row.particle->position.xyz, out);
+  writeVector(row.particle->normal.xyz, out + 3);
 }
 
 void writeParametricCoordinates(const ParticleRow& row, const RowCells& cells, double* out)
@@ -76,8 +83,8 @@ std::vector<ParticleArray> makeParticleArrays()
   return {
     { NormalsArray, 3,
       "Unit normal of the surface, -grad F/|grad F|: towards lower values, as Contour orients it.",
-      [](const ParticleRow& row, const RowCells&, double* out)
-      { writeVector(row.particle->normal.xyz, out); } },
+      [](const ParticleRow& row, const RowCells&, float* out)
+      { writeVector(glm::vec3(row.particle->normal.xyz), out); } },
     { "Radius", 1,
       "Radius of the particle's splat, world units: the distance to neighbours that the particle "
       "wants; less where it stands alone on a component of the surface smaller than this distance.",
@@ -131,6 +138,10 @@ std::vector<ParticleArray> makeParticleArrays()
       [](const ParticleRow& row, const RowCells&, double* out)
       { writeOfClips(row, out, [](const ClipPlane& plane) { return plane.edgeCurvature; }); },
       ArrayUse::Diagnostic },
+    { "Original_Placement", 6,
+      "Position and Normals of the particle as computed. Renderers compare them with the points to "
+      "take radii, planes and curvatures along where a filter has moved particles.",
+      writePlacement, ArrayUse::Diagnostic },
     { "Jump", 1,
       "F - c on the other side, where the particle stands on a boundary curve at which the field "
       "jumps from element to element; else 0.",

@@ -41,8 +41,8 @@ struct ParticleArray
   int components;
   /// For users: what the numbers mean, and their unit.
   const char* meaning;
-  /// Its kind is the type of the array: double or vtkIdType.
-  std::variant<RowWriter<double>, RowWriter<vtkIdType>> write;
+  /// Its kind is the type of the array: double, float where file formats know nothing else, or vtkIdType.
+  std::variant<RowWriter<double>, RowWriter<float>, RowWriter<vtkIdType>> write;
   ArrayUse use = ArrayUse::Always;
 };
 

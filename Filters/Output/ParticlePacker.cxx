@@ -9,6 +9,7 @@
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
+#include "vtkFloatArray.h"
 #include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
@@ -270,6 +271,12 @@ void Packer::addOwnArrays()
     {
       this->addArray<vtkDoubleArray>(array.name, array.components,
         [this, write = *reals](const ParticleRow& row, double* out)
+        { write(row, this->Cells, out); });
+    }
+    else if (const auto* singles = std::get_if<RowWriter<float>>(&array.write))
+    {
+      this->addArray<vtkFloatArray>(array.name, array.components,
+        [this, write = *singles](const ParticleRow& row, float* out)
         { write(row, this->Cells, out); });
     }
     else if (const auto* ids = std::get_if<RowWriter<vtkIdType>>(&array.write))

@@ -2,6 +2,7 @@
 
 #include "Common/SplatColumns.h"
 #include "Particles/FitShapes.h"
+#include "Particles/ParticleMotion.h"
 #include "vtkCellArray.h"
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
@@ -44,6 +45,12 @@ struct Overlap
    */
   static constexpr double AtCrease = 0.15;
 };
+
+/**
+ * Squared difference of unit normals that float32 may have rounded on their way, up to which they are the same: an angle
+ * of 1e-5. A larger one turns normals twice that a filter has turned a little.
+ */
+constexpr double SameNormal = 1e-10;
 
 void CollectIds(vtkPolyData* input, SplatParticles& particles)
 {
@@ -169,6 +176,37 @@ void ReadClipPlanes(const ParticleArrays& arrays, vtkIdType id, float planes[12]
   }
 }
 
+// Takes a particle to where an affine map has moved its point. A normal that the map has turned already stays.
+void Carry(const LinearMap& map, const ParticleArrays& arrays, vtkIdType id,
+  SplatParticles& particles, vtkIdType i)
+{
+  double before[3];
+  double now[3];
+  double normal[3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    before[axis] = arrays.Placements->GetComponent(id, 3 + axis);
+    now[axis] = particles.Normal[4 * i + axis];
+  }
+  map.CarryNormal(before, normal);
+  if (arrays.Radii)
+  {
+    particles.CentreRadius[4 * i + 3] *= static_cast<float>(map.StretchAcross(before));
+  }
+  if (arrays.Normals && vtkMath::Distance2BetweenPoints(before, now) < SameNormal)
+  {
+    std::copy_n(normal, 3, &particles.Normal[4 * i]);
+  }
+  if (!particles.Shape.empty())
+  {
+    map.CarryShape(before, &particles.Shape[8 * i]);
+  }
+  if (!particles.Clip.empty())
+  {
+    map.CarryClips(before, &particles.Clip[12 * i]);
+  }
+}
+
 // The fourth number of a particle's normal, see SplatParticles::Normal.
 float TagOf(const ParticleArrays& arrays, const SplatParticles& particles,
   const std::vector<double>& isovalues, vtkIdType particle)
@@ -276,6 +314,7 @@ ParticleArrays ParticleArrays::FromPointData(vtkPointData* data)
   arrays.ClipAngles = find("Clip_Angle");
   arrays.ClipCurvatures = find("Clip_Curvature");
   arrays.ShapeOperators = find("Shape_Operator");
+  arrays.Placements = find("Original_Placement");
   arrays.Isovalues = data->GetArray("Isovalue");
   return arrays;
 }
@@ -318,12 +357,15 @@ SplatParticles SplatParticles::FromPolyData(vtkPolyData* input, const ParticleAr
   CollectIds(input, particles);
   particles.Origin = MiddleOfFinitePoints(input->GetPoints());
 
+  const ParticleMotion motion(input->GetPoints(), arrays.Placements);
+  particles.Warped = motion.IsWarped();
+
   const vtkIdType count = particles.GetNumberOfParticles();
-  const bool clipped = arrays.ClipNormals && arrays.ClipDistances;
+  const bool clipped = arrays.ClipNormals && arrays.ClipDistances && !particles.Warped;
   particles.CentreRadius.assign(4 * count, 0.f);
   particles.Normal.assign(4 * count, 0.f);
-  const bool shaped =
-    arrays.ShapeOperators && arrays.Normals && arrays.ShapeOperators->GetNumberOfComponents() == 6;
+  const bool shaped = arrays.ShapeOperators && arrays.Normals &&
+    arrays.ShapeOperators->GetNumberOfComponents() == 6 && !particles.Warped;
   particles.Shape.assign(shaped ? 8 * count : 0, 0.f);
   particles.Clip.assign(clipped ? 12 * count : 0, 0.f);
   const std::vector<double> isovalues = FindIsovalues(arrays.Isovalues, particles.PointIds);
@@ -350,6 +392,10 @@ SplatParticles SplatParticles::FromPolyData(vtkPolyData* input, const ParticleAr
         if (clipped)
         {
           ReadClipPlanes(arrays, id, &particles.Clip[12 * i]);
+        }
+        if (const LinearMap* map = motion.Of(id))
+        {
+          Carry(*map, arrays, id, particles, i);
         }
       }
     });

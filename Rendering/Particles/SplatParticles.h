@@ -56,6 +56,11 @@ struct ParticleArrays
 
   vtkDataArray* ShapeOperators =
     nullptr; ///< dn/dx, 1 / world units; 6 components: xx, yy, zz, xy, yz, xz
+  /**
+   * 6 a point: position and unit normal as they were when all other arrays were computed. Particles that one affine map
+   * has moved since then take the other arrays along. Without it they have not moved.
+   */
+  vtkDataArray* Placements = nullptr;
   vtkDataArray* Isovalues =
     nullptr; ///< one a point; particles of different values are not averaged
   vtkDataArray* CellColors = nullptr; ///< see vtkSurfaceSplatMapper::SetCellColorArrayName()
@@ -95,6 +100,11 @@ struct SplatParticles
    */
   std::vector<std::array<vtkIdType, 2>> IsovalueRanges;
   vtkIdType Skipped = 0; ///< number of particles that cannot be drawn
+  /**
+   * Particles have been moved by something that is no affine map: nobody knows how shape operators and planes are to
+   * follow, so that there are none.
+   */
+  bool Warped = false;
 
   /**
    * Number of isovalues up to which they are told apart; particles of more are all of one class. The pixels of the

@@ -341,7 +341,7 @@ def test_a_rational_quarter_pipe_is_round(array, component):
     assert len(radius) > 200
     np.testing.assert_allclose(radius, 1.37, atol=1e-9, rtol=0)
     inward = -np.c_[points[:, :2] / radius[:, None], np.zeros(len(points))]
-    np.testing.assert_allclose(support.array_of(particles, "Normals"), inward, atol=1e-9)
+    np.testing.assert_allclose(support.array_of(particles, "Normals"), inward, atol=1e-7)
     np.testing.assert_allclose(np.abs(support.array_of(particles, "Mean_Curvature")), 0.5 / 1.37, atol=1e-6)
     np.testing.assert_allclose(support.array_of(particles, "Gauss_Curvature"), 0.0, atol=1e-6)
     positions, _, _ = support.evaluate_by_vtk(quarter_pipe(), particles, ["f"])

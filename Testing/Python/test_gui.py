@@ -280,3 +280,31 @@ def test_the_abort_button_ends_a_run(plugin, data, screen, tmp_path):
     assert points == vertices == 0
     assert ended - pressed < 2.0, "the last press did it"
     assert again > 500, "a run afterwards is whole"
+
+
+@pytest.fixture
+def particle_file(plugin, data, tmp_path):
+    reader = simple.XMLUnstructuredGridReader(FileName=[data("mfem_hex1_p8.vtu")])
+    surface = simple.HighOrderParticleIsosurface(Input=reader, ContourBy=["POINTS", "u"], Isosurfaces=[0.2])
+    path = tmp_path / "particles.vtp"
+    simple.SaveData(str(path), proxy=surface)
+    return path
+
+
+def test_what_cuts_particles_hides_them(plugin, particle_file, screen, tmp_path):
+    display, screen_file = screen
+    process = start(
+        display, tmp_path, plugin, f"--data={particle_file}",
+        f"--test-script={Path(__file__).parent / 'gui_clip_events.xml'}", "--exit")
+    try:
+        window = watch(process, screen_file, 120)
+        said = process.stdout.read()
+    finally:
+        process.kill()
+    write_png(Path(os.environ["HOP_BUILD"]) / "Testing" / "gui_clip.png", window)
+    assert process.returncode == 0, said
+    surface = (window[:, :, 0] < 70) & (window[:, :, 2] > window[:, :, 0] + 40)  # blue: one isovalue, one colour
+    middle = WIDTH // 4 + 3 * WIDTH // 8  # of the view, as of the particles
+    view = slice(HEIGHT // 4, -50)
+    assert surface[view, WIDTH // 4 : middle].sum() > 10000, "the half that is left"
+    assert surface[view, middle + 50 : -20].sum() < 100, "nothing of the half that was cut off"
