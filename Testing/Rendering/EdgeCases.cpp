@@ -248,7 +248,8 @@ SurfaceCase MakeEdgeCase(const std::string& name)
   }
   GridBuilder grid;
   kind->second(grid, std::stod(name.substr(colon + 1)));
-  return MakeSurfaceCase(name, grid.Finish(), "f", 0., Spacing);
+  return MakeSurfaceCase(
+    name, grid.Finish(), "f", 0., 0.5 * Spacing); // a share of the longest side, 2
 }
 
 const std::vector<std::string>& EdgeCaseNames()

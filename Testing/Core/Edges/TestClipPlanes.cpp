@@ -308,7 +308,8 @@ TEST(ClipPlanes, OfBoundariesThatBendStronglyAreNotTurnedFar)
     particles[0].normal = onBoundary[0].particle.normal;
     particles[0].spacing = spacing;
     const ParticleGrid all(particles, onBoundary, {});
-    markClipPlanes(surface, all, {});
+    Buffer<BoundaryParticle> thinned;
+    markClipPlanes(surface, all, thinned, {});
     const ClipPlane& plane = particles[0].clips[0];
     ASSERT_TRUE(plane.exists()) << bend;
     EXPECT_GT(plane.normal.xyz.x, std::cos(0.5)) << bend;
