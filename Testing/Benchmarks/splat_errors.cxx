@@ -1,9 +1,10 @@
 // Where pictures of Surface Splats are wrong, at default settings: a table of pixels, and crops of the worst places.
 //
-//   splat_errors [--size PIXELS] [--near COUNT] [--crops FOLDER] [--cases FILE] [CASE...]
+//   splat_errors [--size PIXELS] [--near COUNT] [--spacing SHARE] [--crops FOLDER] [--cases FILE] [CASE...]
 //
 // A case is one of EdgeCases.h, FILE.vtu:ARRAY:ISOVALUE, or one of SurfaceCases.h; FILE holds such cases, one a line,
-// as default_pictures.py writes them. Without any the cases of EdgeCases.h are taken. The spacing is the filter's own.
+// as default_pictures.py writes them. Without any the cases of EdgeCases.h are taken. The spacing of files is the
+// filter's own, or a share of the longest side of the grid.
 // Each is seen from two or more cameras: one that sees all, and COUNT (default 1) near places where the most edges
 // meet. Pictures are held against a ray caster that finds the true polynomial surface (RayCaster.h); PictureErrors.h
 // says what counts as wrong. Wants a display.
@@ -30,6 +31,7 @@ struct Options
 {
   int Size = 512;
   int Near = 1;
+  double Spacing = 0.;
   std::string Crops;
   std::vector<std::string> Cases;
 };
@@ -51,6 +53,10 @@ Options Parse(int argc, char* argv[])
     else if (argument == "--near" && hasValue)
     {
       options.Near = std::atoi(argv[++i]);
+    }
+    else if (argument == "--spacing" && hasValue)
+    {
+      options.Spacing = std::atof(argv[++i]);
     }
     else if (argument == "--crops" && hasValue)
     {
@@ -77,12 +83,12 @@ Options Parse(int argc, char* argv[])
   return options;
 }
 
-SurfaceCase MakeCase(const std::string& name)
+SurfaceCase MakeCase(const std::string& name, double spacing)
 {
   const auto& edges = EdgeCaseNames();
   const bool isEdge = std::count(name.begin(), name.end(), ':') == 1 ||
     std::find(edges.begin(), edges.end(), name) != edges.end();
-  return isEdge ? MakeEdgeCase(name) : MakeSurfaceCase(name, 0.);
+  return isEdge ? MakeEdgeCase(name) : MakeSurfaceCase(name, spacing);
 }
 
 // The name of a file or case without folders, as part of the name of a picture.
@@ -128,7 +134,7 @@ int main(int argc, char* argv[])
   {
     try
     {
-      const SurfaceCase surface = MakeCase(name);
+      const SurfaceCase surface = MakeCase(name, options.Spacing);
       Measure(surface, "all", ViewOfAll(surface, options.Size), options.Crops);
       int number = 0;
       for (const auto& camera : ViewsOfCorners(surface, options.Size, options.Near))

@@ -215,6 +215,14 @@ const std::map<std::string, AddCells>& Kinds()
           [=](const glm::dvec3& x)
           { return x.x + x.y + x.z + 3. - size * Spacing * std::sqrt(0.5); });
       } },
+    { "notch",
+      [](GridBuilder& grid, double size)
+      {
+        const Field field = [=](const glm::dvec3& x)
+        { return x.z - 0.1 - 0.2 * size * (x.x + x.y); };
+        grid.AddBox({ 2, 4, 4 }, 1, { -1., -1., -1. }, { 0., 1., 1. }, Same, field);
+        grid.AddBox({ 2, 2, 4 }, 1, { 0., -1., -1. }, { 1., 0., 1. }, Same, field);
+      } },
     { "cone",
       [](GridBuilder& grid, double size)
       {
@@ -264,8 +272,8 @@ const std::vector<std::string>& EdgeCaseNames()
         all.push_back(std::string(kind) + ":" + size);
       }
     }
-    for (const char* name : { "cone:0", "cone:0.6", "fan:4", "fan:5", "fan:6", "fan:8", "fan:12",
-           "pleats:6", "pleats:8", "pleats:12", "facets:8", "facets:14" })
+    for (const char* name : { "notch:0", "notch:1", "cone:0", "cone:0.6", "fan:4", "fan:5", "fan:6",
+           "fan:8", "fan:12", "pleats:6", "pleats:8", "pleats:12", "facets:8", "facets:14" })
     {
       all.push_back(name);
     }

@@ -10,6 +10,7 @@
 //   shaving   what a slanted plane cuts from an edge of a cube, that wide
 //   cap       what a face of the cube leaves of a sphere: a disc of that radius
 //   corner    a triangle with sides of that length, in a corner of a cube
+//   notch     a plane, with a slope of 0.28 SIZE, around an edge of the domain that is turned inwards
 //   cone      a double cone; the size moves its tip from a corner of the mesh
 //   fan       the tip of a pyramid with SIZE sides, each an element: as many creases meet
 //   pleats    the same with every second edge folded in

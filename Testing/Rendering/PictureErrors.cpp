@@ -62,7 +62,10 @@ PixelError ErrorAt(const SurfacePicture& drawn, const SurfacePicture& reference,
   {
     return covered == around ? PixelError::Hole : PixelError::None;
   }
-  return covered == 0                  ? PixelError::Beyond
+  const bool isAtNearPlane =
+    camera.nearest > 0. && drawn.Seen[here].depth < camera.nearest + 2. * spacing;
+  return isAtNearPlane                 ? PixelError::None
+    : covered == 0                     ? PixelError::Beyond
     : offset > LargestOffset * spacing ? PixelError::Depth
     : shade > LargestShade             ? PixelError::Shade
                                        : PixelError::None;

@@ -429,7 +429,8 @@ bool areAcrossSurface(const BoundaryParticle& a, const BoundaryParticle& b)
 {
   const WorldVector step = b.particle.position - a.particle.position;
   const double h = a.patch.spacing;
-  if (a.particle.location.element == b.particle.location.element && length(step) < Nearness::OnePlace * h)
+  if (a.particle.location.element == b.particle.location.element &&
+    length(step) < Nearness::OnePlace * h)
   {
     return true;
   }
