@@ -524,7 +524,7 @@ TEST(ClipPlanes, OfBothSidesCutParticlesOnStrips)
             !cutsOff(p, place);
         });
     };
-    for (double x = -1.01; x <= 1.01; x += 0.2 * spacing)
+    for (double x = -1.005; x <= 1.01; x += 0.2 * spacing)
     {
       const double end = glm::mix(width.x, width.y, 0.5 + 0.5 * x);
       const bool isInside = std::abs(x) < 1.0;
