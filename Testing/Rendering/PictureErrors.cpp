@@ -216,7 +216,7 @@ namespace
 {
 constexpr double NearView = 8.; // half the height of a near view, spacings
 
-// For each particle how many of its planes cut its splat: those with more than ten degrees within a spacing.
+// For each particle how many of its first two planes cut its splat: those with more than ten degrees within a spacing.
 std::vector<int> CountEdges(vtkPolyData* particles)
 {
   vtkDataArray* angles = particles->GetPointData()->GetArray("Clip_Angle");
@@ -225,7 +225,7 @@ std::vector<int> CountEdges(vtkPolyData* particles)
   std::vector<int> counts(particles->GetNumberOfPoints(), 0);
   for (std::size_t i = 0; angles && i < counts.size(); ++i)
   {
-    for (int plane = 0; plane < angles->GetNumberOfComponents(); ++plane)
+    for (int plane = 0; plane < std::min(2, angles->GetNumberOfComponents()); ++plane)
     {
       counts[i] += angles->GetComponent(i, plane) > 10. &&
         distances->GetComponent(i, plane) < radii->GetComponent(i, 0);

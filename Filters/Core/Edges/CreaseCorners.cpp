@@ -202,7 +202,8 @@ bool CreaseCorners::isOpen(int i, const glm::dvec3& place, const std::vector<int
     });
 }
 
-/// How far a plane leaves the surface open behind one place of its cut, world units.
+/// How far a plane leaves the surface open behind one place of its cut, world units. What lies right behind may be
+/// covered, and be open farther off.
 /// \param start from the particle to that place
 double CreaseCorners::openFrom(int i, int plane, const glm::dvec3& start, const glm::dvec3& away,
   const std::vector<int>& around) const
@@ -219,18 +220,17 @@ double CreaseCorners::openFrom(int i, int plane, const glm::dvec3& start, const 
   };
   const double step = placeStep * particle.spacing;
   const double farthest = Cover::StandOff / std::sin(particle.clips[plane].dihedralAngle);
-  int count = 0;
-  for (;; ++count)
+  double open = 0.0;
+  for (int count = 1; count * placeStep <= farthest; ++count)
   {
-    const glm::dvec3 offset = start + (count + 1) * step * away;
-    const glm::dvec3 place = particle.position.xyz + offset;
-    if (!(glm::length(offset) <= coverReach * particle.spacing) ||
-      (count + 1) * placeStep > farthest || isBeyondOther(offset) ||
-      !this->isOpen(i, place, around))
+    const glm::dvec3 offset = start + count * step * away;
+    if (!(glm::length(offset) <= coverReach * particle.spacing) || isBeyondOther(offset))
     {
-      return count == 0 ? 0.0 : (count + 0.5) * step;
+      break;
     }
+    open = this->isOpen(i, particle.position.xyz + offset, around) ? (count + 0.5) * step : open;
   }
+  return open;
 }
 
 /// How far a plane of particle i is to be moved, world units: as far as it leaves the surface open anywhere.

@@ -422,10 +422,10 @@ TEST_P(ClipPlanesWhereCreasesMeet, LeaveHardlyAnyHoles)
     seedsWithHoles += open > before;
   }
   EXPECT_GT(places, 3000 * seeds);
-  // Most seeds leave no hole. A corner narrower than a tenth of a spacing may be overlooked, and now and then one of a
-  // particle's width: which seeds those are depends on rounding. Seen with GCC and Clang, with and without vectors: up
-  // to 6 of 24 seeds with a hole, up to 46 open places of 3,000 for one seed of 40.
-  EXPECT_LE(seedsWithHoles, seeds / 3);
+  // Most seeds leave no hole; which do depends on rounding. Of 60 seeds and all numbers of sides 4% leave one: a few
+  // places, narrower than a tenth of a spacing, where planes may be moved no farther; and, for one seed in a hundred, up
+  // to 56 places where no particle stands within a spacing.
+  EXPECT_LE(seedsWithHoles, seeds / 4);
   EXPECT_LE(open, places / 1000);
 }
 
