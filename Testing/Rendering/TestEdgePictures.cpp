@@ -61,6 +61,7 @@ TEST(PictureErrors, AreFoundAndCounted)
   drawn.Seen[3 * 16 + 3] = {};
   drawn.Seen[12 * 16 + 3] = reference.Seen[0];
   drawn.Seen[8 * 16 + 9] = reference.Seen[0]; // a pixel beside the outline
+  drawn.Shade[8 * 16 + 9] = 1.;
   drawn.Seen[3 * 16 + 9].depth += 0.2 * spacing;
   drawn.Shade[3 * 16 + 12] -= 0.2;
   const PictureErrors errors = FindErrors(drawn, reference, camera, spacing);
@@ -69,5 +70,5 @@ TEST(PictureErrors, AreFoundAndCounted)
   EXPECT_EQ(errors.Pixels[3 * 16 + 9], PixelError::Depth);
   EXPECT_EQ(errors.Pixels[3 * 16 + 12], PixelError::Shade);
   EXPECT_EQ(errors.Count(PixelError::None), 252);
-  EXPECT_EQ(WorstPlaces(errors, 16, 4, 10).size(), 4u);
+  EXPECT_EQ(WorstPlaces(errors, 16, 4, 10).size(), 3u); // one of the squares holds two errors
 }
