@@ -155,7 +155,8 @@ bool ReadNormal(vtkDataArray* normals, vtkIdType id, int plane, double normal[3]
   return IsFinite(normal);
 }
 
-// See SplatParticles::ClipStride. Third planes that cut no splat do not count.
+// See SplatParticles::ClipStride. Third planes that cut no splat do not count, nor do those at which the surface is
+// almost smooth: they would change pictures by little, and cost time.
 int ClipStrideOf(const ParticleArrays& arrays, const std::vector<vtkIdType>& ids)
 {
   if (!arrays.ClipNormals || !arrays.ClipDistances)
@@ -167,7 +168,10 @@ int ClipStrideOf(const ParticleArrays& arrays, const std::vector<vtkIdType>& ids
     double normal[3];
     const double radius = arrays.Radii ? arrays.Radii->GetComponent(id, 0) : arrays.FallbackRadius;
     return ReadNormal(arrays.ClipNormals, id, 2, normal) && vtkMath::Norm(normal) > 0. &&
-      arrays.ClipDistances->GetComponent(id, 2) < radius;
+      arrays.ClipDistances->GetComponent(id, 2) < radius &&
+      (!arrays.ClipAngles || arrays.ClipAngles->GetNumberOfComponents() < 3 ||
+        SplatParticles::OverlapAt(arrays.ClipAngles->GetComponent(id, 2)) <
+          SplatParticles::LeastSmoothOverlap);
   };
   return CountPlanes(arrays) == 3 && std::any_of(ids.begin(), ids.end(), hasThird) ? 20 : 12;
 }
