@@ -20,10 +20,10 @@ struct SplatColumn
 
 /// In the order of the components. New ones belong at the end: files keep the array as it was.
 constexpr SplatColumn SplatColumns[] = {
-  { "Clip_Normal", 6 },
-  { "Clip_Distance", 2 },
-  { "Clip_Angle", 2 },
-  { "Clip_Curvature", 2 },
+  { "Clip_Normal", 9 },
+  { "Clip_Distance", 3 },
+  { "Clip_Angle", 3 },
+  { "Clip_Curvature", 3 },
   { "Shape_Operator", 6 },
   { "Original_Placement", 6 },
 };

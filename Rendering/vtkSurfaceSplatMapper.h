@@ -21,7 +21,7 @@
  * isovalue have two layers of their own. Opaque splats of different isovalues (up to 128) are not averaged,
  * however near their surfaces are: the nearest one is seen.
  *
- * Particles beside a boundary curve or a crease of the surface may carry up to two planes that cut
+ * Particles beside a boundary curve or a crease of the surface may carry up to three planes that cut
  * their disks off, so that the surface ends in a line and creases stay sharp:
  * - `Clip_Normal`: 3 components a plane, unit vector to the side that is cut off; zero: no plane.
  * - `Clip_Distance`: 1 component a plane, distance of the plane from the particle along the vector, >= 0,

@@ -20,12 +20,14 @@ void writeVector(const glm::vec<3, Number>& v, Number* out)
   std::copy_n(&v.x, 3, out);
 }
 
-/// Writes a quantity of both clip planes.
+/// Writes a quantity of all clip planes.
 template <class Quantity>
 void writeOfClips(const ParticleRow& row, double* out, const Quantity& quantity)
 {
-  out[0] = quantity(row.particle->clips[0]);
-  out[1] = quantity(row.particle->clips[1]);
+  for (const ClipPlane& plane : row.particle->clips)
+  {
+    *out++ = quantity(plane);
+  }
 }
 
 void writeShapeOperator(const ParticleRow& row, const RowCells&, double* out)
@@ -104,25 +106,28 @@ std::vector<ParticleArray> makeParticleArrays()
       writeShapeOperator, ArrayUse::Diagnostic },
     { "Residual", 1, "Distance from the isosurface to first order, |F - c|/|grad F|, world units.",
       [](const ParticleRow& row, const RowCells&, double* out) { *out = row.particle->residual; } },
-    { "Clip_Normal", 6,
-      "Unit normals, pointing to the far side, of up to two planes near the particle at which the "
-      "surface ends (at boundary curves) or turns (at faces between elements); zero where there is "
+    { "Clip_Normal", 9,
+      "Unit normals, pointing to the far side, of up to three planes near the particle at which "
+      "the surface ends (at boundary curves) or turns (at faces between elements); zero where there is "
       "no plane. Splats are to be cut at boundary curves and at creases, and to give way to the "
       "splats of the other side where Clip_Angle is below 10 degrees.",
       [](const ParticleRow& row, const RowCells&, double* out)
       {
-        writeVector(row.particle->clips[0].normal.xyz, out);
-        writeVector(row.particle->clips[1].normal.xyz, out + 3);
+        for (const ClipPlane& plane : row.particle->clips)
+        {
+          writeVector(plane.normal.xyz, out);
+          out += 3;
+        }
       },
       ArrayUse::Diagnostic },
-    { "Clip_Distance", 2,
+    { "Clip_Distance", 3,
       "Distance of the particle from each of these planes, world units. A plane touches its "
       "boundary curve or crease where this is nearest. Where creases meet, a plane is moved "
       "outwards if nothing else would cover what it cuts off.",
       [](const ParticleRow& row, const RowCells&, double* out)
       { writeOfClips(row, out, [](const ClipPlane& plane) { return plane.distance; }); },
       ArrayUse::Diagnostic },
-    { "Clip_Angle", 2,
+    { "Clip_Angle", 3,
       "Largest angle seen at each of these planes between the normals of both sides, degrees: 180 "
       "at boundary curves, else at least 1.5. A step of the surface counts as an angle of "
       "step/spacing, below 10 degrees.",
@@ -132,7 +137,7 @@ std::vector<ParticleArray> makeParticleArrays()
           row, out, [](const ClipPlane& plane) { return glm::degrees(plane.dihedralAngle); });
       },
       ArrayUse::Diagnostic },
-    { "Clip_Curvature", 2,
+    { "Clip_Curvature", 3,
       "Curvature of the boundary curve or crease at each of these planes, 1/world units: positive "
       "where the edge bends towards the plane's normal, 0 where Clip_Angle is below 10 degrees.",
       [](const ParticleRow& row, const RowCells&, double* out)

@@ -124,11 +124,12 @@ bool Projector::HidesOthers(const Footprint& splat) const
 {
   const auto isPlane = [](const float* normal)
   { return normal[0] != 0.f || normal[1] != 0.f || normal[2] != 0.f; };
-  const float* planes = this->All.Clip ? this->All.Clip + 12 * splat.Particle : nullptr;
+  const float* planes =
+    this->All.Clip ? this->All.Clip + this->All.ClipStride * splat.Particle : nullptr;
   return splat.RadiusVC > 0.f && std::isfinite(splat.HalfSize) && splat.Nearest > -1.f &&
     glm::all(glm::greaterThan(splat.Middle, glm::vec2(0.f))) &&
     glm::all(glm::lessThan(splat.Middle, this->Size)) &&
-    !(planes && (isPlane(planes) || isPlane(planes + 4)));
+    !(planes && (isPlane(planes) || isPlane(planes + 4))); // a third plane comes after two others
 }
 
 // The largest depth that the passes give the splat.

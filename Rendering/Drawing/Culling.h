@@ -36,6 +36,7 @@ struct Splats
   const float* CentreRadius;
   const float* Normal;
   const float* Clip; ///< nullptr without planes
+  int ClipStride;    ///< numbers a particle
   int Stride;
   float RadiusScale; ///< factor on all radii
   float LeastPixels; ///< smallest radius of a splat in the picture, pixels

@@ -9,6 +9,7 @@
 #include "Drawing/SplatView.h"
 #include "OpenGL/ShaderDefine.h"
 #include "Particles/SplatBuffers.h"
+#include "Particles/SplatParticles.h"
 #include "SplatDiskGlsl.h"
 #include "SplatEdgeGlsl.h"
 #include "SplatPassFragmentGlsl.h"
@@ -132,6 +133,8 @@ std::string Definitions(const SplatDrawing& drawing, const SplatPrimitives::Styl
     ShaderDefine("SPLAT_LEAST_PIXELS", SmallSplats::LeastPixels) +
     ShaderDefine("SPLAT_LEAST_COSINE", SmallSplats::LeastCosine) +
     ShaderDefine("SPLAT_HAS_CLIP", drawing.Buffers->GetHasClip()) +
+    ShaderDefine("SPLAT_CLIP_PLANES",
+      std::max(1, SplatParticles::ClipPlanesIn(drawing.Buffers->GetClipStride()))) +
     ShaderDefine("SPLAT_GAP_SHARE", SplatPrimitives::GapShare) +
     ShaderDefine("SPLAT_CURVED", drawing.DrawsCurved()) +
     ShaderDefine("SPLAT_SKIPS_HIDDEN", style.SkipsHidden && drawing.DrawsPoints()) +
@@ -201,9 +204,10 @@ void SplatPrimitives::Cull(const SplatDrawing& drawing, double push)
     {
       const auto [first, end] = drawing.GetDrawnRange();
       visible = Culling::FindVisible(camera,
-        { particles.CentreRadius, particles.Normal, particles.Clip, drawing.Stride,
-          static_cast<float>(drawing.RadiusScale), static_cast<float>(SmallSplats::LeastPixels),
-          static_cast<float>(mostPush), static_cast<float>(splatReach()), cellSize },
+        { particles.CentreRadius, particles.Normal, particles.Clip,
+          drawing.Buffers->GetClipStride(), drawing.Stride, static_cast<float>(drawing.RadiusScale),
+          static_cast<float>(SmallSplats::LeastPixels), static_cast<float>(mostPush),
+          static_cast<float>(splatReach()), cellSize },
         first, end);
     });
   if (!found)

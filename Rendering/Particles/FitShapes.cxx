@@ -130,15 +130,17 @@ vtkVector3d Times(const float shape[8], const vtkVector3d& v)
 // The share of its weight that a neighbour at this offset (model coordinates) has: 0 if the surface ends or has a
 // crease before it. A neighbour less than `margin` behind a plane counts as one before it.
 double ShareOf(
-  const std::vector<float>& clip, vtkIdType particle, const vtkVector3d& offset, double margin)
+  const SplatParticles& particles, vtkIdType particle, const vtkVector3d& offset, double margin)
 {
   double share = 1.;
-  for (vtkIdType plane = 0; plane < 2 && !clip.empty(); ++plane)
+  const std::vector<float>& clip = particles.Clip;
+  for (int plane = 0; plane < SplatParticles::ClipPlanesIn(particles.ClipStride); ++plane)
   {
-    const vtkIdType first = 12 * particle + 4 * plane;
-    const bool isSmooth = clip[12 * particle + 8 + plane] >= SplatParticles::LeastSmoothOverlap;
+    const vtkIdType first = particles.ClipStride * particle + SplatParticles::PlaneAt(plane);
+    const vtkIdType overlap = particles.ClipStride * particle + SplatParticles::OverlapPlace(plane);
+    const bool isSmooth = clip[overlap] >= SplatParticles::LeastSmoothOverlap;
     const double across = VectorAt(clip, first).Dot(offset);
-    const double bend = 0.5 * clip[12 * particle + 10 + plane];
+    const double bend = 0.5 * clip[overlap + 2];
     const double edge = clip[first + 3] + bend * (offset.SquaredNorm() - across * across);
     if (across > edge + margin)
     {
@@ -189,7 +191,7 @@ public:
     // At disk coordinates t the paraboloid has the height -t.Q t / 2 and the normal n + Q t, not normalized. Each
     // neighbour gives three rows: two of the normal, one of the height.
     const double weight = std::exp(-Neighbors::Sharpness * square) *
-      ShareOf(this->Particles.Clip, this->Particle, offset, Neighbors::Margin * this->Radius);
+      ShareOf(this->Particles, this->Particle, offset, Neighbors::Margin * this->Radius);
     this->Fit.Add({ x, y, 0. }, normal.Dot(this->Tangent) / cosine, weight);
     this->Fit.Add({ 0., x, y }, normal.Dot(this->Bitangent) / cosine, weight);
     this->Fit.Add({ 0.5 * x * x, x * y, 0.5 * y * y }, -height, weight);

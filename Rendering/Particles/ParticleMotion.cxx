@@ -300,28 +300,24 @@ void LinearMap::CarryShape(const double normal[3], float shape[8]) const
 }
 
 //------------------------------------------------------------------------------
-void LinearMap::CarryClips(const double normal[3], float clips[12]) const
+void LinearMap::CarryClip(const double normal[3], float plane[4], float& curvature) const
 {
-  for (int plane = 0; plane < 2; ++plane)
+  const vtkVector3d across(plane[0], plane[1], plane[2]);
+  if (across.SquaredNorm() == 0.)
   {
-    float* numbers = clips + 4 * plane;
-    const vtkVector3d across(numbers[0], numbers[1], numbers[2]);
-    if (across.SquaredNorm() == 0.)
-    {
-      continue;
-    }
-    const vtkVector3d image = Times(this->InverseTranspose, across);
-    const double length = image.Norm(); // distances from the plane shrink by it
-    const vtkVector3d along = vtkVector3d(normal).Cross(across).Normalized();
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      numbers[axis] = static_cast<float>(image[axis] / length);
-    }
-    numbers[3] = static_cast<float>(numbers[3] / length);
-    // The edge stands off the plane by curvature / 2 times the squared distance along it.
-    const double stretch = length * Times(this->Forward, along).SquaredNorm();
-    clips[10 + plane] = static_cast<float>(stretch > 0. ? clips[10 + plane] / stretch : 0.);
+    return;
   }
+  const vtkVector3d image = Times(this->InverseTranspose, across);
+  const double length = image.Norm(); // distances from the plane shrink by it
+  const vtkVector3d along = vtkVector3d(normal).Cross(across).Normalized();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    plane[axis] = static_cast<float>(image[axis] / length);
+  }
+  plane[3] = static_cast<float>(plane[3] / length);
+  // The edge stands off the plane by curvature / 2 times the squared distance along it.
+  const double stretch = length * Times(this->Forward, along).SquaredNorm();
+  curvature = static_cast<float>(stretch > 0. ? curvature / stretch : 0.);
 }
 
 //------------------------------------------------------------------------------

@@ -43,8 +43,10 @@ public:
    */
   void CarryShape(const double normal[3], float shape[8]) const;
 
-  /** Both clip planes (SplatParticles::Clip) of a particle. Planes without normal stay so. */
-  void CarryClips(const double normal[3], float clips[12]) const;
+  /**
+   * A clip plane of a particle (normal and distance), and the curvature of its edge. A plane without normal stays so.
+   */
+  void CarryClip(const double normal[3], float plane[4], float& curvature) const;
 
 private:
   Matrix Forward;

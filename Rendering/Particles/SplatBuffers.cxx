@@ -33,10 +33,11 @@ void SplatBuffers::Upload(vtkOpenGLRenderWindow* window, const SplatParticles& p
   GLint limit = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
   this->HasClip = !particles.Clip.empty();
+  this->ClipStride = particles.ClipStride;
   this->HasShape = !particles.Shape.empty();
   this->HasColor = false;
   // Texels of one particle in the longest buffer.
-  const GLint texels = this->HasClip ? 3 : this->HasShape ? 2 : 1;
+  const GLint texels = this->HasClip ? this->ClipStride / 4 : this->HasShape ? 2 : 1;
   const vtkIdType count = std::min<vtkIdType>(particles.GetNumberOfParticles(), limit / texels);
   this->NumberOfParticles = count;
   this->IsovalueRanges = particles.IsovalueRanges;
@@ -54,7 +55,7 @@ void SplatBuffers::Upload(vtkOpenGLRenderWindow* window, const SplatParticles& p
   this->Normal.Upload(window, particles.Normal.data(), count);
   if (this->HasClip)
   {
-    this->Clip.Upload(window, particles.Clip.data(), 3 * count);
+    this->Clip.Upload(window, particles.Clip.data(), this->ClipStride / 4 * count);
   }
   if (this->HasShape)
   {
@@ -125,7 +126,7 @@ void SplatBuffers::SetSamplers(vtkShaderProgram* program)
   (this->HasClip ? this->Clip : this->CentreRadius).SetSampler(program, "splatClip");
   (this->HasShape ? this->Shape : this->CentreRadius).SetSampler(program, "splatShape");
   (this->HasColor ? this->Color : this->CentreRadius).SetSampler(program, "splatColor");
-  program->SetUniformi("splatHasClip", this->HasClip ? 1 : 0);
+  program->SetUniformi("splatClipTexels", this->HasClip ? this->ClipStride / 4 : 0);
 }
 
 //------------------------------------------------------------------------------

@@ -54,6 +54,9 @@ public:
   /** Whether particles carry clip planes. */
   bool GetHasClip() const { return this->HasClip; }
 
+  /** See SplatParticles::ClipStride. */
+  int GetClipStride() const { return this->ClipStride; }
+
   /** Whether particles carry shape operators. */
   bool GetHasShape() const { return this->HasShape; }
 
@@ -98,11 +101,12 @@ private:
   std::array<double, 3> Origin = { 0., 0., 0. };
   TexelBuffer CentreRadius;
   TexelBuffer Normal;
-  TexelBuffer Clip;  // three texels a particle; empty without clip planes
+  TexelBuffer Clip;  // three or five texels a particle; empty without clip planes
   TexelBuffer Shape; // two texels a particle; empty where the surface is nearly flat
   TexelBuffer Color;
   TexelBuffer PointIds; // four bytes a particle, as the selection passes write them
   bool HasClip = false;
+  int ClipStride = 0;
   bool HasShape = false;
   bool HasColor = false;
 };

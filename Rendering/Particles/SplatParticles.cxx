@@ -147,31 +147,66 @@ bool IsStronglyBent(const SplatParticles& particles)
   return found > StrongBend::Share * count;
 }
 
-// Reads both planes of a particle. A plane that is missing or not finite cuts nothing off.
-void ReadClipPlanes(const ParticleArrays& arrays, vtkIdType id, float planes[12])
+// Number of planes that the arrays have room for, three at most.
+int CountPlanes(const ParticleArrays& arrays)
 {
-  const int count = std::min(
-    arrays.ClipNormals->GetNumberOfComponents() / 3, arrays.ClipDistances->GetNumberOfComponents());
+  return arrays.ClipNormals && arrays.ClipDistances
+    ? std::min({ arrays.ClipNormals->GetNumberOfComponents() / 3,
+        arrays.ClipDistances->GetNumberOfComponents(), 3 })
+    : 0;
+}
+
+bool ReadNormal(vtkDataArray* normals, vtkIdType id, int plane, double normal[3])
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    normal[axis] = normals->GetComponent(id, 3 * plane + axis);
+  }
+  return IsFinite(normal);
+}
+
+// See SplatParticles::ClipStride. Third planes that cut no splat do not count, nor do those at which the surface is
+// almost smooth: they would change pictures by little, and cost time.
+int ClipStrideOf(const ParticleArrays& arrays, const std::vector<vtkIdType>& ids)
+{
+  if (!arrays.ClipNormals || !arrays.ClipDistances)
+  {
+    return 0;
+  }
+  const auto hasThird = [&](vtkIdType id)
+  {
+    double normal[3];
+    const double radius = arrays.Radii ? arrays.Radii->GetComponent(id, 0) : arrays.FallbackRadius;
+    return ReadNormal(arrays.ClipNormals, id, 2, normal) && vtkMath::Norm(normal) > 0. &&
+      arrays.ClipDistances->GetComponent(id, 2) < radius &&
+      (!arrays.ClipAngles || arrays.ClipAngles->GetNumberOfComponents() < 3 ||
+        SplatParticles::OverlapAt(arrays.ClipAngles->GetComponent(id, 2)) <
+          SplatParticles::LeastSmoothOverlap);
+  };
+  return CountPlanes(arrays) == 3 && std::any_of(ids.begin(), ids.end(), hasThird) ? 20 : 12;
+}
+
+// Reads the planes of a particle. A plane that is missing or not finite cuts nothing off.
+void ReadClipPlanes(const ParticleArrays& arrays, vtkIdType id, int count, float* planes)
+{
   const auto valueOf = [&](vtkDataArray* array, int plane, double without)
   {
     return array && plane < array->GetNumberOfComponents() ? array->GetComponent(id, plane)
                                                            : without;
   };
-  for (int plane = 0; plane < std::min(count, 2); ++plane)
+  for (int plane = 0; plane < count; ++plane)
   {
     double normal[3];
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      normal[axis] = arrays.ClipNormals->GetComponent(id, 3 * plane + axis);
-    }
     const double distance = arrays.ClipDistances->GetComponent(id, plane);
-    if (IsFinite(normal) && std::isfinite(distance))
+    if (ReadNormal(arrays.ClipNormals, id, plane, normal) && std::isfinite(distance))
     {
-      std::copy_n(normal, 3, planes + 4 * plane);
-      planes[4 * plane + 3] = static_cast<float>(distance);
-      planes[8 + plane] = SplatParticles::OverlapAt(valueOf(arrays.ClipAngles, plane, 180.));
+      float* const first = planes + SplatParticles::PlaneAt(plane);
+      float* const overlap = planes + SplatParticles::OverlapPlace(plane);
+      std::copy_n(normal, 3, first);
+      first[3] = static_cast<float>(distance);
+      overlap[0] = SplatParticles::OverlapAt(valueOf(arrays.ClipAngles, plane, 180.));
       const double curvature = valueOf(arrays.ClipCurvatures, plane, 0.);
-      planes[10 + plane] = std::isfinite(curvature) ? static_cast<float>(curvature) : 0.f;
+      overlap[2] = std::isfinite(curvature) ? static_cast<float>(curvature) : 0.f;
     }
   }
 }
@@ -201,9 +236,11 @@ void Carry(const LinearMap& map, const ParticleArrays& arrays, vtkIdType id,
   {
     map.CarryShape(before, &particles.Shape[8 * i]);
   }
-  if (!particles.Clip.empty())
+  for (int plane = 0; plane < SplatParticles::ClipPlanesIn(particles.ClipStride); ++plane)
   {
-    map.CarryClips(before, &particles.Clip[12 * i]);
+    float* const planes = &particles.Clip[particles.ClipStride * i];
+    map.CarryClip(before, planes + SplatParticles::PlaneAt(plane),
+      planes[SplatParticles::OverlapPlace(plane) + 2]);
   }
 }
 
@@ -361,13 +398,15 @@ SplatParticles SplatParticles::FromPolyData(vtkPolyData* input, const ParticleAr
   particles.Warped = motion.IsWarped();
 
   const vtkIdType count = particles.GetNumberOfParticles();
-  const bool clipped = arrays.ClipNormals && arrays.ClipDistances && !particles.Warped;
+  particles.ClipStride = particles.Warped ? 0 : ClipStrideOf(arrays, particles.PointIds);
+  const int stride = particles.ClipStride;
+  const int planes = std::min(CountPlanes(arrays), SplatParticles::ClipPlanesIn(stride));
   particles.CentreRadius.assign(4 * count, 0.f);
   particles.Normal.assign(4 * count, 0.f);
   const bool shaped = arrays.ShapeOperators && arrays.Normals &&
     arrays.ShapeOperators->GetNumberOfComponents() == 6 && !particles.Warped;
   particles.Shape.assign(shaped ? 8 * count : 0, 0.f);
-  particles.Clip.assign(clipped ? 12 * count : 0, 0.f);
+  particles.Clip.assign(stride * count, 0.f);
   const std::vector<double> isovalues = FindIsovalues(arrays.Isovalues, particles.PointIds);
   std::atomic<vtkIdType> skipped(0);
   vtkSMPTools::For(0, count,
@@ -389,9 +428,9 @@ SplatParticles SplatParticles::FromPolyData(vtkPolyData* input, const ParticleAr
         {
           ReadShape(arrays.ShapeOperators, id, &particles.Shape[8 * i]);
         }
-        if (clipped)
+        if (stride > 0)
         {
-          ReadClipPlanes(arrays, id, &particles.Clip[12 * i]);
+          ReadClipPlanes(arrays, id, planes, &particles.Clip[stride * i]);
         }
         if (const LinearMap* map = motion.Of(id))
         {

@@ -33,23 +33,23 @@ struct ParticleArrays
 
   ///@{
   /**
-   * Up to two planes a point that cut its splat off. ClipNormals has 3 or 6 components: unit vectors to the side that
-   * is cut off, (0, 0, 0) for no plane. ClipDistances has 1 or 2: distance of the plane from the point along its
-   * vector, >= 0, world units.
+   * Up to three planes a point that cut its splat off. ClipNormals has 3 components a plane: unit vectors to the side
+   * that is cut off, (0, 0, 0) for no plane. ClipDistances has 1 a plane: distance of the plane from the point along
+   * its vector, >= 0, world units. A third plane comes after two others.
    */
   vtkDataArray* ClipNormals = nullptr;
   vtkDataArray* ClipDistances = nullptr;
   ///@}
 
   /**
-   * 1 or 2 dihedral angles of the surface at the planes, in degrees: the angle between the normals of its two sides, 0
+   * Dihedral angles, 1 a plane, of the surface at the planes, in degrees: the angle between the normals of its two sides, 0
    * where it is smooth, 180 at a boundary curve. The smaller the angle, the farther beyond the plane a splat fills gaps
    * that others leave, see OverlapAt(). Without angles splats end at all planes.
    */
   vtkDataArray* ClipAngles = nullptr;
 
   /**
-   * 1 or 2 curvatures (1 / world units), within the surface, of the creases or boundary curves that the planes touch
+   * Curvatures, 1 a plane (1 / world units), within the surface, of the creases or boundary curves that the planes touch
    * where they are nearest. Positive ones bend towards the plane's vector. Without curvatures the curves are straight.
    */
   vtkDataArray* ClipCurvatures = nullptr;
@@ -82,10 +82,20 @@ struct SplatParticles
    */
   std::vector<float> Normal;
   /**
-   * 12 a particle: normal and distance of one plane, the same of another; two overlaps in radii, see OverlapAt(); two
-   * curvatures, see ParticleArrays::ClipCurvatures. Empty without planes.
+   * ClipStride a particle: normal and distance of one plane, the same of another; two overlaps in radii, see
+   * OverlapAt(); two curvatures, see ParticleArrays::ClipCurvatures. If any particle has a third plane: its normal and
+   * distance, its overlap, 0, its curvature, 0. Empty without planes.
    */
   std::vector<float> Clip;
+  int ClipStride = 0; ///< 0 without planes, 12 with two a particle, 20 with three
+
+  /** Number of planes of a particle with this stride. */
+  static int ClipPlanesIn(int stride) { return (stride + 4) / 8; }
+  /** Place of a plane among the numbers of its particle. */
+  static int PlaneAt(int plane) { return plane < 2 ? 4 * plane : 12; }
+  /** Place of the plane's overlap; the curvature is two further. */
+  static int OverlapPlace(int plane) { return plane < 2 ? 8 + plane : 16; }
+
   /**
    * 8 a particle: shape operator as xx, yy, zz, 0, xy, yz, xz, 0, fitted to the particles around
    * (Particles/FitShapes.h). Empty if the surface bends so little over a splat that flat disks do as

@@ -198,14 +198,15 @@ void ShaderText::InsertClip(vtkShader* fragment) const
   }
   InsertBefore(fragment, "//VTK::Clip::Dec",
     "in vec2 splatDiskCoord;\n"
-    "flat in vec4 splatClipLines[2];\n"
+    "flat in vec4 splatClipLines[3];\n"
     "flat in int splatParticle;\n"
     "flat in float splatSeenFromSide;\n" +
       std::string(SplatEdgeGlsl));
   InsertBefore(fragment, "//VTK::Clip::Impl",
     "if (dot(splatDiskCoord, splatDiskCoord) > 1.0 ||\n"
     "    splatBehindLine(splatClipLines[0], splatDiskCoord) > 0.0 ||\n"
-    "    splatBehindLine(splatClipLines[1], splatDiskCoord) > 0.0) discard;");
+    "    splatBehindLine(splatClipLines[1], splatDiskCoord) > 0.0 ||\n"
+    "    splatBehindLine(splatClipLines[2], splatDiskCoord) > 0.0) discard;");
 }
 
 //------------------------------------------------------------------------------

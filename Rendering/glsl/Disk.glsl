@@ -9,11 +9,12 @@
 uniform samplerBuffer splatCentreRadius; // xyz: centre (MC), w: radius, 0 = draw nothing
 // xyz: outward unit normal (MC); w: twice the number of the isovalue, plus 1 if the particle is translucent
 uniform samplerBuffer splatNormal;
-// Three texels a particle. First and second: xyz: unit normal of a plane (MC), w: distance (MC). Third: xy: overlaps,
-// see splatOverlaps(); zw: curvatures (1 / MC), within the surface, of the curves that the planes touch, positive
-// towards the planes' normals.
+// splatClipTexels texels a particle. First and second: xyz: unit normal of a plane (MC), w: distance (MC). Third: xy:
+// overlaps, see splatOverlaps(); zw: curvatures (1 / MC), within the surface, of the curves that the planes touch,
+// positive towards the planes' normals. If there are five texels, the fourth is a third plane's normal and distance, the
+// fifth its overlap (x) and curvature (z).
 uniform samplerBuffer splatClip;
-uniform int splatHasClip; // 0: there are no clip planes
+uniform int splatClipTexels; // 0: there are no clip planes; 3: up to two a particle; 5: up to three
 uniform float splatRadiusScale;
 uniform int splatFacesViewer;  // 1: the particles have no normals, their disks face the eye
 uniform int splatStride;       // every splatStride-th particle is drawn
@@ -60,27 +61,41 @@ SplatDisk splatDiskOf(int particle)
   return disk;
 }
 
+// How many clip planes a particle may have.
+int splatClipPlanes()
+{
+  return (splatClipTexels + 1) / 2;
+}
+
+// The texel with normal and distance of a clip plane.
+int splatClipTexel(int particle, int plane)
+{
+  return splatClipTexels * particle + (plane < 2 ? plane : 3);
+}
+
 // Where a particle's clip plane, bent to the curve that it touches, crosses the disk: the disk coordinates (u, v) with
 //   x u + y v > z + w (x v - y u)^2
 // are cut off, where xyzw is what is returned. z is a length (MC).
 vec4 splatClipLine(int particle, int plane, SplatDisk disk)
 {
-  if (splatHasClip == 0)
+  if (plane >= splatClipPlanes())
   {
     return vec4(0.0);
   }
-  vec4 clip = texelFetch(splatClip, 3 * particle + plane);
-  vec4 both = texelFetch(splatClip, 3 * particle + 2);
+  vec4 clip = texelFetch(splatClip, splatClipTexel(particle, plane));
+  vec4 both = texelFetch(splatClip, splatClipTexels * particle + (plane < 2 ? 2 : 4));
   vec2 direction = vec2(dot(clip.xyz, disk.tangentMC), dot(clip.xyz, disk.bitangentMC));
   float square = max(dot(direction, direction), 1e-30); // not 0 where there is no plane
-  float bend = 0.5 * both[2 + plane] * dot(disk.tangentMC, disk.tangentMC) / square;
+  float bend = 0.5 * both[2 + plane % 2] * dot(disk.tangentMC, disk.tangentMC) / square;
   return vec4(direction, clip.w, bend);
 }
 
 // How far beyond its clip planes a particle fills gaps that others leave, in radii.
-vec2 splatOverlaps(int particle)
+vec3 splatOverlaps(int particle)
 {
-  return splatHasClip == 0 ? vec2(0.0) : texelFetch(splatClip, 3 * particle + 2).xy;
+  int first = splatClipTexels * particle;
+  return splatClipTexels == 0 ? vec3(0.0)
+    : vec3(texelFetch(splatClip, first + 2).xy, splatClipTexels == 5 ? texelFetch(splatClip, first + 4).x : 0.0);
 }
 
 // Corners of the equilateral triangle around the unit circle, counter-clockwise; 1.7320508 is sqrt(3).

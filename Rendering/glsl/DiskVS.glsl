@@ -10,7 +10,7 @@
 uniform mat3 normalMatrix;
 
 out vec2 splatDiskCoord;          // inside of the disk within the unit circle
-flat out vec4 splatClipLines[2];  // see splatClipLine()
+flat out vec4 splatClipLines[3];  // see splatClipLine()
 flat out vec3 splatNormalVC;      // normal of the side that is seen
 flat out int splatParticle;
 flat out float splatSeenFromSide; // 1: from outward (the normal points at the eye), -1: from inward
@@ -45,9 +45,12 @@ void main()
   vec4 vertexMC = vec4(disk.centreMC + splatDiskCoord.x * disk.tangentMC +
       splatDiskCoord.y * disk.bitangentMC, 1.0);
   // Disks are not mixed: they go on over planes at which the surface is almost smooth, and end at all other planes.
-  vec2 overlaps = splatOverlaps(splatParticle);
-  splatClipLines[0] = overlaps.x >= SPLAT_SMOOTH_OVERLAP ? vec4(0.0) : splatClipLine(splatParticle, 0, disk);
-  splatClipLines[1] = overlaps.y >= SPLAT_SMOOTH_OVERLAP ? vec4(0.0) : splatClipLine(splatParticle, 1, disk);
+  vec3 overlaps = splatOverlaps(splatParticle);
+  for (int plane = 0; plane < 3; ++plane)
+  {
+    splatClipLines[plane] =
+      overlaps[plane] >= SPLAT_SMOOTH_OVERLAP ? vec4(0.0) : splatClipLine(splatParticle, plane, disk);
+  }
   splatSeenFromSide = disk.seenFrom;
   splatNormalVC = disk.seenFrom * (normalMatrix * disk.normalMC);
 

@@ -19,7 +19,7 @@ flat in vec3 splatNormalMC;
 flat in vec3 splatBend;
 flat in vec3 splatNormalChange[2];
 flat in float splatCentreDepth;
-flat in vec2 splatClipDepths;
+flat in vec3 splatClipDepths;
 flat in float splatRadiusVC;
 vec2 splatDiskCoord;
 float splatBelowDisk; // distance of the bent splat from its disk (MC)
@@ -30,8 +30,8 @@ in vec2 splatDiskCoord;
 in vec3 splatOffsetVC;
 in float splatDepthVC;
 #endif
-flat in vec4 splatClipLines[2];
-flat in vec2 splatBeyondClip;
+flat in vec4 splatClipLines[SPLAT_CLIP_PLANES];
+flat in vec3 splatBeyondClip;
 float splatShare = 1.0; // factor on the weight of the splat
 in vec3 splatPointMC; // the fragment's place on the disk
 vec3 splatPlaceMC;    // the fragment's place on the splat, which may be bent
@@ -139,9 +139,12 @@ bool splatOutside()
   // The comparison is also false where the disk coordinates are no numbers.
   bool outside = !splatMeetRay() || !(dot(splatDiskCoord, splatDiskCoord) <= 1.0);
 #if SPLAT_HAS_CLIP
-  vec2 behind = vec2(splatBehindClip(0), splatBehindClip(1));
-  outside = outside || any(greaterThan(behind, splatBeyondClip));
-  splatShare = any(greaterThan(behind, vec2(0.0))) ? SPLAT_GAP_SHARE : 1.0;
+  for (int plane = 0; plane < SPLAT_CLIP_PLANES; ++plane)
+  {
+    float behind = splatBehindClip(plane);
+    outside = outside || behind > splatBeyondClip[plane];
+    splatShare = behind > 0.0 ? SPLAT_GAP_SHARE : splatShare;
+  }
 #endif
 #if SPLAT_CLIPPING_PLANES
   for (int i = 0; i < SPLAT_CLIPPING_PLANES; ++i)

@@ -5,6 +5,7 @@
 //   SPLAT_CURVED         1: splats are bent to paraboloids
 //   SPLAT_SKIPS_HIDDEN   1: points whose middle is hidden are left out
 //   SPLAT_APART          1: isovalues are told apart
+//   SPLAT_CLIP_PLANES    largest number of clip planes of a particle, at least 1
 //   SPLAT_LEAST_PIXELS   smallest radius of a splat, pixels
 //   SPLAT_LEAST_COSINE   smallest cosine by which the push of a point is divided
 // Drawing/SplatPrimitives.cxx explains the last two.
@@ -36,15 +37,15 @@ flat out vec3 splatNormalMC;
 flat out vec3 splatBend; // see splatMeetRay()
 flat out vec3 splatNormalChange[2]; // derivatives of the normal (VC) along the disk coordinates
 flat out float splatCentreDepth; // z (VC)
-flat out vec2 splatClipDepths; // cosines between the disk's normal and the clip planes' normals
+flat out vec3 splatClipDepths; // cosines between the disk's normal and the clip planes' normals
 flat out float splatRadiusVC;
 #else
 out vec2 splatDiskCoord; // inside of the splat within the unit circle
 out vec3 splatOffsetVC;  // from the centre of the disk
 out float splatDepthVC;  // z
 #endif
-flat out vec4 splatClipLines[2]; // see splatClipLine()
-flat out vec2 splatBeyondClip;   // how far beyond its clip lines the splat fills gaps (MC)
+flat out vec4 splatClipLines[SPLAT_CLIP_PLANES]; // see splatClipLine()
+flat out vec3 splatBeyondClip; // how far beyond its clip lines the splat fills gaps (MC)
 out vec3 splatPointMC;           // for clipping planes
 flat out vec3 splatNormalVC;     // outward; of length 1 if splats are flat
 flat out float splatSeenFromSide;
@@ -65,7 +66,9 @@ mat3 splatShapeOf(int particle)
 #if SPLAT_CURVED
 float splatClipDepth(int particle, int plane, SplatDisk disk)
 {
-  return splatHasClip == 0 ? 0.0 : dot(texelFetch(splatClip, 3 * particle + plane).xyz, disk.normalMC);
+  return plane >= splatClipPlanes()
+    ? 0.0
+    : dot(texelFetch(splatClip, splatClipTexel(particle, plane)).xyz, disk.normalMC);
 }
 #endif
 
@@ -98,8 +101,10 @@ void main()
   splatSeenFromSide = disk.seenFrom;
   splatMark = (float(disk.isovalue) + (disk.seenFrom > 0.0 ? 128.0 : 0.0)) / 255.0;
   splatNormalVC = normalize(splatNormalMatrix * disk.normalMC);
-  splatClipLines[0] = splatClipLine(splatParticle, 0, disk);
-  splatClipLines[1] = splatClipLine(splatParticle, 1, disk);
+  for (int plane = 0; plane < SPLAT_CLIP_PLANES; ++plane)
+  {
+    splatClipLines[plane] = splatClipLine(splatParticle, plane, disk);
+  }
   splatBeyondClip = length(disk.tangentMC) * splatOverlaps(splatParticle);
 
   vec3 centreVC = (splatMCVC * vec4(disk.centreMC, 1.0)).xyz;
@@ -112,8 +117,10 @@ void main()
   // Smaller splats would fall between the middles of pixels, and the others would be one or two at a pixel.
   float pixel = splatPixel * (splatParallel == 1 ? 1.0 : abs(centreVC.z));
   float enlarge = max(1.0, SPLAT_LEAST_PIXELS * pixel / max(radiusVC, 1e-30)); // not divided by 0
-  splatClipLines[0].xy *= enlarge;
-  splatClipLines[1].xy *= enlarge;
+  for (int plane = 0; plane < SPLAT_CLIP_PLANES; ++plane)
+  {
+    splatClipLines[plane].xy *= enlarge;
+  }
   tangentVC *= enlarge;
   bitangentVC *= enlarge;
   radiusVC *= enlarge;
@@ -156,7 +163,8 @@ void main()
   splatNormalVC = splatNormalMatrix * disk.normalMC;
   splatCentreDepth = centreVC.z;
   splatRadiusVC = radiusVC;
-  splatClipDepths = vec2(splatClipDepth(splatParticle, 0, disk), splatClipDepth(splatParticle, 1, disk));
+  splatClipDepths = vec3(splatClipDepth(splatParticle, 0, disk), splatClipDepth(splatParticle, 1, disk),
+    splatClipDepth(splatParticle, 2, disk));
 #else
   splatDiskCoord = place;
   splatOffsetVC = offsetVC;

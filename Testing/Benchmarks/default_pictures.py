@@ -3,7 +3,8 @@
     pvpython Testing/Benchmarks/default_pictures.py PLUGIN OUT_FOLDER FILE [FILE ...]
 
 Every file is opened as the GUI would, the filter applied with all its defaults, and its output shown with
-the representation, colours and legend that it comes with; so is the view. To be looked at.
+the representation, colours and legend that it comes with; so is the view. To be looked at. OUT_FOLDER/cases.txt
+names the same surfaces, FILE:ARRAY:ISOVALUE a line, for splat_errors.
 """
 
 import argparse
@@ -30,6 +31,8 @@ def picture(path, folder):
     simple.Show(reader, view).SetRepresentationType("Outline")
     view.CameraPosition, view.CameraViewUp = [-1, -1.6, 0.9], [0, 0, 1]
     simple.ResetCamera(view)
+    with (folder / "cases.txt").open("a") as cases:
+        cases.writelines(f"{path}:{surface.ContourBy[1]}:{value}\n" for value in surface.Isosurfaces)
     simple.SaveScreenshot(str(folder / f"{path.stem}.png"), view, ImageResolution=SIZE)
     print(
         f"{path.name:46} {surface.ContourBy[1]:20} {list(surface.Isosurfaces)!s:26} spacing {surface.Spacing:<9.3g}"
@@ -49,6 +52,7 @@ def main():
     options = parser.parse_args()
     simple.LoadPlugin(options.plugin, remote=False, ns=vars(simple))
     options.folder.mkdir(parents=True, exist_ok=True)
+    (options.folder / "cases.txt").unlink(missing_ok=True)
     for path in options.files:
         picture(path, options.folder)
 

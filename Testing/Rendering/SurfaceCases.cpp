@@ -10,6 +10,7 @@
 #include "vtkPolyData.h"
 #include "vtkPolyDataNormals.h"
 #include "vtkUnstructuredGrid.h"
+#include "vtkXMLPUnstructuredGridReader.h"
 #include "vtkXMLUnstructuredGridReader.h"
 
 #include <algorithm>
@@ -53,16 +54,26 @@ vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(
   return grid;
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> ReadGrid(const std::string& path, const std::string& array)
+template <class Reader>
+vtkSmartPointer<vtkUnstructuredGrid> ReadBy(const std::string& path)
 {
-  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  vtkNew<Reader> reader;
   reader->SetFileName(path.c_str());
   reader->Update();
-  if (!reader->GetOutput()->GetPointData()->HasArray(array.c_str()))
+  return reader->GetOutput();
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> ReadGrid(const std::string& path, const std::string& array)
+{
+  const bool isInPieces = path.size() > 5 && path.substr(path.size() - 5) == ".pvtu";
+  vtkSmartPointer<vtkUnstructuredGrid> grid = isInPieces
+    ? ReadBy<vtkXMLPUnstructuredGridReader>(path)
+    : ReadBy<vtkXMLUnstructuredGridReader>(path);
+  if (!grid->GetPointData()->HasArray(array.c_str()))
   {
     throw std::invalid_argument("no point array '" + array + "' in '" + path + "'");
   }
-  return reader->GetOutput();
+  return grid;
 }
 
 void MakeParticles(SurfaceCase& surface, double spacing)
@@ -79,29 +90,23 @@ void MakeParticles(SurfaceCase& surface, double spacing)
   filter->SetSpacing(surface.Spacing);
   filter->Update();
   surface.Particles = filter->GetOutput();
+  if (surface.Spacing == 0.)
+  {
+    vtkDataArray* radii = surface.Particles->GetPointData()->GetArray("Radius");
+    surface.Spacing = radii ? radii->GetRange()[1] : 0.;
+  }
 }
 
 SurfaceCase AnalyticCase(
   const std::string& name, int cells, int order, const hop::testing::Field& field, double spacing)
 {
-  SurfaceCase surface;
-  surface.Name = name;
-  surface.Grid = MakeGrid(cells, order, field);
-  surface.Array = FieldName;
-  MakeParticles(surface, spacing);
-  return surface;
+  return MakeSurfaceCase(name, MakeGrid(cells, order, field), FieldName, 0., spacing);
 }
 
 SurfaceCase FileCase(const std::string& name, const std::string& path, const std::string& array,
   double isovalue, double spacing)
 {
-  SurfaceCase surface;
-  surface.Name = name;
-  surface.Grid = ReadGrid(path, array);
-  surface.Array = array;
-  surface.Isovalue = isovalue;
-  MakeParticles(surface, spacing);
-  return surface;
+  return MakeSurfaceCase(name, ReadGrid(path, array), array, isovalue, spacing);
 }
 
 // FILE.vtu:ARRAY:ISOVALUE, called by the name of the file.
@@ -128,6 +133,18 @@ SurfaceCase CreaseCase(double spacing)
     },
     spacing);
 }
+}
+
+SurfaceCase MakeSurfaceCase(const std::string& name, vtkUnstructuredGrid* grid,
+  const std::string& array, double isovalue, double spacing)
+{
+  SurfaceCase surface;
+  surface.Name = name;
+  surface.Grid = grid;
+  surface.Array = array;
+  surface.Isovalue = isovalue;
+  MakeParticles(surface, spacing);
+  return surface;
 }
 
 SurfaceCase MakeSurfaceCase(const std::string& name, double spacing)

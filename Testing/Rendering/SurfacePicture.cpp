@@ -30,6 +30,18 @@ namespace
 constexpr double DepthTarget = 0.02; // spacings
 constexpr double NormalTarget = 2.;  // degrees
 
+// Depth of the farthest corner of bounds.
+double FarthestDepth(const double bounds[6], const PictureCamera& camera)
+{
+  double farthest = 0.;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const glm::dvec3 place(bounds[corner % 2], bounds[2 + corner / 2 % 2], bounds[4 + corner / 4]);
+    farthest = std::max(farthest, camera.distance - glm::dot(place - camera.centre, camera.back));
+  }
+  return farthest;
+}
+
 struct Window
 {
   vtkNew<vtkActor> Actor;
@@ -46,8 +58,10 @@ struct Window
     this->Render->SetSize(camera.size, camera.size);
     this->Render->SetMultiSamples(0);
     this->Render->AddRenderer(this->Renderer);
-    this->Near = std::max(camera.distance - 1.5 * camera.halfHeight, 0.01 * camera.distance);
-    this->Far = camera.distance + 1.5 * camera.halfHeight;
+    this->Near = std::max(
+      { camera.distance - 1.5 * camera.halfHeight, 0.01 * camera.distance, camera.nearest });
+    this->Far = std::max(
+      camera.distance + 1.5 * camera.halfHeight, FarthestDepth(mapper->GetBounds(), camera));
     vtkCamera* vtk = this->Renderer->GetActiveCamera();
     const glm::dvec3 eye = camera.eye();
     const glm::dvec3 up = camera.up();

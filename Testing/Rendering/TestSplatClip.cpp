@@ -78,6 +78,16 @@ TEST(SplatClip, ASplatCanBeCutByTwoPlanes)
     [](glm::dvec3 p) { return p.x < 0.2 && p.y > -0.1; });
 }
 
+// As a triangle has them: a particle in a narrow corner of the surface, or at the end of a strip.
+TEST(SplatClip, ASplatCanBeCutByThreePlanes)
+{
+  ExpectCut({ 1., 0., 0., 0., -1., 0., -0.6, 0.8, 0. }, { 0.2, 0.1, 0.3 },
+    [](glm::dvec3 p) { return p.x < 0.2 && p.y > -0.1 && -0.6 * p.x + 0.8 * p.y < 0.3; });
+  ExpectCut({ 1., 0., 0., 0., -1., 0., -1., 0., 0. }, { 0.2, 0.1, 0.3 },
+    [](glm::dvec3 p) { return p.x < 0.2 && p.y > -0.1 && -p.x < 0.3 + 0.4 * p.y * p.y; },
+    { 0., 0., 0.8 });
+}
+
 TEST(SplatClip, EdgesMayBeCurved)
 {
   ExpectCut({ 0.6, 0.8, 0. }, { 0.1 },

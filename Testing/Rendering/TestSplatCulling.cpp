@@ -62,7 +62,7 @@ struct Sphere
 
   Splats AsSplats() const
   {
-    return { this->CentreRadius.data(), this->Normal.data(), nullptr, 1, 1.f, 0.75f, 1.f,
+    return { this->CentreRadius.data(), this->Normal.data(), nullptr, 0, 1, 1.f, 0.75f, 1.f,
       static_cast<float>(hop::splatReach()), 1 };
   }
 
@@ -99,6 +99,7 @@ TEST(SplatCulling, MindsPlanesThatCut)
   }
   Splats splats = sphere.AsSplats();
   splats.Clip = planes.data();
+  splats.ClipStride = 12;
   EXPECT_EQ(FindVisible(CameraOf(true), splats, 0, count),
     FindVisible(CameraOf(true), sphere.AsSplats(), 0, count));
   for (int i = 0; i < count; ++i)

@@ -216,12 +216,18 @@ TEST(SplatMotion, EdgesStayThoseOfTheSurface)
   const double b = 2.;
   const hop::LinearMap map({ { { a, 0., 0. }, { 0., b, 0. }, { 0., 0., 1. } } });
   const double normal[3] = { 0., 0., 1. };
-  float clips[12] = { 1.f, 0.f, 0.f, 0.5f, 0.f, 0.f, 0.f, 0.f, 0.f, 0.f, -1.f, 0.f };
-  map.CarryClips(normal, clips);
-  EXPECT_FLOAT_EQ(clips[0], 1.f);
-  EXPECT_FLOAT_EQ(clips[3], 0.5f * 3.f);
-  EXPECT_FLOAT_EQ(clips[10], static_cast<float>(-a / (b * b)));
-  EXPECT_EQ(clips[4], 0.f) << "no second plane";
+  float plane[4] = { 1.f, 0.f, 0.f, 0.5f };
+  float curvature = -1.f;
+  map.CarryClip(normal, plane, curvature);
+  EXPECT_FLOAT_EQ(plane[0], 1.f);
+  EXPECT_FLOAT_EQ(plane[3], 0.5f * 3.f);
+  EXPECT_FLOAT_EQ(curvature, static_cast<float>(-a / (b * b)));
+  float none[4] = { 0.f, 0.f, 0.f, 0.f };
+  curvature = 0.f;
+  map.CarryClip(normal, none, curvature);
+  EXPECT_EQ(none[0], 0.f) << "no plane";
+  EXPECT_EQ(none[3], 0.f);
+  EXPECT_EQ(curvature, 0.f);
 }
 
 TEST(SplatMotion, NormalsThatNobodyTurnedAreTurned)

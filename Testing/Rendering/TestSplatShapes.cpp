@@ -124,6 +124,7 @@ TEST(SplatShapes, DoNotBendAroundAnEdgeThatParticlesKnowOf)
   EXPECT_GT(BendOfMiddle(unaware), 0.5);
 
   hop::SplatParticles aware = ParticlesOn(Edge());
+  aware.ClipStride = 12;
   aware.Clip.assign(12 * aware.GetNumberOfParticles(), 0.f);
   aware.Clip[12 * Middle] = 1.f; // x > 0 is cut off
   hop::SplatParticles filling = aware;

@@ -84,7 +84,7 @@ struct Root
 /// Newton's method for x(u) = origin + t direction, F(u) = isovalue. The tangent plane of F at u
 /// gives the next t, the Jacobian then the next u. Only roots in the box's ball, and in its element or
 /// less than `slit` beyond, count; the balls of all boxes hold the whole surface.
-bool meet(const ElementMesh& mesh, double isovalue, const PictureCamera::Ray& ray,
+bool meet(const ElementMesh& mesh, double isovalue, const PictureCamera::Ray& ray, double nearest,
   const SurfaceBox& box, double slit, ReferencePoint u, Root& root)
 {
   const BernsteinForm form = mesh.form(box.middle.element);
@@ -104,7 +104,7 @@ bool meet(const ElementMesh& mesh, double isovalue, const PictureCamera::Ray& ra
       root.seen = { t, surfaceNormal(at.gradient).xyz };
       root.element = box.middle.element;
       root.beyond = distanceBeyond(form.domain, u, at.map);
-      return t > 0.0 && isInBall(box, u, root.beyond > 0.0 ? 1.5 : 1.0) && root.beyond <= slit;
+      return t > nearest && isInBall(box, u, root.beyond > 0.0 ? 1.5 : 1.0) && root.beyond <= slit;
     }
     u = u + at.map.pull(move);
     if (!isInBall(box, u, 4.0))
@@ -142,13 +142,13 @@ void keep(const Root& root, double slit, Pixel& pixel)
 }
 
 /// Keeps the roots to which the starts lead.
-void look(const ElementMesh& mesh, double isovalue, const PictureCamera::Ray& ray,
+void look(const ElementMesh& mesh, double isovalue, const PictureCamera::Ray& ray, double nearest,
   const SurfaceBox& box, const std::vector<ReferencePoint>& starts, double slit, Pixel& pixel)
 {
   for (const ReferencePoint& start : starts)
   {
     Root root;
-    if (meet(mesh, isovalue, ray, box, slit, start, root))
+    if (meet(mesh, isovalue, ray, nearest, box, slit, start, root))
     {
       keep(root, slit, pixel);
     }
@@ -183,13 +183,41 @@ PixelRange pixelsOf(const PictureCamera& camera, const glm::dvec3& middle, doubl
     clamp(std::floor(at.y - reach)), clamp(std::ceil(at.y + reach)) };
 }
 
+glm::dvec3 middleOf(const ElementMesh& mesh, const SurfaceBox& box)
+{
+  const Jet jet = evaluateGradient(mesh.form(box.middle.element), box.middle.u);
+  return fieldPoint(jet, 0.0).map.position.xyz;
+}
+
+/// Whether no ray of the picture passes a box.
+bool isOutOfSight(const ElementMesh& mesh, const PictureCamera& camera, const SurfaceBox& box)
+{
+  const glm::dvec3 middle = middleOf(mesh, box);
+  const PixelRange range = pixelsOf(camera, middle, box.size);
+  const double depth = camera.distance - glm::dot(middle - camera.centre, camera.back);
+  return range.left >= range.right || range.bottom >= range.top ||
+    depth + box.size <= camera.nearest;
+}
+
+/// Boxes that hold all of the surface that is in the picture.
+std::vector<SurfaceBox> boxesInPicture(const ElementMesh& mesh, double isovalue,
+  const PictureCamera& camera, const ParallelFor& parallelFor)
+{
+  const auto isOut = [&](const SurfaceBox& box) { return isOutOfSight(mesh, camera, box); };
+  std::vector<SurfaceBox> boxes = findSurfaceBoxes(
+    mesh, isovalue,
+    [&](const SurfaceBox& box) { return box.size <= BoxPixels * camera.pixel() || isOut(box); },
+    parallelFor);
+  boxes.erase(std::remove_if(boxes.begin(), boxes.end(), isOut), boxes.end());
+  return boxes;
+}
+
 } // namespace
 
 std::vector<SeenPoint> castRays(const ElementMesh& mesh, double isovalue,
   const PictureCamera& camera, const ParallelFor& parallelFor)
 {
-  const std::vector<SurfaceBox> boxes =
-    findSurfaceBoxes(mesh, isovalue, BoxPixels * camera.pixel(), parallelFor);
+  const std::vector<SurfaceBox> boxes = boxesInPicture(mesh, isovalue, camera, parallelFor);
   std::vector<Pixel> pixels(camera.size * camera.size);
   // Bands of the picture, so that no two threads write to one pixel.
   constexpr int bandHeight = 16;
@@ -213,7 +241,7 @@ std::vector<SeenPoint> castRays(const ElementMesh& mesh, double isovalue,
       {
         for (int x = range.left; x < range.right; ++x)
         {
-          look(mesh, isovalue, camera.ray(x + 0.5, y + 0.5), box, starts,
+          look(mesh, isovalue, camera.ray(x + 0.5, y + 0.5), camera.nearest, box, starts,
             SlitPixels * camera.pixel(), pixels[y * camera.size + x]);
         }
       }

@@ -22,6 +22,8 @@ struct PictureCamera
   double halfHeight = 1.3;
   /// Pixels along each side.
   int size = 512;
+  /// Depth before which nothing is seen, as a near plane does; world units.
+  double nearest = 0.0;
 
   glm::dvec3 right() const;
   glm::dvec3 up() const;
@@ -58,7 +60,7 @@ struct SeenPoint
 /// The isosurface of the elements' own polynomials as the camera sees it, one ray a pixel: slow and
 /// exact, without any triangle. A ray meets the surface where Newton's method in reference
 /// coordinates and depth finds F = isovalue, from starts in every surface box (SurfaceBoxes.h) that the ray may pass;
-/// boxes have the size of a few pixels. Slits between elements whose fields differ a little are closed up to a fifth
+/// boxes in the picture have the size of a few pixels. Slits between elements whose fields differ a little are closed up to a fifth
 /// of a pixel on either side.
 /// \return size * size pixels, lower left first
 std::vector<SeenPoint> castRays(const ElementMesh& mesh, double isovalue,

@@ -47,6 +47,11 @@ struct Nearness
   static constexpr double OnOneSheet = 0.6;
   /// Where two sheets meet at a sharp edge, and each has a curve of its own.
   static constexpr double AtSharpEdge = 0.3;
+  /// Largest distance of places of one corner, far above rounding and far below the distance of different corners.
+  static constexpr double OnePlace = 1e-6;
+  /// Smallest width of a strip of the surface: less may be a crack between elements, as files write them in single
+  /// precision, at which the sides overlap. More draws narrower strips a splat wide.
+  static constexpr double LeastStrip = 1e-3;
 };
 
 /// The surface for the tracer. Chords need not lie on it as exactly as particles.
@@ -163,6 +168,7 @@ private:
   void finish(const ParallelFor& parallelFor);
   bool isTooNear(std::size_t i, std::size_t j) const;
   void thinOut(const ParallelFor& parallelFor);
+  void addOtherSides();
 
   Isosurface Surface;
   const FaceJumps& Jumps;
@@ -417,6 +423,22 @@ bool BoundarySampler::isTooNear(std::size_t i, std::size_t j) const
   return cosine > 0.0 && glm::distance(a.patch.position, b.patch.position) < near * a.patch.spacing;
 }
 
+/// Whether two particles that look away from each other have the surface between them, as on a strip, or are the two
+/// sides of one sharp corner. At a jump they are the sides of a slit, whose sheets may reach over each other.
+bool areAcrossSurface(const BoundaryParticle& a, const BoundaryParticle& b)
+{
+  const WorldVector step = b.particle.position - a.particle.position;
+  const double h = a.patch.spacing;
+  if (a.particle.location.element == b.particle.location.element &&
+    length(step) < Nearness::OnePlace * h)
+  {
+    return true;
+  }
+  const bool isJump = a.particle.jump != 0.0 && b.particle.jump != 0.0;
+  return !isJump && dot(step, a.side.outward) < -Nearness::LeastStrip * h &&
+    dot(step, b.side.outward) > Nearness::LeastStrip * h;
+}
+
 /// Of particles that are too near to each other the first stays. If the surface ends at both on the two sides of a
 /// slit, it goes on there, and the one that stays ends at no face.
 void BoundarySampler::thinOut(const ParallelFor& parallelFor)
@@ -449,9 +471,15 @@ void BoundarySampler::thinOut(const ParallelFor& parallelFor)
       visitEarlier(i,
         [&](std::size_t j)
         {
-          closesSlit[j] =
-            closesSlit[j] || (kept[j] && lookAtEachOther(particles[i].side, particles[j].side));
+          const bool isSlit = kept[j] && lookAtEachOther(particles[i].side, particles[j].side) &&
+            !areAcrossSurface(particles[i], particles[j]);
+          closesSlit[j] = closesSlit[j] || isSlit;
+          closesSlit[i] = closesSlit[i] || isSlit;
         });
+      if (particles[i].particle.jump == 0.0 && !closesSlit[i])
+      {
+        this->Result.thinned.push_back(particles[i]);
+      }
     }
   }
   for (std::size_t i = 0; i < count; ++i)
@@ -462,6 +490,19 @@ void BoundarySampler::thinOut(const ParallelFor& parallelFor)
     }
   }
   keepMarked(particles, kept);
+}
+
+/// Corners tell of both curves that meet there.
+void BoundarySampler::addOtherSides()
+{
+  for (const BoundaryParticle& corner : this->Result.particles)
+  {
+    if (corner.side.exists() && corner.otherSide.exists())
+    {
+      this->Result.thinned.push_back(corner);
+      this->Result.thinned[this->Result.thinned.size() - 1].side = corner.otherSide;
+    }
+  }
 }
 
 BoundaryCurves BoundarySampler::run(const ParallelFor& parallelFor)
@@ -479,6 +520,7 @@ BoundaryCurves BoundarySampler::run(const ParallelFor& parallelFor)
   }
   this->finish(parallelFor);
   this->thinOut(parallelFor);
+  this->addOtherSides();
   this->Result.evaluations += this->Tracer.evaluations() + this->Walker.evaluations();
   return std::move(this->Result);
 }

@@ -46,6 +46,9 @@ struct BoundaryParticle
 struct BoundaryCurves
 {
   Buffer<BoundaryParticle> particles;
+  /// Places of the curves that are too near to particles to be particles, as on a strip of the surface narrower than a
+  /// spacing; and corners as seen from the second curve there. They tell where splats are to be cut off.
+  Buffer<BoundaryParticle> thinned;
   std::int64_t evaluations = 0;
 };
 

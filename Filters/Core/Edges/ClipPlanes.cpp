@@ -61,52 +61,81 @@ ClipPlane boundarySeenFrom(const BoundaryParticle& onBoundary, const Particle& p
   return { { normal }, glm::dot(nearest - step, normal), bend, static_cast<float>(Pi) };
 }
 
-/// Offers a particle the planes of the boundary curves around, each by the nearest particle on the curve. The curve of
-/// another sheet would cut off whole splats on a curve that lies beside it, and is left out.
-void offerBoundaries(
-  const SpacingGrid& grid, const Buffer<BoundaryParticle>& onBoundary, Particle& particle)
+/// Places at which the surface ends, to be found by place: particles on boundary curves, and places that stand too near
+/// to others to be particles.
+class SurfaceEnds
 {
-  /// A boundary curve: the number of the nearest particle on it, and how far off that one is.
+public:
+  SurfaceEnds(Buffer<BoundaryParticle>& onBoundary, Buffer<BoundaryParticle>& thinned,
+    const ParallelFor& parallelFor)
+    : OnBoundary(onBoundary)
+    , Thinned(thinned)
+    , Points(
+        onBoundary.size() + thinned.size(),
+        [this](std::size_t i) { return this->at(i).particle.position.xyz; },
+        [this](std::size_t i) { return this->at(i).patch.spacing; }, parallelFor)
+    , Grid(this->Points.positions, this->Points.spacings, ClipReach, CellsPerReach, parallelFor)
+  {
+  }
+  SurfaceEnds(const SurfaceEnds&) = delete;
+  SurfaceEnds& operator=(const SurfaceEnds&) = delete;
+
+  std::size_t size() const { return this->Points.positions.size(); }
+  BoundaryParticle& at(std::size_t i) const
+  {
+    const std::size_t count = this->OnBoundary.size();
+    return i < count ? this->OnBoundary[i] : this->Thinned[i - count];
+  }
+
+  /// Calls with the numbers of places around a particle.
+  template <class Use>
+  void visit(const Particle& particle, const Use& use) const
+  {
+    this->Grid.visit(particle.position.xyz, particle.spacing, use);
+  }
+
+private:
+  Buffer<BoundaryParticle>& OnBoundary;
+  Buffer<BoundaryParticle>& Thinned;
+  SpacedPoints Points;
+  SpacingGrid Grid;
+};
+
+/// Offers a particle the planes of the boundary curves around, each by the nearest place on the curve. The curve of
+/// another sheet would cut off whole splats on a curve that lies beside it, and is left out.
+void offerBoundaries(const SurfaceEnds& ends, Particle& particle)
+{
+  /// A boundary curve: the number of the nearest place on it, and how far off this one is.
   struct Curve
   {
     int nearest = -1;
     double distance = 0.0;
+
+    bool exists() const { return this->nearest >= 0; }
   };
-  std::array<Curve, 2> curves;
-  const auto isAlong = [&](const Curve& curve, int j)
-  {
-    return curve.nearest >= 0 &&
-      dot(onBoundary[curve.nearest].side.outward, onBoundary[j].side.outward) > SameEdge;
-  };
+  const auto isNearer = [](const Curve& a, const Curve& b) { return a.distance < b.distance; };
+  const auto isSame = [&](const Curve& a, const Curve& b)
+  { return dot(ends.at(a.nearest).side.outward, ends.at(b.nearest).side.outward) > SameEdge; };
   const auto endsSheetOf = [&](const BoundaryParticle& other)
   {
     return other.side.exists() && dot(other.particle.normal, particle.normal) > SheetCosine &&
       boundarySeenFrom(other, particle).distance >= -BoundarySight::SameSide * particle.spacing;
   };
-  grid.visit(particle.position.xyz, particle.spacing,
+  std::array<Curve, 3> curves;
+  ends.visit(particle,
     [&](int j)
     {
-      const Curve curve{ j, length(onBoundary[j].particle.position - particle.position) };
-      if (curve.distance > ClipReach * particle.spacing || !endsSheetOf(onBoundary[j]))
+      const Curve curve{ j, length(ends.at(j).particle.position - particle.position) };
+      if (curve.distance <= ClipReach * particle.spacing && endsSheetOf(ends.at(j)))
       {
-        return;
-      }
-      auto& [first, second] = curves;
-      if (first.nearest < 0 || curve.distance < first.distance)
-      {
-        second = isAlong(first, j) ? second : first;
-        first = curve;
-      }
-      else if (!isAlong(first, j) && (second.nearest < 0 || curve.distance < second.distance))
-      {
-        second = curve;
+        insertEdge(curves, curve, isNearer, isSame);
       }
     });
   for (const Curve& curve : curves)
   {
-    if (curve.nearest >= 0)
+    if (curve.exists())
     {
-      ClipPlane plane = boundarySeenFrom(onBoundary[curve.nearest], particle);
+      ClipPlane plane = boundarySeenFrom(ends.at(curve.nearest), particle);
       plane.distance = std::max(0.0, plane.distance);
       offerPlane(particle, plane);
     }
@@ -135,19 +164,18 @@ bool areFacing(const BoundaryParticle& a, const BoundaryParticle& b)
     length(a.particle.position - b.particle.position) < ClipReach * a.particle.spacing;
 }
 
-/// Marks the particles on boundary curves beyond which a free particle goes on with the surface.
-void markGoingOn(const SpacingGrid& grid, const ParticleGrid& all,
+/// Marks the places on boundary curves beyond which a free particle goes on with the surface.
+void markGoingOn(const SurfaceEnds& ends, const ParticleGrid& all,
   std::vector<std::atomic<char>>& continuesIn, const ParallelFor& parallelFor)
 {
-  const Buffer<BoundaryParticle>& onBoundary = all.boundaryParticles();
-  forAll(parallelFor, all.size() - onBoundary.size(),
+  forAll(parallelFor, all.size() - all.boundaryParticles().size(),
     [&](std::size_t i)
     {
       const Particle& particle = all.at(i);
-      grid.visit(particle.position.xyz, particle.spacing,
+      ends.visit(particle,
         [&](int j)
         {
-          if (goesOnAt(onBoundary[j], particle))
+          if (goesOnAt(ends.at(j), particle))
           {
             continuesIn[j] = 1;
           }
@@ -159,28 +187,27 @@ void markGoingOn(const SpacingGrid& grid, const ParticleGrid& all,
 /// the surface goes on, though the elements on both sides of the edge hold none of it. There the gap is far smaller
 /// than a spacing. The two sides of a slit stay.
 void dropEndsThatGoOn(
-  const SpacingGrid& grid, const ParticleGrid& all, const ParallelFor& parallelFor)
+  const SurfaceEnds& ends, const ParticleGrid& all, const ParallelFor& parallelFor)
 {
-  Buffer<BoundaryParticle>& onBoundary = all.boundaryParticles();
-  std::vector<std::atomic<char>> continuesIn(onBoundary.size());
-  markGoingOn(grid, all, continuesIn, parallelFor);
-  forAll(parallelFor, onBoundary.size(),
+  std::vector<std::atomic<char>> continuesIn(ends.size());
+  markGoingOn(ends, all, continuesIn, parallelFor);
+  forAll(parallelFor, ends.size(),
     [&](std::size_t i)
     {
       bool isSlit = false;
-      grid.visit(onBoundary[i].particle.position.xyz, onBoundary[i].particle.spacing,
+      ends.visit(ends.at(i).particle,
         [&](int j)
         {
-          isSlit = isSlit || areFacing(onBoundary[i], onBoundary[j]);
-          continuesIn[i] = continuesIn[i] || goesOnAt(onBoundary[i], onBoundary[j].particle);
+          isSlit = isSlit || areFacing(ends.at(i), ends.at(j));
+          continuesIn[i] = continuesIn[i] || goesOnAt(ends.at(i), ends.at(j).particle);
         });
       continuesIn[i] = continuesIn[i] && !isSlit;
     });
-  for (std::size_t i = 0; i < onBoundary.size(); ++i)
+  for (std::size_t i = 0; i < ends.size(); ++i)
   {
     if (continuesIn[i])
     {
-      onBoundary[i].side = {};
+      ends.at(i).side = {};
     }
   }
 }
@@ -197,13 +224,9 @@ public:
 
   void dropOpen(Particle& particle) const
   {
-    auto& [first, second] = particle.clips;
-    second = this->isOpen(particle, second) ? ClipPlane{} : second;
-    if (this->isOpen(particle, first))
-    {
-      first = second;
-      second = {};
-    }
+    const auto stay = std::stable_partition(particle.clips.begin(), particle.clips.end(),
+      [&](const ClipPlane& plane) { return !this->isOpen(particle, plane); });
+    std::fill(stay, particle.clips.end(), ClipPlane{});
   }
 
 private:
@@ -247,21 +270,18 @@ private:
 
 } // namespace
 
-void markClipPlanes(
-  const Isosurface& surface, const ParticleGrid& all, const ParallelFor& parallelFor)
+void markClipPlanes(const Isosurface& surface, const ParticleGrid& all,
+  Buffer<BoundaryParticle>& thinned, const ParallelFor& parallelFor)
 {
   Buffer<BoundaryParticle>& onBoundary = all.boundaryParticles();
-  const SpacedPoints points(
-    onBoundary.size(), [&](std::size_t i) { return onBoundary[i].particle.position.xyz; },
-    [&](std::size_t i) { return onBoundary[i].patch.spacing; }, parallelFor);
-  const SpacingGrid grid(points.positions, points.spacings, ClipReach, CellsPerReach, parallelFor);
-  dropEndsThatGoOn(grid, all, parallelFor);
+  const SurfaceEnds ends(onBoundary, thinned, parallelFor);
+  dropEndsThatGoOn(ends, all, parallelFor);
   const CreaseCovers covers(surface, all);
   forAll(parallelFor, all.size(),
     [&](std::size_t i)
     {
       covers.dropOpen(all.at(i));
-      offerBoundaries(grid, onBoundary, all.at(i));
+      offerBoundaries(ends, all.at(i));
     });
   forAll(parallelFor, onBoundary.size(),
     [&](std::size_t i)

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace hop
 {
@@ -168,7 +169,7 @@ std::vector<int> CreaseCorners::findAround(int i) const
 }
 
 /// Whether a crease meets another one, or a boundary curve, near particle i.
-/// \param plane of the crease: 0 or 1
+/// \param plane of the crease: its number
 bool CreaseCorners::isCornerOf(int i, int plane, const std::vector<int>& around) const
 {
   const glm::dvec3 along = alongEdge(this->All.at(i), this->All.at(i).clips[plane]);
@@ -201,28 +202,35 @@ bool CreaseCorners::isOpen(int i, const glm::dvec3& place, const std::vector<int
     });
 }
 
-/// How far a plane leaves the surface open behind one place of its cut, world units.
+/// How far a plane leaves the surface open behind one place of its cut, world units. What lies right behind may be
+/// covered, and be open farther off.
 /// \param start from the particle to that place
 double CreaseCorners::openFrom(int i, int plane, const glm::dvec3& start, const glm::dvec3& away,
   const std::vector<int>& around) const
 {
   const Particle& particle = this->All.at(i);
-  const ClipPlane& other = particle.clips[1 - plane];
+  const auto isBeyondOther = [&](const glm::dvec3& offset)
+  {
+    return std::any_of(particle.clips.begin(), particle.clips.end(),
+      [&](const ClipPlane& other)
+      {
+        return &other != &particle.clips[plane] && cuts(other) &&
+          glm::dot(offset, other.normal.xyz) > other.distance;
+      });
+  };
   const double step = placeStep * particle.spacing;
   const double farthest = Cover::StandOff / std::sin(particle.clips[plane].dihedralAngle);
-  int count = 0;
-  for (;; ++count)
+  double open = 0.0;
+  for (int count = 1; count * placeStep <= farthest; ++count)
   {
-    const glm::dvec3 offset = start + (count + 1) * step * away;
-    const glm::dvec3 place = particle.position.xyz + offset;
-    if (!(glm::length(offset) <= coverReach * particle.spacing) ||
-      (count + 1) * placeStep > farthest ||
-      (cuts(other) && glm::dot(offset, other.normal.xyz) > other.distance) ||
-      !this->isOpen(i, place, around))
+    const glm::dvec3 offset = start + count * step * away;
+    if (!(glm::length(offset) <= coverReach * particle.spacing) || isBeyondOther(offset))
     {
-      return count == 0 ? 0.0 : (count + 0.5) * step;
+      break;
     }
+    open = this->isOpen(i, particle.position.xyz + offset, around) ? (count + 0.5) * step : open;
   }
+  return open;
 }
 
 /// How far a plane of particle i is to be moved, world units: as far as it leaves the surface open anywhere.
@@ -251,7 +259,8 @@ double CreaseCorners::openBehind(int i, int plane, const std::vector<int>& aroun
 void CreaseCorners::close()
 {
   const std::size_t count = this->All.size();
-  std::vector<std::array<double, 2>> moves(count);
+  constexpr std::size_t planes = std::tuple_size_v<decltype(Particle::clips)>;
+  std::vector<std::array<double, planes>> moves(count);
   forAll(this->Parallel, count,
     [&](std::size_t n)
     {
@@ -259,18 +268,23 @@ void CreaseCorners::close()
       const auto isCut = [&](const ClipPlane& plane)
       { return isCrease(plane) && plane.distance < coverReach * this->All.at(i).spacing; };
       const auto& clips = this->All.at(i).clips;
-      const std::array<bool, 2> wanted{ isCut(clips[0]), isCut(clips[1]) };
-      if (wanted[0] || wanted[1])
+      if (std::none_of(clips.begin(), clips.end(), isCut))
       {
-        const std::vector<int> around = this->findAround(i);
-        moves[n] = { wanted[0] ? this->openBehind(i, 0, around) : 0.0,
-          wanted[1] ? this->openBehind(i, 1, around) : 0.0 };
+        return;
+      }
+      const std::vector<int> around = this->findAround(i);
+      for (std::size_t plane = 0; plane < planes; ++plane)
+      {
+        moves[n][plane] =
+          isCut(clips[plane]) ? this->openBehind(i, static_cast<int>(plane), around) : 0.0;
       }
     });
   for (std::size_t i = 0; i < count; ++i)
   {
-    this->All.at(i).clips[0].distance += moves[i][0];
-    this->All.at(i).clips[1].distance += moves[i][1];
+    for (std::size_t plane = 0; plane < planes; ++plane)
+    {
+      this->All.at(i).clips[plane].distance += moves[i][plane];
+    }
   }
 }
 
@@ -282,7 +296,8 @@ void closeCreaseCorners(const ParticleGrid& all, const ParallelFor& parallelFor)
   forAll(parallelFor, all.size(),
     [&](std::size_t i)
     {
-      if (isCrease(all.at(i).clips[0]) || isCrease(all.at(i).clips[1]))
+      const auto& clips = all.at(i).clips;
+      if (std::any_of(clips.begin(), clips.end(), isCrease))
       {
         hasCreases = true;
       }

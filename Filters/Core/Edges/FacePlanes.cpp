@@ -92,19 +92,10 @@ void offerPlane(Particle& particle, const ClipPlane& plane)
   {
     return;
   }
-  auto& [first, second] = particle.clips;
-  const auto isBefore = [&](const ClipPlane& other)
-  { return !other.exists() || comesBefore(plane, other, particle.spacing); };
-  const bool isFirstEdge = first.exists() && dot(first.normal, plane.normal) > SameEdge;
-  if (isBefore(first))
-  {
-    second = isFirstEdge ? second : first;
-    first = plane;
-  }
-  else if (!isFirstEdge && isBefore(second))
-  {
-    second = plane;
-  }
+  insertEdge(
+    particle.clips, plane,
+    [&](const ClipPlane& a, const ClipPlane& b) { return comesBefore(a, b, particle.spacing); },
+    [](const ClipPlane& a, const ClipPlane& b) { return dot(a.normal, b.normal) > SameEdge; });
 }
 
 void offerFaces(const Isosurface& surface, const FaceJumps& jumps, const Jet& jet,

@@ -33,7 +33,8 @@ double drawnPart(const Particle& particle)
 {
   const auto isAtBoundary = [&](const ClipPlane& plane)
   { return plane.isBoundary() && plane.distance < SmallComponent::AtBoundary * particle.spacing; };
-  const auto& [first, second] = particle.clips;
+  const ClipPlane& first = particle.clips[0];
+  const ClipPlane& second = particle.clips[1];
   if (isAtBoundary(first) && isAtBoundary(second))
   {
     return std::max(

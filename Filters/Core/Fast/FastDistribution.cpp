@@ -481,7 +481,7 @@ void FastSystem::finish()
   particles = std::move(finished.particles);
   particles.resize(closeGaps(particles, particles.size(), kept));
   const ParticleGrid all(particles, this->Curves.particles, this->Parallel);
-  markClipPlanes(this->Surface, all, this->Parallel);
+  markClipPlanes(this->Surface, all, this->Curves.thinned, this->Parallel);
   for (const BoundaryParticle& boundary : this->Curves.particles)
   {
     particles.push_back(boundary.particle);

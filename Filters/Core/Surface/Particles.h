@@ -44,9 +44,9 @@ struct Particle
   double residual = 0.0;
   /// h, the wanted distance to neighbours, world units.
   double spacing = 0.0;
-  /// Near corners of the surface there are two planes: boundary curves first, then creases, near planes before far
-  /// ones, see offerPlane().
-  std::array<ClipPlane, 2> clips;
+  /// Near corners of the surface, and on strips of it, there are several planes: boundary curves first, then creases,
+  /// near planes before far ones, see offerPlane().
+  std::array<ClipPlane, 3> clips;
   /// On a boundary curve where the field jumps between elements: F - c in the element behind the face. Zero elsewhere.
   double jump = 0.0;
   /// Ratio of the splat's radius to the spacing, 1 at most: less where the particle stands alone on a component of the

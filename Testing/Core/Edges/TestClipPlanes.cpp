@@ -308,7 +308,8 @@ TEST(ClipPlanes, OfBoundariesThatBendStronglyAreNotTurnedFar)
     particles[0].normal = onBoundary[0].particle.normal;
     particles[0].spacing = spacing;
     const ParticleGrid all(particles, onBoundary, {});
-    markClipPlanes(surface, all, {});
+    Buffer<BoundaryParticle> thinned;
+    markClipPlanes(surface, all, thinned, {});
     const ClipPlane& plane = particles[0].clips[0];
     ASSERT_TRUE(plane.exists()) << bend;
     EXPECT_GT(plane.normal.xyz.x, std::cos(0.5)) << bend;
@@ -421,10 +422,10 @@ TEST_P(ClipPlanesWhereCreasesMeet, LeaveHardlyAnyHoles)
     seedsWithHoles += open > before;
   }
   EXPECT_GT(places, 3000 * seeds);
-  // Most seeds leave no hole. A corner narrower than a tenth of a spacing may be overlooked, and now and then one of a
-  // particle's width: which seeds those are depends on rounding. Seen with GCC and Clang, with and without vectors: up
-  // to 6 of 24 seeds with a hole, up to 46 open places of 3,000 for one seed of 40.
-  EXPECT_LE(seedsWithHoles, seeds / 3);
+  // Most seeds leave no hole; which do depends on rounding. Of 60 seeds and all numbers of sides 4% leave one: a few
+  // places, narrower than a tenth of a spacing, where planes may be moved no farther; and, for one seed in a hundred, up
+  // to 56 places where no particle stands within a spacing.
+  EXPECT_LE(seedsWithHoles, seeds / 4);
   EXPECT_LE(open, places / 1000);
 }
 
@@ -445,35 +446,120 @@ TEST(ClipPlanes, OfBothFacesCutParticlesInCorners)
 {
   for (const double sides : { 0.8, 1.0, 1.3 })
   {
-    MeshRecipe recipe;
-    recipe.cells = 1;
-    const double sum = sides * spacing / std::sqrt(2.0) - 3.0;
-    recipe.field = [=](const glm::dvec3& x) { return x.x + x.y + x.z - sum; };
-    const ElementMesh mesh = makeMesh(recipe);
-    DistributionParameters parameters;
-    parameters.sizing = { spacing, 0.0 };
-    const Distribution result = distributeFast({ &mesh, 0.0, 1e-9 }, parameters, {}, {});
-    ASSERT_GE(result.particles.size(), 3u) << sides;
-    int atCorners = 0;
-    for (const Particle& particle : result.particles)
+    for (const int cells : { 1, 3 })
     {
-      const glm::dvec3 fromCorner = particle.position.xyz + 1.0;
-      const auto isAtSide = [&](int axis) { return fromCorner[axis] < 1e-6; };
-      if (isAtSide(0) + isAtSide(1) + isAtSide(2) < 2)
+      MeshRecipe recipe;
+      recipe.cells = cells;
+      const double sum = sides * spacing / std::sqrt(2.0) - 3.0;
+      recipe.field = [=](const glm::dvec3& x) { return x.x + x.y + x.z - sum; };
+      const ElementMesh mesh = makeMesh(recipe);
+      DistributionParameters parameters;
+      parameters.sizing = { spacing, 0.0 };
+      const Distribution result = distributeFast({ &mesh, 0.0, 1e-9 }, parameters, {}, {});
+      ASSERT_GE(result.particles.size(), 3u) << sides;
+      int atCorners = 0;
+      for (const Particle& particle : result.particles)
       {
-        continue;
+        const glm::dvec3 fromCorner = particle.position.xyz + 1.0;
+        const auto isAtSide = [&](int axis) { return fromCorner[axis] < 1e-6; };
+        if (isAtSide(0) + isAtSide(1) + isAtSide(2) < 2)
+        {
+          continue;
+        }
+        ++atCorners;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          const bool isCut = std::any_of(particle.clips.begin(), particle.clips.end(),
+            [&](const ClipPlane& plane)
+            { return plane.normal.xyz[axis] < -0.8 && plane.distance < 1e-6; });
+          EXPECT_EQ(isCut, isAtSide(axis)) << sides << " " << axis;
+        }
       }
-      ++atCorners;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        const bool isCut = std::any_of(particle.clips.begin(), particle.clips.end(),
-          [&](const ClipPlane& plane)
-          { return plane.normal.xyz[axis] < -0.8 && plane.distance < 1e-6; });
-        EXPECT_EQ(isCut, isAtSide(axis)) << sides << " " << axis;
-      }
+      EXPECT_EQ(atCorners, 3) << sides;
     }
-    EXPECT_EQ(atCorners, 3) << sides;
   }
+}
+
+/// A strip of the plane z = 0.1 between two walls. Lengths are in spacings; the second width is that at the other end.
+Distribution distributeOnStrip(double width, double otherWidth)
+{
+  MeshRecipe recipe;
+  recipe.map = [=](const glm::dvec3& x)
+  { return glm::dvec3(x.x, spacing * x.y * glm::mix(width, otherWidth, 0.5 + 0.5 * x.x), x.z); };
+  recipe.field = [](const glm::dvec3& x) { return x.z - 0.1; };
+  ElementMesh mesh;
+  appendBox(mesh, recipe, { -1, 0, -1 }, { 1, 1, 1 });
+  findFaceNeighbors(mesh, 1e-9);
+  DistributionParameters parameters;
+  parameters.sizing = { spacing, 0.0 };
+  return distributeFast({ &mesh, 0.0, 1e-9 }, parameters, {}, {});
+}
+
+/// Whether a particle's planes of boundary curves cut a place off.
+bool cutsOff(const Particle& particle, const glm::dvec3& place)
+{
+  const glm::dvec3 offset = place - particle.position.xyz;
+  return std::any_of(particle.clips.begin(), particle.clips.end(),
+    [&](const ClipPlane& plane)
+    {
+      return plane.isBoundary() &&
+        glm::dot(offset, plane.normal.xyz) > plane.distance + 1e-6 * spacing;
+    });
+}
+
+/// Places beside a strip, all around, are cut off from the splats that reach there; the strip itself is covered.
+TEST(ClipPlanes, OfBothSidesCutParticlesOnStrips)
+{
+  const std::vector<glm::dvec2> widths{ { 0.05, 0.05 }, { 0.3, 0.3 }, { 0.55, 0.55 }, { 0.8, 0.8 },
+    { 1.5, 1.5 }, { 3.0, 3.0 }, { 0.1, 1.2 } };
+  for (const glm::dvec2& width : widths)
+  {
+    const Distribution result = distributeOnStrip(width.x, width.y);
+    const auto isCovered = [&](double x, double y)
+    {
+      const glm::dvec3 place(x, spacing * y, 0.1);
+      return std::any_of(result.particles.begin(), result.particles.end(),
+        [&](const Particle& p) {
+          return glm::distance(p.position.xyz, place) < splatReach() * spacing &&
+            !cutsOff(p, place);
+        });
+    };
+    for (double x = -1.005; x <= 1.01; x += 0.2 * spacing)
+    {
+      const double end = glm::mix(width.x, width.y, 0.5 + 0.5 * x);
+      const bool isInside = std::abs(x) < 1.0;
+      for (const double share : { 0.01, 0.3, 0.7, 0.99 })
+      {
+        EXPECT_EQ(isCovered(x, share * end), isInside) << width.x << " at " << x << " " << share;
+      }
+      EXPECT_FALSE(isCovered(x, -0.02)) << width.x << " at " << x;
+      EXPECT_FALSE(isCovered(x, end + 0.02)) << width.x << " at " << x;
+    }
+  }
+}
+
+/// The two ends of a cut as wide as rounding are no strip: nothing is cut off there.
+TEST(ClipPlanes, AreNotAtCracksThatSplatsCover)
+{
+  MeshRecipe recipe;
+  recipe.field = [](const glm::dvec3& x) { return x.z - 0.1; };
+  ElementMesh mesh;
+  appendBox(mesh, recipe, { -1, -1, -1 }, { 0, 1, 1 });
+  appendBox(mesh, recipe, { -1e-4 * spacing, -1, -1 }, { 1, 1, 1 });
+  findFaceNeighbors(mesh, 1e-9);
+  DistributionParameters parameters;
+  parameters.sizing = { spacing, 0.0 };
+  int near = 0;
+  for (const Particle& p : distributeFast({ &mesh, 0.0, 1e-9 }, parameters, {}, {}).particles)
+  {
+    if (std::abs(p.position.xyz.x) < 0.9 * spacing &&
+      std::abs(p.position.xyz.y) < 1.0 - 2.0 * spacing)
+    {
+      ++near;
+      EXPECT_FALSE(p.clips[0].exists()) << p.position.xyz.x;
+    }
+  }
+  EXPECT_GT(near, 30);
 }
 
 } // namespace

@@ -1,0 +1,74 @@
+// Pictures of surfaces whose edges lie near to each other, held against rays: nothing is missing, nothing too wide.
+#include "EdgeCases.h"
+#include "PictureErrors.h"
+
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkSurfaceSplatMapper.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+PictureErrors ErrorsOf(const SurfaceCase& surface, const hop::testing::PictureCamera& camera)
+{
+  vtkNew<vtkSurfaceSplatMapper> mapper;
+  mapper->SetInputData(surface.Particles);
+  mapper->ScalarVisibilityOff();
+  return FindErrors(
+    DrawSurface(mapper, camera), CastSurface(surface, camera), camera, surface.Spacing);
+}
+
+class EdgePictures : public testing::TestWithParam<const char*>
+{
+};
+}
+
+TEST_P(EdgePictures, AreAsRaysSeeThem)
+{
+  const SurfaceCase surface = MakeEdgeCase(GetParam());
+  const auto near = ViewsOfCorners(surface, 200, 1);
+  ASSERT_EQ(near.size(), 1u);
+  const PictureErrors errors = ErrorsOf(surface, near[0]);
+  EXPECT_GT(errors.Covered, 20);
+  EXPECT_EQ(errors.Count(PixelError::Hole), 0);
+  EXPECT_EQ(errors.Count(PixelError::Beyond), 0);
+  EXPECT_EQ(errors.Count(PixelError::Depth), 0);
+  EXPECT_EQ(errors.Count(PixelError::Shade), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, EdgePictures,
+  testing::Values("strip:0.3", "strip:1", "wave:0.6", "taper:1", "shaving:0.6", "corner:0.6",
+    "corner:1.4", "corner:3", "cap:2"),
+  [](const auto& which) { return "Case" + std::to_string(which.index); });
+
+// The measure itself: what is missing, too wide, too far off and of another brightness is found.
+TEST(PictureErrors, AreFoundAndCounted)
+{
+  hop::testing::PictureCamera camera;
+  camera.size = 16;
+  SurfacePicture reference;
+  reference.Seen.resize(256);
+  reference.Shade.assign(256, 0.);
+  for (int i = 0; i < 128; ++i)
+  {
+    reference.Seen[i] = { 4., { 0., 0., 1. } };
+    reference.Shade[i] = 1.;
+  }
+  SurfacePicture drawn = reference;
+  constexpr double spacing = 0.1;
+  EXPECT_EQ(FindErrors(drawn, reference, camera, spacing).Count(PixelError::None), 256);
+  drawn.Seen[3 * 16 + 3] = {};
+  drawn.Seen[12 * 16 + 3] = reference.Seen[0];
+  drawn.Seen[8 * 16 + 9] = reference.Seen[0]; // a pixel beside the outline
+  drawn.Shade[8 * 16 + 9] = 1.;
+  drawn.Seen[3 * 16 + 9].depth += 0.2 * spacing;
+  drawn.Shade[3 * 16 + 12] -= 0.2;
+  const PictureErrors errors = FindErrors(drawn, reference, camera, spacing);
+  EXPECT_EQ(errors.Pixels[3 * 16 + 3], PixelError::Hole);
+  EXPECT_EQ(errors.Pixels[12 * 16 + 3], PixelError::Beyond);
+  EXPECT_EQ(errors.Pixels[3 * 16 + 9], PixelError::Depth);
+  EXPECT_EQ(errors.Pixels[3 * 16 + 12], PixelError::Shade);
+  EXPECT_EQ(errors.Count(PixelError::None), 252);
+  EXPECT_EQ(WorstPlaces(errors, 16, 4, 10).size(), 3u); // one of the squares holds two errors
+}
