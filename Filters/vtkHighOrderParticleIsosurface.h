@@ -29,7 +29,9 @@
  * - geometry: `Normals`, `Radius`, `Mean_Curvature`, `Gauss_Curvature`, `Shape_Operator`, `Residual`;
  * - where the surface ends or turns near the particle: `Clip_Normal`, `Clip_Distance`, `Clip_Angle`, `Clip_Curvature`
  *   (with method FAST), and `Jump`;
- * - where the particle is: `Isovalue`, `ParametricCoordinates`, `vtkOriginalCellIds`.
+ * - where the particle's cell ends on the surface: `Cell_Borders` (with method FAST);
+ * - where the particle is: `Isovalue`, `ParametricCoordinates`, `Cell_Id` and, with the same ids in the same memory,
+ *   `vtkOriginalCellIds`.
  *
  * Cell arrays are copied to the vertex cells. Field data of the output: those of the input, and a report of what the run
  * cost and could not do: `Evaluations`, `Iterations`, `ElementsDropped`, `CellsSkipped`, `BoxesUnresolved`,

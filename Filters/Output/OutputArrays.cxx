@@ -41,6 +41,20 @@ void writeParametricCoordinates(const ParticleRow& row, const RowCells& cells, d
   writeVector(parametricCoordinates(cells.cellTypeOf(row), u).xyz, out);
 }
 
+void writeCellBorders(const ParticleRow& row, const RowCells&, float* out)
+{
+  for (const CellBorder& border : row.particle->borders)
+  {
+    out = std::copy_n(&border.foot.x, 3, out);
+    *out++ = border.curvature;
+  }
+}
+
+void writeCellId(const ParticleRow& row, const RowCells& cells, vtkIdType* out)
+{
+  *out = cells.cellOf(row);
+}
+
 std::vector<ParticleArray> makeParticleArrays()
 {
   return {
@@ -97,6 +111,15 @@ std::vector<ParticleArray> makeParticleArrays()
       "where the edge bends towards the plane's normal, 0 where Clip_Angle is below 10 degrees.",
       [](const ParticleRow& row, const RowCells&, double* out)
       { writeOfClips(row, out, [](const ClipPlane& plane) { return plane.edgeCurvature; }); } },
+    { "Cell_Borders", 4 * CellBorder::Most,
+      "Up to four borders of the particle's cell on the surface that its splat reaches, nearest "
+      "first, four numbers "
+      "each: the vector to the nearest place of the border along the tangent plane, world units, "
+      "zero where there is "
+      "no border; and the border's curvature, 1/world units, positive where it bends out of the "
+      "cell. Colours that "
+      "differ from cell to cell end there, and edges of cells are drawn there.",
+      writeCellBorders },
     { "Jump", 1,
       "F - c on the other side, where the particle stands on a boundary curve at which the field "
       "jumps from element to element; else 0.",
@@ -106,9 +129,11 @@ std::vector<ParticleArray> makeParticleArrays()
     { "ParametricCoordinates", 3,
       "Where the particle stands in its cell, in the parametric coordinates of VTK's cell.",
       writeParametricCoordinates },
-    { CellIdsArray, 1, "Number of the particle's cell in the input grid.",
-      [](const ParticleRow& row, const RowCells& cells, vtkIdType* out)
-      { *out = cells.cellOf(row); } },
+    { CellIdsArray, 1, "Number of the particle's cell in its block of the input.", writeCellId },
+    { OriginalCellIdsArray, 1,
+      "The same as Cell_Id, under the name by which VTK's filters know it; ParaView does not list "
+      "it.",
+      writeCellId },
   };
 }
 

@@ -18,7 +18,9 @@ namespace hop
 /// Names that other code has to know.
 constexpr const char* NormalsArray = "Normals";
 constexpr const char* IsovalueArray = "Isovalue";
-constexpr const char* CellIdsArray = "vtkOriginalCellIds";
+constexpr const char* CellIdsArray = "Cell_Id";
+/// VTK's own name for the same ids, which ParaView does not list.
+constexpr const char* OriginalCellIdsArray = "vtkOriginalCellIds";
 
 /// Writes the numbers of one particle.
 template <class Number>
@@ -31,8 +33,8 @@ struct ParticleArray
   int components;
   /// For users: what the numbers mean, and their unit.
   const char* meaning;
-  /// Its kind is the type of the array: double or vtkIdType.
-  std::variant<RowWriter<double>, RowWriter<vtkIdType>> write;
+  /// Its kind is the type of the array: double, float or vtkIdType. Arrays of ids with one writer share their memory.
+  std::variant<RowWriter<double>, RowWriter<float>, RowWriter<vtkIdType>> write;
 };
 
 /// What a run reports of one block.
