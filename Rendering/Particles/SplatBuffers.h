@@ -54,6 +54,9 @@ public:
   /** Whether particles carry clip planes. */
   bool GetHasClip() const { return this->HasClip; }
 
+  /** Whether particles know the borders of their cells. */
+  bool GetHasBorders() const { return this->HasBorders; }
+
   /** Whether particles carry shape operators. */
   bool GetHasShape() const { return this->HasShape; }
 
@@ -71,10 +74,11 @@ public:
   {
     const float* CentreRadius = nullptr;
     const float* Normal = nullptr;
-    const float* Clip = nullptr; ///< nullptr if there are no planes
+    const float* Clip = nullptr;    ///< nullptr if there are no planes
+    const float* Borders = nullptr; ///< nullptr if there are none, or if they were not asked for
   };
   /** Calls with the particles. Returns false, without a call, if the driver cannot map buffers. */
-  bool Read(const std::function<void(const Mapped&)>& use);
+  bool Read(const std::function<void(const Mapped&)>& use, bool withBorders = false);
 
   ///@{
   /** Programs can read the textures between these two calls. */
@@ -98,11 +102,13 @@ private:
   std::array<double, 3> Origin = { 0., 0., 0. };
   TexelBuffer CentreRadius;
   TexelBuffer Normal;
-  TexelBuffer Clip;  // three texels a particle; empty without clip planes
-  TexelBuffer Shape; // two texels a particle; empty where the surface is nearly flat
+  TexelBuffer Clip;    // three texels a particle; empty without clip planes
+  TexelBuffer Borders; // four texels a particle; empty without borders
+  TexelBuffer Shape;   // two texels a particle; empty where the surface is nearly flat
   TexelBuffer Color;
   TexelBuffer PointIds; // four bytes a particle, as the selection passes write them
   bool HasClip = false;
+  bool HasBorders = false;
   bool HasShape = false;
   bool HasColor = false;
 };

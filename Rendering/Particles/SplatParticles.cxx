@@ -166,6 +166,24 @@ void ReadClipPlanes(const ParticleArrays& arrays, vtkIdType id, float planes[12]
   }
 }
 
+// Reads the borders of a particle's cell. A border that is missing or not finite is none.
+void ReadBorders(vtkDataArray* borders, vtkIdType id, float* read)
+{
+  const int count =
+    std::min(borders->GetNumberOfComponents() / 4, SplatParticles::MaximumNumberOfBorders);
+  for (int component = 0; component < 4 * count; ++component)
+  {
+    read[component] = static_cast<float>(borders->GetComponent(id, component));
+  }
+  for (int border = 0; border < count; ++border, read += 4)
+  {
+    if (!std::all_of(read, read + 4, [](float value) { return std::isfinite(value); }))
+    {
+      std::fill_n(read, 4, 0.f);
+    }
+  }
+}
+
 // The fourth number of a particle's normal, see SplatParticles::Normal.
 float TagOf(const ParticleArrays& arrays, const SplatParticles& particles,
   const std::vector<double>& isovalues, vtkIdType particle)
@@ -236,6 +254,7 @@ ParticleArrays ParticleArrays::FromPointData(vtkPointData* data)
   arrays.ClipDistances = data->GetArray("Clip_Distance");
   arrays.ClipAngles = data->GetArray("Clip_Angle");
   arrays.ClipCurvatures = data->GetArray("Clip_Curvature");
+  arrays.CellBorders = data->GetArray("Cell_Borders");
   arrays.ShapeOperators = data->GetArray("Shape_Operator");
   arrays.Isovalues = data->GetArray("Isovalue");
   return arrays;
@@ -287,6 +306,8 @@ SplatParticles SplatParticles::FromPolyData(vtkPolyData* input, const ParticleAr
     arrays.ShapeOperators && arrays.Normals && arrays.ShapeOperators->GetNumberOfComponents() == 6;
   particles.Shape.assign(shaped ? 8 * count : 0, 0.f);
   particles.Clip.assign(clipped ? 12 * count : 0, 0.f);
+  const bool bordered = arrays.CellBorders && arrays.CellBorders->GetNumberOfComponents() >= 4;
+  particles.Borders.assign(bordered ? 4 * MaximumNumberOfBorders * count : 0, 0.f);
   const std::vector<double> isovalues = FindIsovalues(arrays.Isovalues, particles.PointIds);
   std::atomic<vtkIdType> skipped(0);
   vtkSMPTools::For(0, count,
@@ -311,6 +332,10 @@ SplatParticles SplatParticles::FromPolyData(vtkPolyData* input, const ParticleAr
         if (clipped)
         {
           ReadClipPlanes(arrays, id, &particles.Clip[12 * i]);
+        }
+        if (bordered)
+        {
+          ReadBorders(arrays.CellBorders, id, &particles.Borders[4 * MaximumNumberOfBorders * i]);
         }
       }
     });

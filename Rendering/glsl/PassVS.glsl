@@ -5,6 +5,8 @@
 //   SPLAT_CURVED         1: splats are bent to paraboloids
 //   SPLAT_SKIPS_HIDDEN   1: points whose middle is hidden are left out
 //   SPLAT_APART          1: isovalues are told apart
+//   SPLAT_HAS_BORDERS    1: it matters where cells end
+//   SPLAT_BORDERS        number of borders that a particle may have
 //   SPLAT_LEAST_PIXELS   smallest radius of a splat, pixels
 //   SPLAT_LEAST_COSINE   smallest cosine by which the push of a point is divided
 // Drawing/SplatPrimitives.cxx explains the last two.
@@ -44,6 +46,10 @@ out vec3 splatOffsetVC;  // from the centre of the disk
 out float splatDepthVC;  // z
 #endif
 flat out vec4 splatClipLines[2]; // see splatClipLine()
+#if SPLAT_HAS_BORDERS
+flat out vec4 splatBorderLines[SPLAT_BORDERS]; // see splatBorderLine()
+flat out float splatDiskToRadius; // takes disk coordinates to offsets in the particle's own radius
+#endif
 flat out vec2 splatBeyondClip;   // how far beyond its clip lines the splat fills gaps (MC)
 out vec3 splatPointMC;           // for clipping planes
 flat out vec3 splatNormalVC;     // outward; of length 1 if splats are flat
@@ -114,6 +120,14 @@ void main()
   float enlarge = max(1.0, SPLAT_LEAST_PIXELS * pixel / max(radiusVC, 1e-30)); // not divided by 0
   splatClipLines[0].xy *= enlarge;
   splatClipLines[1].xy *= enlarge;
+#if SPLAT_HAS_BORDERS
+  for (int border = 0; border < SPLAT_BORDERS; ++border)
+  {
+    splatBorderLines[border] = splatBorderLine(splatParticle, border, disk);
+    splatBorderLines[border].xy *= enlarge;
+  }
+  splatDiskToRadius = enlarge * splatRadiusScale;
+#endif
   tangentVC *= enlarge;
   bitangentVC *= enlarge;
   radiusVC *= enlarge;
