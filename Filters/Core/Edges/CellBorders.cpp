@@ -15,7 +15,7 @@ struct BorderSight
   static constexpr double Reach = 1.0;
   /// Distances to first order up to which a face is looked at: curved ones may be nearer than that. Chosen by
   /// experiment; a larger one costs time, a smaller one misses borders of bent faces at the rim of a splat.
-  static constexpr double FirstOrderReach = 1.5;
+  static constexpr double FirstOrderReach = 1.25;
   /// Newton steps to the nearest place of a border. More move it by less than a hundredth.
   static constexpr int Steps = 3;
   /// Largest error of that place. A larger one accepts borders that Newton's method did not find, a smaller one drops
