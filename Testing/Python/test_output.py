@@ -11,6 +11,7 @@ import pytest
 import support
 from highorderparticles import vtkHighOrderParticleIsosurface
 from paraview import simple
+from paraview.vtk.util.numpy_support import vtk_to_numpy
 from vtkmodules import vtkCommonDataModel
 from vtkmodules.vtkCommonCore import VTK_DOUBLE, VTK_FLOAT, vtkFloatArray, vtkSMPTools
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkDataObject, vtkMultiBlockDataSet, vtkUnstructuredGrid
