@@ -535,7 +535,9 @@ void vtkSurfaceSplatRepresentation::PrintSelf(ostream& os, vtkIndent indent)
   print("SpecularColor", property->GetSpecularColor(), 3);
   os << indent << "SpecularPower: " << property->GetSpecularPower() << "\n";
   os << indent << "PointSize: " << property->GetPointSize() << "\n";
-  os << indent << "EdgeVisibility: " << property->GetEdgeVisibility() << "\n";
+  os << indent
+     << "Representation: " << (property->GetEdgeVisibility() ? "Surface With Edges" : "Surface")
+     << "\n";
   print("EdgeColor", property->GetEdgeColor(), 3);
   os << indent << "LineWidth: " << property->GetLineWidth() << "\n";
   os << indent << "Opacity: " << property->GetOpacity() << "\n";

@@ -501,16 +501,16 @@ def test_edges_of_cells_are_drawn_in_their_own_colour(view, picture, data, block
     view.ResetCamera()
     display.Ambient, display.Diffuse, display.Opacity = 1.0, 0.0, opacity
     display.AmbientColor = display.DiffuseColor = [0, 0.5, 0]
-    display.EdgeColor = [1, 0, 0]
+    display.EdgeColor, display.LineWidth = [1, 0, 0], 2.0
     plain = picture()
     display.Representation = "Surface Splats With Edges"
     edged = picture()
-    assert np.array_equal(drawn(plain), drawn(edged)), "edges lie on the surface"
+    assert np.count_nonzero(drawn(plain) != drawn(edged)) < 0.01 * np.count_nonzero(drawn(plain)), "on the surface"
     changed = np.any(plain != edged, axis=2)
     assert 0.02 * np.count_nonzero(drawn(plain)) < np.count_nonzero(changed) < 0.5 * np.count_nonzero(drawn(plain))
     if opacity == 1.0:
         assert reddish(plain) == 0 and reddish(edged) > 100
-        display.LineWidth = 3.0
+        display.LineWidth = 6.0
         assert reddish(picture()) > 2 * reddish(edged)
     display.Representation = "Surface Splats"
     assert np.array_equal(plain, picture())

@@ -105,7 +105,8 @@ struct FileCase
   std::string Name; // as MakeSurfaceCase() takes it
   // Share of the longest side; some pixels wide, so that a tenth of it is not lost in one pixel.
   double Spacing;
-  double Zoom; // of the camera that sees all of the surface
+  double Zoom;                   // of the camera that sees all of the surface
+  std::vector<bool> Projections; // whether they are parallel
 
   SurfaceCase Make() const { return MakeSurfaceCase(HOP_DATA "/" + this->Name, this->Spacing); }
 };
@@ -116,9 +117,9 @@ void PrintTo(const FileCase& file, std::ostream* os)
 }
 
 // Curved hexahedra with hanging nodes, tetrahedra, wedges.
-const FileCase Hexahedra = { "mfem_amr_hanging_hex_p3.vtu:u:0", 0.03, 1. };
-const FileCase Tetrahedra = { "dolfinx_tet_p3.vtu:u:0.5", 0.02, 3. };
-const FileCase Wedges = { "mfem_torus_wedge_p4.vtu:f:0.3", 0.03, 2. };
+const FileCase Hexahedra = { "mfem_amr_hanging_hex_p3.vtu:u:0", 0.03, 1., { false, true } };
+const FileCase Tetrahedra = { "dolfinx_tet_p3.vtu:u:0.5", 0.02, 3., { true } };
+const FileCase Wedges = { "mfem_torus_wedge_p4.vtu:f:0.3", 0.03, 2., { false, true } };
 
 class CellBordersOf : public testing::TestWithParam<FileCase>
 {
@@ -129,7 +130,7 @@ TEST_P(CellBordersOf, AreWhereColorsEnd)
 {
   const SurfaceCase surface = GetParam().Make();
   vtkSmartPointer<vtkPolyData> particles = ColoredByCell(surface);
-  for (bool parallel : { false, true })
+  for (bool parallel : GetParam().Projections)
   {
     PictureCamera camera = CamerasAround(surface, parallel, Size)[2];
     camera.halfHeight /= GetParam().Zoom;
@@ -336,9 +337,9 @@ EdgeFigures LinesOf(const SurfaceCase& surface, const PictureCamera& camera, dou
 TEST_P(CellBordersOf, AreWhereEdgesAreDrawn)
 {
   const SurfaceCase surface = GetParam().Make();
-  for (bool parallel : { false, true })
+  for (bool parallel : GetParam().Projections)
   {
-    const double zoom = parallel ? 1. : 2.5;
+    const double zoom = GetParam().Zoom * (parallel ? 1. : 2.);
     PictureCamera camera = CamerasAround(surface, parallel, Size)[2];
     camera.halfHeight /= zoom;
     const EdgeFigures figures = LinesOf(surface, camera, 6.);
