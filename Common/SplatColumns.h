@@ -26,6 +26,7 @@ constexpr SplatColumn SplatColumns[] = {
   { "Clip_Curvature", 3 },
   { "Shape_Operator", 6 },
   { "Original_Placement", 6 },
+  { "Cell_Borders", 16 },
 };
 
 /// Components of the array.

@@ -27,10 +27,11 @@
  * Point data of the output: every numeric point array of the input, evaluated by the element's own polynomials in
  * double precision (the contoured one holds the isovalue), and arrays of the filter's own:
  * - geometry: `Normals`, `Radius`, `Mean_Curvature`, `Gauss_Curvature`, `Residual`;
- * - where the particle is: `Isovalue`, `vtkOriginalCellIds`;
+ * - where the particle is: `Isovalue`, `Cell_Id` and, with the same ids in the same memory, `vtkOriginalCellIds`;
  * - for the renderer alone, in the hidden array `__vtkValidMask__Splats`: `Shape_Operator`; where the surface ends or
  *   turns near the particle: `Clip_Normal`, `Clip_Distance`, `Clip_Angle`, `Clip_Curvature` (with method FAST);
- *   where the particle was computed, for filters that move it: `Original_Placement`.
+ *   where the particle was computed, for filters that move it: `Original_Placement`; where its cell ends on the
+ *   surface: `Cell_Borders` (with method FAST).
  *
  * With PassDiagnostics these are arrays under their own names, and `Jump` and `ParametricCoordinates` come with them.
  *

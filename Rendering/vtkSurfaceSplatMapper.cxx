@@ -5,6 +5,7 @@
 #include "Drawing/SplatDrawing.h"
 #include "Drawing/SplatPrimitives.h"
 #include "Drawing/SplatView.h"
+#include "Particles/CellColors.h"
 #include "Particles/ParticleColors.h"
 #include "Particles/Selection.h"
 #include "Particles/SplatBuffers.h"
@@ -33,6 +34,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <tuple>
@@ -47,6 +49,10 @@ constexpr int Surface = vtkOpenGLPolyDataMapper::PrimitiveTris;
 constexpr int Extra = vtkOpenGLPolyDataMapper::PrimitiveTriStrips;
 // The program of lines draws outlines where the surface lies in front of itself. Lines are lit where there are normals.
 constexpr int Folds = vtkOpenGLPolyDataMapper::PrimitiveLines;
+
+// What MapScalars() says where the scalars are from.
+constexpr int Cells = 1;
+constexpr int Field = 2;
 
 // Number of isovalues up to which each has translucent layers of its own. The time of a picture grows with the number;
 // with a smaller one inner surfaces are missing more often. Chosen by experiment.
@@ -114,6 +120,8 @@ struct vtkSurfaceSplatMapper::Internals
   int DrawnTiles = 0;
   bool Translucent = false;
   hop::SplatColoring Coloring;
+  bool ClipsColors = false; // colours end where cells end
+  bool DrawsEdges = false;  // lines are drawn there
   bool HasBackface = false; // the shaders know of a backface property
   bool CannotSplat = false; // the driver has no floating-point targets
 
@@ -141,6 +149,29 @@ struct vtkSurfaceSplatMapper::Internals
       this->Layers.push_back(std::make_unique<IsovalueLayers>());
     }
     return *this->Layers[index];
+  }
+
+  // Whether the values by which particles are coloured jump where cells end; their gradients, if they do.
+  bool ColorsJump(const std::vector<float>& values, std::vector<std::array<float, 2>>* gradients)
+  {
+    bool jump = false;
+    this->Buffers.Read(
+      [&](const hop::SplatBuffers::Mapped& particles)
+      {
+        const vtkIdType count = this->Buffers.GetNumberOfParticles();
+        if (particles.Borders)
+        {
+          const hop::CellColors colors(
+            { particles.CentreRadius, particles.Normal, particles.Borders, count }, values);
+          jump = colors.JumpBetweenCells();
+          if (jump && gradients)
+          {
+            *gradients = colors.FitGradients();
+          }
+        }
+      },
+      true);
+    return jump;
   }
 
   // Releases all layers but the first ones.
@@ -390,6 +421,8 @@ void vtkSurfaceSplatMapper::UploadColors(vtkRenderer* renderer, vtkActor* actor)
   vtkUnsignedCharArray* colors = this->MapScalars(this->CurrentInput, 1.0, source);
   this->InterpolateScalarsBeforeMapping = interpolate;
 
+  const bool clippedBefore = this->Internal->ClipsColors;
+  this->Internal->ClipsColors = false;
   hop::SplatColoring coloring;
   coloring.OpacityIsInColors = cellColors != nullptr;
   coloring.OfScalars = colors || this->ColorCoordinates;
@@ -398,13 +431,13 @@ void vtkSurfaceSplatMapper::UploadColors(vtkRenderer* renderer, vtkActor* actor)
     coloring.From = this->UploadLookupCoordinates(renderer) ? Source::Lookup : Source::Property;
   }
   else if (this->UploadMappedColors(
-             renderer, actor, this->MappedColors(colors, source), cellColors))
+             renderer, actor, this->MappedColors(colors, source), cellColors, source == Cells))
   {
     const bool categorical = colors && this->LookupTable && this->LookupTable->GetIndexedLookup() &&
       this->ColorMode != VTK_COLOR_MODE_DIRECT_SCALARS;
     coloring.From = categorical ? Source::Strongest : Source::Colors;
   }
-  if (coloring != this->Internal->Coloring)
+  if (coloring != this->Internal->Coloring || clippedBefore != this->Internal->ClipsColors)
   {
     this->Internal->Coloring = coloring;
     this->ForgetShaders();
@@ -425,8 +458,6 @@ void vtkSurfaceSplatMapper::ForgetShaders()
 std::vector<unsigned char> vtkSurfaceSplatMapper::MappedColors(
   vtkUnsignedCharArray* colors, int source)
 {
-  constexpr int Cells = 1; // what MapScalars() says where the scalars are from
-  constexpr int Field = 2;
   const std::vector<vtkIdType>& ids =
     source == Cells ? this->Internal->CellIds : this->Internal->PointIds;
   const vtkIdType count = this->Internal->Buffers.GetNumberOfParticles();
@@ -437,8 +468,8 @@ std::vector<unsigned char> vtkSurfaceSplatMapper::MappedColors(
 
 //------------------------------------------------------------------------------
 // False if nothing gives particles colours of their own.
-bool vtkSurfaceSplatMapper::UploadMappedColors(
-  vtkRenderer* renderer, vtkActor* actor, std::vector<unsigned char> rgba, vtkDataArray* cellColors)
+bool vtkSurfaceSplatMapper::UploadMappedColors(vtkRenderer* renderer, vtkActor* actor,
+  std::vector<unsigned char> rgba, vtkDataArray* cellColors, bool ofCells)
 {
   Internals& internal = *this->Internal;
   if (cellColors)
@@ -451,7 +482,23 @@ bool vtkSurfaceSplatMapper::UploadMappedColors(
     return false;
   }
   internal.Buffers.UploadColors(WindowOf(renderer), rgba);
+  // The colours of cells jump, if they differ at all.
+  internal.ClipsColors = internal.Buffers.GetHasBorders() &&
+    (ofCells || internal.ColorsJump(hop::BrightnessOf(rgba), nullptr));
   return true;
+}
+
+//------------------------------------------------------------------------------
+// Where values jump from cell to cell they end there, and are averaged with their gradients.
+void vtkSurfaceSplatMapper::AddGradients(std::vector<float>& lookupTexels)
+{
+  std::vector<std::array<float, 2>> gradients;
+  this->Internal->ClipsColors =
+    this->Internal->ColorsJump(hop::PositionsOf(lookupTexels), &gradients);
+  for (std::size_t i = 0; i < gradients.size(); ++i)
+  {
+    std::copy_n(gradients[i].data(), 2, &lookupTexels[4 * i + 2]);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -464,8 +511,9 @@ bool vtkSurfaceSplatMapper::UploadLookupCoordinates(vtkRenderer* renderer)
   {
     return false;
   }
-  this->Internal->Buffers.UploadColors(
-    WindowOf(renderer), hop::LookupTexels(coordinates, this->Internal->PointIds, count));
+  std::vector<float> texels = hop::LookupTexels(coordinates, this->Internal->PointIds, count);
+  this->AddGradients(texels);
+  this->Internal->Buffers.UploadColors(WindowOf(renderer), texels);
 
   // The base class binds this texture, of one colour a column, whenever there is a ColorTextureMap.
   if (!this->InternalColorTexture)
@@ -501,9 +549,12 @@ void vtkSurfaceSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* act
     return; // there are no framebuffers without pixels
   }
   const bool hasBackface = actor->GetBackfaceProperty() != nullptr;
-  if (hasBackface != internal.HasBackface)
+  const bool drawsEdges =
+    actor->GetProperty()->GetEdgeVisibility() && internal.Buffers.GetHasBorders();
+  if (hasBackface != internal.HasBackface || drawsEdges != internal.DrawsEdges)
   {
     internal.HasBackface = hasBackface;
+    internal.DrawsEdges = drawsEdges;
     this->ForgetShaders();
   }
   const hop::SplatDrawing drawing = this->DescribeDrawing(renderer, actor);
@@ -582,6 +633,9 @@ hop::SplatDrawing vtkSurfaceSplatMapper::DescribeDrawing(vtkRenderer* renderer, 
   drawing.FacesViewer = !this->CurrentInput->GetPointData()->GetNormals();
   drawing.Colors = source == Source::Colors || source == Source::Lookup;
   drawing.Strongest = source == Source::Strongest || renderer->GetSelector() != nullptr;
+  drawing.ClipsColors = this->Internal->ClipsColors;
+  drawing.ColorGradients = drawing.ClipsColors && source == Source::Lookup;
+  drawing.EdgeWidth = this->Internal->DrawsEdges ? actor->GetProperty()->GetLineWidth() : 0.;
   drawing.NumberOfClippingPlanes = this->GetShiftedClippingPlanes(actor, drawing.ClippingPlanes);
   drawing.Key.push_back(static_cast<double>(this->VBOBuildTime.GetMTime()));
   return drawing;
@@ -682,6 +736,8 @@ hop::ShaderText vtkSurfaceSplatMapper::DescribeShaders(vtkActor* actor) const
     : translucent       ? Part::BackLayer
                         : Part::Outline;
   shaders.Coloring = this->Internal->Coloring;
+  shaders.ClipsColors = this->Internal->ClipsColors;
+  shaders.DrawsEdges = this->Internal->DrawsEdges && this->DrawsSplats();
   shaders.ColorsBySide = this->ColorByNormalDirection;
   shaders.HasBackface = this->Internal->HasBackface;
   shaders.HasCoat = property->GetInterpolation() == VTK_PBR && property->GetCoatStrength() > 0.;
@@ -779,6 +835,10 @@ void vtkSurfaceSplatMapper::SetMapperShaderParameters(
     program->SetUniformf("splatLayerDistance", static_cast<float>(diameter));
     program->SetUniformf("splatJump", static_cast<float>(FoldJump * diameter));
     hop::PictureTiles(this->Internal->View).SetUniforms(program, this->Internal->DrawnTiles);
+  }
+  if (drawing.EdgeWidth > 0. && program->IsUniformUsed("splatEdgeColor"))
+  {
+    program->SetUniform3f("splatEdgeColor", actor->GetProperty()->GetEdgeColor());
   }
   if (this->ColorByNormalDirection)
   {

@@ -58,8 +58,14 @@
  * single particles (CellColorArrayName) are then seen from outward only. With a vtkSurfaceSplatActor one side may be
  * opaque and the other translucent.
  *
- * Cell arrays colour the particles of polydata with vertex cells only. Representation, edges and line
- * width of the vtkProperty and textures have no effect. At most 6 clipping planes.
+ * Particles may know where their cells end on the surface: point array `Cell_Borders`, 4 components for each of up to
+ * four borders, which are the vector from the particle to the nearest place of the border along the tangent plane
+ * (zero: no border) and the border's curvature, 1 / world units, positive where it bends along the vector. Colours that
+ * jump from cell to cell then end at the borders of splats, while depth and normal go on smoothly; and where the
+ * vtkProperty shows edges, splats are drawn with lines of its EdgeColor and LineWidth (pixels) at the borders.
+ *
+ * Cell arrays colour the particles of polydata with vertex cells only. Representation of the vtkProperty and textures
+ * have no effect. At most 6 clipping planes.
  */
 
 #ifndef vtkSurfaceSplatMapper_h
@@ -226,7 +232,7 @@ protected:
   void SetCameraShaderParameters(
     vtkOpenGLHelper& cellBO, vtkRenderer* renderer, vtkActor* actor) override;
 
-  // Disks have neither edges nor lines, whatever the property says.
+  // The base class knows edges and lines of polygons only.
   bool HaveWideLines(vtkRenderer*, vtkActor*) override { return false; }
   bool DrawingEdges(vtkRenderer*, vtkActor*) override { return false; }
 
@@ -256,7 +262,8 @@ private:
   std::vector<unsigned char> MappedColors(vtkUnsignedCharArray* colors, int source);
   bool UploadLookupCoordinates(vtkRenderer* renderer);
   bool UploadMappedColors(vtkRenderer* renderer, vtkActor* actor, std::vector<unsigned char> rgba,
-    vtkDataArray* cellColors);
+    vtkDataArray* cellColors, bool ofCells);
+  void AddGradients(std::vector<float>& lookupTexels);
 
   bool DrawsSplats() const;
   bool DrawSplats(vtkRenderer* renderer, vtkActor* actor);

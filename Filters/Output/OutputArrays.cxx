@@ -6,6 +6,7 @@
 #include "vtkDataObject.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 namespace hop
@@ -51,6 +52,20 @@ void writeParametricCoordinates(const ParticleRow& row, const RowCells& cells, d
   writeVector(parametricCoordinates(cells.cellTypeOf(row), u).xyz, out);
 }
 
+void writeCellBorders(const ParticleRow& row, const RowCells&, float* out)
+{
+  for (const CellBorder& border : row.particle->borders)
+  {
+    out = std::copy_n(&border.foot.x, 3, out);
+    *out++ = border.curvature;
+  }
+}
+
+void writeCellId(const ParticleRow& row, const RowCells& cells, vtkIdType* out)
+{
+  *out = cells.cellOf(row);
+}
+
 /// The arrays that are columns of SplatColumnsArray, in its order.
 std::vector<const ParticleArray*> makeSplatColumns()
 {
@@ -75,7 +90,16 @@ void writeSplatColumns(const ParticleRow& row, const RowCells& cells, double* ou
 {
   for (const ParticleArray* column : splatColumns())
   {
-    std::get<RowWriter<double>>(column->write)(row, cells, out);
+    if (const auto* singles = std::get_if<RowWriter<float>>(&column->write))
+    {
+      std::array<float, splatColumnCount()> values;
+      (*singles)(row, cells, values.data());
+      std::copy_n(values.data(), column->components, out);
+    }
+    else
+    {
+      std::get<RowWriter<double>>(column->write)(row, cells, out);
+    }
     out += column->components;
   }
 }
@@ -108,7 +132,8 @@ std::vector<ParticleArray> makeParticleArrays()
       [](const ParticleRow& row, const RowCells&, double* out) { *out = row.particle->residual; } },
     { "Clip_Normal", 9,
       "Unit normals, pointing to the far side, of up to three planes near the particle at which "
-      "the surface ends (at boundary curves) or turns (at faces between elements); zero where there is "
+      "the surface ends (at boundary curves) or turns (at faces between elements); zero where "
+      "there is "
       "no plane. Splats are to be cut at boundary curves and at creases, and to give way to the "
       "splats of the other side where Clip_Angle is below 10 degrees.",
       [](const ParticleRow& row, const RowCells&, double* out)
@@ -147,6 +172,13 @@ std::vector<ParticleArray> makeParticleArrays()
       "Position and Normals of the particle as computed. Renderers compare them with the points to "
       "take radii, planes and curvatures along where a filter has moved particles.",
       writePlacement, ArrayUse::Diagnostic },
+    { "Cell_Borders", 4 * CellBorder::Most,
+      "Up to four borders of the particle's cell on the surface that its splat reaches, nearest "
+      "first, four numbers each: the vector to the nearest place of the border along the tangent "
+      "plane, world units, zero where there is no border; and the border's curvature, 1/world "
+      "units, positive where it bends out of the cell. Colours that differ from cell to cell end "
+      "there, and edges of cells are drawn there.",
+      writeCellBorders, ArrayUse::Diagnostic },
     { "Jump", 1,
       "F - c on the other side, where the particle stands on a boundary curve at which the field "
       "jumps from element to element; else 0.",
@@ -157,12 +189,14 @@ std::vector<ParticleArray> makeParticleArrays()
     { "ParametricCoordinates", 3,
       "Where the particle stands in its cell, in the parametric coordinates of VTK's cell.",
       writeParametricCoordinates, ArrayUse::Diagnostic },
-    { CellIdsArray, 1, "Number of the particle's cell in the input grid.",
-      [](const ParticleRow& row, const RowCells& cells, vtkIdType* out)
-      { *out = cells.cellOf(row); } },
+    { CellIdsArray, 1, "Number of the particle's cell in its block of the input.", writeCellId },
+    { OriginalCellIdsArray, 1,
+      "The same as Cell_Id, under the name by which VTK's filters know it; ParaView does not list "
+      "it.",
+      writeCellId },
     { SplatColumnsArray, splatColumnCount(),
-      "What only the renderer reads: Clip_Normal, Clip_Distance, Clip_Angle, Clip_Curvature and "
-      "Shape_Operator side by side.",
+      "What only the renderer reads: Clip_Normal, Clip_Distance, Clip_Angle, Clip_Curvature, "
+      "Shape_Operator, Original_Placement and Cell_Borders side by side.",
       writeSplatColumns, ArrayUse::Hidden },
   };
 }

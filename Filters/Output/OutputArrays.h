@@ -18,7 +18,9 @@ namespace hop
 /// Names that other code has to know.
 constexpr const char* NormalsArray = "Normals";
 constexpr const char* IsovalueArray = "Isovalue";
-constexpr const char* CellIdsArray = "vtkOriginalCellIds";
+constexpr const char* CellIdsArray = "Cell_Id";
+/// VTK's own name for the same ids, which ParaView does not list.
+constexpr const char* OriginalCellIdsArray = "vtkOriginalCellIds";
 
 /// Writes the numbers of one particle.
 template <class Number>
@@ -41,7 +43,8 @@ struct ParticleArray
   int components;
   /// For users: what the numbers mean, and their unit.
   const char* meaning;
-  /// Its kind is the type of the array: double, float where file formats know nothing else, or vtkIdType.
+  /// Its kind is the type of the array: double, float where that is enough, or vtkIdType. Arrays of ids with one writer
+  /// share their memory.
   std::variant<RowWriter<double>, RowWriter<float>, RowWriter<vtkIdType>> write;
   ArrayUse use = ArrayUse::Always;
 };

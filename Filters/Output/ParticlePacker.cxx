@@ -22,6 +22,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <numeric>
 #include <set>
 #include <string>
@@ -39,7 +40,7 @@ bool isField(vtkPointData* data, vtkDataArray* array)
   const std::string name = array && array->GetName() ? array->GetName() : "";
   const bool isLabel = array == data->GetGlobalIds() || array == data->GetPedigreeIds() ||
     array == data->GetRationalWeights() || name == vtkDataSetAttributes::GhostArrayName() ||
-    name == "vtkOriginalPointIds" || name == CellIdsArray;
+    name == "vtkOriginalPointIds" || name == OriginalCellIdsArray;
   return !name.empty() && !isLabel;
 }
 
@@ -133,6 +134,7 @@ private:
   void addPoints();
   void addVertices();
   void addOwnArrays();
+  void addIds(const char* name, RowWriter<vtkIdType> write, vtkSmartPointer<vtkIdTypeArray>& same);
   void addPointArrays();
   void addCellArrays();
   void copyCellData(const vtkIdType* cellIds, vtkIdType begin, vtkIdType end);
@@ -259,8 +261,25 @@ vtkSmartPointer<Array> Packer::addArray(const std::string& name, int components,
   return array;
 }
 
+/// A point array of ids. If an array has the same ids, it shares its memory.
+void Packer::addIds(
+  const char* name, RowWriter<vtkIdType> write, vtkSmartPointer<vtkIdTypeArray>& same)
+{
+  if (same)
+  {
+    vtkNew<vtkIdTypeArray> alias;
+    alias->ShallowCopy(same);
+    alias->SetName(name);
+    this->Output->GetPointData()->AddArray(alias);
+    return;
+  }
+  same = this->addArray<vtkIdTypeArray>(name, 1,
+    [this, write](const ParticleRow& row, vtkIdType* out) { write(row, this->Cells, out); });
+}
+
 void Packer::addOwnArrays()
 {
+  std::map<RowWriter<vtkIdType>, vtkSmartPointer<vtkIdTypeArray>> idsOf;
   for (const ParticleArray& array : particleArrays())
   {
     if (array.use == ArrayUse::Diagnostic && !this->WithDiagnostics)
@@ -281,9 +300,7 @@ void Packer::addOwnArrays()
     }
     else if (const auto* ids = std::get_if<RowWriter<vtkIdType>>(&array.write))
     {
-      this->addArray<vtkIdTypeArray>(array.name, array.components,
-        [this, write = *ids](const ParticleRow& row, vtkIdType* out)
-        { write(row, this->Cells, out); });
+      this->addIds(array.name, *ids, idsOf[*ids]);
     }
     if (array.use == ArrayUse::Hidden)
     {

@@ -76,10 +76,11 @@ std::vector<double> SplatDrawing::GetWholeKey() const
 {
   std::vector<double> key = this->Key;
   this->View->AppendTo(key);
-  for (double value : { this->RadiusScale, this->Sharpness, double(this->Stride),
-         double(this->Kind), double(this->Isovalue.value_or(AllIsovalues)),
-         double(this->FacesViewer), double(this->HiddenSide), double(this->Colors),
-         double(this->Strongest), double(this->NumberOfClippingPlanes) })
+  for (double value :
+    { this->RadiusScale, this->Sharpness, double(this->Stride), double(this->Kind),
+      double(this->Isovalue.value_or(AllIsovalues)), double(this->FacesViewer),
+      double(this->HiddenSide), double(this->Colors), double(this->Strongest),
+      double(this->ClipsColors), this->EdgeWidth, double(this->NumberOfClippingPlanes) })
   {
     key.push_back(value);
   }
@@ -106,6 +107,11 @@ bool SplatDrawing::DrawsAll() const
   return this->Kind == DrawnKind::All && !this->Isovalue &&
     this->Buffers->GetNumberOfIsovalues() == 1 && this->HiddenSide == CulledSide::None &&
     this->NumberOfClippingPlanes == 0;
+}
+
+bool SplatDrawing::UsesBorders() const
+{
+  return this->Buffers->GetHasBorders() && (this->ClipsColors || this->EdgeWidth > 0.);
 }
 
 bool SplatDrawing::DrawsCurved() const

@@ -50,8 +50,12 @@ struct SplatDrawing
   int Stride = 1; // every Stride-th particle is drawn
   bool FacesViewer = false; // there are no normals
   CulledSide HiddenSide = CulledSide::None;
-  bool Colors = false;    // colours or lookup coordinates are accumulated
-  bool Strongest = false; // the strongest particle of every pixel is found
+  bool Colors = false;      // colours or lookup coordinates are accumulated
+  bool Strongest = false;   // the strongest particle of every pixel is found
+  bool ClipsColors = false; // colours end where cells end
+  bool ColorGradients =
+    false; // colours are lookup coordinates with derivatives; ClipsColors is true then
+  double EdgeWidth = 0.; // of the lines where cells end, pixels; 0: there are none
   int NumberOfClippingPlanes = 0;
   float ClippingPlanes[6][4] = {}; // shifted model coordinates
   std::vector<double> Key;         // whatever the picture depends on that no other member says
@@ -79,6 +83,9 @@ struct SplatDrawing
 
   /** Whether all particles of the stride are drawn, and no clipping plane cuts them. */
   bool DrawsAll() const;
+
+  /** Whether it matters where the cells of particles end. */
+  bool UsesBorders() const;
 
   /** Whether splats are bent. */
   bool DrawsCurved() const;

@@ -42,6 +42,7 @@ public:
     double Push = 0.;         // by how many radii splats are moved away from the eye
     bool EndsAtReach = false; // splats end at splatReach(); otherwise at their rims
     bool SkipsHidden = false; // points whose middle is hidden are left out
+    bool UsesBorders = false; // the fragment stage asks where cells end
   };
 
   /**

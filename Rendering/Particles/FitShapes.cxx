@@ -1,13 +1,11 @@
 #include "Particles/FitShapes.h"
 
+#include "Particles/ParticleLocator.h"
 #include "Particles/SplatParticles.h"
 #include "vtkIdList.h"
 #include "vtkMath.h"
 #include "vtkNew.h"
-#include "vtkPoints.h"
-#include "vtkPolyData.h"
 #include "vtkSMPTools.h"
-#include "vtkStaticPointLocator.h"
 #include "vtkVector.h"
 
 #include <algorithm>
@@ -59,10 +57,6 @@ struct OwnShape
   /** Keeps the weight finite if there is no error or no neighbour: the squared error (no unit) that counts as none. */
   static constexpr double Tiny = 1e-6;
 };
-
-// Largest number of the locator's buckets along an axis, chosen by experiment. More take more memory, up to 200^3
-// buckets; fewer hold more points each, among which the search is slower.
-constexpr double FinestDivisions = 200.;
 
 /**
  * Weighted least squares for a symmetric 2 x 2 matrix, as the vector (xx, xy, yy), near a known one.
@@ -222,51 +216,17 @@ private:
   vtkVector3d Normal, Tangent, Bitangent, Own;
   SymmetricFit Fit;
 };
-
-vtkNew<vtkPolyData> PointsOf(const SplatParticles& particles)
-{
-  vtkNew<vtkPoints> points;
-  points->SetNumberOfPoints(particles.GetNumberOfParticles());
-  for (vtkIdType i = 0; i < particles.GetNumberOfParticles(); ++i)
-  {
-    points->SetPoint(i, &particles.CentreRadius[4 * i]);
-  }
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  return data;
-}
-
-// Buckets of two distances each. VTK's own choice is for points that fill a volume; with it each bucket of a surface
-// would hold hundreds.
-void BuildLocator(vtkStaticPointLocator* locator, vtkPolyData* points, double distance)
-{
-  double bounds[6];
-  points->GetBounds(bounds);
-  int divisions[3];
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double length = bounds[2 * axis + 1] - bounds[2 * axis];
-    divisions[axis] = static_cast<int>(std::clamp(0.5 * length / distance, 1., FinestDivisions));
-  }
-  locator->SetDataSet(points);
-  locator->AutomaticOff();
-  locator->SetDivisions(divisions);
-  locator->BuildLocator();
-}
 }
 
 //------------------------------------------------------------------------------
 void FitShapes(SplatParticles& particles)
 {
-  const vtkNew<vtkPolyData> points = PointsOf(particles);
-  const double distance =
-    SplatParticles::EstimateDistance(points->GetBounds(), points->GetNumberOfPoints());
+  const ParticleLocator locator(particles.CentreRadius.data(), particles.GetNumberOfParticles());
+  const double distance = locator.GetDistance();
   if (distance == 0.)
   {
     return; // all particles are in one place
   }
-  vtkNew<vtkStaticPointLocator> locator;
-  BuildLocator(locator, points, distance);
   std::vector<float> shapes = particles.Shape;
   vtkSMPTools::For(0, particles.GetNumberOfParticles(),
     [&](vtkIdType begin, vtkIdType end)
@@ -280,12 +240,8 @@ void FitShapes(SplatParticles& particles)
           continue;
         }
         ParticleFit fit(particles, i);
-        double place[3];
-        points->GetPoint(i, place);
-        locator->FindPointsWithinRadius(
-          std::min(Neighbors::Reach * radius, Neighbors::LongestReach * distance), place, around);
-        // Sums depend on the order of neighbours, which must not depend on the locator's threads.
-        std::sort(around->begin(), around->end());
+        locator.FindAround(
+          i, std::min(Neighbors::Reach * radius, Neighbors::LongestReach * distance), around);
         for (vtkIdType neighbor : *around)
         {
           fit.AddNeighbor(neighbor);

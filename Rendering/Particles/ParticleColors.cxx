@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hop
 {
@@ -72,5 +73,29 @@ std::vector<float> LookupTexels(
     }
   }
   return texels;
+}
+
+//------------------------------------------------------------------------------
+std::vector<float> BrightnessOf(const std::vector<unsigned char>& rgba)
+{
+  std::vector<float> brightness(rgba.size() / 4);
+  for (std::size_t i = 0; i < brightness.size(); ++i)
+  {
+    // The weights of ITU-R BT.601: colours that differ have, as a rule, another brightness.
+    brightness[i] =
+      (0.299f * rgba[4 * i] + 0.587f * rgba[4 * i + 1] + 0.114f * rgba[4 * i + 2]) / 255.f;
+  }
+  return brightness;
+}
+
+std::vector<float> PositionsOf(const std::vector<float>& lookupTexels)
+{
+  std::vector<float> positions(lookupTexels.size() / 4);
+  for (std::size_t i = 0; i < positions.size(); ++i)
+  {
+    positions[i] = lookupTexels[4 * i + 1] == 1.f ? lookupTexels[4 * i]
+                                                  : std::numeric_limits<float>::quiet_NaN();
+  }
+  return positions;
 }
 }

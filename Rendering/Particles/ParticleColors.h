@@ -36,7 +36,15 @@ void ReplaceColors(std::vector<unsigned char>& rgba, vtkDataArray* cellColors,
   const std::vector<vtkIdType>& cellIds, vtkIdType count, vtkProperty* property);
 
 /**
- * Lookup coordinates, ready to be averaged: position in the table, 1, 0, 0. A particle whose value is no number has
+ * Colours that clip at borders need one number a particle to tell whether they jump: the brightness, 0 to 1, of colours
+ * or the position in the table; not a number where a texel has none.
+ */
+std::vector<float> BrightnessOf(const std::vector<unsigned char>& rgba);
+std::vector<float> PositionsOf(const std::vector<float>& lookupTexels);
+
+/**
+ * Lookup coordinates, ready to be averaged: position in the table, 1, 0, 0. The last two are room for the position's
+ * derivatives along the disk, per radius. A particle whose value is no number has
  * four zeros, so that it has no part in the mean.
  * @param coordinates as vtkMapper makes them: position in the table, and a second coordinate that tells numbers from
  *   values that are none

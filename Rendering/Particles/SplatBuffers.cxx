@@ -34,10 +34,12 @@ void SplatBuffers::Upload(vtkOpenGLRenderWindow* window, const SplatParticles& p
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
   this->HasClip = !particles.Clip.empty();
   this->ClipStride = particles.ClipStride;
+  this->HasBorders = !particles.Borders.empty();
   this->HasShape = !particles.Shape.empty();
   this->HasColor = false;
   // Texels of one particle in the longest buffer.
-  const GLint texels = this->HasClip ? this->ClipStride / 4 : this->HasShape ? 2 : 1;
+  const GLint texels = std::max({ this->HasClip ? this->ClipStride / 4 : 1,
+    this->HasBorders ? SplatParticles::MaximumNumberOfBorders : 1, this->HasShape ? 2 : 1 });
   const vtkIdType count = std::min<vtkIdType>(particles.GetNumberOfParticles(), limit / texels);
   this->NumberOfParticles = count;
   this->IsovalueRanges = particles.IsovalueRanges;
@@ -56,6 +58,10 @@ void SplatBuffers::Upload(vtkOpenGLRenderWindow* window, const SplatParticles& p
   if (this->HasClip)
   {
     this->Clip.Upload(window, particles.Clip.data(), this->ClipStride / 4 * count);
+  }
+  if (this->HasBorders)
+  {
+    this->Borders.Upload(window, particles.Borders.data(), borders * count);
   }
   if (this->HasShape)
   {
@@ -88,6 +94,10 @@ std::vector<TexelBuffer*> SplatBuffers::GetFilled()
   if (this->HasClip)
   {
     filled.push_back(&this->Clip);
+  }
+  if (this->HasBorders)
+  {
+    filled.push_back(&this->Borders);
   }
   if (this->HasShape)
   {
@@ -124,17 +134,20 @@ void SplatBuffers::SetSamplers(vtkShaderProgram* program)
   this->PointIds.SetSampler(program, "splatPointIds");
   // A sampler that no shader reads must still name a texture of its kind: drivers check that.
   (this->HasClip ? this->Clip : this->CentreRadius).SetSampler(program, "splatClip");
+  (this->HasBorders ? this->Borders : this->CentreRadius).SetSampler(program, "splatBorders");
   (this->HasShape ? this->Shape : this->CentreRadius).SetSampler(program, "splatShape");
   (this->HasColor ? this->Color : this->CentreRadius).SetSampler(program, "splatColor");
   program->SetUniformi("splatClipTexels", this->HasClip ? this->ClipStride / 4 : 0);
 }
 
 //------------------------------------------------------------------------------
-bool SplatBuffers::Read(const std::function<void(const Mapped&)>& use)
+bool SplatBuffers::Read(const std::function<void(const Mapped&)>& use, bool withBorders)
 {
+  const bool borders = withBorders && this->HasBorders;
   const Mapped mapped = { this->CentreRadius.Map(), this->Normal.Map(),
-    this->HasClip ? this->Clip.Map() : nullptr };
-  const bool readable = mapped.CentreRadius && mapped.Normal && (mapped.Clip || !this->HasClip);
+    this->HasClip ? this->Clip.Map() : nullptr, borders ? this->Borders.Map() : nullptr };
+  const bool readable = mapped.CentreRadius && mapped.Normal && (mapped.Clip || !this->HasClip) &&
+    (mapped.Borders || !borders);
   if (readable)
   {
     use(mapped);
@@ -145,6 +158,10 @@ bool SplatBuffers::Read(const std::function<void(const Mapped&)>& use)
   {
     this->Clip.Unmap();
   }
+  if (borders)
+  {
+    this->Borders.Unmap();
+  }
   return readable;
 }
 
@@ -154,6 +171,7 @@ void SplatBuffers::ReleaseGraphicsResources(vtkWindow* window)
   this->CentreRadius.ReleaseGraphicsResources(window);
   this->Normal.ReleaseGraphicsResources(window);
   this->Clip.ReleaseGraphicsResources(window);
+  this->Borders.ReleaseGraphicsResources(window);
   this->Shape.ReleaseGraphicsResources(window);
   this->Color.ReleaseGraphicsResources(window);
   this->PointIds.ReleaseGraphicsResources(window);

@@ -57,6 +57,9 @@ public:
   /** See SplatParticles::ClipStride. */
   int GetClipStride() const { return this->ClipStride; }
 
+  /** Whether particles know the borders of their cells. */
+  bool GetHasBorders() const { return this->HasBorders; }
+
   /** Whether particles carry shape operators. */
   bool GetHasShape() const { return this->HasShape; }
 
@@ -74,10 +77,11 @@ public:
   {
     const float* CentreRadius = nullptr;
     const float* Normal = nullptr;
-    const float* Clip = nullptr; ///< nullptr if there are no planes
+    const float* Clip = nullptr;    ///< nullptr if there are no planes
+    const float* Borders = nullptr; ///< nullptr if there are none, or if they were not asked for
   };
   /** Calls with the particles. Returns false, without a call, if the driver cannot map buffers. */
-  bool Read(const std::function<void(const Mapped&)>& use);
+  bool Read(const std::function<void(const Mapped&)>& use, bool withBorders = false);
 
   ///@{
   /** Programs can read the textures between these two calls. */
@@ -101,12 +105,14 @@ private:
   std::array<double, 3> Origin = { 0., 0., 0. };
   TexelBuffer CentreRadius;
   TexelBuffer Normal;
-  TexelBuffer Clip;  // three or five texels a particle; empty without clip planes
-  TexelBuffer Shape; // two texels a particle; empty where the surface is nearly flat
+  TexelBuffer Clip;    // three or five texels a particle; empty without clip planes
+  TexelBuffer Borders; // four texels a particle; empty without borders
+  TexelBuffer Shape;   // two texels a particle; empty where the surface is nearly flat
   TexelBuffer Color;
   TexelBuffer PointIds; // four bytes a particle, as the selection passes write them
   bool HasClip = false;
   int ClipStride = 0;
+  bool HasBorders = false;
   bool HasShape = false;
   bool HasColor = false;
 };

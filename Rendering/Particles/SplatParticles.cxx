@@ -211,6 +211,44 @@ void ReadClipPlanes(const ParticleArrays& arrays, vtkIdType id, int count, float
   }
 }
 
+// Reads the borders of a particle's cell. A border that is missing or not finite is none.
+void ReadBorders(vtkDataArray* borders, vtkIdType id, float* read)
+{
+  const int count =
+    std::min(borders->GetNumberOfComponents() / 4, SplatParticles::MaximumNumberOfBorders);
+  for (int component = 0; component < 4 * count; ++component)
+  {
+    read[component] = static_cast<float>(borders->GetComponent(id, component));
+  }
+  for (int border = 0; border < count; ++border, read += 4)
+  {
+    if (!std::all_of(read, read + 4, [](float value) { return std::isfinite(value); }))
+    {
+      std::fill_n(read, 4, 0.f);
+    }
+  }
+}
+
+// Takes a border of a particle's cell along: its curve as a map takes the edge at a clip plane.
+void CarryBorder(const LinearMap& map, const double normal[3], float* border)
+{
+  const double far =
+    std::sqrt(border[0] * border[0] + border[1] * border[1] + border[2] * border[2]);
+  if (far > 0.)
+  {
+    float plane[4] = { 0.f, 0.f, 0.f, static_cast<float>(far) };
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      plane[axis] = static_cast<float>(border[axis] / far);
+    }
+    map.CarryClip(normal, plane, border[3]);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      border[axis] = plane[axis] * plane[3];
+    }
+  }
+}
+
 // Takes a particle to where an affine map has moved its point. A normal that the map has turned already stays.
 void Carry(const LinearMap& map, const ParticleArrays& arrays, vtkIdType id,
   SplatParticles& particles, vtkIdType i)
@@ -241,6 +279,11 @@ void Carry(const LinearMap& map, const ParticleArrays& arrays, vtkIdType id,
     float* const planes = &particles.Clip[particles.ClipStride * i];
     map.CarryClip(before, planes + SplatParticles::PlaneAt(plane),
       planes[SplatParticles::OverlapPlace(plane) + 2]);
+  }
+  constexpr int borders = SplatParticles::MaximumNumberOfBorders;
+  for (int border = 0; border < borders && !particles.Borders.empty(); ++border)
+  {
+    CarryBorder(map, before, &particles.Borders[4 * (borders * i + border)]);
   }
 }
 
@@ -352,6 +395,7 @@ ParticleArrays ParticleArrays::FromPointData(vtkPointData* data)
   arrays.ClipCurvatures = find("Clip_Curvature");
   arrays.ShapeOperators = find("Shape_Operator");
   arrays.Placements = find("Original_Placement");
+  arrays.CellBorders = find("Cell_Borders");
   arrays.Isovalues = data->GetArray("Isovalue");
   return arrays;
 }
@@ -407,6 +451,9 @@ SplatParticles SplatParticles::FromPolyData(vtkPolyData* input, const ParticleAr
     arrays.ShapeOperators->GetNumberOfComponents() == 6 && !particles.Warped;
   particles.Shape.assign(shaped ? 8 * count : 0, 0.f);
   particles.Clip.assign(stride * count, 0.f);
+  const bool bordered =
+    arrays.CellBorders && arrays.CellBorders->GetNumberOfComponents() >= 4 && !particles.Warped;
+  particles.Borders.assign(bordered ? 4 * MaximumNumberOfBorders * count : 0, 0.f);
   const std::vector<double> isovalues = FindIsovalues(arrays.Isovalues, particles.PointIds);
   std::atomic<vtkIdType> skipped(0);
   vtkSMPTools::For(0, count,
@@ -431,6 +478,10 @@ SplatParticles SplatParticles::FromPolyData(vtkPolyData* input, const ParticleAr
         if (stride > 0)
         {
           ReadClipPlanes(arrays, id, planes, &particles.Clip[stride * i]);
+        }
+        if (bordered)
+        {
+          ReadBorders(arrays.CellBorders, id, &particles.Borders[4 * MaximumNumberOfBorders * i]);
         }
         if (const LinearMap* map = motion.Of(id))
         {

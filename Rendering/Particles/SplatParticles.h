@@ -54,6 +54,13 @@ struct ParticleArrays
    */
   vtkDataArray* ClipCurvatures = nullptr;
 
+  /**
+   * Where the cell of each point ends on the surface, 4 to 16 components: for each border the vector from the point to
+   * the border's nearest place, along the tangent plane, (0, 0, 0) for no border; and the border's curvature, positive
+   * where it bends along the vector.
+   */
+  vtkDataArray* CellBorders = nullptr;
+
   vtkDataArray* ShapeOperators =
     nullptr; ///< dn/dx, 1 / world units; 6 components: xx, yy, zz, xy, yz, xz
   /**
@@ -96,6 +103,8 @@ struct SplatParticles
   /** Place of the plane's overlap; the curvature is two further. */
   static int OverlapPlace(int plane) { return plane < 2 ? 8 + plane : 16; }
 
+  /** 16 a particle: four borders as in ParticleArrays::CellBorders. Empty without borders. */
+  std::vector<float> Borders;
   /**
    * 8 a particle: shape operator as xx, yy, zz, 0, xy, yz, xz, 0, fitted to the particles around
    * (Particles/FitShapes.h). Empty if the surface bends so little over a splat that flat disks do as
@@ -121,6 +130,9 @@ struct SplatParticles
    * visibility pass hold the number of an isovalue in 7 bits, so that it cannot be larger.
    */
   static constexpr int MaximumNumberOfIsovalues = 128;
+
+  /** Borders of its cell that a particle has room for. */
+  static constexpr int MaximumNumberOfBorders = 4;
 
   vtkIdType GetNumberOfParticles() const { return static_cast<vtkIdType>(this->PointIds.size()); }
 

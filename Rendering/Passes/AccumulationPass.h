@@ -25,5 +25,8 @@ private:
   vtkNew<vtkTextureObject> NormalWeight; // sums of weight * normal, weight
   vtkNew<vtkTextureObject> OffsetDepth;  // sums of weight * offset from the particle, weight * z
   vtkNew<vtkTextureObject> ColorSum;     // sums of weight * colour or lookup coordinates
+  vtkNew<vtkTextureObject>
+    BorderSum;          // sums of the weight that colours have, this weight * coverage by edges
+  int NumberOfSums = 0; // that are drawn
 };
 }

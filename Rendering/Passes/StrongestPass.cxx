@@ -52,6 +52,7 @@ void StrongestPass::Draw(const SplatDrawing& drawing, SplatPrimitives& primitive
   glClearBufferuiv(GL_COLOR, 0, nothing);
   SplatPrimitives::Style style;
   style.Fragment = SplatStrongestFSGlsl;
+  style.UsesBorders = true;
   this->Visibility.DrawBy(drawing, primitives, style);
 }
 }

@@ -40,6 +40,7 @@ vtkSurfaceSplatRepresentation::vtkSurfaceSplatRepresentation()
   this->Mapper->SetCellColorArrayName(hop::SplatInput::BlockColorName);
   this->SetMapScalars(1);
   // As ParaView's other representations have them; vtkProperty has other defaults.
+  this->SetEdgeColor(0., 0., 0.5);
   this->SetPointSize(2.);
   this->SetSpecularPower(100.);
   this->SetRoughness(0.3);
@@ -338,6 +339,21 @@ void vtkSurfaceSplatRepresentation::SetLookupTable(vtkScalarsToColors* table)
   this->Mapper->SetLookupTable(table);
 }
 
+void vtkSurfaceSplatRepresentation::SetRepresentation(const char* name)
+{
+  this->Actor->GetProperty()->SetEdgeVisibility(name && name == std::string("Surface With Edges"));
+}
+
+void vtkSurfaceSplatRepresentation::SetEdgeColor(double r, double g, double b)
+{
+  this->Actor->GetProperty()->SetEdgeColor(r, g, b);
+}
+
+void vtkSurfaceSplatRepresentation::SetLineWidth(double value)
+{
+  this->Actor->GetProperty()->SetLineWidth(static_cast<float>(value));
+}
+
 void vtkSurfaceSplatRepresentation::SetMapScalars(int map)
 {
   this->Mapper->SetColorMode(map ? VTK_COLOR_MODE_MAP_SCALARS : VTK_COLOR_MODE_DIRECT_SCALARS);
@@ -519,6 +535,11 @@ void vtkSurfaceSplatRepresentation::PrintSelf(ostream& os, vtkIndent indent)
   print("SpecularColor", property->GetSpecularColor(), 3);
   os << indent << "SpecularPower: " << property->GetSpecularPower() << "\n";
   os << indent << "PointSize: " << property->GetPointSize() << "\n";
+  os << indent
+     << "Representation: " << (property->GetEdgeVisibility() ? "Surface With Edges" : "Surface")
+     << "\n";
+  print("EdgeColor", property->GetEdgeColor(), 3);
+  os << indent << "LineWidth: " << property->GetLineWidth() << "\n";
   os << indent << "Opacity: " << property->GetOpacity() << "\n";
   os << indent << "Interpolation: " << property->GetInterpolationAsString() << "\n";
   os << indent << "Roughness: " << property->GetRoughness() << "\n";

@@ -50,6 +50,15 @@ public:
   void SetLookupTable(vtkScalarsToColors* table);
   ///@}
 
+  /** ParaView's names. "Surface With Edges": lines are drawn where cells end; all others: they are not. */
+  void SetRepresentation(const char* name);
+
+  ///@{
+  /** Colour and width (pixels) of the lines where cells end. Default: dark blue, (0, 0, 0.5), and 1. */
+  void SetEdgeColor(double r, double g, double b);
+  void SetLineWidth(double value);
+  ///@}
+
   /** 1: colours through the lookup table; 0: arrays of 2 to 4 components are colours. */
   void SetMapScalars(int map);
 

@@ -61,15 +61,17 @@ void ShaderText::SetVertexStage(vtkShader* vertex) const
   Replace(vertex, "SPLAT_TILE_SIZE", std::to_string(PictureTiles::Size));
   Replace(vertex, "SPLAT_FOLDS", std::to_string(this->Drawn == Part::Folds));
   Replace(vertex, "//Splat::Disk::Dec",
-    ShaderDefine("SPLAT_SMOOTH_OVERLAP", SplatParticles::LeastSmoothOverlap) + SplatDiskGlsl +
+    ShaderDefine("SPLAT_SMOOTH_OVERLAP", SplatParticles::LeastSmoothOverlap) +
+      ShaderDefine("SPLAT_BORDERS", SplatParticles::MaximumNumberOfBorders) + SplatDiskGlsl +
       "const int splatVerticesPerParticle = " + (this->DrawsPoints ? "1" : "3") + ";\n");
 }
 
 //------------------------------------------------------------------------------
-// Code that is inserted behind a tag later stands before code that was inserted earlier: so the opacities, inserted
-// first, are multiplied last.
+// Code that is inserted behind a tag later stands before code that was inserted earlier: so edges and opacities,
+// inserted first, come last.
 void ShaderText::InsertColor(vtkShader* fragment) const
 {
+  this->InsertEdges(fragment);
   this->InsertOpacity(fragment);
   if (this->ColorsBySide)
   {
@@ -78,6 +80,19 @@ void ShaderText::InsertColor(vtkShader* fragment) const
   else
   {
     this->InsertParticleColors(fragment);
+  }
+}
+
+// Lines have their colour whatever the light is, as VTK's own edges of polygons.
+void ShaderText::InsertEdges(vtkShader* fragment) const
+{
+  if (this->DrawsEdges)
+  {
+    InsertBefore(fragment, "//VTK::Color::Dec", "uniform vec3 splatEdgeColor;");
+    InsertAfter(fragment, "//VTK::Color::Impl",
+      "  float splatEdge = splatEdgeShare(splat);\n"
+      "  ambientColor = mix(ambientColor, splatEdgeColor, splatEdge);\n"
+      "  diffuseColor *= 1.0 - splatEdge;\n");
   }
 }
 
@@ -120,7 +135,7 @@ void ShaderText::InsertParticleColors(vtkShader* fragment) const
   }
   InsertAfter(fragment, "//VTK::Color::Impl",
     std::string("  vec4 splatRgba = ") +
-      (averaged ? "texelFetch(splatColorSum, splat.texel, 0) / splat.weight;\n"
+      (averaged ? "texelFetch(splatColorSum, splat.texel, 0) / splatColorWeight(splat);\n"
                 : "texelFetch(splatColor, splatParticle);\n") +
       (this->SidesDiffer() ? "  if (splatSeenFromSide > 0.0) {\n" : "  {\n") +
       "  ambientColor = ambientIntensity * splatRgba.rgb;\n"
@@ -165,7 +180,8 @@ void ShaderText::ReplacePosition(vtkShader* fragment) const
   const bool folds = this->Drawn == Part::Folds;
   Replace(fragment, "//VTK::PositionVC::Dec",
     ShaderDefine("SPLAT_OUTLINE", folds || this->Drawn == Part::Outline) +
-      ShaderDefine("SPLAT_FOLDS", folds) +
+      ShaderDefine("SPLAT_FOLDS", folds) + ShaderDefine("SPLAT_EDGES", this->DrawsEdges) +
+      ShaderDefine("SPLAT_CLIPS_COLORS", this->ClipsColors) +
       ShaderDefine("SPLAT_BACK_LAYER", this->Drawn == Part::BackLayer) + SplatResolveGlsl);
   Replace(fragment, "//Splat::Ray::Dec", SplatRayGlsl);
   Replace(fragment, "//Splat::Outline::Dec", SplatOutlineGlsl);

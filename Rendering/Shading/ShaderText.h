@@ -48,6 +48,8 @@ struct ShaderText
   bool DrawsPoints = false; // a particle that is drawn for itself is a point; otherwise a disk
   Part Drawn = Part::Surface;
   SplatColoring Coloring;
+  bool ClipsColors = false;  // colours end where cells end
+  bool DrawsEdges = false;   // lines are drawn there
   bool ColorsBySide = false; // each side has one colour, whatever the coloring says
   bool HasBackface = false;  // the inward side has a property of its own
   bool HasCoat = false;      // the material has a coat, whose normal VTK asks for
@@ -79,6 +81,7 @@ struct ShaderText
 
 private:
   bool SidesDiffer() const;
+  void InsertEdges(vtkShader* fragment) const;
   void InsertOpacity(vtkShader* fragment) const;
   void InsertSideColors(vtkShader* fragment) const;
   void InsertParticleColors(vtkShader* fragment) const;

@@ -1,7 +1,8 @@
 //VTK::System::Dec
 
 // Second pass (M. Botsch et al., High-Quality Surface Splatting on Today's GPUs, 2005), with additive blending, tested
-// against the first pass's depth: weighted sums of normal, offset, depth and colour over the visible surface's splats.
+// against the first pass's depth: weighted sums of normal, offset, depth and colour over the visible surface's splats;
+// where it matters that cells end, also of the colours' weights and of the lines there.
 
 //VTK::Output::Dec
 
@@ -12,12 +13,18 @@ uniform samplerBuffer splatColor; // RGBA, or lookup coordinates (position in th
 
 void main()
 {
-  if (splatOutside() || splatIsOfOther(splatSeen))
+  bool outside = splatOutside() || splatIsOfOther(splatSeen);
+#if SPLAT_HAS_BORDERS
+  float beyondCell = splatBeyondCell();
+#endif
+  if (outside)
   {
     discard;
   }
   float weight = splatWeight();
+  float colorWeight = weight;
   gl_FragData[0] = weight * vec4(splatSurfaceNormal(), 1.0);
   gl_FragData[1] = weight * vec4(splatOffsetVC, splatDepthVC);
+  //Splat::Border::Impl
   //Splat::Color::Impl
 }

@@ -14,6 +14,9 @@ uniform samplerBuffer splatNormal;
 // positive towards the planes' normals. If there are five texels, the fourth is a third plane's normal and distance, the
 // fifth its overlap (x) and curvature (z).
 uniform samplerBuffer splatClip;
+// Four texels a particle: borders of its cell. xyz: from the particle to the nearest place (MC), 0 if there is no
+// border; w: curvature (1 / MC), positive where the border bends along xyz.
+uniform samplerBuffer splatBorders;
 uniform int splatClipTexels; // 0: there are no clip planes; 3: up to two a particle; 5: up to three
 uniform float splatRadiusScale;
 uniform int splatFacesViewer;  // 1: the particles have no normals, their disks face the eye
@@ -88,6 +91,16 @@ vec4 splatClipLine(int particle, int plane, SplatDisk disk)
   float square = max(dot(direction, direction), 1e-30); // not 0 where there is no plane
   float bend = 0.5 * both[2 + plane % 2] * dot(disk.tangentMC, disk.tangentMC) / square;
   return vec4(direction, clip.w, bend);
+}
+
+// A border of a particle's cell, as splatClipLine() gives a plane. Where there is none, it is out of reach.
+vec4 splatBorderLine(int particle, int border, SplatDisk disk)
+{
+  vec4 found = texelFetch(splatBorders, SPLAT_BORDERS * particle + border);
+  float far = length(found.xyz);
+  vec3 outward = found.xyz / max(far, 1e-30); // not divided by 0
+  vec2 direction = vec2(dot(outward, disk.tangentMC), dot(outward, disk.bitangentMC));
+  return far == 0.0 ? vec4(0.0, 0.0, 1e30, 0.0) : vec4(direction, far, 0.5 * found.w);
 }
 
 // How far beyond its clip planes a particle fills gaps that others leave, in radii.

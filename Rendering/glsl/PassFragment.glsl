@@ -2,6 +2,7 @@
 // PassVS.glsl lists and these:
 //   SPLAT_HAS_CLIP          1: particles have clip planes
 //   SPLAT_GAP_SHARE         factor on the weight beyond a clip plane, see SplatPrimitives::GapShare
+//   SPLAT_OTHER_SHARE       factor on the weight of colours beyond the particle's cell
 //   SPLAT_CLIPPING_PLANES   number of the mapper's clipping planes
 
 #if SPLAT_POINTS
@@ -31,6 +32,10 @@ in vec3 splatOffsetVC;
 in float splatDepthVC;
 #endif
 flat in vec4 splatClipLines[SPLAT_CLIP_PLANES];
+#if SPLAT_HAS_BORDERS
+flat in vec4 splatBorderLines[SPLAT_BORDERS];
+flat in float splatDiskToRadius;
+#endif
 flat in vec3 splatBeyondClip;
 float splatShare = 1.0; // factor on the weight of the splat
 in vec3 splatPointMC; // the fragment's place on the disk
@@ -195,3 +200,51 @@ float splatWeight()
   float gaussian = exp(-splatFalloff.x * dot(splatDiskCoord, splatDiskCoord));
   return splatShare * (gaussian - splatFalloff.y) / (1.0 - splatFalloff.y);
 }
+
+#if SPLAT_HAS_BORDERS
+uniform float splatEdgeWidth; // pixels
+
+// Largest foreshortening that lines at borders follow. Where the surface is seen edge-on it bends away within a pixel,
+// so that the plane of a splat tells nothing of lines there; they would cover its outline. Chosen by experiment.
+const float SPLAT_MOST_FORESHORTENED = 5.0;
+
+// How far the fragment lies beyond the particle's cell, in pixels; negative within. To be called where derivatives are
+// defined, which is before anything is discarded.
+float splatBeyondCell()
+{
+#if SPLAT_POINTS
+  vec2 right = splatPixelToDisk.xy;
+  vec2 up = splatPixelToDisk.zw;
+#else
+  vec2 right = dFdx(splatDiskCoord);
+  vec2 up = dFdy(splatDiskCoord);
+#endif
+  // Size of a pixel (disk coordinates) where it is not foreshortened, at most by the square root of 2 too small.
+  float shortest = abs(determinant(mat2(right, up))) / max(length(vec4(right, up)), 1e-30);
+  float beyond = -1e6; // pixels, more than any picture has
+  for (int i = 0; i < SPLAT_BORDERS; ++i)
+  {
+    vec4 line = splatBorderLines[i];
+    float along = line.x * splatDiskCoord.y - line.y * splatDiskCoord.x;
+    float behind = dot(line.xy, splatDiskCoord) - line.z - line.w * along * along;
+    vec2 slope = line.xy - 2.0 * line.w * along * vec2(-line.y, line.x);
+    float perPixel = min(length(vec2(dot(slope, right), dot(slope, up))),
+      SPLAT_MOST_FORESHORTENED * shortest * length(slope));
+    beyond = max(beyond, behind / max(perPixel, 1e-30)); // not divided by 0
+  }
+  return beyond;
+}
+
+// The share of the splat's weight with which it gives its colour to this pixel: 1 within the particle's cell, over one
+// pixel hardly anything beyond it.
+float splatCellShare(float beyondCell)
+{
+  return clamp(0.5 - beyondCell, SPLAT_OTHER_SHARE, 1.0);
+}
+
+// How much of the pixel the line covers that is drawn where the cell ends.
+float splatEdgeCoverage(float beyondCell)
+{
+  return clamp(0.5 * splatEdgeWidth + 0.5 - abs(beyondCell), 0.0, 1.0);
+}
+#endif

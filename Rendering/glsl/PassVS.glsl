@@ -6,6 +6,8 @@
 //   SPLAT_SKIPS_HIDDEN   1: points whose middle is hidden are left out
 //   SPLAT_APART          1: isovalues are told apart
 //   SPLAT_CLIP_PLANES    largest number of clip planes of a particle, at least 1
+//   SPLAT_HAS_BORDERS    1: it matters where cells end
+//   SPLAT_BORDERS        number of borders that a particle may have
 //   SPLAT_LEAST_PIXELS   smallest radius of a splat, pixels
 //   SPLAT_LEAST_COSINE   smallest cosine by which the push of a point is divided
 // Drawing/SplatPrimitives.cxx explains the last two.
@@ -45,6 +47,10 @@ out vec3 splatOffsetVC;  // from the centre of the disk
 out float splatDepthVC;  // z
 #endif
 flat out vec4 splatClipLines[SPLAT_CLIP_PLANES]; // see splatClipLine()
+#if SPLAT_HAS_BORDERS
+flat out vec4 splatBorderLines[SPLAT_BORDERS]; // see splatBorderLine()
+flat out float splatDiskToRadius; // takes disk coordinates to offsets in the particle's own radius
+#endif
 flat out vec3 splatBeyondClip; // how far beyond its clip lines the splat fills gaps (MC)
 out vec3 splatPointMC;           // for clipping planes
 flat out vec3 splatNormalVC;     // outward; of length 1 if splats are flat
@@ -121,6 +127,14 @@ void main()
   {
     splatClipLines[plane].xy *= enlarge;
   }
+#if SPLAT_HAS_BORDERS
+  for (int border = 0; border < SPLAT_BORDERS; ++border)
+  {
+    splatBorderLines[border] = splatBorderLine(splatParticle, border, disk);
+    splatBorderLines[border].xy *= enlarge;
+  }
+  splatDiskToRadius = enlarge * splatRadiusScale;
+#endif
   tangentVC *= enlarge;
   bitangentVC *= enlarge;
   radiusVC *= enlarge;

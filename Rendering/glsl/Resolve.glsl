@@ -3,12 +3,15 @@
 //   SPLAT_OUTLINE      1: outlines are smooth
 //   SPLAT_FOLDS        1: outlines where the surface lies in front of itself; SPLAT_OUTLINE is 1 then
 //   SPLAT_BACK_LAYER   1: the back layer is drawn
+//   SPLAT_CLIPS_COLORS 1: colours have weights of their own, as they end where cells end
+//   SPLAT_EDGES        1: lines are drawn where cells end
 
 //Splat::Ray::Dec
 
 uniform sampler2D splatNormalWeight; // sums of weight * normal (VC, outward), weight
 uniform sampler2D splatOffsetDepth;  // sums of weight * offset from the particle (VC), weight * z
 uniform sampler2D splatColorSum;     // sums of weight * colour or lookup coordinates
+uniform sampler2D splatBorderSum;    // sums of the weight that colours have, this weight * coverage by edges
 uniform sampler2D splatSeen;         // r: 1 where there is surface; g: above 0.5 where it is seen from outward
 uniform usampler2D splatStrongest; // number of the particle with the largest weight, from 1 on
 uniform float splatLeastWeight; // pixels with surface have a larger summed weight than this; others have none
@@ -111,6 +114,25 @@ SplatSurface splatResolve()
   return surface;
 }
 
+// The weight that the sums of colours have.
+float splatColorWeight(SplatSurface surface)
+{
+#if SPLAT_CLIPS_COLORS
+  return texelFetch(splatBorderSum, surface.texel, 0).r;
+#else
+  return surface.weight;
+#endif
+}
+
+#if SPLAT_EDGES
+// The share of the pixel that is covered by lines where cells end.
+float splatEdgeShare(SplatSurface surface)
+{
+  vec2 sums = texelFetch(splatBorderSum, surface.texel, 0).rg;
+  return surface.covered ? sums.g / sums.r : 0.0;
+}
+#endif
+
 int splatStrongestAt(ivec2 texel)
 {
   return int(texelFetch(splatStrongest, texel, 0).r) - 1;
@@ -121,5 +143,5 @@ int splatStrongestAt(ivec2 texel)
 vec2 splatLookupCoordinates(SplatSurface surface)
 {
   vec2 sums = texelFetch(splatColorSum, surface.texel, 0).xy; // weight * position, weight of numbers
-  return sums.y < 0.5 * surface.weight ? vec2(0.5, 0.75) : vec2(sums.x / sums.y, 0.25);
+  return sums.y < 0.5 * splatColorWeight(surface) ? vec2(0.5, 0.75) : vec2(sums.x / sums.y, 0.25);
 }

@@ -14,15 +14,21 @@ out uint splatNumber; // of the particle, from 1 on; 0 where there is none
 void main()
 {
   float visible = texelFetch(splatVisibleDepth, ivec2(gl_FragCoord.xy), 0).r;
-  if (splatOutside() || splatIsOfOther(splatSeen) ||
-    splatNearer * (gl_FragCoord.z - visible) > 0.0)
+  bool outside = splatOutside() || splatIsOfOther(splatSeen) ||
+    splatNearer * (gl_FragCoord.z - visible) > 0.0;
+#if SPLAT_HAS_BORDERS
+  float cellShare = splatCellShare(splatBeyondCell());
+#else
+  const float cellShare = 1.0;
+#endif
+  if (outside)
   {
     discard;
   }
   // Logarithms tell small weights apart, where 1 minus the weight would be rounded to 1. `least` is smaller than all
-  // weights above 0 in float32: the smallest one, with the largest sharpness and in a gap, is about 2e-19. The factor
+  // weights above 0 in float32: the smallest one, with the largest sharpness, in a gap and beyond its cell, is about 2e-23. The factor
   // 0.99 keeps weights of 0 nearer than the cleared depth, 1.
   const float least = 1e-26;
-  gl_FragDepth = 0.99 * log(max(splatWeight(), least)) / log(least);
+  gl_FragDepth = 0.99 * log(max(cellShare * splatWeight(), least)) / log(least);
   splatNumber = uint(splatParticle) + 1u;
 }

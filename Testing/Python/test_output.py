@@ -11,6 +11,7 @@ import pytest
 import support
 from highorderparticles import vtkHighOrderParticleIsosurface
 from paraview import simple
+from paraview.vtk.util.numpy_support import vtk_to_numpy
 from vtkmodules import vtkCommonDataModel
 from vtkmodules.vtkCommonCore import VTK_DOUBLE, VTK_FLOAT, vtkFloatArray, vtkSMPTools
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkDataObject, vtkMultiBlockDataSet, vtkUnstructuredGrid
@@ -53,11 +54,34 @@ def test_the_outputs_own_arrays_are_those_of_the_table_in_its_order(channel):
         assert [(name, attributes.GetArray(name).GetNumberOfComponents()) for name in names] == list(table.items())
     for name in OWN_ARRAYS:
         array = particles.GetPointData().GetArray(name)
-        kinds = {"vtkOriginalCellIds": "vtkIdTypeArray", "Normals": "vtkFloatArray"}
+        kinds = {"Cell_Id": "vtkIdTypeArray", "vtkOriginalCellIds": "vtkIdTypeArray", "Cell_Borders": "vtkFloatArray",
+                 "Normals": "vtkFloatArray"}
         assert array.GetClassName() == kinds.get(name, "vtkDoubleArray"), name
         assert array.GetNumberOfTuples() == particles.GetNumberOfPoints(), name
     assert all(particles.GetFieldData().GetArray(name).GetClassName() == "vtkIdTypeArray" for name in REPORT)
     assert support.array_names(particles.GetPointData()) - set(OWN_ARRAYS) == {"pressure", "velocity", "vorticity"}
+
+
+def test_both_arrays_of_cell_ids_are_one_in_memory(channel):
+    points = support.run_quietly(channel, "pressure", 0.6).GetPointData()
+    listed, hidden = (vtk_to_numpy(points.GetArray(name)) for name in ("Cell_Id", "vtkOriginalCellIds"))
+    assert np.array_equal(listed, hidden) and len(np.unique(listed)) > 1
+    assert np.shares_memory(listed, hidden)
+
+
+def test_cell_borders_lie_where_particles_of_other_cells_begin(channel):
+    particles = support.run_quietly(channel, "pressure", 0.6)
+    places, cells = support.points_of(particles), support.array_of(particles, "Cell_Id")
+    borders = support.array_of(particles, "Cell_Borders").reshape(-1, 4, 4)
+    foot, radius = borders[:, 0, :3], support.array_of(particles, "Radius")
+    distance = np.linalg.norm(foot, axis=1)
+    assert np.all(distance <= radius * 1.0001) and np.any(distance > 0) and np.any(distance == 0)
+    assert np.all(np.abs(np.sum(foot * support.array_of(particles, "Normals"), axis=1)) < 1e-5)
+    beside = np.nonzero((distance > 0) & (distance < 0.3 * radius))[0]
+    for i in beside[:200]:
+        near = np.nonzero(np.linalg.norm(places - places[i], axis=1) < radius[i])[0]
+        beyond = (places[near] - places[i]) @ (foot[i] / distance[i]) - distance[i]
+        assert np.all(cells[near[beyond > 0.1 * radius[i]]] != cells[i])
 
 
 def test_every_array_of_the_table_is_explained():

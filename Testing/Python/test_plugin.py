@@ -425,7 +425,8 @@ def test_filter_is_enabled_for_unstructured_grids_only(source, fits):
 
 def test_representation_is_offered_for_particles():
     representation = simple.Show(simple.Sphere(), simple.CreateView("RenderView"))
-    assert "Surface Splats" in representation.GetProperty("Representation").Available
+    for name in ("Surface Splats", "Surface Splats With Edges"):
+        assert name in representation.GetProperty("Representation").Available
 
 
 # Settings that PrintSelf does not call by the name of the XML's command.

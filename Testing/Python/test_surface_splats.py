@@ -481,3 +481,51 @@ def test_two_ranks_draw_their_halves(plugin, tmp_path, opacity):
     covered = drawn(read_png(path))
     assert np.all(covered[disk_of_sphere(radius=0.49)])
     assert not np.any(covered[~disk_of_sphere(radius=0.52)])
+
+
+# Cells
+
+
+def reddish(pixels):
+    return np.count_nonzero((pixels[:, :, 0] > 200) & (pixels[:, :, 1] < 60) & (pixels[:, :, 2] < 60))
+
+
+@pytest.mark.parametrize("blocks", [1, 2])
+@pytest.mark.parametrize("opacity", [1.0, 0.5])
+def test_edges_of_cells_are_drawn_in_their_own_colour(view, picture, data, blocks, opacity):
+    reader = simple.XMLUnstructuredGridReader(FileName=[data("mfem_amr_hanging_hex_p3.vtu")])
+    grid = simple.GroupDatasets(Input=[reader] * blocks) if blocks > 1 else reader
+    particles = simple.HighOrderParticleIsosurface(Input=grid, ContourBy=["POINTS", "u"], Isosurfaces=[0.0])
+    particles.Spacing = 0.06
+    display = show(particles, view)
+    view.ResetCamera()
+    display.Ambient, display.Diffuse, display.Opacity = 1.0, 0.0, opacity
+    display.AmbientColor = display.DiffuseColor = [0, 0.5, 0]
+    display.EdgeColor, display.LineWidth = [1, 0, 0], 2.0
+    plain = picture()
+    display.Representation = "Surface Splats With Edges"
+    edged = picture()
+    assert np.count_nonzero(drawn(plain) != drawn(edged)) < 0.01 * np.count_nonzero(drawn(plain)), "on the surface"
+    changed = np.any(plain != edged, axis=2)
+    assert 0.02 * np.count_nonzero(drawn(plain)) < np.count_nonzero(changed) < 0.5 * np.count_nonzero(drawn(plain))
+    if opacity == 1.0:
+        assert reddish(plain) == 0 and reddish(edged) > 100
+        display.LineWidth = 6.0
+        assert reddish(picture()) > 2 * reddish(edged)
+    display.Representation = "Surface Splats"
+    assert np.array_equal(plain, picture())
+
+
+def test_cell_ids_are_listed_and_end_where_cells_end(view, picture, data):
+    reader = simple.XMLUnstructuredGridReader(FileName=[data("mfem_amr_hanging_hex_p3.vtu")])
+    particles = simple.HighOrderParticleIsosurface(Input=reader, ContourBy=["POINTS", "u"], Isosurfaces=[0.0])
+    particles.Spacing = 0.06
+    display = show(particles, view)
+    view.ResetCamera()
+    assert "Cell_Id" in [array.Name for array in particles.PointData]
+    simple.ColorBy(display, ("POINTS", "Cell_Id"))
+    display.Ambient, display.Diffuse = 1.0, 0.0
+    seen = picture()
+    colors, counts = np.unique(seen[drawn(seen)], axis=0, return_counts=True)
+    # Few pixels are not of one cell's colour, of which there are some dozens.
+    assert np.sort(counts)[-60:].sum() > 0.8 * counts.sum()

@@ -128,6 +128,16 @@ SurfacePicture DrawSurface(vtkPolyDataMapper* mapper, const PictureCamera& camer
   return picture;
 }
 
+std::vector<glm::dvec3> DrawColors(vtkPolyDataMapper* mapper, const PictureCamera& camera,
+  const std::function<void(vtkProperty*)>& change)
+{
+  Window window(mapper, camera);
+  window.Actor->GetProperty()->SetAmbient(1.);
+  window.Actor->GetProperty()->SetDiffuse(0.);
+  change(window.Actor->GetProperty());
+  return window.Colors(camera.size);
+}
+
 SurfacePicture CastSurface(const SurfaceCase& surface, const PictureCamera& camera)
 {
   vtkDataArray* array = surface.Grid->GetPointData()->GetArray(surface.Array.c_str());

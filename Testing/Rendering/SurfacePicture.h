@@ -3,10 +3,12 @@
 
 #include "RayCaster.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
 class vtkPolyDataMapper;
+class vtkProperty;
 struct SurfaceCase;
 
 // What a mapper draws: points seen, and the brightness (0 to 1) of a white surface under a headlight.
@@ -17,6 +19,11 @@ struct SurfacePicture
 };
 
 SurfacePicture DrawSurface(vtkPolyDataMapper* mapper, const hop::testing::PictureCamera& camera);
+
+// The colours (0 to 1) of what a mapper draws without light, on black; `change` may change the actor's property.
+std::vector<glm::dvec3> DrawColors(
+  vtkPolyDataMapper* mapper, const hop::testing::PictureCamera& camera,
+  const std::function<void(vtkProperty*)>& change = [](vtkProperty*) {});
 
 // The same as rays see it: normals point to the eye.
 SurfacePicture CastSurface(const SurfaceCase& surface, const hop::testing::PictureCamera& camera);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hop::testing
 {
@@ -72,6 +73,20 @@ double distanceBeyond(Domain domain, const ReferencePoint& u, const LocalMap& ma
   return insideMargin(domain, u) > -1e-9 ? 0.0 : beyond;
 }
 
+/// How far the nearest face of an element is from a place on the surface, along the surface, to first order.
+double distanceToBorder(
+  Domain domain, const ReferencePoint& u, const LocalMap& map, const glm::dvec3& normal)
+{
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Face& face : facts(domain).faces)
+  {
+    const glm::dvec3 gradient = glm::transpose(map.inverse) * face.inward.xyz;
+    const double slope = glm::length(gradient - glm::dot(gradient, normal) * normal);
+    nearest = std::min(nearest, std::abs(faceMargin(face, u)) / slope);
+  }
+  return nearest;
+}
+
 /// Where a ray meets the surface of an element, which is continued beyond the element.
 struct Root
 {
@@ -101,7 +116,9 @@ bool meet(const ElementMesh& mesh, double isovalue, const PictureCamera::Ray& ra
     const WorldVector move{ t * ray.direction - fromOrigin };
     if (length(move) < 1e-9 * box.size)
     {
-      root.seen = { t, surfaceNormal(at.gradient).xyz };
+      const glm::dvec3 normal = surfaceNormal(at.gradient).xyz;
+      root.seen = { t, normal, mesh.elements[box.middle.element].cell,
+        distanceToBorder(form.domain, u, at.map, normal) };
       root.element = box.middle.element;
       root.beyond = distanceBeyond(form.domain, u, at.map);
       return t > nearest && isInBall(box, u, root.beyond > 0.0 ? 1.5 : 1.0) && root.beyond <= slit;

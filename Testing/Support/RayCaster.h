@@ -53,6 +53,9 @@ struct SeenPoint
   double depth = std::numeric_limits<double>::infinity();
   /// Unit normal -grad F/|grad F|.
   glm::dvec3 normal{ 0.0 };
+  /// The input's cell, and how far off the nearest border of the cell is along the surface, to first order; world units.
+  std::int64_t cell = -1;
+  double toBorder = 0.0;
 
   bool covered() const { return this->depth < std::numeric_limits<double>::infinity(); }
 };

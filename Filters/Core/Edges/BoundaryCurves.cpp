@@ -1,6 +1,7 @@
 #include "Edges/BoundaryCurves.h"
 
 #include "Edges/BoundaryTracer.h"
+#include "Edges/CellBorders.h"
 #include "Edges/FaceCrossings.h"
 #include "Edges/FacePlanes.h"
 #include "Edges/ParticleGrid.h"
@@ -342,6 +343,7 @@ bool BoundaryFinisher::finish(const BoundaryPlace& place, BoundaryParticle& resu
   result.particle.jump = beyond->jump;
   const Jet& jet = this->Exact.jetAt(*point);
   offerFaces(this->Surface, this->Jumps, jet, field, result.particle);
+  markCellBorders(*this->Surface.mesh, jet, field.map, result.particle);
   result.side = this->sideAt(point->face, point->at, jet);
   result.otherSide = this->sideAt(beyond->otherFace, point->at, jet);
   return true;

@@ -1,5 +1,6 @@
 #include "Fast/FinishParticles.h"
 
+#include "Edges/CellBorders.h"
 #include "Edges/FacePlanes.h"
 
 #include <atomic>
@@ -74,6 +75,7 @@ bool Finish::finish(int i, const Location& place, const Jet& jet)
   this->Result.particles[i] =
     particleAt(place, point, curvature(point.gradient, worldHessian(jet, point)), spacing);
   offerFaces(surface, this->Jumps, jet, point, this->Result.particles[i]);
+  markCellBorders(*surface.mesh, jet, point.map, this->Result.particles[i]);
   this->Result.converged[i] = 1;
   this->Moving.place(i, place, point);
   return true;

@@ -32,6 +32,23 @@ struct ClipPlane
   bool isBoundary() const { return this->exists() && this->face < 0; }
 };
 
+/// A border of a particle's element on the surface, where the surface passes a face of the element, as the particle
+/// sees it: in its tangent plane, to which the border is projected along the normal.
+struct CellBorder
+{
+  /// Number of borders that a particle keeps: a piece of surface in a hexahedron has four sides as a rule, in a
+  /// tetrahedron four at most. More take memory; with fewer, colours reach over borders of elements below two spacings.
+  static constexpr int Most = 4;
+
+  /// From the particle to the nearest place of the border, which it is at right angles to; world units. Zero if there
+  /// is no border, otherwise never: it is short where the particle stands on the border.
+  glm::vec3 foot{ 0.0f };
+  /// 1/world units, positive where the border bends towards its outer side.
+  float curvature = 0.0f;
+
+  bool exists() const { return this->foot != glm::vec3(0.0f); }
+};
+
 /// One particle of a finished distribution.
 struct Particle
 {
@@ -47,6 +64,9 @@ struct Particle
   /// Near corners of the surface, and on strips of it, there are several planes: boundary curves first, then creases,
   /// near planes before far ones, see offerPlane().
   std::array<ClipPlane, 3> clips;
+  /// Where the splat leaves the particle's element, nearest first: colours that differ from element to element end
+  /// there.
+  std::array<CellBorder, CellBorder::Most> borders;
   /// On a boundary curve where the field jumps between elements: F - c in the element behind the face. Zero elsewhere.
   double jump = 0.0;
   /// Ratio of the splat's radius to the spacing, 1 at most: less where the particle stands alone on a component of the
