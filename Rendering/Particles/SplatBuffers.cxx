@@ -37,9 +37,10 @@ void SplatBuffers::Upload(vtkOpenGLRenderWindow* window, const SplatParticles& p
   this->HasBorders = !particles.Borders.empty();
   this->HasShape = !particles.Shape.empty();
   this->HasColor = false;
+  constexpr int borders = SplatParticles::MaximumNumberOfBorders;
   // Texels of one particle in the longest buffer.
   const GLint texels = std::max({ this->HasClip ? this->ClipStride / 4 : 1,
-    this->HasBorders ? SplatParticles::MaximumNumberOfBorders : 1, this->HasShape ? 2 : 1 });
+    this->HasBorders ? borders : 1, this->HasShape ? 2 : 1 });
   const vtkIdType count = std::min<vtkIdType>(particles.GetNumberOfParticles(), limit / texels);
   this->NumberOfParticles = count;
   this->IsovalueRanges = particles.IsovalueRanges;
