@@ -26,12 +26,13 @@ void writeOfClips(const ParticleRow& row, double* out, const Quantity& quantity)
   out[1] = quantity(row.particle->clips[1]);
 }
 
-void writeShapeOperator(const ParticleRow& row, const RowCells&, double* out)
+void writeShapeOperator(const ParticleRow& row, const RowCells& cells, double* out)
 {
   const glm::dmat3& shape = row.particle->curvature.shape;
   const double components[] = { shape[0][0], shape[1][1], shape[2][2], shape[0][1], shape[1][2],
     shape[0][2] }; // VTK's order of symmetric tensors
-  std::copy(std::begin(components), std::end(components), out);
+  std::transform(std::begin(components), std::end(components), out,
+    [&](double component) { return cells.curvature(component); });
 }
 
 void writeParametricCoordinates(const ParticleRow& row, const RowCells& cells, double* out)
@@ -51,22 +52,23 @@ std::vector<ParticleArray> makeParticleArrays()
     { "Radius", 1,
       "Radius of the particle's splat, world units: the distance to neighbours that the particle "
       "wants; less where it stands alone on a component of the surface smaller than this distance.",
-      [](const ParticleRow& row, const RowCells&, double* out)
-      { *out = row.particle->radiusPerSpacing * row.particle->spacing; } },
+      [](const ParticleRow& row, const RowCells& cells, double* out)
+      { *out = cells.length(row.particle->radiusPerSpacing * row.particle->spacing); } },
     { "Mean_Curvature", 1,
       "Mean of the two principal curvatures with respect to Normals, 1/world units: 1/r on a "
       "sphere of radius r with high values inside.",
-      [](const ParticleRow& row, const RowCells&, double* out)
-      { *out = row.particle->curvature.mean; } },
+      [](const ParticleRow& row, const RowCells& cells, double* out)
+      { *out = cells.curvature(row.particle->curvature.mean); } },
     { "Gauss_Curvature", 1, "Product of the two principal curvatures, 1/world units squared.",
-      [](const ParticleRow& row, const RowCells&, double* out)
-      { *out = row.particle->curvature.gauss; } },
+      [](const ParticleRow& row, const RowCells& cells, double* out)
+      { *out = cells.curvature(cells.curvature(row.particle->curvature.gauss)); } },
     { "Shape_Operator", 6,
       "Derivative of Normals along the surface, 1/world units: a symmetric tensor, xx, yy, zz, xy, "
       "yz, xz.",
       writeShapeOperator },
     { "Residual", 1, "Distance from the isosurface to first order, |F - c|/|grad F|, world units.",
-      [](const ParticleRow& row, const RowCells&, double* out) { *out = row.particle->residual; } },
+      [](const ParticleRow& row, const RowCells& cells, double* out)
+      { *out = cells.length(row.particle->residual); } },
     { "Clip_Normal", 6,
       "Unit normals, pointing to the far side, of up to two planes near the particle at which the "
       "surface ends (at boundary curves) or turns (at faces between elements); zero where there is "
@@ -81,8 +83,10 @@ std::vector<ParticleArray> makeParticleArrays()
       "Distance of the particle from each of these planes, world units. A plane touches its "
       "boundary curve or crease where this is nearest. Where creases meet, a plane is moved "
       "outwards if nothing else would cover what it cuts off.",
-      [](const ParticleRow& row, const RowCells&, double* out)
-      { writeOfClips(row, out, [](const ClipPlane& plane) { return plane.distance; }); } },
+      [](const ParticleRow& row, const RowCells& cells, double* out) {
+        writeOfClips(
+          row, out, [&](const ClipPlane& plane) { return cells.length(plane.distance); });
+      } },
     { "Clip_Angle", 2,
       "Largest angle seen at each of these planes between the normals of both sides, degrees: 180 "
       "at boundary curves, else at least 1.5. A step of the surface counts as an angle of "
@@ -95,12 +99,16 @@ std::vector<ParticleArray> makeParticleArrays()
     { "Clip_Curvature", 2,
       "Curvature of the boundary curve or crease at each of these planes, 1/world units: positive "
       "where the edge bends towards the plane's normal, 0 where Clip_Angle is below 10 degrees.",
-      [](const ParticleRow& row, const RowCells&, double* out)
-      { writeOfClips(row, out, [](const ClipPlane& plane) { return plane.edgeCurvature; }); } },
+      [](const ParticleRow& row, const RowCells& cells, double* out)
+      {
+        writeOfClips(
+          row, out, [&](const ClipPlane& plane) { return cells.curvature(plane.edgeCurvature); });
+      } },
     { "Jump", 1,
       "F - c on the other side, where the particle stands on a boundary curve at which the field "
       "jumps from element to element; else 0.",
-      [](const ParticleRow& row, const RowCells&, double* out) { *out = row.particle->jump; } },
+      [](const ParticleRow& row, const RowCells& cells, double* out)
+      { *out = cells.difference(row.particle->jump); } },
     { IsovalueArray, 1, "The isovalue c of the particle's surface.",
       [](const ParticleRow& row, const RowCells&, double* out) { *out = row.isovalue; } },
     { "ParametricCoordinates", 3,

@@ -147,7 +147,7 @@ GridElements GroupRun::convert(const Work& work) const
     loops.ask();
   };
   GridElements elements = buildGridElements(this->Blocks, this->Properties.nodeSpacing,
-    this->Properties.isovalues, std::ref(loops), reached);
+    this->Properties.isovalues, std::ref(loops), reached, this->Scale.unit);
   this->Caller.tell(reviewCells(this->Blocks, elements.census));
   return elements;
 }
@@ -218,7 +218,7 @@ void GroupRun::fill(
       this->distribute(elements, origin, this->Group * isovalues.size() + i, shares[i],
         work.part(begin, begin + shareOfIsovalue)) });
     this->Caller.tell(reviewDistribution(this->Blocks, particles.back().distribution,
-      origin.isovalue, this->Properties.numberOfParticles));
+      origin.isovalue, this->Properties.numberOfParticles, this->Scale.unit));
   }
   const Work packing = work.part(ProgressAt::Distributed, 1.0);
   Interruptible loops(packing.monitor, packing.parallelFor);
@@ -230,6 +230,7 @@ RunOrigin GroupRun::makeOrigin() const
 {
   RunOrigin origin = originOf(this->Blocks);
   origin.nodeSpacing = this->Properties.nodeSpacing;
+  origin.unit = this->Scale.unit;
   origin.parameters.sizing = { this->Scale.spacing, this->Properties.angularDensity };
   origin.parameters.quality = this->Properties.quality;
   origin.parameters.seed = this->Properties.seed;

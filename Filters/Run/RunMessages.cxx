@@ -16,7 +16,8 @@ namespace
 /// text says 1%. Smaller values warn of a few particles at a tip, larger ones hide visible flaws. Chosen by experiment.
 constexpr double warnUndersampledShare = 0.01;
 
-/// The spacing at which all but this fraction of the particles would follow the surface, if spread evenly.
+/// The spacing at which all but this fraction of the particles would follow the surface, if spread evenly; in the unit
+/// of the run.
 double resolvingSpacing(const Buffer<Particle>& particles)
 {
   std::vector<double> curvatures;
@@ -39,14 +40,16 @@ const char* fewerParticles(std::int64_t numberOfParticles)
 }
 
 /// What a user has to choose for particles that follow the curvature of the surface.
-std::string moreParticles(const Distribution& distribution, std::int64_t numberOfParticles)
+/// \param unit of lengths in the distribution, world units
+std::string moreParticles(
+  const Distribution& distribution, std::int64_t numberOfParticles, double unit)
 {
   if (numberOfParticles > 0)
   {
     return "a larger NumberOfParticles";
   }
   std::ostringstream text;
-  text << "a Spacing of " << resolvingSpacing(distribution.particles)
+  text << "a Spacing of " << unit * resolvingSpacing(distribution.particles)
        << ", which follows all but 1%,";
   return text.str();
 }
@@ -70,7 +73,8 @@ std::string describeUndecided(const InputBlocks& blocks, const DistributionRepor
   return text.str();
 }
 
-std::string describeUndersampled(const Distribution& distribution, std::int64_t numberOfParticles)
+std::string describeUndersampled(
+  const Distribution& distribution, std::int64_t numberOfParticles, double unit)
 {
   const std::size_t count = distribution.particles.size();
   const std::int64_t undersampled = distribution.report.particlesUndersampled;
@@ -78,7 +82,7 @@ std::string describeUndersampled(const Distribution& distribution, std::int64_t 
   text << "at " << undersampled << " of " << count << " particles ("
        << std::lround(100.0 * undersampled / static_cast<double>(count))
        << "%) the surface bends faster than their spacing can follow. Choose "
-       << moreParticles(distribution, numberOfParticles) << " or a larger AngularDensity.";
+       << moreParticles(distribution, numberOfParticles, unit) << " or a larger AngularDensity.";
   return text.str();
 }
 
@@ -121,7 +125,7 @@ UserMessages reviewCells(const InputBlocks& blocks, const std::vector<CellCensus
 }
 
 UserMessages reviewDistribution(const InputBlocks& blocks, const Distribution& distribution,
-  double isovalue, std::int64_t numberOfParticles)
+  double isovalue, std::int64_t numberOfParticles, double unit)
 {
   UserMessages messages;
   const auto add = [&](UserMessage::Kind kind, const std::string& text)
@@ -148,7 +152,7 @@ UserMessages reviewDistribution(const InputBlocks& blocks, const Distribution& d
   if (report.particlesUndersampled >
     warnUndersampledShare * static_cast<double>(distribution.particles.size()))
   {
-    add(UserMessage::Warning, describeUndersampled(distribution, numberOfParticles));
+    add(UserMessage::Warning, describeUndersampled(distribution, numberOfParticles, unit));
   }
   return messages;
 }

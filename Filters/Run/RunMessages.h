@@ -27,7 +27,8 @@ UserMessages reviewArrays(const std::vector<InputBlock>& blocks);
 UserMessages reviewCells(const InputBlocks& blocks, const std::vector<CellCensus>& census);
 
 /// Tells what a distribution could not do.
+/// \param unit of lengths in the distribution, world units
 UserMessages reviewDistribution(const InputBlocks& blocks, const Distribution& distribution,
-  double isovalue, std::int64_t numberOfParticles);
+  double isovalue, std::int64_t numberOfParticles, double unit);
 
 } // namespace hop
