@@ -106,7 +106,7 @@ std::string CellCensus::describe() const
   describeCells(
     text, this->level, "skipped: the field is the isovalue throughout, which is no surface");
   describeCells(text, this->collapsed,
-    "skipped: without volume, or smaller than 1e-30 of the bounds of the input");
+    "skipped: without volume, or smaller than 1e-15 of the bounds of the input");
   describeCells(text, this->folded, "kept, but partly inverted: the Jacobian changes its sign");
   return text.str();
 }

@@ -136,12 +136,12 @@ std::vector<Coefficient> coefficientsOf(const std::vector<double>& control, int 
   return coefficients;
 }
 
-/// Whether all control points lie in one place, as far as double precision of the grid's bounds goes.
+/// Whether all control points lie in one place, as far as doubles of the size of the grid's bounds tell places apart.
 bool isPoint(const std::vector<Coefficient>& control)
 {
-  // Largest extent of a cell that counts as a point, in units of the sides of the bounds of all input: 1e-14 of the
-  // spacing of doubles there. Curvatures of smaller cells leave the range of single precision.
-  constexpr double extentOfPoint = 1e-30;
+  // Largest extent of a cell that counts as a point, in units of the sides of the bounds of all input: a few times the
+  // spacing of doubles there. Squares of spacings in smaller cells leave the range of single precision.
+  constexpr double extentOfPoint = 1e-15;
   glm::dvec3 farthest(0.0);
   for (const Coefficient& c : control)
   {

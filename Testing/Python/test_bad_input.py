@@ -431,7 +431,7 @@ def test_cells_that_vanish_beside_a_point_far_off_are_told(far):
     move_points(grid, 4, points)
     particles, messages = support.run(grid, "F", 0.3)
     assert messages.errors == []
-    assert "smaller than 1e-30 of the bounds" in messages.warnings[0]
+    assert "smaller than 1e-15 of the bounds" in messages.warnings[0]
     assert_clean(particles)
 
 
