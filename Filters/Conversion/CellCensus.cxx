@@ -110,11 +110,13 @@ std::string CellCensus::describe() const
   }
   describeCells(text, this->brokenConnectivity, "skipped: point ids outside the grid");
   describeCells(text, this->notFinite,
-    "skipped: coordinates or values that are NaN or infinite, or values beyond 1e75");
+    "skipped: coordinates or values that are NaN or infinite, or values 1e75 times as large as "
+    "the changes of the field in other cells");
   describeCells(text, this->badWeights, "skipped: RationalWeights that are not positive");
   describeCells(
     text, this->level, "skipped: the field is the isovalue throughout, which is no surface");
-  describeCells(text, this->collapsed, "skipped: without volume");
+  describeCells(text, this->collapsed,
+    "skipped: without volume, or smaller than 1e-15 of the bounds of the input");
   for (const auto& [which, cells] : this->misordered)
   {
     const std::string& remedy = which.second;

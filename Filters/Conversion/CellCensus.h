@@ -48,13 +48,13 @@ struct CellCensus
   std::map<int, SkippedCells> unsupported;
   /// Point ids outside the grid.
   SkippedCells brokenConnectivity;
-  /// Coordinates or values that are NaN or infinite, or values too large to be squared.
+  /// Coordinates or values that are NaN or infinite, or values too large to be squared in the unit of the run.
   SkippedCells notFinite;
   /// Rational Bezier cells with weights that are not positive.
   SkippedCells badWeights;
   /// The field is the same in the whole cell, and one of the isovalues: no surface.
   SkippedCells level;
-  /// The Jacobian determinant is zero everywhere, to rounding: no volume.
+  /// The Jacobian determinant is zero everywhere, to rounding, or the cell is tiny beside the bounds: no volume.
   SkippedCells collapsed;
   /// By VTK cell type, and by what makes them sound if that is known (MisorderedCells::remedy): partly inverted cells
   /// whose nodes seem to be in another order than VTK's. Cells without surface are counted, too.

@@ -1,6 +1,7 @@
 #include "Conversion/CellValues.h"
 
 #include "Conversion/GatherValues.h"
+#include "Conversion/RunUnits.h"
 #include "Input/VtkCompatibility.h"
 
 #include "vtkCellArray.h"
@@ -17,12 +18,11 @@ namespace hop
 namespace
 {
 
-/// Whether the numerics can compute with a nodal value; NaN is not usable.
+/// Whether a nodal value can be converted to Bernstein form; NaN cannot.
 bool isUsable(double value)
 {
-  // The gradient of the square of a magnitude can still be squared: 1e75 to the fourth power is 1e300, below the
-  // largest double, 1.8e308. Larger values overflow.
-  constexpr double largest = 1e75;
+  // Conversion enlarges values by 1e14 at most, at the highest degree: below the largest double, 1.8e308.
+  constexpr double largest = 1e290;
   return std::abs(value) <= largest;
 }
 
@@ -55,6 +55,7 @@ bool readField(const InputBlocks& blocks, vtkDataArray* scalars, CellValues& val
   return std::all_of(values.field.begin(), values.field.end(), isUsable);
 }
 
+/// Weights of about one: only their ratios count.
 /// \param weights nullptr where the cell is not rational
 /// \return whether all weights are good
 bool readWeights(vtkDataArray* weights, CellValues& values)
@@ -65,7 +66,15 @@ bool readWeights(vtkDataArray* weights, CellValues& values)
     values.weights.resize(values.count);
     gatherComponent(weights, values.ids, values.count, 0, values.weights.data());
   }
-  return std::all_of(values.weights.begin(), values.weights.end(), isGoodWeight);
+  if (!std::all_of(values.weights.begin(), values.weights.end(), isGoodWeight))
+  {
+    return false;
+  }
+  const auto largest = std::max_element(values.weights.begin(), values.weights.end());
+  const double unit = largest == values.weights.end() ? 1.0 : unitOf(*largest);
+  std::transform(values.weights.begin(), values.weights.end(), values.weights.begin(),
+    [unit](double weight) { return weight / unit; });
+  return true;
 }
 
 } // namespace

@@ -10,12 +10,23 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace hop
 {
 
 namespace
 {
+
+/// Whether the numerics can compute with a nodal value.
+/// \param value in the unit of the run
+bool isUsable(double value)
+{
+  // The gradient of the square of a magnitude can still be squared: 1e75 to the fourth power is 1e300, below the
+  // largest double, 1.8e308. Larger values overflow.
+  constexpr double largest = 1e75;
+  return std::abs(value) <= largest;
+}
 
 /// Adds a row, times a factor, to all rows of values.
 void addToRows(std::vector<double>& values, double factor, const std::vector<double>& row)
@@ -33,8 +44,8 @@ void addToRows(std::vector<double>& values, double factor, const std::vector<dou
 /// else cross the face to and fro by rounding errors.
 /// \param amplification by which the conversion enlarges the rounding errors of the nodal values; these errors belong
 /// to the values before the origin was subtracted
-void snapToIsovalues(
-  std::vector<Coefficient>& coefficients, const FieldRange& range, double amplification)
+void snapToIsovalues(std::vector<Coefficient>& coefficients, const FieldRange& range, double unit,
+  double amplification)
 {
   const auto [lowest, highest] = std::minmax_element(coefficients.begin(), coefficients.end(),
     [](const Coefficient& a, const Coefficient& b) { return a.w < b.w; });
@@ -42,21 +53,24 @@ void snapToIsovalues(
   // the surface where the conversion enlarges rounding errors much. Chosen by experiment.
   constexpr double mostOfRange = 1e-8;
   // Four rounding errors of the largest value.
+  const double origin = range.origin / unit;
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * amplification *
-    std::max(std::abs(lowest->w + range.origin), std::abs(highest->w + range.origin));
+    std::max(std::abs(lowest->w + origin), std::abs(highest->w + origin));
   const double slack = std::min(rounding, mostOfRange * (highest->w - lowest->w));
   for (Coefficient& c : coefficients)
   {
     for (const double isovalue : range.isovalues)
     {
-      const double value = isovalue - range.origin;
+      const double value = (isovalue - range.origin) / unit;
       c.w = std::abs(c.w - value) <= slack ? value : c.w;
     }
   }
 }
 
 /// Rows of x, y, z and the field's components, one row a node, times the node's weight if there is one.
-std::vector<double> nodalRows(vtkUnstructuredGrid* grid, int nodes, const CellValues& values)
+/// \param unitOfLength divides the coordinates
+std::vector<double> nodalRows(
+  vtkUnstructuredGrid* grid, int nodes, const CellValues& values, double unitOfLength)
 {
   const int width = 3 + values.components;
   std::vector<double> nodal(static_cast<std::size_t>(nodes) * width);
@@ -67,6 +81,10 @@ std::vector<double> nodalRows(vtkUnstructuredGrid* grid, int nodes, const CellVa
   for (int node = 0; node < nodes; ++node)
   {
     double* row = &nodal[static_cast<std::size_t>(node) * width];
+    for (int c = 0; c < 3; ++c)
+    {
+      row[c] /= unitOfLength;
+    }
     std::copy_n(&values.field[static_cast<std::size_t>(node) * values.components],
       values.components, row + 3);
     for (int c = 0; c < width && !values.weights.empty(); ++c)
@@ -118,6 +136,20 @@ std::vector<Coefficient> coefficientsOf(const std::vector<double>& control, int 
   return coefficients;
 }
 
+/// Whether all control points lie in one place, as far as doubles of the size of the grid's bounds tell places apart.
+bool isPoint(const std::vector<Coefficient>& control)
+{
+  // Largest extent of a cell that counts as a point, in units of the sides of the bounds of all input: a few times the
+  // spacing of doubles there. Squares of spacings in smaller cells leave the range of single precision.
+  constexpr double extentOfPoint = 1e-15;
+  glm::dvec3 farthest(0.0);
+  for (const Coefficient& c : control)
+  {
+    farthest = glm::max(farthest, glm::abs(glm::dvec3(c - control.front())));
+  }
+  return std::max({ farthest.x, farthest.y, farthest.z }) < extentOfPoint;
+}
+
 JacobianSign jacobianSign(const CellBasis& cell, const BernsteinForm& form)
 {
   // Largest relative rounding error of coefficients that is allowed for. At the highest degrees the bound on the error
@@ -129,23 +161,30 @@ JacobianSign jacobianSign(const CellBasis& cell, const BernsteinForm& form)
 
 /// Writes the coefficients of one element.
 JacobianSign convert(const InputBlocks& blocks, const CellBasis& cell, const FieldRange& range,
-  const Element& element, ElementMesh& mesh, CellValues& values)
+  const RunUnits& units, const Element& element, ElementMesh& mesh, CellValues& values)
 {
   const BlockCell where = blocks.locate(element.cell);
   readCell(blocks, where, cell, values);
   for (double& value : values.field)
   {
-    value -= range.origin;
+    value = (value - range.origin) / units.value;
+  }
+  if (!std::all_of(values.field.begin(), values.field.end(), isUsable))
+  {
+    return JacobianSign::NotFinite;
   }
   const int width = 3 + values.components;
-  const std::vector<double> control =
-    controlRows(cell, nodalRows(blocks[where.block].grid, cell.basis.nodeCount(), values), width);
+  const std::vector<double> control = controlRows(
+    cell, nodalRows(blocks[where.block].grid, cell.basis.nodeCount(), values, units.length), width);
   std::vector<double> weights = controlWeights(cell, values);
   std::vector<Coefficient> plain = coefficientsOf(control, width);
   const BernsteinForm form{ cell.basis.domain(), cell.basis.degrees(), plain.data(),
     element.rational ? weights.data() : nullptr };
   const JacobianSign sign = jacobianSign(cell, form);
-
+  if (sign == JacobianSign::NotFinite || isPoint(plain))
+  {
+    return sign == JacobianSign::NotFinite ? sign : JacobianSign::Zero;
+  }
   Coefficient* coefficients = &mesh.coefficients[element.firstCoefficient];
   if (blocks.isMagnitude())
   {
@@ -155,7 +194,7 @@ JacobianSign convert(const InputBlocks& blocks, const CellBasis& cell, const Fie
   {
     if (!element.rational)
     {
-      snapToIsovalues(plain, range, cell.basis.conversionNorm());
+      snapToIsovalues(plain, range, units.value, cell.basis.conversionNorm());
     }
     std::copy(plain.begin(), plain.end(), coefficients);
   }
@@ -169,8 +208,8 @@ JacobianSign convert(const InputBlocks& blocks, const CellBasis& cell, const Fie
 } // namespace
 
 std::vector<JacobianSign> convertCells(const InputBlocks& blocks,
-  const std::vector<const CellBasis*>& bases, const FieldRange& range, ElementMesh& mesh,
-  const ParallelFor& parallelFor)
+  const std::vector<const CellBasis*>& bases, const FieldRange& range, const RunUnits& units,
+  ElementMesh& mesh, const ParallelFor& parallelFor)
 {
   std::vector<JacobianSign> signs(mesh.elements.size());
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(signs.size()),
@@ -179,7 +218,7 @@ std::vector<JacobianSign> convertCells(const InputBlocks& blocks,
       CellValues values;
       for (std::ptrdiff_t e = begin; e < end; ++e)
       {
-        signs[e] = convert(blocks, *bases[e], range, mesh.elements[e], mesh, values);
+        signs[e] = convert(blocks, *bases[e], range, units, mesh.elements[e], mesh, values);
       }
     });
   return signs;
@@ -206,9 +245,17 @@ JacobianSign signInOrder(const InputBlocks& blocks, const BlockCell& where, cons
   values.weights = std::move(weights);
   values.components = 0; // the field does not matter
   constexpr int width = 3;
-  const std::vector<Coefficient> coefficients = coefficientsOf(
-    controlRows(cell, nodalRows(blocks[where.block].grid, cell.basis.nodeCount(), values), width),
-    width);
+  // The sign does not depend on the unit; products of tiny or huge coordinates would not be finite, though.
+  std::vector<double> nodal =
+    nodalRows(blocks[where.block].grid, cell.basis.nodeCount(), values, 1.0);
+  const auto [lowest, highest] = std::minmax_element(nodal.begin(), nodal.end());
+  const double unit = unitOf(std::max(-*lowest, *highest));
+  for (double& coordinate : nodal)
+  {
+    coordinate /= unit;
+  }
+  const std::vector<Coefficient> coefficients =
+    coefficientsOf(controlRows(cell, std::move(nodal), width), width);
   const std::vector<double> control = controlWeights(cell, values);
   const JacobianSign sign = jacobianSign(cell,
     { cell.basis.domain(), cell.basis.degrees(), coefficients.data(),

@@ -2,6 +2,7 @@
 
 #include "Conversion/CellBases.h"
 #include "Conversion/CellValues.h"
+#include "Conversion/RunUnits.h"
 #include "Elements/ElementMesh.h"
 #include "Input/InputBlocks.h"
 
@@ -19,14 +20,14 @@ struct FieldRange
   double origin = 0.0;
 };
 
-/// Writes the coefficients of all elements. Rational cells receive homogeneous coefficients and weights; where a
+/// Writes the coefficients of all elements, in the given units. Rational cells receive homogeneous coefficients and weights; where a
 /// magnitude is contoured, the coefficients describe its square.
 /// \param bases of the elements' cells, one an element
 /// \param mesh elements that lack only coefficients and corners, and room for the coefficients
 /// \return the sign of the Jacobian determinant, one an element
 std::vector<JacobianSign> convertCells(const InputBlocks& blocks,
-  const std::vector<const CellBasis*>& bases, const FieldRange& range, ElementMesh& mesh,
-  const ParallelFor& parallelFor);
+  const std::vector<const CellBasis*>& bases, const FieldRange& range, const RunUnits& units,
+  ElementMesh& mesh, const ParallelFor& parallelFor);
 
 /// The sign of the Jacobian determinant that a cell has if its nodes are taken in an order: first node order[0] of the
 /// mesh, then node order[1], and so on.

@@ -55,6 +55,27 @@ double originOf(const InputBlocks& blocks)
   return lowest <= highest && highest - lowest < little * std::abs(middle) ? middle : 0.0;
 }
 
+/// The unit of the chosen scalar in which it changes by about one in half of the cells: a few cells with values of quite
+/// another size do not matter. 1 if there are no cells.
+double usualUnit(const std::vector<JudgedCells>& ranges)
+{
+  std::vector<double> units;
+  for (const JudgedCells& range : ranges)
+  {
+    for (const KeptCell& kept : range.kept)
+    {
+      units.push_back(unitOf(kept.change));
+    }
+  }
+  if (units.empty())
+  {
+    return 1.0;
+  }
+  const auto median = units.begin() + static_cast<std::ptrdiff_t>(units.size() / 2);
+  std::nth_element(units.begin(), median, units.end());
+  return *median;
+}
+
 using Corners = decltype(Element::corners);
 
 /// The corners in an order in which copies of a cell can be compared, which may list them differently.
@@ -79,7 +100,7 @@ class Builder
 {
 public:
   Builder(const InputBlocks& blocks, NodeSpacing spacing, const std::vector<double>& isovalues,
-    const ParallelFor& parallelFor, const std::function<void(double)>& reached)
+    const ParallelFor& parallelFor, const std::function<void(double)>& reached, double unitOfLength)
     : Blocks(blocks)
     , Isovalues(isovalues)
     , Parallel(parallelFor)
@@ -87,6 +108,7 @@ public:
   {
     this->Result.squared = blocks.isMagnitude();
     this->Result.origin = originOf(blocks);
+    this->Result.units.length = unitOfLength;
     this->Result.kinds = std::make_unique<CellBases>(spacing);
     this->Result.census.resize(blocks.size());
   }
@@ -116,11 +138,13 @@ private:
 GridElements Builder::build()
 {
   ElementMesh& mesh = this->Result.mesh;
-  this->makeElements(
-    judgeCells(this->Blocks, this->Isovalues, *this->Result.kinds, this->Parallel));
+  const std::vector<JudgedCells> judged =
+    judgeCells(this->Blocks, this->Isovalues, *this->Result.kinds, this->Parallel);
+  this->Result.units.value = usualUnit(judged);
+  this->makeElements(judged);
   this->Reached(ConversionProgress::Judged);
   std::vector<JacobianSign> signs = convertCells(this->Blocks, this->Result.bases,
-    { this->Isovalues, this->Result.origin }, mesh, this->Parallel);
+    { this->Isovalues, this->Result.origin }, this->Result.units, mesh, this->Parallel);
   this->Reached(ConversionProgress::Converted);
   this->dropMisordered(signs);
   this->dropCollapsed(signs);
@@ -177,14 +201,14 @@ void Builder::makeElements(const JudgedCells& range, const Room& before)
   std::size_t coefficient = before.coefficients;
   for (std::size_t i = 0; i < range.kept.size(); ++i)
   {
-    const auto& [cell, basis] = range.kept[i];
+    const KeptCell& kept = range.kept[i];
     Element& element = this->Result.mesh.elements[before.elements + i];
-    element.domain = basis->basis.domain();
-    element.degrees = this->elementDegrees(*basis);
+    element.domain = kept.basis->basis.domain();
+    element.degrees = this->elementDegrees(*kept.basis);
     element.firstCoefficient = coefficient;
-    element.rational = rationalWeights(this->Blocks[range.block], *basis) != nullptr;
-    element.cell = this->Blocks.firstCell(range.block) + cell;
-    this->Result.bases[before.elements + i] = basis;
+    element.rational = rationalWeights(this->Blocks[range.block], *kept.basis) != nullptr;
+    element.cell = this->Blocks.firstCell(range.block) + kept.cell;
+    this->Result.bases[before.elements + i] = kept.basis;
     coefficient += coefficientCount(element.domain, element.degrees);
   }
 }
@@ -339,9 +363,9 @@ void Builder::keep(const std::vector<char>& marks)
 
 GridElements buildGridElements(const InputBlocks& blocks, NodeSpacing spacing,
   const std::vector<double>& isovalues, const ParallelFor& parallelFor,
-  const std::function<void(double)>& reached)
+  const std::function<void(double)>& reached, double unitOfLength)
 {
-  return Builder(blocks, spacing, isovalues, parallelFor, reached).build();
+  return Builder(blocks, spacing, isovalues, parallelFor, reached, unitOfLength).build();
 }
 
 } // namespace hop

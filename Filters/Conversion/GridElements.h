@@ -3,6 +3,7 @@
 #include "Common/Monitor.h"
 #include "Conversion/CellBases.h"
 #include "Conversion/CellCensus.h"
+#include "Conversion/RunUnits.h"
 #include "Elements/ElementMesh.h"
 #include "Input/InputBlocks.h"
 
@@ -29,6 +30,8 @@ struct GridElements
   /// Is subtracted from the chosen scalar where this is large and changes little: rounding errors would hide the
   /// changes. 0 where a magnitude is contoured.
   double origin = 0.0;
+  /// The mesh's coordinates and fields are those of the input divided by these.
+  RunUnits units;
   /// What became of the cells, one census a block.
   std::vector<CellCensus> census;
 
@@ -39,15 +42,18 @@ struct GridElements
   /// \pre canBe(isovalue)
   double fieldIsovalue(double isovalue) const
   {
-    return this->squared ? isovalue * isovalue : isovalue - this->origin;
+    const double scaled = (isovalue - this->origin) / this->units.value;
+    return this->squared ? scaled * scaled : scaled;
   }
 };
 
 /// Converts the cells of all blocks.
 /// \param isovalues of the chosen scalar, at least one
 /// \param reached receives the fraction of the work that is done, 0 to 1; may throw to end it early
+/// \param unitOfLength of the mesh, world units, a power of two
 GridElements buildGridElements(
   const InputBlocks& blocks, NodeSpacing spacing, const std::vector<double>& isovalues,
-  const ParallelFor& parallelFor, const std::function<void(double)>& reached = [](double) {});
+  const ParallelFor& parallelFor, const std::function<void(double)>& reached = [](double) {},
+  double unitOfLength = 1.0);
 
 } // namespace hop

@@ -1,6 +1,7 @@
 #include "Conversion/JudgeCells.h"
 
 #include "Conversion/CellValues.h"
+#include "Conversion/RunUnits.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkUnsignedCharArray.h"
@@ -45,17 +46,40 @@ bool isConstant(const CellValues& values)
     values.field.begin() + values.components, values.field.end(), values.field.begin());
 }
 
-/// The magnitude of the longest of some vectors.
+double largestOf(const std::vector<double>& values)
+{
+  const auto larger = [](double a, double b) { return std::max(a, std::abs(b)); };
+  return std::accumulate(values.begin(), values.end(), 0.0, larger);
+}
+
+/// The magnitude of the longest of some vectors. Their squares neither overflow nor underflow.
 /// \param components of each vector; `vectors` lists them vector by vector
 double longestOf(const std::vector<double>& vectors, int components)
 {
+  const double unit = unitOf(largestOf(vectors));
   double longest2 = 0.0;
   for (std::size_t i = 0; i < vectors.size(); i += components)
   {
-    longest2 = std::max(
-      longest2, std::inner_product(&vectors[i], &vectors[i] + components, &vectors[i], 0.0));
+    double length2 = 0.0;
+    for (int c = 0; c < components; ++c)
+    {
+      const double component = vectors[i + c] / unit;
+      length2 += component * component;
+    }
+    longest2 = std::max(longest2, length2);
   }
-  return std::sqrt(longest2);
+  return unit * std::sqrt(longest2);
+}
+
+/// See KeptCell::change.
+double changeOf(const CellValues& values)
+{
+  if (values.components > 1)
+  {
+    return largestOf(values.field);
+  }
+  const auto [lowest, highest] = std::minmax_element(values.field.begin(), values.field.end());
+  return *highest - *lowest;
 }
 
 /// Judges cells. All threads share one Judge.
@@ -95,7 +119,7 @@ void Judge::judge(JudgedCells& range, BasisLookup& bases, CellValues& values) co
     const Verdict verdict = this->judge({ range.block, cell }, basis, values);
     if (verdict == Verdict::Keep)
     {
-      range.kept.push_back({ cell, basis });
+      range.kept.push_back({ cell, basis, changeOf(values) });
     }
     else
     {

@@ -15,6 +15,8 @@ struct KeptCell
 {
   vtkIdType cell = 0;
   const CellBasis* basis = nullptr;
+  /// Largest difference of two nodal values; of a vector its largest component.
+  double change = 0.0;
 };
 
 /// Cells `begin` to `end` - 1 of a block, and what one thread found out about them.

@@ -21,10 +21,6 @@ namespace hop
 namespace
 {
 
-/// Largest bounding diagonal, world units. Its cube, 1e270, leaves room for sums of volumes below the largest double,
-/// 1.8e308; with larger diagonals determinants overflow.
-constexpr double largestDiagonal = 1e90;
-
 /// Which array was asked for.
 struct ArrayChoice
 {
@@ -228,15 +224,13 @@ UserMessages checkParameters(
 
 UserMessages checkDiagonal(double diagonal)
 {
-  if (diagonal < largestDiagonal)
+  if (std::isfinite(diagonal))
   {
     return {};
   }
-  std::ostringstream text;
-  text << "The bounding diagonal of the grid, " << diagonal
-       << ", is too long to compute with. Correct points that are far off, or scale the grid by "
-          "Transform.";
-  return { { UserMessage::Error, text.str() } };
+  return { { UserMessage::Error,
+    "The bounds of the grid are larger than the largest number, too long to compute with. Correct "
+    "points that are far off, or scale the grid by Transform." } };
 }
 
 CheckedBlocks checkBlocks(const GatheredBlocks& gathered, vtkInformation* asked)

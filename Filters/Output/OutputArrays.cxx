@@ -6,7 +6,6 @@
 #include "vtkDataObject.h"
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 
 namespace hop
@@ -31,17 +30,18 @@ void writeOfClips(const ParticleRow& row, double* out, const Quantity& quantity)
   }
 }
 
-void writeShapeOperator(const ParticleRow& row, const RowCells&, double* out)
+void writeShapeOperator(const ParticleRow& row, const RowCells& cells, double* out)
 {
   const glm::dmat3& shape = row.particle->curvature.shape;
   const double components[] = { shape[0][0], shape[1][1], shape[2][2], shape[0][1], shape[1][2],
     shape[0][2] }; // VTK's order of symmetric tensors
-  std::copy(std::begin(components), std::end(components), out);
+  std::transform(std::begin(components), std::end(components), out,
+    [&](double component) { return cells.curvature(component); });
 }
 
-void writePlacement(const ParticleRow& row, const RowCells&, double* out)
+void writePlacement(const ParticleRow& row, const RowCells& cells, double* out)
 {
-  writeVector(row.particle->position.xyz, out);
+  writeVector(cells.position(row).xyz, out);
   writeVector(row.particle->normal.xyz, out + 3);
 }
 
@@ -52,12 +52,15 @@ void writeParametricCoordinates(const ParticleRow& row, const RowCells& cells, d
   writeVector(parametricCoordinates(cells.cellTypeOf(row), u).xyz, out);
 }
 
-void writeCellBorders(const ParticleRow& row, const RowCells&, float* out)
+void writeCellBorders(const ParticleRow& row, const RowCells& cells, double* out)
 {
   for (const CellBorder& border : row.particle->borders)
   {
-    out = std::copy_n(&border.foot.x, 3, out);
-    *out++ = border.curvature;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      *out++ = cells.length(border.foot[axis]);
+    }
+    *out++ = cells.curvature(border.curvature);
   }
 }
 
@@ -90,16 +93,7 @@ void writeSplatColumns(const ParticleRow& row, const RowCells& cells, double* ou
 {
   for (const ParticleArray* column : splatColumns())
   {
-    if (const auto* singles = std::get_if<RowWriter<float>>(&column->write))
-    {
-      std::array<float, splatColumnCount()> values;
-      (*singles)(row, cells, values.data());
-      std::copy_n(values.data(), column->components, out);
-    }
-    else
-    {
-      std::get<RowWriter<double>>(column->write)(row, cells, out);
-    }
+    std::get<RowWriter<double>>(column->write)(row, cells, out);
     out += column->components;
   }
 }
@@ -114,22 +108,23 @@ std::vector<ParticleArray> makeParticleArrays()
     { "Radius", 1,
       "Radius of the particle's splat, world units: the distance to neighbours that the particle "
       "wants; less where it stands alone on a component of the surface smaller than this distance.",
-      [](const ParticleRow& row, const RowCells&, double* out)
-      { *out = row.particle->radiusPerSpacing * row.particle->spacing; } },
+      [](const ParticleRow& row, const RowCells& cells, double* out)
+      { *out = cells.length(row.particle->radiusPerSpacing * row.particle->spacing); } },
     { "Mean_Curvature", 1,
       "Mean of the two principal curvatures with respect to Normals, 1/world units: 1/r on a "
       "sphere of radius r with high values inside.",
-      [](const ParticleRow& row, const RowCells&, double* out)
-      { *out = row.particle->curvature.mean; } },
+      [](const ParticleRow& row, const RowCells& cells, double* out)
+      { *out = cells.curvature(row.particle->curvature.mean); } },
     { "Gauss_Curvature", 1, "Product of the two principal curvatures, 1/world units squared.",
-      [](const ParticleRow& row, const RowCells&, double* out)
-      { *out = row.particle->curvature.gauss; } },
+      [](const ParticleRow& row, const RowCells& cells, double* out)
+      { *out = cells.curvature(cells.curvature(row.particle->curvature.gauss)); } },
     { "Shape_Operator", 6,
       "Derivative of Normals along the surface, 1/world units: a symmetric tensor, xx, yy, zz, xy, "
       "yz, xz.",
       writeShapeOperator, ArrayUse::Diagnostic },
     { "Residual", 1, "Distance from the isosurface to first order, |F - c|/|grad F|, world units.",
-      [](const ParticleRow& row, const RowCells&, double* out) { *out = row.particle->residual; } },
+      [](const ParticleRow& row, const RowCells& cells, double* out)
+      { *out = cells.length(row.particle->residual); } },
     { "Clip_Normal", 9,
       "Unit normals, pointing to the far side, of up to three planes near the particle at which "
       "the surface ends (at boundary curves) or turns (at faces between elements); zero where "
@@ -149,8 +144,10 @@ std::vector<ParticleArray> makeParticleArrays()
       "Distance of the particle from each of these planes, world units. A plane touches its "
       "boundary curve or crease where this is nearest. Where creases meet, a plane is moved "
       "outwards if nothing else would cover what it cuts off.",
-      [](const ParticleRow& row, const RowCells&, double* out)
-      { writeOfClips(row, out, [](const ClipPlane& plane) { return plane.distance; }); },
+      [](const ParticleRow& row, const RowCells& cells, double* out) {
+        writeOfClips(
+          row, out, [&](const ClipPlane& plane) { return cells.length(plane.distance); });
+      },
       ArrayUse::Diagnostic },
     { "Clip_Angle", 3,
       "Largest angle seen at each of these planes between the normals of both sides, degrees: 180 "
@@ -165,8 +162,11 @@ std::vector<ParticleArray> makeParticleArrays()
     { "Clip_Curvature", 3,
       "Curvature of the boundary curve or crease at each of these planes, 1/world units: positive "
       "where the edge bends towards the plane's normal, 0 where Clip_Angle is below 10 degrees.",
-      [](const ParticleRow& row, const RowCells&, double* out)
-      { writeOfClips(row, out, [](const ClipPlane& plane) { return plane.edgeCurvature; }); },
+      [](const ParticleRow& row, const RowCells& cells, double* out)
+      {
+        writeOfClips(
+          row, out, [&](const ClipPlane& plane) { return cells.curvature(plane.edgeCurvature); });
+      },
       ArrayUse::Diagnostic },
     { "Original_Placement", 6,
       "Position and Normals of the particle as computed. Renderers compare them with the points to "
@@ -182,7 +182,8 @@ std::vector<ParticleArray> makeParticleArrays()
     { "Jump", 1,
       "F - c on the other side, where the particle stands on a boundary curve at which the field "
       "jumps from element to element; else 0.",
-      [](const ParticleRow& row, const RowCells&, double* out) { *out = row.particle->jump; },
+      [](const ParticleRow& row, const RowCells& cells, double* out)
+      { *out = cells.difference(row.particle->jump); },
       ArrayUse::Diagnostic },
     { IsovalueArray, 1, "The isovalue c of the particle's surface.",
       [](const ParticleRow& row, const RowCells&, double* out) { *out = row.isovalue; } },

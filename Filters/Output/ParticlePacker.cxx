@@ -217,8 +217,12 @@ void Packer::addPoints()
   points->SetDataTypeToDouble();
   points->SetNumberOfPoints(this->rowCount());
   auto* positions = static_cast<double*>(points->GetVoidPointer(0));
-  this->fillWith([positions](std::ptrdiff_t i, const ParticleRow& row)
-    { std::copy_n(&row.particle->position.xyz.x, 3, positions + 3 * i); });
+  this->fillWith(
+    [this, positions](std::ptrdiff_t i, const ParticleRow& row)
+    {
+      const WorldPoint position = this->Cells.position(row);
+      std::copy_n(&position.xyz.x, 3, positions + 3 * i);
+    });
   this->Output->SetPoints(points);
 }
 

@@ -5,6 +5,9 @@
 
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
+#include <limits>
+
 namespace hop
 {
 
@@ -23,7 +26,24 @@ public:
     : Grid(blocks[block].grid)
     , FirstCell(blocks.firstCell(block))
     , Mesh(elements.mesh)
+    , UnitOfLength(elements.units.length)
+    , UnitOfValue(elements.units.value)
+    , IsSquared(elements.squared)
   {
+  }
+
+  /// A length of the run in world units; the same of a curvature, which is an inverse length.
+  double length(double ofRun) const { return ofRun * this->UnitOfLength; }
+  double curvature(double ofRun) const { return finite(ofRun / this->UnitOfLength); }
+  /// The position of a particle in world units.
+  WorldPoint position(const ParticleRow& row) const
+  {
+    return { this->UnitOfLength * row.particle->position.xyz };
+  }
+  /// A difference of the mesh's field, in the unit of the chosen scalar, squared where the field is.
+  double difference(double ofRun) const
+  {
+    return finite(ofRun * this->UnitOfValue * (this->IsSquared ? this->UnitOfValue : 1.0));
   }
 
   /// The number of the particle's cell in the block's grid.
@@ -39,9 +59,19 @@ public:
   }
 
 private:
+  /// Numbers beyond the largest double become that double: curvatures of tiny surfaces, squares of large values.
+  static double finite(double number)
+  {
+    constexpr double largest = std::numeric_limits<double>::max();
+    return std::clamp(number, -largest, largest);
+  }
+
   vtkUnstructuredGrid* Grid;
   std::int64_t FirstCell;
   const ElementMesh& Mesh;
+  double UnitOfLength;
+  double UnitOfValue;
+  bool IsSquared;
 };
 
 } // namespace hop

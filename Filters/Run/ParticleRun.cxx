@@ -152,7 +152,7 @@ GridElements GroupRun::convert(const Work& work) const
     loops.ask();
   };
   GridElements elements = buildGridElements(this->Blocks, this->Properties.nodeSpacing,
-    this->Properties.isovalues, std::ref(loops), reached);
+    this->Properties.isovalues, std::ref(loops), reached, this->Scale.unit);
   this->Caller.tell(reviewCells(this->Blocks, elements.census));
   return elements;
 }
@@ -252,7 +252,7 @@ void GroupRun::reviewSpacing(const GridElements& elements, const RunOrigin& orig
       { spacing, this->Properties.angularDensity }, rest.monitor, rest.parallelFor);
     return std::accumulate(counts.begin(), counts.end(), 0.0);
   };
-  const SpacingAdvice advice = adviseSpacing(distribution, sizing, countAt);
+  const SpacingAdvice advice = adviseSpacing(distribution, sizing, this->Scale.unit, countAt);
   const int worst = distribution.particles[advice.worst].location.element;
   this->Caller.tell({ reviewUndersampled(this->Blocks, distribution, advice,
     elements.mesh.elements[worst].cell, origin.isovalue, number) });
@@ -263,6 +263,7 @@ RunOrigin GroupRun::makeOrigin() const
 {
   RunOrigin origin = originOf(this->Blocks);
   origin.nodeSpacing = this->Properties.nodeSpacing;
+  origin.unit = this->Scale.unit;
   origin.parameters.sizing = { this->Scale.spacing, this->Properties.angularDensity };
   origin.parameters.quality = this->Properties.quality;
   origin.parameters.seed = this->Properties.seed;

@@ -20,9 +20,15 @@ constexpr double largestChangeOfSpacing = 0.1;
 
 bool sameRequest(const DistributionParameters& a, const DistributionParameters& b)
 {
-  return std::abs(a.sizing.spacing / b.sizing.spacing - 1.0) <= largestChangeOfSpacing &&
-    a.sizing.angularDensity == b.sizing.angularDensity && a.quality == b.quality &&
+  return a.sizing.angularDensity == b.sizing.angularDensity && a.quality == b.quality &&
     a.seed == b.seed && a.particleCount == b.particleCount;
+}
+
+bool sameSpacing(const RunOrigin& a, const RunOrigin& b)
+{
+  const double ratio =
+    (a.parameters.sizing.spacing / b.parameters.sizing.spacing) * (a.unit / b.unit);
+  return std::abs(ratio - 1.0) <= largestChangeOfSpacing;
 }
 
 } // namespace
@@ -33,7 +39,8 @@ bool RunOrigin::continues(const RunOrigin& before) const
     this->isovalue != before.isovalue || this->dataTime != before.dataTime;
   return somethingChanged && this->array == before.array && this->component == before.component &&
     this->cells == before.cells && this->points == before.points &&
-    this->nodeSpacing == before.nodeSpacing && sameRequest(this->parameters, before.parameters);
+    this->nodeSpacing == before.nodeSpacing && sameSpacing(*this, before) &&
+    sameRequest(this->parameters, before.parameters);
 }
 
 RunOrigin originOf(const InputBlocks& blocks)

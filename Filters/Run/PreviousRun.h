@@ -26,6 +26,8 @@ struct RunOrigin
   std::int64_t cells = 0;
   std::int64_t points = 0;
   NodeSpacing nodeSpacing = NodeSpacing::Uniform;
+  /// Unit of the lengths in `parameters`, world units.
+  double unit = 1.0;
   DistributionParameters parameters;
 
   /// Whether particles of the isosurface `before` may go on in this one. They may not where nothing changed: the same

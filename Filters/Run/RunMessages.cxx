@@ -63,7 +63,7 @@ std::string describeAdvice(
   }
   else
   {
-    text << "It bends with a radius of about " << 1.0 / worst.curvature.magnitude
+    text << "It bends with a radius of about " << advice.unit / worst.curvature.magnitude
          << " there, which more than " << SpacingAdvice::MostTimes
          << " times the particles would be needed to follow.";
   }
@@ -76,7 +76,7 @@ std::string describeUndersampled(const InputBlocks& blocks, const Distribution& 
   const std::size_t count = distribution.particles.size();
   const std::int64_t undersampled = distribution.report.particlesUndersampled;
   const Particle& worst = distribution.particles[advice.worst];
-  const glm::dvec3& x = worst.position.xyz;
+  const glm::dvec3 x = advice.unit * worst.position.xyz;
   std::ostringstream text;
   text << "at " << undersampled << " of " << count << " particles ("
        << std::lround(100.0 * static_cast<double>(undersampled) / static_cast<double>(count))

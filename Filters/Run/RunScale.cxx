@@ -1,5 +1,6 @@
 #include "Run/RunScale.h"
 
+#include "Conversion/RunUnits.h"
 #include "Run/Ranks.h"
 
 #include "vtkBoundingBox.h"
@@ -24,6 +25,8 @@ struct SpacingPerSide
   /// The most that is passed on; chosen by experiment. Larger spacings change nothing, as every component of the
   /// surface has its least number of particles long before; squares of much larger ones are not finite.
   static constexpr double Largest = 1e3;
+  /// The least that is passed on: smaller ones ask for as many particles as this one, more than any memory holds.
+  static constexpr double Least = 1e-300;
 };
 
 /// The smallest tolerance, in units of the rounding error of the largest coordinate: coordinates cannot say that a
@@ -41,6 +44,18 @@ vtkBoundingBox boundsOf(const std::vector<InputBlock>& blocks)
     }
   }
   return box;
+}
+
+/// The diagonal of a box, in a unit in which squares of its sides do not overflow.
+double diagonalOf(const vtkBoundingBox& box, double unit)
+{
+  double sides[3];
+  box.GetLengths(sides);
+  for (double& side : sides)
+  {
+    side /= unit;
+  }
+  return std::sqrt(sides[0] * sides[0] + sides[1] * sides[1] + sides[2] * sides[2]);
 }
 
 /// The largest absolute value of a coordinate.
@@ -62,12 +77,15 @@ RunScale findScale(const std::vector<InputBlock>& blocks, double spacing, double
   RunScale scale;
   if (box.IsValid())
   {
-    const double side = box.GetMaxLength();
-    scale.spacing = spacing > 0.0 ? std::min(spacing, SpacingPerSide::Largest * side)
-                                  : SpacingPerSide::Automatic * side;
-    scale.diagonal = box.GetDiagonalLength();
+    scale.unit = unitOf(box.GetMaxLength());
+    const double side = box.GetMaxLength() / scale.unit;
+    scale.spacing = spacing > 0.0
+      ? std::clamp(spacing / scale.unit, SpacingPerSide::Least, SpacingPerSide::Largest * side)
+      : SpacingPerSide::Automatic * side;
+    scale.diagonal = diagonalOf(box, scale.unit);
     scale.tolerance = std::max(tolerance * scale.diagonal,
-      leastToleranceInRoundings * std::numeric_limits<double>::epsilon() * farthestOf(box));
+      leastToleranceInRoundings * std::numeric_limits<double>::epsilon() * farthestOf(box) /
+        scale.unit);
   }
   return scale;
 }

@@ -7,9 +7,11 @@
 namespace hop
 {
 
-/// Lengths that follow from the bounds of the whole input, over all blocks and ranks; world units.
+/// Lengths that follow from the bounds of the whole input, over all blocks and ranks; in units of `unit`.
 struct RunScale
 {
+  /// A power of two, world units; the longest side of the bounds is 0.5 to 1 of it.
+  double unit = 1.0;
   double spacing = 0.0;
   double tolerance = 0.0;
   /// Diagonal of the bounds.

@@ -87,11 +87,12 @@ bool hasTooManyUndersampled(const Distribution& distribution)
     UndersampledShare::Warned * static_cast<double>(distribution.particles.size());
 }
 
-SpacingAdvice adviseSpacing(const Distribution& distribution, SizingFunction sizing,
+SpacingAdvice adviseSpacing(const Distribution& distribution, SizingFunction sizing, double unit,
   const std::function<double(double spacing)>& countAt)
 {
   const Buffer<Particle>& particles = distribution.particles;
   SpacingAdvice advice;
+  advice.unit = unit;
   advice.worst = worstOf(particles);
   advice.isSingular =
     distribution.report.singularPoints > 0 || isSingularAt(particles[advice.worst]);
@@ -99,13 +100,13 @@ SpacingAdvice adviseSpacing(const Distribution& distribution, SizingFunction siz
   for (int n = 0; n < Trial::Times; ++n)
   {
     exact *= Trial::Ratio;
-    sizing.spacing = rounded(exact);
+    sizing.spacing = rounded(exact * unit) / unit;
     if (undersampledShare(particles, sizing) <= UndersampledShare::Advised)
     {
       const double count = countAt(sizing.spacing);
       const bool isAffordable =
         count <= SpacingAdvice::MostTimes * static_cast<double>(particles.size());
-      advice.spacing = isAffordable ? sizing.spacing : 0.0;
+      advice.spacing = isAffordable ? sizing.spacing * unit : 0.0;
       advice.count = isAffordable ? std::llround(count) : 0;
       break;
     }

@@ -16,6 +16,8 @@ struct SpacingAdvice
   double spacing = 0.0;
   /// Number of particles that it takes.
   std::int64_t count = 0;
+  /// Unit of lengths in the distribution, world units.
+  double unit = 1.0;
   /// Index of the particle where the surface bends most for its spacing.
   std::size_t worst = 0;
   /// Whether the gradient of the field vanishes on the surface, or nearly so.
@@ -32,9 +34,10 @@ bool hasTooManyUndersampled(const Distribution& distribution);
 /// Looks for the largest spacing that follows the surface: each particle stands for its part of the surface, which
 /// takes more particles at a smaller spacing and bends as the particle's place does.
 /// \param sizing that the distribution was made with; spacing 0 if a number of particles was given
+/// \param unit of lengths in the distribution and of spacings, world units
 /// \param countAt the number of particles that the surface takes at a spacing; asked once at most
 /// \pre hasTooManyUndersampled(distribution)
-SpacingAdvice adviseSpacing(const Distribution& distribution, SizingFunction sizing,
+SpacingAdvice adviseSpacing(const Distribution& distribution, SizingFunction sizing, double unit,
   const std::function<double(double spacing)>& countAt);
 
 } // namespace hop

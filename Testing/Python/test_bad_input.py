@@ -444,12 +444,23 @@ def test_automatic_spacing_in_spite_of_coordinates_that_are_not_finite(bad):
 
 
 @pytest.mark.parametrize("far", [1e100, 1e160, 1e308])
-def test_grids_too_large_to_compute_with_are_refused(far):
+def test_cells_that_vanish_beside_a_point_far_off_are_told(far):
     grid = block()
     points = cell_points(grid, 4)
     points[7, 1] = far
     move_points(grid, 4, points)
     particles, messages = support.run(grid, "F", 0.3)
+    assert messages.errors == []
+    assert "smaller than 1e-15 of the bounds" in messages.warnings[0]
+    assert_clean(particles)
+
+
+def test_bounds_that_overflow_are_refused():
+    grid = block()
+    points = cell_points(grid, 4)
+    points[7, 1], points[6, 1] = 1.7e308, -1.7e308
+    move_points(grid, 4, points)
+    particles, messages = support.run(grid, "F", 0.3, Spacing=0.1)
     assert particles.GetNumberOfPoints() == 0
     assert_one_error(messages, "too long to compute with", "Transform")
 

@@ -54,8 +54,7 @@ def test_the_outputs_own_arrays_are_those_of_the_table_in_its_order(channel):
         assert [(name, attributes.GetArray(name).GetNumberOfComponents()) for name in names] == list(table.items())
     for name in OWN_ARRAYS:
         array = particles.GetPointData().GetArray(name)
-        kinds = {"Cell_Id": "vtkIdTypeArray", "vtkOriginalCellIds": "vtkIdTypeArray", "Cell_Borders": "vtkFloatArray",
-                 "Normals": "vtkFloatArray"}
+        kinds = {"Cell_Id": "vtkIdTypeArray", "vtkOriginalCellIds": "vtkIdTypeArray", "Normals": "vtkFloatArray"}
         assert array.GetClassName() == kinds.get(name, "vtkDoubleArray"), name
         assert array.GetNumberOfTuples() == particles.GetNumberOfPoints(), name
     assert all(particles.GetFieldData().GetArray(name).GetClassName() == "vtkIdTypeArray" for name in REPORT)

@@ -1,4 +1,7 @@
-"""Lengths and values of very different size in one grid."""
+"""Units do not matter; lengths and values of very different size in one grid."""
+
+import os
+from pathlib import Path
 
 import cells
 import numpy as np
@@ -52,3 +55,80 @@ def test_plates_thinner_than_the_spacing(cell_type, layers, thickness):
     assert np.max(np.diff(along)) < 1.5 * spacing
     rows = 1 if thickness < 0.4 * spacing else 2
     assert particles.GetNumberOfPoints() == pytest.approx(rows * along[-1] / spacing, rel=0.1)
+
+
+# Units
+
+
+def real_files():
+    """Every file of solvers in the repository that is a grid by itself."""
+    return sorted(path.name for path in Path(os.environ["HOP_DATA"]).glob("*.vtu") if "_00." not in path.name)
+
+
+def contoured(grid):
+    """Name of a point array of a grid, the component to contour, and an isovalue at two thirds of its range."""
+    arrays = [grid.GetPointData().GetArray(a) for a in range(grid.GetPointData().GetNumberOfArrays())]
+    array = next(a for a in arrays if a.GetName() != "RationalWeights")
+    count = array.GetNumberOfComponents()
+    low, high = array.GetRange(0 if count == 1 else -1)
+    return array.GetName(), 0 if count == 1 else count, low + 2 / 3 * (high - low)
+
+
+def in_other_units(grid, name, length, value):
+    """A copy of a grid with coordinates and the values of one array times a number."""
+    scaled = grid.NewInstance()
+    scaled.ShallowCopy(grid)
+    cells.set_points(scaled, length * support.points_of(grid))
+    support.add_point_array(scaled, name, value * support.array_of(grid, name).astype(float))
+    return scaled
+
+
+# By how many lengths an array of the output is multiplied where the input's coordinates are multiplied by a length.
+LENGTHS = {
+    "Radius": 1, "Mean_Curvature": -1, "Gauss_Curvature": -2, "Shape_Operator": -1, "Residual": 1,
+    "Clip_Distance": 1, "Clip_Curvature": -1,
+}  # fmt: skip
+# Powers of two round nothing: 6e-151 to 2e150.
+SMALL, LARGE = 2.0**-500, 2.0**500
+
+
+@pytest.mark.parametrize("file", real_files())
+def test_particles_of_real_files_do_not_depend_on_units(data, file):
+    grid = support.read(data(file)).GetClientSideObject().GetOutputDataObject(0)
+    name, component, isovalue = contoured(grid)
+
+    def particles_in(length, value):
+        particles, messages = support.run(
+            in_other_units(grid, name, length, value), name, value * isovalue, Component=component)
+        assert messages.errors == []
+        return particles
+
+    plain = particles_in(1.0, 1.0)
+    assert plain.GetNumberOfPoints() > 0
+    for length, value in [(SMALL, LARGE), (LARGE, SMALL), (SMALL, SMALL)]:
+        particles = particles_in(length, value)
+        assert particles.GetNumberOfPoints() == plain.GetNumberOfPoints()
+        np.testing.assert_array_equal(support.points_of(particles) / length, support.points_of(plain))
+        for array in support.own_arrays(0):
+            if array in ("Jump", "Isovalue"):
+                continue
+            unit = length ** LENGTHS.get(array, 0)
+            # Equal but for numbers below the smallest normal double, 2e-308, which have fewer bits.
+            np.testing.assert_allclose(
+                support.array_of(particles, array) / unit, support.array_of(plain, array),
+                rtol=0, atol=5e-324 / unit, err_msg=array)
+
+
+@pytest.mark.parametrize("factor", [2.0**-700, 2.0**700])
+def test_only_ratios_of_weights_count(data, factor):
+    grid = support.read(data("yeti_pipe_bezier_rational_p333.vtu")).GetClientSideObject().GetOutputDataObject(0)
+    name, component, isovalue = contoured(grid)
+    scaled = grid.NewInstance()
+    scaled.ShallowCopy(grid)
+    support.add_point_array(scaled, "RationalWeights", factor * support.array_of(grid, "RationalWeights"))
+    scaled.GetPointData().SetRationalWeights(scaled.GetPointData().GetArray("RationalWeights"))
+    plain, particles = (
+        support.run(some, name, isovalue, Component=component, NumberOfParticles=200)[0] for some in (grid, scaled)
+    )
+    assert plain.GetNumberOfPoints() > 0
+    np.testing.assert_array_equal(support.points_of(particles), support.points_of(plain))

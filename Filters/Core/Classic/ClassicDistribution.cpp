@@ -180,6 +180,7 @@ void ClassicSystem::relaxLevel(int maximumRounds, bool fixedNumber)
 }
 
 /// Sets the coarsest spacing.
+/// \pre the spacing is positive: doubles end after some 2,000 doublings
 /// \return number of times that it is to be halved
 int ClassicSystem::chooseLevels(double extent)
 {

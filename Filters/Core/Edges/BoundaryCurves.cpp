@@ -161,7 +161,7 @@ public:
 
 private:
   std::vector<std::vector<BoundaryHint>> findHints(const ParallelFor& parallelFor) const;
-  void follow(const BoundaryHint& hint);
+  void follow(const BoundaryHint& hint, const ParallelFor& parallelFor);
   void sample(BoundaryTrace trace);
   void sampleStretch(Span<BoundaryVertex> vertices, bool withEnd);
   double spacingAt(const BoundaryPoint& point);
@@ -220,7 +220,7 @@ std::vector<std::vector<BoundaryHint>> BoundarySampler::findHints(
 }
 
 /// Traces the curve that a hint leads to, unless there is none or it is traced, and places particles on it.
-void BoundarySampler::follow(const BoundaryHint& hint)
+void BoundarySampler::follow(const BoundaryHint& hint, const ParallelFor& parallelFor)
 {
   const FaceCrossing& crossing = hint.crossing;
   const double nearby = hint.spacing;
@@ -235,7 +235,7 @@ void BoundarySampler::follow(const BoundaryHint& hint)
   {
     return;
   }
-  this->sample(this->Tracer.trace(*start, Tracing::Chord * nearby));
+  this->sample(this->Tracer.trace(*start, Tracing::Chord * nearby, parallelFor));
 }
 
 /// Cuts a boundary curve at its corners, and samples stretch by stretch.
@@ -511,13 +511,10 @@ BoundaryCurves BoundarySampler::run(const ParallelFor& parallelFor)
 {
   for (const std::vector<BoundaryHint>& hintsOfBox : this->findHints(parallelFor))
   {
-    if (!hintsOfBox.empty())
-    {
-      askCaller(parallelFor);
-    }
     for (const BoundaryHint& hint : hintsOfBox)
     {
-      this->follow(hint);
+      askCaller(parallelFor);
+      this->follow(hint, parallelFor);
     }
   }
   this->finish(parallelFor);

@@ -1,5 +1,7 @@
 #include "Edges/BoundaryTracer.h"
 
+#include "Edges/TraceLimits.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -477,7 +479,9 @@ BoundaryTracer::Ahead BoundaryTracer::advance(const Heading& heading, double ste
 std::optional<BoundaryVertex> BoundaryTracer::advanceAtMost(
   double& chord, double step, const Heading& heading)
 {
-  for (double shortest = ChordLengths::Shortest * step; chord >= shortest; chord *= 0.5)
+  // A step of zero, where single precision has no spacing as small, would be halved for ever.
+  for (double shortest = ChordLengths::Shortest * step; chord > 0.0 && chord >= shortest;
+       chord *= 0.5)
   {
     const Ahead ahead = this->advance(heading, chord);
     if (ahead.vertex)
@@ -492,8 +496,8 @@ std::optional<BoundaryVertex> BoundaryTracer::advanceAtMost(
 /// Follows a boundary curve in one direction, and adds its vertices behind the start.
 /// \param direction 1 or -1, of velocity()
 /// \return whether the boundary curve came back to its start
-bool BoundaryTracer::follow(
-  const BoundaryPoint& start, double step, double direction, std::vector<BoundaryVertex>& vertices)
+bool BoundaryTracer::follow(const BoundaryPoint& start, double step, double direction,
+  std::vector<BoundaryVertex>& vertices, const ParallelFor& parallelFor)
 {
   BoundaryPoint here = start;
   std::optional<Passed> before;
@@ -507,8 +511,11 @@ bool BoundaryTracer::follow(
   };
   double chord = step;
   int standstills = 0;
-  while (standstills <= ChordLengths::MostStandstills)
+  TraceLimits limits(*this->Surface.mesh);
+  bool isPossible = true;
+  while (isPossible && standstills <= ChordLengths::MostStandstills)
   {
+    askCaller(parallelFor);
     const ReferenceVector velocity = this->velocity(here);
     const auto next = this->advanceAtMost(chord, step, { here, velocity, direction, before });
     if (!next)
@@ -518,6 +525,7 @@ bool BoundaryTracer::follow(
     const WorldPoint& position = here.at.point.map.position;
     const double moved = glm::distance(position.xyz, next->position());
     standstills = moved < ChordLengths::Standstill * step ? standstills + 1 : 0;
+    isPossible = limits.admit(here.at.location, here.face, next->arriving.at.location);
     // The last chord ends where this one begins, and is added only now: it would be met at once.
     const bool again = this->Chords.pass(next->leaving);
     addLast();
@@ -538,17 +546,18 @@ bool BoundaryTracer::follow(
   return false;
 }
 
-BoundaryTrace BoundaryTracer::trace(const BoundaryPoint& start, double step)
+BoundaryTrace BoundaryTracer::trace(
+  const BoundaryPoint& start, double step, const ParallelFor& parallelFor)
 {
   BoundaryTrace result;
   // On an edge of an element the boundary curve may have a corner: how it comes there is not known yet.
   const bool isOnEdge = this->otherFaceAt(start.at.location, start.face, OnFace) >= 0;
   result.vertices.push_back({ start, start, isOnEdge });
-  result.closed = this->follow(start, step, 1.0, result.vertices);
+  result.closed = this->follow(start, step, 1.0, result.vertices, parallelFor);
   if (!result.closed)
   {
     std::vector<BoundaryVertex> back;
-    this->follow(start, step, -1.0, back);
+    this->follow(start, step, -1.0, back, parallelFor);
     for (BoundaryVertex& vertex : back)
     {
       std::swap(vertex.arriving, vertex.leaving);

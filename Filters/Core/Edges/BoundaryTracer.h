@@ -110,7 +110,8 @@ public:
   /// Ends where it meets a boundary curve that was traced before: its own start, as a rule. (Where the field jumps
   /// between elements, two boundary curves can run into one.)
   /// \param step world length of the chords, at most; less where the boundary curve bends
-  BoundaryTrace trace(const BoundaryPoint& start, double step);
+  /// \param parallelFor is asked at each chord whether to end early
+  BoundaryTrace trace(const BoundaryPoint& start, double step, const ParallelFor& parallelFor = {});
 
   /// Velocity in reference space that follows the boundary curve at speed one in the world, in direction n x w.
   ReferenceVector velocity(const BoundaryPoint& point) const;
@@ -169,7 +170,7 @@ private:
   };
 
   bool follow(const BoundaryPoint& start, double step, double direction,
-    std::vector<BoundaryVertex>& vertices);
+    std::vector<BoundaryVertex>& vertices, const ParallelFor& parallelFor);
   std::optional<BoundaryVertex> advanceAtMost(double& chord, double step, const Heading& heading);
   Ahead advance(const Heading& heading, double step);
   ReferenceVector predict(const Heading& heading, double step) const;

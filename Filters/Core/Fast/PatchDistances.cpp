@@ -119,9 +119,16 @@ std::vector<char> areFarFrom(const Buffer<Patch>& patches, std::size_t count,
     [&](std::size_t i)
     {
       const Patch& patch = patches[i];
+      const double nearest = distance * patch.spacing;
       bool far = true;
+      // Where boundary curves crowd there are thousands of points to look at: patches are large, and read last.
       grid.visit(patch.position, patch.spacing,
-        [&](int j) { far = far && !isNear(patch, others[j], distance * patch.spacing); });
+        [&](int j)
+        {
+          far = far &&
+            !(glm::distance(patch.position, points.positions[j]) < nearest &&
+              glm::dot(patch.normal, others[j].normal) > 0.0f);
+        });
       return far;
     });
 }

@@ -74,6 +74,7 @@ double stepInside(Domain domain, const LocalMap& map, ReferencePoint& u, WorldVe
 {
   ActiveFaces active;
   double way = 0.0;
+  // Ends with the third step at the latest: each of the others makes one more face active.
   for (;;)
   {
     const ReferenceVector du = pullAlong(domain, active, map, rest);

@@ -22,6 +22,12 @@ public:
   /// Relative error of the number at which the search ends: 1%, of the spacing half of that. Smaller: more tries,
   /// and each isolates the whole surface anew.
   static constexpr double Tolerance = 0.01;
+  /// Where the number falls by less than to this share of the one before, although the spacing has grown to Growth
+  /// times the one before, curvature or corners set it, and no spacing gives the few that are asked for: the search
+  /// ends. A flat surface's number falls to 1/Growth^2 = 0.44. Chosen by experiment; a smaller share may end searches
+  /// that get on.
+  static constexpr double Stagnant = 0.9;
+  static constexpr double Growth = 1.5;
 
   /// \param given number of particles, > 0
   /// \param firstSpacing of the first try, world units, > 0
@@ -47,7 +53,10 @@ public:
     }
     ++this->Tries;
     const double ratio = counted / this->Given;
-    this->Over = this->Tries == MostTries || !(ratio > 0.0) || std::abs(ratio - 1.0) < Tolerance;
+    this->Over = this->Tries == MostTries || !(ratio > 0.0) || std::abs(ratio - 1.0) < Tolerance ||
+      (this->HasGrown && ratio > Stagnant * this->Ratio);
+    this->HasGrown = std::sqrt(ratio) >= Growth;
+    this->Ratio = ratio;
     this->Spacing *= this->Over ? 1.0 : std::sqrt(ratio);
   }
 
@@ -56,6 +65,10 @@ private:
   double Spacing;
   int Tries = 0;
   bool Over = false;
+  /// Whether spacing() is larger than the one before by Growth or more.
+  bool HasGrown = false;
+  /// Of counted and given number at the spacing before.
+  double Ratio = 0.0;
 };
 
 /// The spacing at which a surface takes a given number of particles.

@@ -116,4 +116,28 @@ TEST(SpacingSearch, StaysAsItIsOnceItIsOver)
 }
 
 } // namespace
+TEST(SpacingSearch, EndsWhereCornersSetTheNumber)
+{
+  int tries = 0;
+  const auto count = [&](double spacing)
+  {
+    ++tries;
+    return 200.0 + 10.0 / (spacing * spacing);
+  };
+  findSpacing(7, 0.1, count);
+  EXPECT_LE(tries, 4);
+}
+
+TEST(SpacingSearch, GoesOnAsLongAsTheNumberFalls)
+{
+  int tries = 0;
+  const auto count = [&](double spacing)
+  {
+    ++tries;
+    return 10.0 / spacing;
+  };
+  EXPECT_NEAR(count(findSpacing(7, 0.1, count)), 7.0, 0.2);
+  EXPECT_GT(tries, 5);
+}
+
 } // namespace hop::testing

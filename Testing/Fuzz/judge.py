@@ -1,0 +1,227 @@
+"""Runs recipes, and judges what comes out: reads one recipe a line from the standard input, and answers with a line of
+JSON. To be run by pvpython; fuzz.py starts it."""
+
+import json
+import os
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent.parent / "Python"))
+
+import numpy as np
+import recipes
+import support
+from highorderparticles import vtkHighOrderParticleIsosurface
+from vtkmodules.vtkCommonCore import vtkObject
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter
+
+# Particles whose position and value are compared with those of VTK's own cells; more take longer.
+COMPARED = 40
+# Largest processor time between two questions whether to go on, seconds: a user waits as long for an abort, once a core
+# is free. Longer than what is aimed at, 0.2 s, by what other work on the machine adds to times.
+LONGEST_SILENCE = 1.0
+
+
+class Session:
+    """One filter object and what is done to it, step by step."""
+
+    def __init__(self, recipe):
+        self.recipe = recipe
+        self.grid = self.read(recipes.make_grid(recipe))
+        self.filter = vtkHighOrderParticleIsosurface()
+        self.messages = support.Messages(self.filter)
+        self.silence = 0.0
+        self.abort_after = None
+        self.filter.AddObserver("ProgressEvent", self.progress)
+        self.filter.SetInputArrayToProcess(0, 0, 0, 0, "f")
+        self.set_properties(recipe["properties"])
+        self.set_isovalues(recipe["isovalues"])
+        self.filter.SetInputDataObject(self.grid)
+
+    def read(self, grid):
+        """The grid as it comes back from a file, which may be damaged."""
+        damage = self.recipe["file"]
+        if not damage:
+            return grid
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "grid.vtu")
+            writer = vtkXMLUnstructuredGridWriter()
+            writer.SetFileName(path)
+            writer.SetInputData(grid)
+            writer.Write()
+            text = bytearray(Path(path).read_bytes())
+            dice = np.random.default_rng(self.recipe["seed"])
+            for _ in range(damage["flips"]):
+                text[int(dice.integers(len(text)))] ^= 1 << int(dice.integers(8))
+            Path(path).write_bytes(text[: int(damage["cut"] * len(text))])
+            print(json.dumps({"reading": True}), flush=True)
+            reader = vtkXMLUnstructuredGridReader()
+            reader.SetFileName(path)
+            reader.Update()
+            print(json.dumps({"reading": False}), flush=True)
+            return reader.GetOutput()
+
+    def set_properties(self, properties):
+        for name, value in properties.items():
+            if name == "Spacing":
+                value = value * side_of(self.grid)
+            getattr(self.filter, "Set" + name)(value)
+
+    def set_isovalues(self, shares):
+        """Isovalues as shares of the range of the values."""
+        array = self.grid.GetPointData().GetArray("f")
+        values = support.vtk_to_numpy(array).astype(float).ravel() if array else np.zeros(1)
+        values = values[np.isfinite(values)] if np.isfinite(values).any() else np.zeros(1)
+        self.filter.SetNumberOfContours(len(shares))
+        for i, share in enumerate(shares):
+            self.filter.SetValue(i, (1 - share) * values.min() + share * values.max())
+
+    def progress(self, *_):
+        now = time.process_time()
+        self.silence = max(self.silence, now - self.asked)
+        self.asked = now
+        if self.abort_after is not None:
+            self.abort_after -= 1
+            if self.abort_after < 0:
+                self.filter.SetAbortExecute(1)
+
+    def change(self, change):
+        kind = change["kind"]
+        self.abort_after = change["after"] if kind == "abort" else None
+        if kind == "isovalues":
+            self.set_isovalues(change["isovalues"])
+        elif kind == "property":
+            self.set_properties(change["properties"])
+        elif kind == "no array":
+            self.grid.GetPointData().RemoveArray("f")
+            self.grid.Modified()
+        elif kind == "other grid":
+            self.grid = recipes.make_grid(recipes.random_recipe(change["seed"]) | {"bad": [], "blocks": 1, "order": 2})
+            self.filter.SetInputDataObject(self.grid)
+        elif kind in ("values", "points"):
+            other = recipes.make_grid(self.recipe, change["seed"])
+            if other.GetNumberOfPoints() != self.grid.GetNumberOfPoints():
+                return
+            if kind == "points":
+                self.grid.SetPoints(other.GetPoints())
+            else:
+                self.grid.GetPointData().AddArray(other.GetPointData().GetArray("f"))
+            self.grid.Modified()
+        elif kind == "abort":
+            self.filter.Modified()
+
+    def run(self):
+        """What is wrong with the output; an empty list if nothing is."""
+        self.asked = time.process_time()
+        self.filter.Update()
+        self.progress()
+        failed = [text for text in self.messages.errors if "the run failed" in text]
+        silent = [f"no question for {self.silence:.2f} s"] if self.silence > LONGEST_SILENCE else []
+        return failed + silent + complaints(self.filter, self.grid)
+
+
+def side_of(grid):
+    """Longest side of the bounds of the points that are finite."""
+    return side_of_points(support.points_of(grid))
+
+
+def side_of_points(points):
+    points = points[np.isfinite(points).all(axis=1)]
+    return float(np.ptp(points, axis=0).max()) if len(points) else 1.0
+
+
+def complaints(contour, grid):
+    """What is wrong with an output."""
+    output = contour.GetOutputDataObject(0)
+    count = output.GetNumberOfPoints()
+    if count == 0:
+        return []
+    found = []
+    columns = {"points": support.points_of(output)}
+    columns |= {name: support.array_of(output, name).astype(float) for name in support.own_arrays(0)}
+    found += [f"{name} is not finite" for name, values in columns.items() if not np.isfinite(values).all()]
+    if "other" in support.array_names(output.GetPointData()):
+        found += ["values of an array are not finite"] * (not np.isfinite(support.array_of(output, "other")).all())
+    lengths = np.linalg.norm(columns["Normals"], axis=1)
+    found += ["a normal is not of unit length"] * bool(np.abs(lengths - 1.0).max() > 1e-9)
+    ids = columns["vtkOriginalCellIds"]
+    if ids.min() < 0 or ids.max() >= grid.GetNumberOfCells():
+        return found + ["a cell id is out of range"]
+    places = columns["ParametricCoordinates"]
+    found += ["a place is outside its cell"] * bool(places.min() < -1e-9 or places.max() > 1 + 1e-9)
+    found += ["a radius is not positive"] * bool(columns["Radius"].min() <= 0)
+    return found or misplaced(contour, grid, output)
+
+
+def misplaced(contour, grid, output):
+    """Compares some particles with what VTK's own cells say: whether they stand where their parametric coordinates
+    are, and on the surface to the tolerance."""
+    if contour.GetNodeSpacing() != contour.UNIFORM:
+        return []
+    rows = np.unique(np.linspace(0, output.GetNumberOfPoints() - 1, COMPARED).astype(int))
+    points, ids = support.points_of(output)[rows], support.array_of(output, "vtkOriginalCellIds")[rows]
+    places = support.array_of(output, "ParametricCoordinates")[rows]
+    isovalues = support.array_of(output, "Isovalue")[rows]
+    field = support.array_of(grid, "f").astype(float).reshape(grid.GetNumberOfPoints(), -1)
+    component = contour.GetComponent()
+    if 0 <= component < field.shape[1]:
+        field = field[:, component : component + 1]
+    # A diagonal is 1.7 sides at most; coordinates far from the origin are rounded.
+    tolerance = 4 * contour.GetTolerance() * side_of(grid) + 2e-15 * np.nanmax(np.abs(points))
+    for point, id, place, isovalue in zip(points, ids, places, isovalues):
+        cell = grid.GetCell(int(id))
+        kind = cell.GetClassName()
+        # VTK reads weights of Bezier cells from elsewhere, and takes a voxel for a box also where it is bent.
+        if "Voxel" in kind or ("Bezier" in kind and grid.GetPointData().GetRationalWeights()):
+            continue
+        position, value, slope, rounding = evaluate(cell, place, field)
+        if not np.abs((position - point) / rounding[0]).max() <= 1e-8:
+            return [f"a particle of cell {id} is not where its parametric coordinates are"]
+        if not abs(value - isovalue) <= tolerance * slope + 1e-8 * rounding[1]:
+            return [f"a particle of cell {id} is off the surface by {abs(value - isovalue) / slope}"]
+    return []
+
+
+def evaluate(cell, place, field):
+    """Position of a place in a cell of VTK; value or magnitude of the field there, and a bound on its slope, infinite
+    for Bezier cells; the size of the numbers that are added up to positions and to values."""
+    count = cell.GetNumberOfPoints()
+    position, weights = np.zeros(3), np.zeros(4096)
+    cell.EvaluateLocation(support.reference(0), place, position, weights)
+    weights = weights[:count]
+    nodes = np.array([cell.GetPoints().GetPoint(n) for n in range(count)])
+    values = np.ascontiguousarray(field[[cell.GetPointId(n) for n in range(count)]])
+    value = weights @ values
+    slope = np.inf
+    if "Bezier" not in cell.GetClassName():  # derivatives of VTK's Bezier cells are wrong
+        # VTK takes cells that are small in world units for singular.
+        length, height = side_of_points(nodes), np.abs(values).max() or 1.0
+        for n, node in enumerate((nodes - nodes[0]) / length):
+            cell.GetPoints().SetPoint(n, node)
+        gradients = np.zeros(3 * values.shape[1])
+        cell.Derivatives(0, place, (values / height).ravel(), values.shape[1], gradients)
+        slope = np.linalg.norm(gradients) * (height / length) if np.isfinite(gradients).all() else np.inf
+    unit = np.abs(value).max()
+    size = unit * np.linalg.norm(value / unit) if value.size > 1 and unit > 0 else value[0]
+    # Shape functions of high degrees add numbers much larger than their sum.
+    rounding = np.abs(weights).sum()
+    return position, size, slope, (rounding * np.abs(nodes).max(), rounding * np.abs(values).max())
+
+
+def main():
+    vtkObject.GlobalWarningDisplayOff()
+    for line in open(0):  # pvpython puts something of its own in the place of sys.stdin
+        recipe = json.loads(line)
+        session = Session(recipe)
+        found = session.run()
+        for change in recipe["changes"]:
+            session.change(change)
+            found += session.run()
+        particles = session.filter.GetOutputDataObject(0).GetNumberOfPoints()
+        print(json.dumps({"complaints": found, "particles": particles, "silence": session.silence}), flush=True)
+
+
+if __name__ == "__main__":
+    main()
