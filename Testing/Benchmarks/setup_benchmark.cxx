@@ -67,8 +67,9 @@ Timings measure(vtkUnstructuredGrid* grid, vtkDataArray* array, double isovalue,
   result.boxes = bestSeconds(repetitions,
     [&]()
     {
-      result.boxCount =
-        hop::findSurfaceBoxes(elements.mesh, isovalue, wantedSize, parallelFor).size();
+      result.boxCount = hop::findSurfaceBoxes(
+        elements.mesh, elements.fieldIsovalue(isovalue), wantedSize, parallelFor)
+                          .size();
     });
   return result;
 }

@@ -148,7 +148,8 @@ SurfacePicture CastSurface(const SurfaceCase& surface, const PictureCamera& came
     {
       const hop::GridElements elements = hop::buildGridElements(
         blocks, hop::NodeSpacing::Uniform, { surface.Isovalue }, parallelFor);
-      picture.Seen = hop::testing::castRays(elements.mesh, surface.Isovalue, camera, parallelFor);
+      picture.Seen = hop::testing::castRays(
+        elements.mesh, elements.fieldIsovalue(surface.Isovalue), camera, parallelFor);
     });
   for (int i = 0; i < camera.size * camera.size; ++i)
   {
