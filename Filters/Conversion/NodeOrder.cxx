@@ -133,6 +133,7 @@ std::vector<OrderSearch::Order> OrderSearch::ordersFor(const std::vector<BlockCe
   }
   std::sort(ranked.begin(), ranked.end());
   std::vector<Order> result;
+  result.reserve(ranked.size());
   for (auto& [rank, order] : ranked)
   {
     result.push_back(std::move(order));

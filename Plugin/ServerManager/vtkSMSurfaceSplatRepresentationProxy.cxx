@@ -38,6 +38,15 @@ std::string curvatureOf(vtkSMProxy* representation)
   return isCurvature && choice.GetInputArrayAssociation() == vtkDataObject::POINT ? name : "";
 }
 
+/// A value of the lookup tables' property AutomaticRescaleRangeMode, as its enumeration numbers it.
+constexpr int never = -1;
+
+/// Whether ParaView may change the range of a lookup table by itself.
+bool mayRescale(vtkSMProxy* table)
+{
+  return vtkSMPropertyHelper(table, "AutomaticRescaleRangeMode", true).GetAsInt() != never;
+}
+
 } // namespace
 
 vtkStandardNewMacro(vtkSMSurfaceSplatRepresentationProxy);
@@ -60,6 +69,12 @@ void vtkSMSurfaceSplatRepresentationProxy::UpdateVTKObjects()
   }
 }
 
+void vtkSMSurfaceSplatRepresentationProxy::ViewUpdated(vtkSMProxy* view)
+{
+  this->Superclass::ViewUpdated(view);
+  this->IsFresh = false;
+}
+
 void vtkSMSurfaceSplatRepresentationProxy::Watch(vtkSMProxy* table)
 {
   if (this->Table)
@@ -67,6 +82,7 @@ void vtkSMSurfaceSplatRepresentationProxy::Watch(vtkSMProxy* table)
     this->Table->RemoveObserver(this->Observer);
   }
   this->Table = table;
+  this->IsFresh = table && mayRescale(table);
   if (table)
   {
     this->Observer = table->AddObserver(
@@ -77,8 +93,6 @@ void vtkSMSurfaceSplatRepresentationProxy::Watch(vtkSMProxy* table)
 /// Whether the lookup table has just received the range of all values of a curvature, and ParaView may change it.
 bool vtkSMSurfaceSplatRepresentationProxy::HasRangeOfData()
 {
-  // As the enumeration of the lookup tables' property AutomaticRescaleRangeMode numbers it.
-  constexpr int never = -1;
   // Relative difference of ranges that are the same: the table's points are rounded when they are scaled.
   constexpr double rounding = 1e-6;
   const std::string name = curvatureOf(this);
@@ -89,7 +103,7 @@ bool vtkSMSurfaceSplatRepresentationProxy::HasRangeOfData()
     : nullptr;
   double range[2];
   if (!array || !vtkSMTransferFunctionProxy::GetRange(this->Table, range) ||
-    vtkSMPropertyHelper(this->Table, "AutomaticRescaleRangeMode", true).GetAsInt() == never)
+    (!this->IsFresh && !mayRescale(this->Table)))
   {
     return false;
   }
@@ -103,7 +117,6 @@ void vtkSMSurfaceSplatRepresentationProxy::OnRange()
   // Share of the values that is left out at either end. Larger: more particles have the colours of the ends; smaller:
   // a row of particles along a crease decides. Chosen by experiment.
   constexpr double leftOut = 0.02;
-  constexpr int never = -1; // see above
   if (vtkProcessModule::GetProcessModule()->GetSymmetricMPIMode() || !this->HasRangeOfData())
   {
     return;

@@ -26,6 +26,12 @@ public:
    */
   void UpdateVTKObjects() override;
 
+  /**
+   * From here on a rescaling is one that a user asked for. What comes before the first picture belongs to the choice of
+   * the array: traces record it as a rescaling to the range of the data.
+   */
+  void ViewUpdated(vtkSMProxy* view) override;
+
 protected:
   vtkSMSurfaceSplatRepresentationProxy();
   ~vtkSMSurfaceSplatRepresentationProxy() override;
@@ -40,6 +46,8 @@ private:
 
   vtkWeakPointer<vtkSMProxy> Table;
   unsigned long Observer = 0;
+  /// Whether the table was chosen since the last picture, and ParaView may change its range.
+  bool IsFresh = false;
 };
 
 #endif

@@ -168,7 +168,7 @@ def test_an_untouched_isovalue_follows_contour_by():
     choose(proxy, "v")
     assert list(proxy.Isosurfaces) == [5.0]
     choose(proxy, "w")
-    assert list(proxy.Isosurfaces) == [50.0]
+    assert list(proxy.Isosurfaces) == [56.0], "magnitude"
     proxy.Component = "Y"
     assert list(proxy.Isosurfaces) == [25.0]
 

@@ -24,7 +24,8 @@ constexpr double SameEdge = 0.8;
 void offerPlane(Particle& particle, const ClipPlane& plane);
 
 /// Puts an edge into its place among the edges that come first, and drops edges that are the same as one before.
-/// \param comesBefore(a, b), isSame(a, b) of two edges
+/// \param comesBefore whether the first of two edges comes before the second
+/// \param isSame whether two edges are one
 template <class Edge, std::size_t Count, class ComesBefore, class IsSame>
 void insertEdge(
   std::array<Edge, Count>& edges, Edge edge, const ComesBefore& comesBefore, const IsSame& isSame)
