@@ -11,7 +11,9 @@ from vtkmodules.vtkCommonDataModel import vtkDataObject
 RENDERERS = "__vtkValidMask__Splats"
 TABLE = support.own_arrays(vtkDataObject.POINT)
 REPORT = support.own_arrays(vtkDataObject.FIELD)
-TECHNICAL = {"Clip_Normal", "Clip_Distance", "Clip_Angle", "Clip_Curvature", "Shape_Operator"}
+TECHNICAL = {
+    "Clip_Normal", "Clip_Distance", "Clip_Angle", "Clip_Curvature", "Shape_Operator", "Original_Placement", "Cell_Borders",
+}  # fmt: skip
 
 
 @pytest.fixture

@@ -115,7 +115,7 @@ def picture_of(source, path, place, up):
     view = make_view()
     view.CameraPosition, view.CameraViewUp = place, up
     display = simple.Show(source, view)
-    simple.ColorBy(display, None)
+    display.ColorArrayName = [None, ""]
     simple.SaveScreenshot(str(path), view, ImageResolution=view.ViewSize)
     simple.Delete(view)
     return read_png(path)
