@@ -176,17 +176,18 @@ def misplaced(contour, grid, output):
         # VTK reads weights of Bezier cells from elsewhere, and takes a voxel for a box also where it is bent.
         if "Voxel" in kind or ("Bezier" in kind and grid.GetPointData().GetRationalWeights()):
             continue
-        position, value, slope, rounding = evaluate(cell, place, field)
+        position, value, rise, rounding = evaluate(cell, place, field, tolerance)
         if not np.abs((position - point) / rounding[0]).max() <= 1e-8:
             return [f"a particle of cell {id} is not where its parametric coordinates are"]
-        if not abs(value - isovalue) <= tolerance * slope + 1e-8 * rounding[1]:
-            return [f"a particle of cell {id} is off the surface by {abs(value - isovalue) / slope}"]
+        if not abs(value - isovalue) <= rise + 1e-8 * rounding[1]:
+            return [f"a particle of cell {id} is off the surface: {value} for {isovalue}"]
     return []
 
 
-def evaluate(cell, place, field):
-    """Position of a place in a cell of VTK; value or magnitude of the field there, and a bound on its slope, infinite
-    for Bezier cells; the size of the numbers that are added up to positions and to values."""
+def evaluate(cell, place, field, distance):
+    """Position of a place in a cell of VTK; value or magnitude of the field there, and a bound on how much it changes
+    over a distance, infinite where VTK has no derivatives; the size of the numbers that are added up to positions and
+    to values."""
     count = cell.GetNumberOfPoints()
     position, weights = np.zeros(3), np.zeros(4096)
     cell.EvaluateLocation(support.reference(0), place, position, weights)
@@ -194,7 +195,7 @@ def evaluate(cell, place, field):
     nodes = np.array([cell.GetPoints().GetPoint(n) for n in range(count)])
     values = np.ascontiguousarray(field[[cell.GetPointId(n) for n in range(count)]])
     value = weights @ values
-    slope = np.inf
+    rise = np.inf
     if "Bezier" not in cell.GetClassName():  # derivatives of VTK's Bezier cells are wrong
         # VTK takes cells that are small in world units for singular.
         length, height = side_of_points(nodes), np.abs(values).max() or 1.0
@@ -202,12 +203,14 @@ def evaluate(cell, place, field):
             cell.GetPoints().SetPoint(n, node)
         gradients = np.zeros(3 * values.shape[1])
         cell.Derivatives(0, place, (values / height).ravel(), values.shape[1], gradients)
-        slope = np.linalg.norm(gradients) * (height / length) if np.isfinite(gradients).all() else np.inf
+        slope = np.linalg.norm(gradients)
+        # Zero in cells that are flat beside their length: VTK takes them for singular.
+        rise = slope * (distance / length) * height if 0 < slope < np.inf else np.inf
     unit = np.abs(value).max()
     size = unit * np.linalg.norm(value / unit) if value.size > 1 and unit > 0 else value[0]
     # Shape functions of high degrees add numbers much larger than their sum.
     rounding = np.abs(weights).sum()
-    return position, size, slope, (rounding * np.abs(nodes).max(), rounding * np.abs(values).max())
+    return position, size, rise, (rounding * np.abs(nodes).max(), rounding * np.abs(values).max())
 
 
 def main():
