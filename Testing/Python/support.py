@@ -13,6 +13,9 @@ from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkStaticPointLoc
 from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkContourFilter, vtkFeatureEdges, vtkMassProperties, vtkTriangleFilter
 
 
+# Arguments of SaveData for XML files that any ParaView reads back: not raw, see Documentation/limitations.md about expat.
+READABLE = {"DataMode": "Binary"}
+
 # Running the filter
 
 

@@ -86,7 +86,7 @@ def test_pictures_do_not_depend_on_diagnostics(particles, tmp_path):
 
 
 def reread(source, tmp_path):
-    simple.SaveData(str(tmp_path / "particles.vtp"), source)
+    simple.SaveData(str(tmp_path / "particles.vtp"), source, **support.READABLE)
     return simple.XMLPolyDataReader(FileName=[str(tmp_path / "particles.vtp")])
 
 

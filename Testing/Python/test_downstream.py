@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import support
 from paraview import servermanager, simple
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 from test_surface_splats import BACKGROUND, make_view, read_png
@@ -49,13 +50,13 @@ def test_particles_of_particles_are_shown_as_a_surface(particles, name):
 @pytest.mark.parametrize("extension", ["vtp", "vtk", "pvtp"])
 def test_particles_from_files_are_shown_as_a_surface(particles, extension, tmp_path):
     path = str(tmp_path / f"particles.{extension}")
-    simple.SaveData(path, proxy=particles)
+    simple.SaveData(path, proxy=particles, **({} if extension == "vtk" else support.READABLE))
     assert shown_as(simple.OpenDataFile(path)) == "Surface Splats"
 
 
 def test_blocks_of_particles_from_files_are_shown_as_a_surface(particles, tmp_path):
     path = str(tmp_path / "particles.vtm")
-    simple.SaveData(path, proxy=simple.GroupDatasets(Input=[particles, simple.Transform(Input=particles)]))
+    simple.SaveData(path, proxy=simple.GroupDatasets(Input=[particles, simple.Transform(Input=particles)]), **support.READABLE)
     assert shown_as(simple.OpenDataFile(path)) == "Surface Splats"
 
 

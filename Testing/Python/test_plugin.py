@@ -7,7 +7,7 @@ import cells
 import numpy as np
 import pytest
 from paraview import servermanager, simple
-from support import add_point_array, array_of, contents, grid_of_cells, output_of, points_of, reported, source_of
+from support import READABLE, add_point_array, array_of, contents, grid_of_cells, output_of, points_of, reported, source_of
 from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON
 
 NAME = "HighOrderParticleIsosurface"
@@ -205,7 +205,7 @@ def test_a_state_keeps_its_isovalue(tmp_path, isovalue):
     ramp = np.linspace(0.0, 1.0, 8)
     proxy = filter_on(u=ramp, v=10 * ramp)
     path = str(tmp_path / "grid.vtu")
-    simple.SaveData(path, proxy.Input)
+    simple.SaveData(path, proxy.Input, **READABLE)
     reader = simple.XMLUnstructuredGridReader(FileName=[path])
     reader.UpdatePipeline()
     particles = simple.HighOrderParticleIsosurface(registrationName="particles", Input=reader)
