@@ -228,7 +228,7 @@ void vtkHighOrderParticleIsosurface::Run(vtkDataObject* input, vtkDataObject* ou
   {
     return;
   }
-  const hop::CheckedBlocks checked = hop::checkBlocks(gathered, this->GetInputArrayInformation(0));
+  const hop::CheckedBlocks checked = this->FindScalars(gathered);
   this->Tell(checked.messages);
   this->Tell(hop::reviewArrays(checked.sound));
   bool hasTold = !checked.messages.empty();
@@ -261,6 +261,13 @@ std::uint64_t vtkHighOrderParticleIsosurface::HashOfRequest(vtkDataObject* input
   {
     hash.addWord(static_cast<std::uint64_t>(number));
   }
+  this->AddField(hash);
+  hop::addData(input, hash);
+  return hash.value();
+}
+
+void vtkHighOrderParticleIsosurface::AddField(hop::ByteHash& hash)
+{
   if (vtkInformation* array = this->GetInputArrayInformation(0))
   {
     const char* name = array->Get(vtkDataObject::FIELD_NAME());
@@ -268,19 +275,34 @@ std::uint64_t vtkHighOrderParticleIsosurface::HashOfRequest(vtkDataObject* input
     hash.addWord(array->Get(vtkDataObject::FIELD_ASSOCIATION()));
     hash.addWord(array->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE()));
   }
-  hop::addData(input, hash);
-  return hash.value();
 }
 
-hop::RunProperties vtkHighOrderParticleIsosurface::PropertiesOfRun() const
+std::vector<double> vtkHighOrderParticleIsosurface::FindIsovalues()
 {
-  hop::RunProperties properties;
   const double* values = this->ContourValues->GetValues();
-  std::vector<double>& distinct = properties.isovalues;
+  std::vector<double> distinct;
   std::copy_if(values, values + this->ContourValues->GetNumberOfContours(),
     std::back_inserter(distinct),
     [&](double value)
     { return std::find(distinct.begin(), distinct.end(), value) == distinct.end(); });
+  return distinct;
+}
+
+std::vector<hop::UserMessage> vtkHighOrderParticleIsosurface::CheckIsovalues(
+  const hop::GatheredBlocks& gathered)
+{
+  return hop::checkIsovalues(this->FindIsovalues(), gathered);
+}
+
+hop::CheckedBlocks vtkHighOrderParticleIsosurface::FindScalars(const hop::GatheredBlocks& gathered)
+{
+  return hop::checkBlocks(gathered, this->GetInputArrayInformation(0));
+}
+
+hop::RunProperties vtkHighOrderParticleIsosurface::PropertiesOfRun()
+{
+  hop::RunProperties properties;
+  properties.isovalues = this->FindIsovalues();
   properties.angularDensity = this->AngularDensity;
   properties.nodeSpacing = this->NodeSpacing == UNIFORM ? hop::NodeSpacing::Uniform
                                                         : hop::NodeSpacing::GaussLobattoLegendre;
@@ -309,7 +331,7 @@ hop::RunCaller vtkHighOrderParticleIsosurface::CallerOfRun()
 bool vtkHighOrderParticleIsosurface::Accepts(const hop::GatheredBlocks& gathered,
   const hop::RunProperties& properties, const hop::RunScale& scale)
 {
-  hop::UserMessages messages = hop::checkIsovalues(properties.isovalues, gathered);
+  hop::UserMessages messages = this->CheckIsovalues(gathered);
   if (messages.empty())
   {
     messages = hop::checkParameters(

@@ -67,8 +67,10 @@ class vtkContourValues;
 
 namespace hop
 {
+class ByteHash;
 class KeptOutput;
 class PreviousRun;
+struct CheckedBlocks;
 struct GatheredBlocks;
 struct RunCaller;
 struct RunProperties;
@@ -257,6 +259,17 @@ protected:
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
 
+  ///@{
+  /**
+   * What is contoured: the isovalues of the scalars, each once, what to say where there are none, the blocks with their
+   * scalars, and a hash of all that the scalars are made of besides the input. Other fields than arrays override them.
+   */
+  virtual std::vector<double> FindIsovalues();
+  virtual std::vector<hop::UserMessage> CheckIsovalues(const hop::GatheredBlocks& gathered);
+  virtual hop::CheckedBlocks FindScalars(const hop::GatheredBlocks& gathered);
+  virtual void AddField(hop::ByteHash& hash);
+  ///@}
+
 private:
   vtkHighOrderParticleIsosurface(const vtkHighOrderParticleIsosurface&) = delete;
   void operator=(const vtkHighOrderParticleIsosurface&) = delete;
@@ -264,7 +277,7 @@ private:
   bool IsAskedForMore(vtkInformationVector* outputs);
   void Run(vtkDataObject* input, vtkDataObject* output);
   std::uint64_t HashOfRequest(vtkDataObject* input);
-  hop::RunProperties PropertiesOfRun() const;
+  hop::RunProperties PropertiesOfRun();
   hop::RunCaller CallerOfRun();
   bool Accepts(const hop::GatheredBlocks& gathered, const hop::RunProperties& properties,
     const hop::RunScale& scale);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "vtkBoundingBox.h"
+#include "vtkDataArray.h"
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
@@ -8,7 +9,6 @@
 #include <string>
 #include <vector>
 
-class vtkDataArray;
 class vtkPolyData;
 class vtkUnsignedCharArray;
 class vtkUnstructuredGrid;
@@ -20,11 +20,13 @@ namespace hop
 struct InputBlock
 {
   vtkSmartPointer<vtkUnstructuredGrid> grid;
-  /// The grid's point array to contour by.
-  vtkDataArray* scalars = nullptr;
+  /// Nodal values to contour by: a point array of the grid, or an array that was made for it.
+  vtkSmartPointer<vtkDataArray> scalars;
   vtkPolyData* particles = nullptr;
   /// For messages; empty where the input is one grid.
   std::string name;
+  /// Modification time of what the scalars were made of.
+  vtkMTimeType scalarsTime = 0;
 };
 
 /// A cell, given by its block and its number in the block.

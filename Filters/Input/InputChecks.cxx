@@ -106,6 +106,7 @@ std::vector<InputBlock> blocksWithScalars(
       continue;
     }
     block.scalars = choice.of(block.grid->GetPointData());
+    block.scalarsTime = block.scalars ? block.scalars->GetMTime() : 0;
     if (!block.scalars ||
       (!found.empty() &&
         block.scalars->GetNumberOfComponents() != found[0].scalars->GetNumberOfComponents()))
@@ -242,6 +243,30 @@ CheckedBlocks checkBlocks(const GatheredBlocks& gathered, vtkInformation* asked)
     checked.sound =
       checkLengths(findScalars(gathered, choiceOf(asked), checked.messages), checked.messages);
   }
+  return checked;
+}
+
+CheckedBlocks checkBlocks(const GatheredBlocks& gathered,
+  const std::function<vtkSmartPointer<vtkDataArray>(vtkUnstructuredGrid*)>& makeScalars,
+  vtkMTimeType time)
+{
+  CheckedBlocks checked;
+  if (!gathered.others.empty())
+  {
+    checked.messages.push_back({ UserMessage::Warning,
+      "Without particles are " + listOf(gathered.others) + ": no unstructured grid." });
+  }
+  std::vector<InputBlock> found;
+  for (InputBlock block : gathered.blocks)
+  {
+    if (block.grid->GetNumberOfCells() > 0)
+    {
+      block.scalars = makeScalars(block.grid);
+      block.scalarsTime = time;
+      found.push_back(block);
+    }
+  }
+  checked.sound = checkLengths(found, checked.messages);
   return checked;
 }
 

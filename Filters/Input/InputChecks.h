@@ -3,6 +3,7 @@
 #include "Input/GatherBlocks.h"
 #include "Input/UserMessage.h"
 
+#include <functional>
 #include <vector>
 
 class vtkInformation;
@@ -31,5 +32,11 @@ struct CheckedBlocks
 
 /// \param asked vtkAlgorithm::GetInputArrayInformation, which names the array to contour by
 CheckedBlocks checkBlocks(const GatheredBlocks& gathered, vtkInformation* asked);
+
+/// The same where the scalars are made for each grid.
+/// \param time when what they are made of was changed last
+CheckedBlocks checkBlocks(const GatheredBlocks& gathered,
+  const std::function<vtkSmartPointer<vtkDataArray>(vtkUnstructuredGrid*)>& makeScalars,
+  vtkMTimeType time);
 
 } // namespace hop

@@ -349,6 +349,11 @@ void Packer::addPointArrays()
       values->SetComponentName(c, array->GetComponentName(c));
     }
   }
+  // Where no array of the input is contoured, as on slices, its active scalars are what is looked at.
+  if (source->GetScalars() && !source->HasArray(this->Scalars->GetName()))
+  {
+    this->Output->GetPointData()->SetActiveScalars(source->GetScalars()->GetName());
+  }
 }
 
 void Packer::addCellArrays()

@@ -53,11 +53,10 @@ RunOrigin originOf(const InputBlocks& blocks)
   {
     // The grid itself is a new copy each time that ParaView's pipeline looks at it.
     vtkUnstructuredGrid* grid = blocks[b].grid;
-    for (vtkObject* part : { static_cast<vtkObject*>(grid->GetPoints()),
-           static_cast<vtkObject*>(grid->GetCells()), static_cast<vtkObject*>(blocks[b].scalars) })
+    for (const vtkMTimeType time : { grid->GetPoints() ? grid->GetPoints()->GetMTime() : 0,
+           grid->GetCells() ? grid->GetCells()->GetMTime() : 0, blocks[b].scalarsTime })
     {
-      origin.dataTime =
-        std::max<std::uint64_t>(origin.dataTime, part ? part->GetMTime() : vtkMTimeType(0));
+      origin.dataTime = std::max<std::uint64_t>(origin.dataTime, time);
     }
     origin.cells += grid->GetNumberOfCells();
     origin.points += grid->GetNumberOfPoints();

@@ -5,7 +5,12 @@
 For pvpython, and for a Python that imports the same VTK as the ParaView that this was built with.
 """
 
-from .vtkHighOrderParticleFilters import vtkHighOrderParticleIsosurface
+from .vtkHighOrderParticleFilters import vtkHighOrderParticleIsosurface, vtkHighOrderParticleSlice
 from .vtkHighOrderParticleRendering import vtkSurfaceSplatActor, vtkSurfaceSplatMapper
 
-__all__ = ["vtkHighOrderParticleIsosurface", "vtkSurfaceSplatActor", "vtkSurfaceSplatMapper"]
+__all__ = [
+    "vtkHighOrderParticleIsosurface",
+    "vtkHighOrderParticleSlice",
+    "vtkSurfaceSplatActor",
+    "vtkSurfaceSplatMapper",
+]
