@@ -6,7 +6,8 @@
  * distance is a polynomial, or a rational function, of each curved element like its coordinates: particles lie on the
  * slice and in their cells to rounding, and carry all point arrays, evaluated by the cells' own polynomials. Input, output, properties
  * and arrays are those of vtkHighOrderParticleIsosurface but for the choice of an array, which is not read; `Isovalue`
- * is the offset from the plane, or the distance from the center or axis. The active scalars of the input stay active.
+ * is the offset from the plane, or the distance from the center or axis, and `Normals` point to where it is smaller. The
+ * active scalars of the input stay active.
  *
  * ParaView's Slice cuts the linear pieces into which it divides high-order cells.
  */

@@ -10,7 +10,6 @@
 #include "vtkSphere.h"
 #include "vtkUnstructuredGrid.h"
 
-
 #include <cmath>
 #include <string>
 
@@ -85,8 +84,7 @@ CutMap mapAround(vtkImplicitFunction* function, const double center[3], double r
   map.name = name;
   map.level = radius;
   const AffineMap own = affineMapOf(function->GetTransform());
-  map.origin =
-    glm::inverse(own.linear) * (glm::dvec3(center[0], center[1], center[2]) - own.shift);
+  map.origin = glm::inverse(own.linear) * (glm::dvec3(center[0], center[1], center[2]) - own.shift);
   for (const glm::dvec3& row : rows)
   {
     map.rows.push_back(row * own.linear);
@@ -116,8 +114,8 @@ CutMap mapOf(vtkImplicitFunction* function)
 
 bool isSound(const CutMap& map)
 {
-  bool sound = !map.rows.empty() && std::isfinite(map.level) &&
-    !glm::any(glm::isnan(map.origin)) && !glm::any(glm::isinf(map.origin));
+  bool sound = !map.rows.empty() && std::isfinite(map.level) && !glm::any(glm::isnan(map.origin)) &&
+    !glm::any(glm::isinf(map.origin));
   for (const glm::dvec3& row : map.rows)
   {
     sound = sound && std::isfinite(glm::length(row)) && glm::length(row) > 0.0;
@@ -136,9 +134,11 @@ CutMap cutMapOf(vtkImplicitFunction* function, UserMessages& messages)
   };
   if (!function)
   {
-    return refuse("There is no slice, as no SliceType is given; choose a plane, a sphere or a cylinder.");
+    return refuse(
+      "There is no slice, as no SliceType is given; choose a plane, a sphere or a cylinder.");
   }
-  const bool isKnown = function->IsA("vtkPlane") || function->IsA("vtkSphere") || function->IsA("vtkCylinder");
+  const bool isKnown =
+    function->IsA("vtkPlane") || function->IsA("vtkSphere") || function->IsA("vtkCylinder");
   vtkAbstractTransform* transform = function->GetTransform();
   if (!isKnown || (transform && !transform->IsA("vtkLinearTransform")))
   {
@@ -150,7 +150,8 @@ CutMap cutMapOf(vtkImplicitFunction* function, UserMessages& messages)
   if (!isSound(map))
   {
     return refuse(std::string("The ") + function->GetClassName() +
-      " of the slice has a normal or axis of length zero, or numbers that are not finite; correct it.");
+      " of the slice has a normal or axis of length zero, or numbers that are not finite; correct "
+      "it.");
   }
   return map;
 }

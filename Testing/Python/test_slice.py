@@ -1,0 +1,256 @@
+"""High-Order Particle Slice: planes, spheres and cylinders."""
+
+import cells
+import numpy as np
+import pytest
+import support
+from highorderparticles import vtkHighOrderParticleSlice
+from paraview import simple
+from vtkmodules.vtkCommonDataModel import (
+    VTK_HEXAHEDRON,
+    vtkCylinder,
+    vtkMultiBlockDataSet,
+    vtkPlane,
+    vtkQuadric,
+    vtkSphere,
+)
+from vtkmodules.vtkCommonTransforms import vtkPerspectiveTransform, vtkTransform
+
+NORMAL = np.array([0.6, 0.64, 0.48])
+FILES = [
+    "mfem_hex1_p8.vtu",
+    "mfem_torus_wedge_p4.vtu",
+    "dolfinx_tet_p3.vtu",
+    "yeti_pipe_bezier_rational_p333.vtu",
+    "vtkdata_pyramid_quadratic.vtu",
+]
+
+
+def plane(origin=(0.0, 0.0, 0.0), normal=NORMAL):
+    function = vtkPlane()
+    function.SetOrigin(origin)
+    function.SetNormal(normal)
+    return function
+
+
+def sphere(center=(0.0, 0.0, 0.0), radius=0.5):
+    function = vtkSphere()
+    function.SetCenter(center)
+    function.SetRadius(radius)
+    return function
+
+
+def cylinder(center=(0.0, 0.0, 0.0), axis=NORMAL, radius=0.5):
+    function = vtkCylinder()
+    function.SetCenter(center)
+    function.SetAxis(axis)
+    function.SetRadius(radius)
+    return function
+
+
+def make_slice(grid, function, offsets=(0.0,), **properties):
+    """The filter, not yet run, and what it says."""
+    cut = vtkHighOrderParticleSlice()
+    cut.SetPassDiagnostics(True)
+    cut.SetInputDataObject(grid)
+    cut.SetCutFunction(function)
+    cut.SetNumberOfContours(len(offsets))
+    for i, offset in enumerate(offsets):
+        cut.SetValue(i, offset)
+    for name, value in properties.items():
+        getattr(cut, f"Set{name}")(value)
+    return cut, support.Messages(cut)
+
+
+def slice_of(grid, function, offsets=(0.0,), **properties):
+    cut, messages = make_slice(grid, function, offsets, **properties)
+    cut.Update()
+    assert messages.errors + messages.warnings == []
+    return cut.GetOutputDataObject(0)
+
+
+def box(blocks=4, bent=True):
+    """Cubic cells with the cube of side `blocks` as bounds, and a field that they hold exactly."""
+    grid = cells.straight_grid("LAGRANGE_HEXAHEDRON", order=3, blocks=blocks)
+    if bent:
+        cells.bend(grid)
+    x = support.points_of(grid)
+    support.add_point_array(grid, "f", x @ [1.0, -2.0, 0.5] + 3.0)
+    return grid
+
+
+def middle_of(grid):
+    bounds = np.reshape(grid.GetBounds(), (3, 2))
+    return bounds.mean(axis=1), (bounds[:, 1] - bounds[:, 0]).max(), np.linalg.norm(bounds[:, 1] - bounds[:, 0])
+
+
+def distances(name, points, center):
+    """From the plane, the center or the axis."""
+    x = points - center
+    along = x @ NORMAL
+    return {"plane": along, "sphere": np.linalg.norm(x, axis=1), "cylinder": np.linalg.norm(x - np.outer(along, NORMAL), axis=1)}[name]
+
+
+@pytest.mark.parametrize("name", ["plane", "sphere", "cylinder"])
+@pytest.mark.parametrize("file", FILES)
+def test_particles_stand_on_the_slice_and_in_their_cells(shared_data, file, name):
+    grid = support.output_of(support.read(shared_data(file)))
+    center, side, diagonal = middle_of(grid)
+    level = 0.0 if name == "plane" else 0.31 * side
+    function = {"plane": plane(center), "sphere": sphere(center, level), "cylinder": cylinder(center, radius=level)}[name]
+    particles = slice_of(grid, function, Spacing=0.03 * side)
+    assert particles.GetNumberOfPoints() > 50
+    points = support.points_of(particles)
+    assert np.abs(distances(name, points, center) - level).max() < 2e-10 * diagonal
+    data = grid.GetPointData()
+    arrays = [data.GetArrayName(a) for a in range(data.GetNumberOfArrays()) if data.GetArray(a).GetNumberOfComponents() < 4]
+    arrays = [a for a in arrays if support.array_names(particles.GetPointData()) >= {a}]
+    assert arrays
+    positions, values, _ = support.evaluate_by_vtk(grid, particles, arrays[:2])
+    np.testing.assert_allclose(points, positions, atol=1e-6 * diagonal)  # some files hold floats
+    for array, expected in values.items():
+        given = support.array_of(particles, array)
+        np.testing.assert_allclose(given, expected, atol=1e-6 * max(1e-300, np.abs(expected).max()))
+
+
+@pytest.mark.parametrize(
+    "function, mean, gauss",
+    [(plane((2, 2, 2)), 0.0, 0.0), (sphere((2, 2, 2), 1.5), -1 / 1.5, 1 / 1.5**2), (cylinder((2, 2, 2), radius=1.5), -0.5 / 1.5, 0.0)],
+    ids=["plane", "sphere", "cylinder"],
+)
+def test_curvature_and_fields_are_exact(function, mean, gauss):
+    particles = slice_of(box(), function)
+    assert particles.GetNumberOfPoints() > 3000
+    np.testing.assert_allclose(support.array_of(particles, "Mean_Curvature"), mean, atol=1e-7)
+    np.testing.assert_allclose(support.array_of(particles, "Gauss_Curvature"), gauss, atol=1e-7)
+    x = support.points_of(particles)
+    np.testing.assert_allclose(support.array_of(particles, "f"), x @ [1.0, -2.0, 0.5] + 3.0, atol=1e-11)
+
+
+def test_offsets_are_slices_of_their_own():
+    """Also where a transform turns the function, and for offsets that leave the grid."""
+    turn = vtkTransform()
+    turn.RotateX(30)
+    function = plane((2, 2, 2), (0, 0, 1))
+    function.SetTransform(turn)
+    grid = box(bent=False)
+    cut, messages = make_slice(grid, function, [-0.5, 0.0, 0.25, 9.0])
+    cut.Update()
+    assert len(messages.warnings) == 1 and "9: no surface" in messages.warnings[0] and "distance from the plane" in messages.warnings[0]
+    particles = cut.GetOutputDataObject(0)
+    isovalues = support.array_of(particles, "Isovalue")
+    assert sorted(set(isovalues)) == [-0.5, 0.0, 0.25]
+    found = [function.FunctionValue(x) for x in support.points_of(particles)]
+    np.testing.assert_allclose(found, isovalues, atol=1e-9)
+
+
+def test_offsets_of_a_sphere_change_its_radius():
+    particles = slice_of(box(), sphere((2, 2, 2), 1.0), [-0.25, 0.5])
+    radii = np.linalg.norm(support.points_of(particles) - 2.0, axis=1)
+    np.testing.assert_allclose(radii, support.array_of(particles, "Isovalue"), atol=1e-9)
+    assert sorted(set(radii.round(6))) == [0.75, 1.5]
+
+
+@pytest.mark.parametrize("name", ["Plane", "Sphere", "Cylinder"])
+def test_proxies_of_paraview_are_followed(name):
+    """Their planes have an offset, their cylinders an axis of any direction: both are in no property of VTK's classes."""
+    cut = simple.HighOrderParticleSlice(Input=support.source_of(box()))
+    cut.SliceType = name
+    if name == "Plane":
+        cut.SliceType.Origin, cut.SliceType.Normal, cut.SliceType.Offset = [2, 2, 2], list(NORMAL), 0.5
+    elif name == "Sphere":
+        cut.SliceType.Center, cut.SliceType.Radius = [2, 2, 1.5], 1.25
+    else:
+        cut.SliceType.Center, cut.SliceType.Radius, cut.SliceType.Axis = [2, 2, 1.5], 1.25, list(NORMAL)
+    points = support.points_of(support.output_of(cut))
+    assert len(points) > 1000
+    center = np.array([2, 2, 2]) + 0.5 * NORMAL if name == "Plane" else np.array([2, 2, 1.5])
+    level = 0.0 if name == "Plane" else 1.25
+    np.testing.assert_allclose(distances(name.lower(), points, center), level, atol=2e-9)
+
+
+def test_a_plane_in_faces_of_cells_is_one_sheet():
+    grid = box(bent=False)
+    particles = slice_of(grid, plane((0, 0, 2), (0, 0, 1)), AngularDensity=0.0)
+    between = slice_of(grid, plane((0, 0, 2.3), (0, 0, 1)), AngularDensity=0.0)
+    assert particles.GetNumberOfPoints() == pytest.approx(between.GetNumberOfPoints(), rel=0.01)
+    # No second layer, neither whole nor in part.
+    assert support.nearest_neighbors(particles).min() > 0.5
+
+
+def test_blocks_and_linear_cells():
+    blocks = vtkMultiBlockDataSet()
+    for b in range(2):
+        grid = cells.straight_grid("HEXAHEDRON", blocks=2)
+        cells.set_points(grid, support.points_of(grid) + [2.0 * b, 0, 0])
+        assert grid.GetCellType(0) == VTK_HEXAHEDRON
+        blocks.SetBlock(b, grid)
+    output = slice_of(blocks, plane((2, 1, 1), (0, 0, 1)), Spacing=0.1)
+    counts = [leaf.GetNumberOfPoints() for _, _, leaf in support.leaves_of(output)]
+    assert len(counts) == 2 and min(counts) > 300 and abs(counts[0] - counts[1]) < 60
+
+
+def test_a_moving_plane_keeps_particles_and_forgets_none():
+    grid = box()
+    function = plane((2, 2, 2))
+    cut, messages = make_slice(grid, function)
+    cut.Update()
+    first = support.contents(cut.GetOutputDataObject(0))
+    function.SetOrigin(2.01, 2, 2)
+    cut.Update()
+    moved = cut.GetOutputDataObject(0)
+    x = support.points_of(moved)
+    np.testing.assert_allclose((x - [2.01, 2, 2]) @ NORMAL, 0.0, atol=1e-9)
+    fresh = slice_of(grid, plane((2.01, 2, 2)))
+    assert moved.GetNumberOfPoints() == pytest.approx(fresh.GetNumberOfPoints(), rel=0.03)
+    assert support.contents(fresh) == support.contents(slice_of(grid, plane((2.01, 2, 2))))
+    assert support.contents(slice_of(grid, plane((2, 2, 2)))) == first
+    assert messages.errors + messages.warnings == []
+
+
+def test_active_scalars_stay_active():
+    grid = box()
+    grid.GetPointData().SetActiveScalars("f")
+    assert slice_of(grid, plane((2, 2, 2))).GetPointData().GetScalars().GetName() == "f"
+
+
+def quadric():
+    return vtkQuadric()
+
+
+def bent_plane():
+    function = plane()
+    function.SetTransform(vtkPerspectiveTransform())
+    return function
+
+
+@pytest.mark.parametrize(
+    "make, words",
+    [
+        (lambda: None, "no SliceType"),
+        (quadric, "vtkQuadric"),
+        (bent_plane, "not linear"),
+        (lambda: plane(normal=(0, 0, 0)), "length zero"),
+        (lambda: sphere(radius=float("nan")), "not finite"),
+        (lambda: cylinder(center=(float("inf"), 0, 0)), "not finite"),
+    ],
+    ids=["none", "quadric", "perspective", "no normal", "radius nan", "center inf"],
+)
+def test_functions_that_cannot_be_sliced_along_are_named(make, words):
+    cut, messages = make_slice(box(2), make())
+    cut.Update()
+    assert cut.GetOutputDataObject(0).GetNumberOfPoints() == 0
+    assert len(messages.errors) == 1 and words in messages.errors[0], messages.errors
+
+
+def test_no_offset_is_a_warning():
+    cut, messages = make_slice(box(2), plane(), [])
+    cut.Update()
+    assert messages.errors == [] and len(messages.warnings) == 1 and "SliceOffsetValues" in messages.warnings[0]
+
+
+def test_properties_are_those_of_the_isosurface(data):
+    source = support.read(data("mfem_hex1_p8.vtu"))
+    isosurface, cut = simple.HighOrderParticleIsosurface(Input=source), simple.HighOrderParticleSlice(Input=source)
+    contoured = {"ContourBy", "Component", "Isosurfaces"}
+    assert set(cut.ListProperties()) - {"InputBounds"} == set(isosurface.ListProperties()) - contoured | {"SliceType", "SliceOffsetValues"}
