@@ -287,7 +287,7 @@ def particle_file(plugin, data, tmp_path):
     reader = simple.XMLUnstructuredGridReader(FileName=[data("mfem_hex1_p8.vtu")])
     surface = simple.HighOrderParticleIsosurface(Input=reader, ContourBy=["POINTS", "u"], Isosurfaces=[0.2])
     path = tmp_path / "particles.vtp"
-    simple.SaveData(str(path), proxy=surface)
+    simple.SaveData(str(path), proxy=surface, DataMode="Binary")  # of raw data not every libexpat makes sense
     return path
 
 
