@@ -1,5 +1,6 @@
 """What ParaView's other filters, files and writers make of particles, and how that is shown."""
 
+import importlib.util
 import json
 import zipfile
 
@@ -180,8 +181,12 @@ def test_stl_files_say_that_they_will_be_empty(particles, grid, tmp_path, capfd)
     assert (tmp_path / "triangles.stl").stat().st_size > 1000
 
 
+# Some packages of ParaView lack the Python that ends an export for VTK.js.
+EXPORTED = ["gltf", "vtkjs"] if importlib.util.find_spec("paraview.web") else ["gltf"]
+
+
 @pytest.mark.parametrize("representation", ["Surface Splats", "Surface Splats With Edges"])
-@pytest.mark.parametrize("extension", ["gltf", "vtkjs"])
+@pytest.mark.parametrize("extension", EXPORTED)
 def test_exported_scenes_say_that_they_have_points(grid, extension, representation, tmp_path, capfd):
     view = simple.CreateView("RenderView")
     surface = simple.HighOrderParticleIsosurface(
@@ -201,6 +206,6 @@ def test_exported_scenes_without_splats_say_nothing(particles, grid, tmp_path, c
     simple.Show(grid, view)
     simple.Show(particles, view)
     simple.Hide(particles, view)
-    for extension in ("gltf", "vtkjs"):
+    for extension in EXPORTED:
         simple.ExportView(str(tmp_path / f"scene.{extension}"), view=view)
     assert "WARN" not in "".join(capfd.readouterr())
