@@ -25,16 +25,16 @@ paraview=(
 )
 qt5=(qtbase5-dev qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools)
 release=$(. /etc/os-release 2>/dev/null && echo "${VERSION_CODENAME:-}")
-# The GUI's buttons are blank without Qt's plugin for SVG. xdotool clicks in a test, where a click has an effect.
+# The GUI's buttons are blank without Qt's plugin for SVG.
 case "$release" in
   bookworm) paraview+=("${qt5[@]}" libqt5svg5) ;;
-  forky | sid) paraview+=(libvtk9-dev qt6-base-dev qt6-tools-dev qt6-tools-dev-tools xsltproc qt6-svg-plugins xdotool) ;;
+  forky | sid) paraview+=(libvtk9-dev qt6-base-dev qt6-tools-dev qt6-tools-dev-tools xsltproc qt6-svg-plugins) ;;
   *) paraview+=("${qt5[@]}" qt6-base-dev qt6-svg-plugins) ;; # trixie: its CMake files want 5, its GUI is 6
 esac
 [ "$release" != bookworm ] || testing+=(clang-format-14 clang-tidy-14)
 if [ "$with_paraview" = ON ]; then
   packages+=("${paraview[@]}")
-  testing+=(python3-pytest)
+  testing+=(python3-pytest xdotool) # xdotool: mouse and keyboard of tests
 else
   packages+=(libvtk9-dev libglew-dev)
 fi

@@ -12,8 +12,8 @@
 #include "vtkSMSourceProxy.h"
 #include "vtkSMViewProxy.h"
 
-#include <cstring>
 #include <memory>
+#include <string>
 
 namespace
 {
@@ -25,7 +25,9 @@ bool IsOpaqueSplats(pqDataRepresentation* shown)
   const vtkSMPropertyHelper kind(shown->getProxy(), "Representation", /*quiet=*/true);
   const vtkSMPropertyHelper opacity(shown->getProxy(), "Opacity", /*quiet=*/true);
   const char* name = kind.GetNumberOfElements() > 0 ? kind.GetAsString() : nullptr;
-  return name && std::strcmp(name, "Surface Splats") == 0 && opacity.GetAsDouble() >= 1.;
+  const bool isSplats =
+    name && std::string(name).rfind("Surface Splats", 0) == 0; // with or without edges
+  return isSplats && opacity.GetAsDouble() >= 1.;
 }
 
 void HideInputs(pqPipelineFilter* filter, pqView* view)

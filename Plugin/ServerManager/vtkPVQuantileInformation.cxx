@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace
 {
@@ -23,6 +24,49 @@ constexpr std::size_t mostSamples = 1001;
 /// the panel, fewer could miss small regions. Chosen by experiment.
 constexpr vtkIdType mostLookedAt = 1'000'000;
 
+using Samples = std::vector<std::pair<double, double>>;
+
+double weightOf(const Samples& samples)
+{
+  double all = 0.0;
+  for (const auto& sample : samples)
+  {
+    all += sample.second;
+  }
+  return all;
+}
+
+/// Quantiles of sorted samples with weights, for shares that rise. The samples lie side by side on a line, each as long
+/// as its weight; share 0 is the middle of the first, share 1 that of the last.
+class RisingQuantiles
+{
+public:
+  explicit RisingQuantiles(const Samples& sorted)
+    : Sorted(sorted)
+    , First(0.5 * sorted.front().second)
+    , Length(weightOf(sorted) - First - 0.5 * sorted.back().second)
+  {
+  }
+
+  double At(double share)
+  {
+    const double wanted = this->First + share * this->Length;
+    while (this->Next + 1 < this->Sorted.size() &&
+      this->Passed + this->Sorted[this->Next].second <= wanted)
+    {
+      this->Passed += this->Sorted[this->Next++].second;
+    }
+    return this->Sorted[this->Next].first;
+  }
+
+private:
+  const Samples& Sorted;
+  double First;
+  double Length;
+  double Passed = 0.0;
+  std::size_t Next = 0;
+};
+
 } // namespace
 
 vtkStandardNewMacro(vtkPVQuantileInformation);
@@ -32,7 +76,7 @@ vtkPVQuantileInformation::~vtkPVQuantileInformation() = default;
 
 /// Adds every step-th value of the component if it is finite; of the magnitude where there is no such component.
 void vtkPVQuantileInformation::AddValues(
-  vtkDataArray* array, vtkIdType step, std::vector<double>& values) const
+  vtkDataArray* array, vtkDataArray* spacings, vtkIdType step)
 {
   const int components = array->GetNumberOfComponents();
   for (vtkIdType i = 0; i < array->GetNumberOfTuples(); i += step)
@@ -49,11 +93,32 @@ void vtkPVQuantileInformation::AddValues(
         value = std::hypot(value, array->GetComponent(i, c));
       }
     }
-    if (std::isfinite(value))
+    const double spacing = spacings ? spacings->GetComponent(i, 0) : 1.0;
+    if (std::isfinite(value) && std::isfinite(spacing) && spacing > 0.0)
     {
-      values.push_back(value);
+      this->Samples.emplace_back(value, spacing * spacing);
     }
   }
+}
+
+/// Leaves evenly spaced quantiles of the samples, each with the same part of their weight.
+void vtkPVQuantileInformation::ThinOut()
+{
+  if (this->Samples.empty())
+  {
+    return;
+  }
+  std::sort(this->Samples.begin(), this->Samples.end());
+  const std::size_t count = std::min(this->Samples.size(), mostSamples);
+  const double weight = weightOf(this->Samples) / static_cast<double>(count);
+  RisingQuantiles quantiles(this->Samples);
+  std::vector<std::pair<double, double>> left;
+  for (std::size_t n = 0; n < count; ++n)
+  {
+    const double share = count > 1 ? static_cast<double>(n) / static_cast<double>(count - 1) : 0.0;
+    left.emplace_back(quantiles.At(share), weight);
+  }
+  this->Samples = std::move(left);
 }
 
 void vtkPVQuantileInformation::CopyFromObject(vtkObject* object)
@@ -65,30 +130,22 @@ void vtkPVQuantileInformation::CopyFromObject(vtkObject* object)
     return;
   }
   vtkDataObject* data = algorithm->GetOutputDataObject(this->Port);
-  std::vector<vtkDataArray*> arrays;
+  std::vector<vtkPointData*> blocks;
   vtkIdType size = 0;
   for (vtkDataSet* block : vtkCompositeDataSet::GetDataSets<vtkDataSet>(data))
   {
     if (vtkDataArray* array = block->GetPointData()->GetArray(this->ArrayName.c_str()))
     {
-      arrays.push_back(array);
+      blocks.push_back(block->GetPointData());
       size += array->GetNumberOfTuples();
     }
   }
-  std::vector<double> values;
-  for (vtkDataArray* array : arrays)
+  for (vtkPointData* block : blocks)
   {
-    this->AddValues(array, 1 + (size - 1) / mostLookedAt, values);
+    this->AddValues(block->GetArray(this->ArrayName.c_str()),
+      block->GetArray(this->SpacingArrayName.c_str()), 1 + (size - 1) / mostLookedAt);
   }
-  std::sort(values.begin(), values.end());
-  const std::size_t count = std::min(values.size(), mostSamples);
-  const double last = static_cast<double>(values.size()) - 1.0;
-  for (std::size_t n = 0; n < count; ++n)
-  {
-    const double share = count > 1 ? static_cast<double>(n) / static_cast<double>(count - 1) : 0.0;
-    this->Samples.emplace_back(
-      values[std::lround(share * last)], static_cast<double>(values.size()) / count);
-  }
+  this->ThinOut();
 }
 
 void vtkPVQuantileInformation::AddInformation(vtkPVInformation* information)
@@ -102,23 +159,7 @@ void vtkPVQuantileInformation::AddInformation(vtkPVInformation* information)
 double vtkPVQuantileInformation::GetQuantile(double share)
 {
   std::sort(this->Samples.begin(), this->Samples.end());
-  double all = 0.0;
-  for (const auto& sample : this->Samples)
-  {
-    all += sample.second;
-  }
-  // Each sample stands in the middle of its weight: of n samples with equal weights, number share * (n - 1) is wanted.
-  const double wanted = share * all * (1.0 - 1.0 / static_cast<double>(this->Samples.size()));
-  double passed = 0.0;
-  for (const auto& [value, weight] : this->Samples)
-  {
-    if (wanted < passed + 0.5 * weight)
-    {
-      return value;
-    }
-    passed += weight;
-  }
-  return this->Samples.back().first;
+  return RisingQuantiles(this->Samples).At(share);
 }
 
 void vtkPVQuantileInformation::CopyToStream(vtkClientServerStream* stream)
@@ -147,12 +188,12 @@ void vtkPVQuantileInformation::CopyFromStream(const vtkClientServerStream* strea
 
 void vtkPVQuantileInformation::CopyParametersToStream(vtkMultiProcessStream& stream)
 {
-  stream << this->Port << this->ArrayName << this->Component;
+  stream << this->Port << this->ArrayName << this->SpacingArrayName << this->Component;
 }
 
 void vtkPVQuantileInformation::CopyParametersFromStream(vtkMultiProcessStream& stream)
 {
-  stream >> this->Port >> this->ArrayName >> this->Component;
+  stream >> this->Port >> this->ArrayName >> this->SpacingArrayName >> this->Component;
 }
 
 void vtkPVQuantileInformation::PrintSelf(ostream& os, vtkIndent indent)
@@ -160,6 +201,7 @@ void vtkPVQuantileInformation::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Port: " << this->Port << "\n";
   os << indent << "ArrayName: " << this->ArrayName << "\n";
+  os << indent << "SpacingArrayName: " << this->SpacingArrayName << "\n";
   os << indent << "Component: " << this->Component << "\n";
   os << indent << "Samples: " << this->Samples.size() << "\n";
 }

@@ -7,6 +7,9 @@
  * travels. Of more than a million values a rank looks at every n-th only. With one rank and up to a million values,
  * quantiles of shares that are thousandths are exact; with several ranks they are off by less than a thousandth of a
  * rank's values.
+ *
+ * Particles stand closer where the surface bends, so that half of them may cover a twentieth of it. With an array of
+ * spacings a quantile is the value below which a given share of the surface's *area* lies.
  */
 #ifndef vtkPVQuantileInformation_h
 #define vtkPVQuantileInformation_h
@@ -38,12 +41,19 @@ public:
   ///@}
 
   /**
+   * A point array whose square is proportional to the area that a point stands for, as the distance to its neighbours
+   * is; empty by default: all points count alike, as they do in blocks without such an array. Points where it is not a
+   * positive number do not count.
+   */
+  vtkSetMacro(SpacingArrayName, std::string);
+
+  /**
    * Whether there are any finite values.
    */
   bool HasValues() const { return !this->Samples.empty(); }
 
   /**
-   * The value below which a share of all values lies; the share is 0 to 1. There must be values.
+   * The value below which a share of all values, or of their area, lies; the share is 0 to 1. There must be values.
    */
   double GetQuantile(double share);
 
@@ -65,12 +75,14 @@ private:
   vtkPVQuantileInformation(const vtkPVQuantileInformation&) = delete;
   void operator=(const vtkPVQuantileInformation&) = delete;
 
-  void AddValues(vtkDataArray* array, vtkIdType step, std::vector<double>& values) const;
+  void AddValues(vtkDataArray* array, vtkDataArray* spacings, vtkIdType step);
+  void ThinOut();
 
   int Port = 0;
   std::string ArrayName;
+  std::string SpacingArrayName;
   int Component = 0;
-  /// Values, each with the number of values for which it stands.
+  /// Values, each with the number of values, or the area, for which it stands.
   std::vector<std::pair<double, double>> Samples;
 };
 

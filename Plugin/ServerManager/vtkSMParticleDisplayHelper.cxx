@@ -1,5 +1,6 @@
 #include "vtkSMParticleDisplayHelper.h"
 
+#include "ParticleData.h"
 #include "vtkDataObject.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVArrayInformation.h"
@@ -13,26 +14,6 @@
 
 namespace
 {
-bool HasArray(vtkPVDataInformation* data, const char* name, int components)
-{
-  vtkPVArrayInformation* array = data->GetArrayInformation(name, vtkDataObject::POINT);
-  return array && array->GetNumberOfComponents() == components;
-}
-
-bool IsParticles(vtkPVDataInformation* data)
-{
-  return data && data->GetNumberOfPoints() > 0 &&
-    data->GetNumberOfCells() == data->GetNumberOfPoints() && HasArray(data, "Normals", 3) &&
-    HasArray(data, "Radius", 1) && HasArray(data, "Isovalue", 1);
-}
-
-vtkPVDataInformation* DataOf(vtkSMProperty* input)
-{
-  const vtkSMPropertyHelper helper(input);
-  auto* source = vtkSMSourceProxy::SafeDownCast(helper.GetAsProxy());
-  return source ? source->GetDataInformation(helper.GetOutputPort()) : nullptr;
-}
-
 // No points, or a probe's points of which none lies in a cell.
 bool IsNothing(vtkPVDataInformation* data)
 {
@@ -48,7 +29,7 @@ bool HasParticlesAsInput(vtkSMProxy* filter)
   for (properties->Begin(); !properties->IsAtEnd(); properties->Next())
   {
     auto* input = vtkSMInputProperty::SafeDownCast(properties->GetProperty());
-    if (input && input->GetNumberOfProxies() > 0 && IsParticles(DataOf(input)))
+    if (input && input->GetNumberOfProxies() > 0 && hop::isParticles(hop::dataOf(input)))
     {
       return true;
     }
@@ -67,12 +48,12 @@ void vtkSMParticleDisplayHelper::PostInitializeProxy(
 {
   vtkSMProperty* input = proxy->GetProperty("Input");
   vtkSMProperty* kind = proxy->GetProperty("Representation");
-  vtkPVDataInformation* data = input ? DataOf(input) : nullptr;
+  vtkPVDataInformation* data = input ? hop::dataOf(input) : nullptr;
   if (!data || !kind)
   {
     return;
   }
-  if (kind->GetMTime() <= initializationTimeStamp && IsParticles(data))
+  if (kind->GetMTime() <= initializationTimeStamp && hop::isParticles(data))
   {
     // ParaView leaves properties alone that were set here.
     vtkSMPropertyHelper(kind).Set("Surface Splats");

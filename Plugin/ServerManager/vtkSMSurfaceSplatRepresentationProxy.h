@@ -1,11 +1,11 @@
 /**
  * @class vtkSMSurfaceSplatRepresentationProxy
- * @brief a representation whose legends of curvature begin with a range that a few particles do not spoil
+ * @brief a representation whose legends of curvature begin with a range that serves the surface seen
  *
  * ParaView's first range of a legend is that of all values. Near tips and crossings of the surface the curvature of a
  * few particles is large without bound, and everything else has one colour. Here the first range of a legend of
- * curvature leaves out the lowest and the highest fiftieth of the values, and ParaView's automatic rescaling is
- * switched off for this legend. Rescaling by hand, to the range of the data or to any other, works as for all legends.
+ * curvature leaves out the fiftieth of the surface's area with the lowest values and that with the highest, and
+ * ParaView's automatic rescaling is switched off for this legend. Rescaling by hand, to the range of the data or to any other, works as for all legends.
  */
 #ifndef vtkSMSurfaceSplatRepresentationProxy_h
 #define vtkSMSurfaceSplatRepresentationProxy_h

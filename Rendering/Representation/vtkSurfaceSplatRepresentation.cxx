@@ -222,6 +222,11 @@ vtkDataObject* vtkSurfaceSplatRepresentation::GetRenderedDataObject(int)
   return this->ArraysToColorBy;
 }
 
+vtkActor* vtkSurfaceSplatRepresentation::GetActor()
+{
+  return this->Actor;
+}
+
 //------------------------------------------------------------------------------
 void vtkSurfaceSplatRepresentation::AddBlockSelector(const char* selector)
 {

@@ -17,6 +17,7 @@
 #include "vtkPVDataRepresentation.h"
 #include "vtkSmartPointer.h" // for vtkSmartPointer
 
+class vtkActor;
 class vtkPolyData;
 class vtkProperty;
 class vtkScalarsToColors;
@@ -35,6 +36,9 @@ public:
     vtkInformationRequestKey* request, vtkInformation* inInfo, vtkInformation* outInfo) override;
   void SetVisibility(bool visible) override;
   vtkDataObject* GetRenderedDataObject(int port) override;
+
+  /** The prop in the view. ParaView's export for VTK.js asks for it in Python. */
+  vtkActor* GetActor();
 
   ///@{
   /** Forwarded to vtkSurfaceSplatMapper, which documents them. */

@@ -1,5 +1,9 @@
 """What ParaView's other filters, files and writers make of particles, and how that is shown."""
 
+import importlib.util
+import json
+import zipfile
+
 import numpy as np
 import pytest
 import support
@@ -159,3 +163,48 @@ def test_ply_files_have_normals(particles, tmp_path, capfd):
     assert "WARN" not in "".join(capfd.readouterr())
     head = path.read_bytes().split(b"end_header")[0]
     assert b"property float nx" in head
+
+
+def said_once(capfd, words):
+    said = "".join(capfd.readouterr())
+    assert "Traceback" not in said, said
+    return said.count(words) == 1 and said.count("WARN") == 1
+
+
+def test_stl_files_say_that_they_will_be_empty(particles, grid, tmp_path, capfd):
+    simple.SaveData(str(tmp_path / "particles.stl"), proxy=particles)
+    assert said_once(capfd, "holds triangles")
+    triangles = simple.Contour(Input=grid, ContourBy=["POINTS", "u"], Isosurfaces=[0.2])
+    simple.SaveData(str(tmp_path / "triangles.stl"), proxy=triangles)
+    assert "WARN" not in "".join(capfd.readouterr())
+    assert (tmp_path / "triangles.stl").stat().st_size > 1000
+
+
+# Some packages of ParaView lack the Python that ends an export for VTK.js.
+EXPORTED = ["gltf", "vtkjs"] if importlib.util.find_spec("paraview.web") else ["gltf"]
+
+
+@pytest.mark.parametrize("representation", ["Surface Splats", "Surface Splats With Edges"])
+@pytest.mark.parametrize("extension", EXPORTED)
+def test_exported_scenes_say_that_they_have_points(grid, extension, representation, tmp_path, capfd):
+    view = simple.CreateView("RenderView")
+    surface = simple.HighOrderParticleIsosurface(
+        registrationName="surface", Input=grid, ContourBy=["POINTS", "u"], Isosurfaces=[0.2])
+    simple.Show(surface, view).SetRepresentationType(representation)
+    path = tmp_path / f"scene.{extension}"
+    simple.ExportView(str(path), view=view)
+    assert said_once(capfd, "particles of Surface Splats as points")
+    assert path.is_file() and path.stat().st_size > 1000
+    if extension == "vtkjs":
+        scene = json.loads(zipfile.ZipFile(path).read("index.json"))["scene"]
+        assert scene[0]["name"] == "surface"
+
+
+def test_exported_scenes_without_splats_say_nothing(particles, grid, tmp_path, capfd):
+    view = simple.CreateView("RenderView")
+    simple.Show(grid, view)
+    simple.Show(particles, view)
+    simple.Hide(particles, view)
+    for extension in EXPORTED:
+        simple.ExportView(str(tmp_path / f"scene.{extension}"), view=view)
+    assert "WARN" not in "".join(capfd.readouterr())

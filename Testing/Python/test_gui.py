@@ -223,6 +223,112 @@ def test_the_icon_stands_behind_those_of_paraview(plugin, data, screen, tmp_path
     assert any(np.array_equal(window[105:140, 430:780], without[105:140, 430 - s : 780 - s]) for s in range(28, 42))
 
 
+# Runs in ParaView's window: shows a file, and from then on writes down what is in the pipeline.
+WATCHED = """
+import json
+from paraview import servermanager, simple
+reader = simple.XMLUnstructuredGridReader(FileName=[{data!r}])
+reader.UpdatePipeline()
+simple.Show({shown})
+simple.Render()
+def write(caller=None, event=None):
+    with open({answer!r}, "w") as file:
+        json.dump([source.GetXMLName() for source in simple.GetSources().values()], file)
+servermanager.vtkSMProxyManager.GetProxyManager().GetActiveSessionProxyManager().AddObserver("RegisterEvent", write)
+write()
+"""
+
+
+class Hands:
+    """Keyboard and mouse of a display, and what its screen shows."""
+
+    def __init__(self, display, screen_file):
+        self.display, self.screen_file = display, screen_file
+
+    def do(self, *arguments):
+        """Returns what xdotool writes."""
+        done = subprocess.run(
+            ["xdotool", *map(str, arguments)], env={**os.environ, "DISPLAY": self.display}, stdout=subprocess.PIPE, text=True)
+        return done.stdout
+
+    def windows(self):
+        return set(self.do("search", "--onlyvisible", "--class", "paraview").split())
+
+    def focus(self):
+        """There is no window manager to do it."""
+        self.do("windowfocus", "--sync", min(self.windows(), key=int))
+
+    def still(self):
+        """The screen's pixels once they have stood still for half a second."""
+        last = None
+        while last is None or not np.array_equal(last, pixels_of(self.screen_file)):
+            last = pixels_of(self.screen_file)
+            time.sleep(0.5)
+        return last
+
+
+def wait_for(what, process):
+    end = time.monotonic() + 60
+    while not what():
+        assert process.poll() is None and time.monotonic() < end, "in vain"
+        time.sleep(0.2)
+
+
+@pytest.fixture
+def watched(request, plugin, data, screen, tmp_path):
+    """ParaView with what the test's parameter shows of a file: (process, hands, what gives the pipeline)."""
+    display, screen_file = screen
+    answer, script = tmp_path / "pipeline.json", tmp_path / "watched.py"
+    script.write_text(WATCHED.format(data=data("mfem_hex1_p8.vtu"), shown=request.param, answer=str(answer)))
+    process = start(display, tmp_path, plugin, f"--script={script}")
+    hands = Hands(display, screen_file)
+    wait_for(answer.is_file, process)
+    hands.still()
+    yield process, hands, lambda: json.loads(answer.read_text() or "[]")
+    process.kill()
+    process.wait()
+
+
+@pytest.mark.skipif(not shutil.which("xdotool"), reason="no xdotool")
+@pytest.mark.parametrize("watched", ["reader"], indirect=True)
+def test_ctrl_space_and_contour_find_the_filter(watched):
+    """Below ParaView's own Contour, whose name is just that."""
+    process, hands, pipeline = watched
+    hands.focus()
+    hands.do("key", "ctrl+space")
+    wait_for(lambda: len(hands.windows()) == 2, process)
+    hands.do("type", "--delay", "50", "contour")
+    write_png(Path(os.environ["HOP_BUILD"]) / "Testing" / "gui_launch.png", hands.still())
+    hands.do("key", "Down", "Return")
+    wait_for(lambda: len(pipeline()) == 2, process)
+    assert "ContourHighOrderCells" in pipeline()
+
+
+@pytest.mark.skipif(not shutil.which("xdotool"), reason="no xdotool")
+@pytest.mark.parametrize("watched", [
+    "simple.HighOrderParticleIsosurface(Input=reader, ContourBy=['POINTS', 'u'], Isosurfaces=[0.2])"], indirect=True)
+def test_the_tooltip_of_a_particle_is_of_a_few_lines(watched):
+    """ParaView lists all point arrays of the point under the mouse, but those with hidden names."""
+    process, hands, _ = watched
+    hands.focus()
+    hands.do("mousemove", 857, 183, "click", 1)  # Hover Points On
+    wait_for(lambda: len(hands.windows()) == 2, process)
+    hands.still()
+    hands.do("mousemove", 639, 414, "click", 1)  # OK
+    wait_for(lambda: len(hands.windows()) == 1, process)
+    hands.focus()
+    for place in (740, 760, 772, 780):
+        hands.do("mousemove", place, 450)
+        time.sleep(0.5)
+    hands.still()
+    write_png(Path(os.environ["HOP_BUILD"]) / "Testing" / "gui_tooltip.png", hands.still())
+    wait_for(lambda: len(hands.windows()) == 2, process)
+    tip = max(hands.windows(), key=int)
+    size = re.search(r"Geometry: (\d+)x(\d+)", hands.do("getwindowgeometry", tip))
+    write_png(Path(os.environ["HOP_BUILD"]) / "Testing" / "gui_tooltip.png", hands.still())
+    assert int(size[1]) < WIDTH // 2 and int(size[2]) < HEIGHT // 3, size[0]
+
+
 # Runs in ParaView's window: the same filter twice; the first run is to be aborted.
 ABORTED = """
 import json, os, time

@@ -3,6 +3,7 @@
 #include "Edges/CellBorders.h"
 #include "Edges/FacePlanes.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <numeric>
