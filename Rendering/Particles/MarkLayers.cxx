@@ -32,25 +32,22 @@ vtkVector3d VectorAt(const std::vector<float>& values, vtkIdType first)
   return vtkVector3d(values[first], values[first + 1], values[first + 2]);
 }
 
-/** Whether a layer may end at a plane of the particle: a boundary curve, or a step so small that splats go on over it. */
-bool MayEndLayer(const SplatParticles& particles, vtkIdType particle, int plane)
+/** Whether a plane, which is that of a boundary curve or of a sharp crease then, ends the splat of a particle. */
+bool EndsSplat(const SplatParticles& particles, vtkIdType particle, int plane)
 {
   const float* clip = &particles.Clip[particles.ClipStride * particle];
   const float* normal = clip + SplatParticles::PlaneAt(plane);
-  const float overlap = clip[SplatParticles::OverlapPlace(plane)];
   const bool exists = normal[0] != 0.f || normal[1] != 0.f || normal[2] != 0.f;
-  const bool isSmooth =
-    overlap >= SplatParticles::LeastSmoothOverlap && overlap < SplatParticles::OpenOverlap;
-  return exists && (overlap == 0.f || isSmooth) &&
+  return exists && clip[SplatParticles::OverlapPlace(plane)] == 0.f &&
     normal[3] < particles.CentreRadius[4 * particle + 3];
 }
 
-bool MayEndLayer(const SplatParticles& particles, vtkIdType particle)
+bool EndsSplat(const SplatParticles& particles, vtkIdType particle)
 {
   const int planes = SplatParticles::ClipPlanesIn(particles.ClipStride);
   for (int plane = 0; plane < planes; ++plane)
   {
-    if (MayEndLayer(particles, particle, plane))
+    if (EndsSplat(particles, particle, plane))
     {
       return true;
     }
@@ -77,7 +74,7 @@ bool IsOnOtherLayer(const SplatParticles& particles, vtkIdType particle, vtkIdTy
   for (int plane = 0; plane < planes; ++plane)
   {
     const vtkIdType first = particles.ClipStride * particle + SplatParticles::PlaneAt(plane);
-    if (MayEndLayer(particles, particle, plane) &&
+    if (EndsSplat(particles, particle, plane) &&
       offset.Dot(VectorAt(particles.Clip, first)) >= particles.Clip[first + 3])
     {
       return true;
@@ -91,7 +88,8 @@ bool IsOnOtherLayer(const SplatParticles& particles, vtkIdType particle, vtkIdTy
 void MarkLayers(SplatParticles& particles)
 {
   const vtkIdType count = particles.GetNumberOfParticles();
-  const ParticleLocator locator(particles.CentreRadius.data(), particles.ClipStride > 0 ? count : 0);
+  const ParticleLocator locator(
+    particles.CentreRadius.data(), particles.ClipStride > 0 ? count : 0);
   if (locator.GetDistance() == 0.)
   {
     return;
@@ -104,7 +102,7 @@ void MarkLayers(SplatParticles& particles)
       for (vtkIdType i = begin; i < end; ++i)
       {
         const double radius = particles.CentreRadius[4 * i + 3];
-        if (radius == 0. || !MayEndLayer(particles, i))
+        if (radius == 0. || !EndsSplat(particles, i))
         {
           continue;
         }
