@@ -199,7 +199,7 @@ void SplatPrimitives::Cull(const SplatDrawing& drawing, double push)
   const double pixels =
     drawing.View->GetLargestPixels(drawing.RadiusScale * drawing.Buffers->GetMeanRadius());
   if (!IsDrawnInSoftware() || !drawing.DrawsAll() || drawing.DrawsCurved() || drawing.FacesViewer ||
-    !std::isfinite(pixels) || !Culling::IsSimilarity(camera.MCVC))
+    drawing.TellsLayersApart() || !std::isfinite(pixels) || !Culling::IsSimilarity(camera.MCVC))
   {
     return;
   }
