@@ -151,7 +151,8 @@ std::vector<ParticleArray> makeParticleArrays()
       ArrayUse::Diagnostic },
     { "Clip_Angle", 3,
       "Largest angle seen at each of these planes between the normals of both sides, degrees: 180 "
-      "at boundary curves, else at least 1.5. A step of the surface counts as an angle of "
+      "at boundary curves, 0 at a crease behind which no particle stands, else at least 1.5. A "
+      "step of the surface counts as an angle of "
       "step/spacing, below 10 degrees.",
       [](const ParticleRow& row, const RowCells&, double* out)
       {

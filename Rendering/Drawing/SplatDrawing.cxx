@@ -102,6 +102,16 @@ bool SplatDrawing::TellsIsovaluesApart() const
   return !this->Isovalue && this->Buffers->GetNumberOfIsovalues() > 1;
 }
 
+bool SplatDrawing::TellsLayersApart() const
+{
+  return this->Buffers->GetHasLayers() && !this->FacesViewer && this->Stride == 1;
+}
+
+bool SplatDrawing::TellsDepthsApart() const
+{
+  return this->TellsIsovaluesApart() || this->TellsLayersApart();
+}
+
 bool SplatDrawing::DrawsAll() const
 {
   return this->Kind == DrawnKind::All && !this->Isovalue &&

@@ -81,6 +81,12 @@ struct SplatDrawing
    */
   bool TellsIsovaluesApart() const;
 
+  /** Whether layers of one isovalue that lie near each other are told apart. */
+  bool TellsLayersApart() const;
+
+  /** Whether splats have to be drawn with their own depth, because the thickness of a surface is too much. */
+  bool TellsDepthsApart() const;
+
   /** Whether all particles of the stride are drawn, and no clipping plane cuts them. */
   bool DrawsAll() const;
 

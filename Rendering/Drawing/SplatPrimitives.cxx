@@ -146,7 +146,8 @@ std::string Definitions(const SplatDrawing& drawing, const SplatPrimitives::Styl
     ShaderDefine("SPLAT_OTHER_SHARE", OtherShare) +
     ShaderDefine("SPLAT_CURVED", drawing.DrawsCurved()) +
     ShaderDefine("SPLAT_SKIPS_HIDDEN", style.SkipsHidden && drawing.DrawsPoints()) +
-    ShaderDefine("SPLAT_APART", drawing.TellsIsovaluesApart()) +
+    ShaderDefine("SPLAT_APART", drawing.TellsDepthsApart()) +
+    ShaderDefine("SPLAT_LAYERS", drawing.TellsLayersApart()) +
     ShaderDefine("SPLAT_CLIPPING_PLANES", drawing.NumberOfClippingPlanes);
 }
 }
@@ -198,7 +199,7 @@ void SplatPrimitives::Cull(const SplatDrawing& drawing, double push)
   const double pixels =
     drawing.View->GetLargestPixels(drawing.RadiusScale * drawing.Buffers->GetMeanRadius());
   if (!IsDrawnInSoftware() || !drawing.DrawsAll() || drawing.DrawsCurved() || drawing.FacesViewer ||
-    !std::isfinite(pixels) || !Culling::IsSimilarity(camera.MCVC))
+    drawing.TellsLayersApart() || !std::isfinite(pixels) || !Culling::IsSimilarity(camera.MCVC))
   {
     return;
   }

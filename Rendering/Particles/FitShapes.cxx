@@ -132,7 +132,8 @@ double ShareOf(
   {
     const vtkIdType first = particles.ClipStride * particle + SplatParticles::PlaneAt(plane);
     const vtkIdType overlap = particles.ClipStride * particle + SplatParticles::OverlapPlace(plane);
-    const bool isSmooth = clip[overlap] >= SplatParticles::LeastSmoothOverlap;
+    const bool isSmooth = clip[overlap] >= SplatParticles::LeastSmoothOverlap &&
+      clip[overlap] < SplatParticles::OpenOverlap;
     const double across = VectorAt(clip, first).Dot(offset);
     const double bend = 0.5 * clip[overlap + 2];
     const double edge = clip[first + 3] + bend * (offset.SquaredNorm() - across * across);

@@ -63,6 +63,9 @@ public:
   /** Whether particles carry shape operators. */
   bool GetHasShape() const { return this->HasShape; }
 
+  /** See SplatParticles::HasLayers. */
+  bool GetHasLayers() const { return this->HasLayers; }
+
   ///@{
   /** Radius of the particles that are drawn, in model coordinates; 0 if none is. */
   double GetMeanRadius() const { return this->MeanRadius; }
@@ -114,6 +117,7 @@ private:
   int ClipStride = 0;
   bool HasBorders = false;
   bool HasShape = false;
+  bool HasLayers = false;
   bool HasColor = false;
 };
 }

@@ -2,6 +2,7 @@
 
 #include "Common/SplatColumns.h"
 #include "Particles/FitShapes.h"
+#include "Particles/MarkLayers.h"
 #include "Particles/ParticleMotion.h"
 #include "vtkCellArray.h"
 #include "vtkDataArray.h"
@@ -407,7 +408,7 @@ float SplatParticles::OverlapAt(double degrees)
   const double cosine = std::cos(vtkMath::RadiansFromDegrees(degrees));
   if (degrees < Overlap::SmoothDegrees)
   {
-    return SmoothOverlap;
+    return degrees == 0. ? OpenOverlap : SmoothOverlap;
   }
   // An angle that is no number has no overlap either.
   return cosine > 0. ? static_cast<float>(Overlap::AtCrease * cosine) : 0.f;
@@ -498,6 +499,10 @@ SplatParticles SplatParticles::FromPolyData(vtkPolyData* input, const ParticleAr
   else
   {
     particles.Shape.clear();
+  }
+  if (arrays.Normals)
+  {
+    MarkLayers(particles);
   }
   return particles;
 }

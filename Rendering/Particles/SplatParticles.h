@@ -43,7 +43,7 @@ struct ParticleArrays
 
   /**
    * Dihedral angles, 1 a plane, of the surface at the planes, in degrees: the angle between the normals of its two sides, 0
-   * where it is smooth, 180 at a boundary curve. The smaller the angle, the farther beyond the plane a splat fills gaps
+   * where it is smooth, 180 at a boundary curve, 0 at a crease behind which no particle stands. The smaller the angle, the farther beyond the plane a splat fills gaps
    * that others leave, see OverlapAt(). Without angles splats end at all planes.
    */
   vtkDataArray* ClipAngles = nullptr;
@@ -85,9 +85,12 @@ struct SplatParticles
   std::vector<float> CentreRadius; ///< 4 a particle: position - Origin, radius (world units)
   /**
    * 4 a particle: unit normal, tag. The tag is twice the number of the particle's isovalue, plus 1 if its cell is
-   * translucent. Isovalues are numbered from 0 on, the smallest first.
+   * translucent, plus LayerMark where MarkLayers() says so. Isovalues are numbered from 0 on, the smallest first.
    */
   std::vector<float> Normal;
+  bool HasLayers = false; ///< whether a particle has LayerMark
+  /** A share of 1, so that tags are still whole numbers after rounding down. */
+  static constexpr float LayerMark = 0.5f;
   /**
    * ClipStride a particle: normal and distance of one plane, the same of another; two overlaps in radii, see
    * OverlapAt(); two curvatures, see ParticleArrays::ClipCurvatures. If any particle has a third plane: its normal and
@@ -154,9 +157,12 @@ struct SplatParticles
    */
   static constexpr float LeastSmoothOverlap = 0.25f;
 
+  /** OverlapAt() a plane behind which no other splat makes a surface, in radii: a whole splat goes on beyond it. */
+  static constexpr float OpenOverlap = 2.f;
+
   /**
    * How far, in radii, a splat fills gaps beyond a plane at which the surface has this dihedral angle, in degrees.
-   * SmoothOverlap below 10 degrees. At creases a little, for particles on both sides do not know the line between them
+   * OpenOverlap at 0, SmoothOverlap below 10 degrees. At creases a little, for particles on both sides do not know the line between them
    * exactly: the less the sharper the crease is, and nothing from 90 degrees on, where splats would stick out.
    */
   static float OverlapAt(double degrees);

@@ -98,7 +98,7 @@ void VisibilityPass::Draw(const SplatDrawing& drawing, SplatPrimitives& primitiv
   glClearBufferfv(GL_COLOR, 0, nothing);
   SplatPrimitives::Style style;
   style.Fragment = SplatVisibilityFSGlsl;
-  style.Push = drawing.TellsIsovaluesApart() ? 0. : this->GetThickness();
+  style.Push = drawing.TellsDepthsApart() ? 0. : this->GetThickness();
   style.EndsAtReach = true;
   if (this->IsFront())
   {
@@ -127,7 +127,7 @@ void VisibilityPass::DrawBy(
   const SplatDrawing& drawing, SplatPrimitives& primitives, SplatPrimitives::Style style)
 {
   std::optional<PlanesAsClipDistances> planes;
-  if (drawing.TellsIsovaluesApart())
+  if (drawing.TellsDepthsApart())
   {
     style.Push = -this->GetThickness();
     planes.emplace();

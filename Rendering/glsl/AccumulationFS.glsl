@@ -9,6 +9,10 @@
 //Splat::Fragment::Dec
 
 uniform sampler2D splatSeen;
+#if SPLAT_LAYERS
+uniform sampler2D splatVisibleDepth;
+uniform float splatNearer; // 1: what lies before the visible depth is seen; -1: what lies behind it
+#endif
 uniform samplerBuffer splatColor; // RGBA, or lookup coordinates (position in the table, row)
 
 void main()
@@ -21,6 +25,9 @@ void main()
   {
     discard;
   }
+#if SPLAT_LAYERS
+  splatShare *= splatLayerShare(texelFetch(splatVisibleDepth, ivec2(gl_FragCoord.xy), 0).r, splatNearer);
+#endif
   float weight = splatWeight();
   float colorWeight = weight;
   gl_FragData[0] = weight * vec4(splatSurfaceNormal(), 1.0);

@@ -7,7 +7,8 @@
 // DC device. Disk coordinates (u, v) are in radii along tangent and bitangent of the disk; u^2 + v^2 = 1 is the rim.
 
 uniform samplerBuffer splatCentreRadius; // xyz: centre (MC), w: radius, 0 = draw nothing
-// xyz: outward unit normal (MC); w: twice the number of the isovalue, plus 1 if the particle is translucent
+// xyz: outward unit normal (MC); w: twice the number of the isovalue, plus 1 if the particle is translucent, plus 0.5 if
+// its layer of the surface ends beside another one
 uniform samplerBuffer splatNormal;
 // splatClipTexels texels a particle. First and second: xyz: unit normal of a plane (MC), w: distance (MC). Third: xy:
 // overlaps, see splatOverlaps(); zw: curvatures (1 / MC), within the surface, of the curves that the planes touch,
@@ -34,6 +35,7 @@ struct SplatDisk
   vec3 bitangentMC;
   float seenFrom;   // 1: from outward (the normal points at the eye), -1: from inward
   int isovalue;     // its number
+  bool besideLayer; // another layer of the surface is near
 };
 
 vec3 splatTangent(vec3 normal)
@@ -56,6 +58,7 @@ SplatDisk splatDiskOf(int particle)
   disk.seenFrom = dot(disk.normalMC, toEyeMC) < 0.0 ? -1.0 : 1.0;
   int tag = int(normal.w);
   disk.isovalue = tag / 2;
+  disk.besideLayer = normal.w - float(tag) > 0.25;
   bool drawn = (splatKind == 2 || tag % 2 == splatKind) &&
     (splatIsovalue < 0 || disk.isovalue == splatIsovalue) && disk.seenFrom != splatHiddenSide;
   float radius = drawn ? centreRadius.w * splatRadiusScale : 0.0;

@@ -42,6 +42,9 @@ in vec3 splatPointMC; // the fragment's place on the disk
 vec3 splatPlaceMC;    // the fragment's place on the splat, which may be bent
 flat in vec3 splatNormalVC;
 flat in float splatSeenFromSide;
+#if SPLAT_LAYERS
+flat in float splatDepthToRadii;
+#endif
 flat in float splatMark;
 flat in int splatParticle;
 
@@ -160,10 +163,11 @@ bool splatOutside()
   return outside;
 }
 
-#if SPLAT_APART && (SPLAT_POINTS || SPLAT_CURVED)
-#if SPLAT_CURVED
+#if (SPLAT_APART && SPLAT_CURVED) || (SPLAT_LAYERS && !SPLAT_POINTS)
 uniform mat4 splatVCDC;
 #endif
+
+#if SPLAT_APART && (SPLAT_POINTS || SPLAT_CURVED)
 
 // Depth of the splat itself, for the depth buffer. The rasterizer knows the depth of the splat's middle or of its plane
 // only, with which surfaces near each other would break through each other.
@@ -187,6 +191,23 @@ bool splatIsOfOther(sampler2D seen)
   float difference = texelFetch(seen, ivec2(gl_FragCoord.xy), 0).g - splatMark;
   return abs(difference) > 0.5 / 255.0;
 }
+
+#if SPLAT_LAYERS
+// Distances along the normal, in radii, by which a splat lies behind what is seen: up to the first it is of the same
+// layer, from the second on it is of one that is hidden. Chosen by experiment: larger ones average layers that can be told
+// apart, smaller ones show single splats where they stand unevenly.
+const float SPLAT_SAME_LAYER = 0.06;
+const float SPLAT_OTHER_LAYER = 0.15;
+
+// The share of its weight that a splat beside another layer has, where `visible` is the depth that is seen.
+float splatLayerShare(float visible, float nearer)
+{
+  float z = 2.0 * visible - 1.0;
+  float seen = (splatVCDC[3][2] - z * splatVCDC[3][3]) / (z * splatVCDC[2][3] - splatVCDC[2][2]);
+  float behind = nearer * (seen - splatDepthVC) * splatDepthToRadii;
+  return mix(1.0, SPLAT_GAP_SHARE, smoothstep(SPLAT_SAME_LAYER, SPLAT_OTHER_LAYER, behind));
+}
+#endif
 
 // Whether the fragment is farther from the particle than the splat makes a surface, see splatReach() in SplatProfile.h.
 bool splatBeyondReach()

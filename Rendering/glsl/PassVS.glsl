@@ -4,7 +4,8 @@
 //   SPLAT_POINTS         1: splats are points; 0: triangles
 //   SPLAT_CURVED         1: splats are bent to paraboloids
 //   SPLAT_SKIPS_HIDDEN   1: points whose middle is hidden are left out
-//   SPLAT_APART          1: isovalues are told apart
+//   SPLAT_APART          1: splats are drawn with their own depth, so that isovalues or layers are told apart
+//   SPLAT_LAYERS         1: there are layers near each other
 //   SPLAT_CLIP_PLANES    largest number of clip planes of a particle, at least 1
 //   SPLAT_HAS_BORDERS    1: it matters where cells end
 //   SPLAT_BORDERS        number of borders that a particle may have
@@ -55,6 +56,9 @@ flat out vec3 splatBeyondClip; // how far beyond its clip lines the splat fills 
 out vec3 splatPointMC;           // for clipping planes
 flat out vec3 splatNormalVC;     // outward; of length 1 if splats are flat
 flat out float splatSeenFromSide;
+#if SPLAT_LAYERS
+flat out float splatDepthToRadii; // takes a difference in z to radii along the normal; 0: there is no layer nearby
+#endif
 flat out float splatMark; // tells sides and isovalues apart: g of splatSeen
 flat out int splatParticle;
 
@@ -134,6 +138,10 @@ void main()
     splatBorderLines[border].xy *= enlarge;
   }
   splatDiskToRadius = enlarge * splatRadiusScale;
+#endif
+#if SPLAT_LAYERS
+  float towardsEye = splatParallel == 1 ? splatNormalVC.z : dot(splatNormalVC, normalize(centreVC));
+  splatDepthToRadii = disk.besideLayer ? abs(towardsEye) / max(radiusVC, 1e-30) : 0.0; // not divided by 0
 #endif
   tangentVC *= enlarge;
   bitangentVC *= enlarge;

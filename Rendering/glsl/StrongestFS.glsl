@@ -25,6 +25,9 @@ void main()
   {
     discard;
   }
+#if SPLAT_LAYERS
+  splatShare *= splatLayerShare(visible, splatNearer);
+#endif
   // Logarithms tell small weights apart, where 1 minus the weight would be rounded to 1. `least` is smaller than all
   // weights above 0 in float32: the smallest one, with the largest sharpness, in a gap and beyond its cell, is about 2e-23. The factor
   // 0.99 keeps weights of 0 nearer than the cleared depth, 1.

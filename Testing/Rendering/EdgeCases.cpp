@@ -8,10 +8,12 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <stdexcept>
+#include <vector>
 
 namespace
 {
@@ -128,6 +130,26 @@ void AddCube(GridBuilder& grid, int cells, int order, const Field& field)
   grid.AddBox(glm::ivec3(cells), order, glm::dvec3(-1.), glm::dvec3(1.), Same, field);
 }
 
+// Boxes side by side, with borders of `x` between them and a plane of its own in each: z = height + slope * x.
+struct PlaneInBox
+{
+  double border = 0.; // where the box ends
+  double height = 0.;
+  double slope = 0.;
+};
+
+void AddPlanes(GridBuilder& grid, const std::vector<PlaneInBox>& planes)
+{
+  double begin = -1.;
+  for (const PlaneInBox& plane : planes)
+  {
+    const int cells = std::max(1, static_cast<int>(4. * (plane.border - begin)));
+    grid.AddBox({ cells, 4, 4 }, 1, { begin, -1., -1. }, { plane.border, 1., 1. }, Same,
+      [=](const glm::dvec3& x) { return x.z - plane.height - plane.slope * x.x; });
+    begin = plane.border;
+  }
+}
+
 void AddFan(GridBuilder& grid, int sides, double fold)
 {
   const auto onCircle = [=](int side, double z)
@@ -233,6 +255,16 @@ const std::map<std::string, AddCells>& Kinds()
             return y.x * y.x + y.y * y.y - 0.7 * y.z * y.z;
           });
       } },
+    { "step",
+      [](GridBuilder& grid, double size) {
+        AddPlanes(grid, { { 0., 0.1, 0. }, { 1., 0.1 + size * Spacing, 0. } });
+      } },
+    { "ledge",
+      [](GridBuilder& grid, double size)
+      {
+        const double end = size * Spacing;
+        AddPlanes(grid, { { 0., 0., 0.4 }, { end, 0., -0.6 }, { 1., -0.4 * end, -0.2 } });
+      } },
     { "fan", [](GridBuilder& grid, double size) { AddFan(grid, static_cast<int>(size), 0.); } },
     { "pleats", [](GridBuilder& grid, double size) { AddFan(grid, static_cast<int>(size), 0.5); } },
     { "facets",
@@ -272,8 +304,9 @@ const std::vector<std::string>& EdgeCaseNames()
         all.push_back(std::string(kind) + ":" + size);
       }
     }
-    for (const char* name : { "notch:0", "notch:1", "cone:0", "cone:0.6", "fan:4", "fan:5", "fan:6",
-           "fan:8", "fan:12", "pleats:6", "pleats:8", "pleats:12", "facets:8", "facets:14" })
+    for (const char* name : { "notch:0", "notch:1", "cone:0", "cone:0.6", "step:0.3", "step:0.6",
+           "ledge:0.1", "ledge:0.5", "fan:4", "fan:5", "fan:6", "fan:8", "fan:12", "pleats:6",
+           "pleats:8", "pleats:12", "facets:8", "facets:14" })
     {
       all.push_back(name);
     }

@@ -12,6 +12,8 @@
 //   corner    a triangle with sides of that length, in a corner of a cube
 //   notch     a plane, with a slope of 0.28 SIZE, around an edge of the domain that is turned inwards
 //   cone      a double cone; the size moves its tip from a corner of the mesh
+//   step      a plane that jumps by that height
+//   ledge     a roof whose ridge is cut off by a facet that wide
 //   fan       the tip of a pyramid with SIZE sides, each an element: as many creases meet
 //   pleats    the same with every second edge folded in
 //   facets    a sphere in linear tetrahedra with edges of that length: creases everywhere

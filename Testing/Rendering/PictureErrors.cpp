@@ -13,6 +13,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
 
 using hop::testing::PictureCamera;
 using hop::testing::SeenPoint;
@@ -222,8 +223,12 @@ std::vector<int> CountEdges(vtkPolyData* particles)
   vtkDataArray* angles = particles->GetPointData()->GetArray("Clip_Angle");
   vtkDataArray* distances = particles->GetPointData()->GetArray("Clip_Distance");
   vtkDataArray* radii = particles->GetPointData()->GetArray("Radius");
+  if (!angles || !distances || !radii)
+  {
+    throw std::invalid_argument("particles without clip planes: PassDiagnostics is off");
+  }
   std::vector<int> counts(particles->GetNumberOfPoints(), 0);
-  for (std::size_t i = 0; angles && i < counts.size(); ++i)
+  for (std::size_t i = 0; i < counts.size(); ++i)
   {
     for (int plane = 0; plane < std::min(2, angles->GetNumberOfComponents()); ++plane)
     {

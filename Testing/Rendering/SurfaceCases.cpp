@@ -88,6 +88,7 @@ void MakeParticles(SurfaceCase& surface, double spacing)
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, surface.Array.c_str());
   filter->SetValue(0, surface.Isovalue);
   filter->SetSpacing(surface.Spacing);
+  filter->PassDiagnosticsOn(); // views of corners are found by the clip planes
   filter->Update();
   surface.Particles = filter->GetOutput();
   if (surface.Spacing == 0.)

@@ -141,7 +141,9 @@ std::vector<glm::dvec3> DrawColors(vtkPolyDataMapper* mapper, const PictureCamer
 SurfacePicture CastSurface(const SurfaceCase& surface, const PictureCamera& camera)
 {
   vtkDataArray* array = surface.Grid->GetPointData()->GetArray(surface.Array.c_str());
-  const hop::InputBlocks blocks({ { surface.Grid, array, nullptr, "" } }, 0);
+  // As the filter contours by default.
+  const int component = array->GetNumberOfComponents() > 1 ? hop::InputBlocks::Magnitude : 0;
+  const hop::InputBlocks blocks({ { surface.Grid, array, nullptr, "" } }, component);
   SurfacePicture picture;
   withThreads(
     [&](const hop::ParallelFor& parallelFor)

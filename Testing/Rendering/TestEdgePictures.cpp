@@ -42,6 +42,18 @@ INSTANTIATE_TEST_SUITE_P(Cases, EdgePictures,
     "corner:1.4", "corner:3", "cap:2"),
   [](const auto& which) { return "Case" + std::to_string(which.index); });
 
+// Where one layer hides another less than a radius behind it, the nearer one is seen, not the average of both. Without
+// being told apart 156 pixels are off.
+TEST(EdgePictures, TellLayersNearEachOtherApart)
+{
+  const SurfaceCase surface = MakeEdgeCase("step:-0.9");
+  const auto near = ViewsOfCorners(surface, 200, 1);
+  ASSERT_EQ(near.size(), 1u);
+  const PictureErrors errors = ErrorsOf(surface, near[0]);
+  EXPECT_EQ(errors.Count(PixelError::Hole), 0);
+  EXPECT_LT(errors.Count(PixelError::Depth), 20);
+}
+
 // The measure itself: what is missing, too wide, too far off and of another brightness is found.
 TEST(PictureErrors, AreFoundAndCounted)
 {

@@ -221,6 +221,8 @@ TEST(SplatClip, NothingIsFilledAtSharpCreasesAndBoundariesNorWithoutAngles)
 TEST(SplatClip, AnglesThatAreNoNumbersAreOfBoundaries)
 {
   EXPECT_EQ(hop::SplatParticles::OverlapAt(std::numeric_limits<double>::quiet_NaN()), 0.);
+  EXPECT_GE(
+    hop::SplatParticles::OverlapAt(0.), 1.); // nobody is behind: the whole splat fills the gap
 }
 
 TEST(SplatClip, DisksGoOnWhereTheSurfaceIsAlmostSmooth)

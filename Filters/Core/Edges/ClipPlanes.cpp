@@ -212,7 +212,7 @@ void dropEndsThatGoOn(
   }
 }
 
-/// Takes planes of creases away where nothing behind them covers what they cut off.
+/// Finds the planes of creases behind which nothing covers what they cut off.
 class CreaseCovers
 {
 public:
@@ -222,11 +222,15 @@ public:
   {
   }
 
-  void dropOpen(Particle& particle) const
+  /// Lets the splat go on beyond open planes, where it counts only as far as no other does. Planes that cut come first.
+  void markOpen(Particle& particle) const
   {
-    const auto stay = std::stable_partition(particle.clips.begin(), particle.clips.end(),
-      [&](const ClipPlane& plane) { return !this->isOpen(particle, plane); });
-    std::fill(stay, particle.clips.end(), ClipPlane{});
+    for (ClipPlane& plane : particle.clips)
+    {
+      plane.dihedralAngle = this->isOpen(particle, plane) ? 0.0f : plane.dihedralAngle;
+    }
+    std::stable_partition(particle.clips.begin(), particle.clips.end(),
+      [](const ClipPlane& plane) { return plane.exists() && !plane.isOpen(); });
   }
 
 private:
@@ -280,7 +284,7 @@ void markClipPlanes(const Isosurface& surface, const ParticleGrid& all,
   forAll(parallelFor, all.size(),
     [&](std::size_t i)
     {
-      covers.dropOpen(all.at(i));
+      covers.markOpen(all.at(i));
       offerBoundaries(ends, all.at(i));
     });
   forAll(parallelFor, onBoundary.size(),

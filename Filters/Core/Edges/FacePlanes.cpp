@@ -23,6 +23,16 @@ bool comesBefore(const ClipPlane& a, const ClipPlane& b, double spacing)
   return rank(a) != rank(b) ? rank(a) < rank(b) : a.distance < b.distance;
 }
 
+/// Whether a crease runs between a particle and a boundary curve, along it.
+bool isBefore(const ClipPlane& crease, const ClipPlane& boundary, double spacing)
+{
+  // Distance of two edges, in units of the spacing. With a smaller one a boundary curve along a jump that fades would be
+  // a crease as well; a larger one overlooks strips, over whose creases splats of both sides are mixed.
+  constexpr double apart = 0.1;
+  return boundary.isBoundary() && !crease.isBoundary() &&
+    crease.distance < boundary.distance - apart * spacing;
+}
+
 /// A function of world space to second order, around a place that is the origin.
 struct Quadratic
 {
@@ -95,7 +105,8 @@ void offerPlane(Particle& particle, const ClipPlane& plane)
   insertEdge(
     particle.clips, plane,
     [&](const ClipPlane& a, const ClipPlane& b) { return comesBefore(a, b, particle.spacing); },
-    [](const ClipPlane& a, const ClipPlane& b) { return dot(a.normal, b.normal) > SameEdge; });
+    [&](const ClipPlane& a, const ClipPlane& b)
+    { return dot(a.normal, b.normal) > SameEdge && !isBefore(b, a, particle.spacing); });
 }
 
 void offerFaces(const Isosurface& surface, const FaceJumps& jumps, const Jet& jet,

@@ -20,7 +20,8 @@ constexpr double SameEdge = 0.8;
 
 /// Gives a particle a plane that is within reach, if the plane comes before one that the particle has. Boundary curves
 /// nearer than a spacing come first, then creases (CreaseAngle) and boundary curves farther off, then faces with a
-/// smaller dihedral angle; of two alike the nearer one. The planes of a particle belong to different edges.
+/// smaller dihedral angle; of two alike the nearer one. The planes of a particle belong to different edges; a crease
+/// clearly before a boundary curve along it is one.
 void offerPlane(Particle& particle, const ClipPlane& plane);
 
 /// Puts an edge into its place among the edges that come first, and drops edges that are the same as one before.

@@ -23,13 +23,16 @@ struct ClipPlane
   /// Curvature of the edge along the surface, 1/world units, positive where it bends towards the plane's normal; 0 at
   /// creases with a small dihedral angle.
   double edgeCurvature = 0.0;
-  /// Angle by which the surface turns at a crease, radians, see FaceJumps::dihedralAngles; pi at a boundary curve.
+  /// Angle by which the surface turns at a crease, radians, see FaceJumps::dihedralAngles; pi at a boundary curve; 0 at
+  /// an open plane.
   float dihedralAngle = 0.0f;
   /// Face of the particle's element in which the crease lies; -1: a boundary curve.
   int face = -1;
 
   bool exists() const { return dot(this->normal, this->normal) > 0.0; }
   bool isBoundary() const { return this->exists() && this->face < 0; }
+  /// Whether no particle behind the crease covers what the plane would cut off.
+  bool isOpen() const { return this->exists() && this->dihedralAngle == 0.0f; }
 };
 
 /// A border of a particle's element on the surface, where the surface passes a face of the element, as the particle

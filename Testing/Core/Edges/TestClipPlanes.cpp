@@ -72,6 +72,37 @@ TEST(ClipPlanes, AreAtCreasesWhereAParticleBehindCoversWhatIsCutOff)
   EXPECT_GT(atRidge, 30);
 }
 
+/// A facet between two creases that is too narrow for particles: splats of both sides go on over the creases, but know
+/// where they are.
+TEST(ClipPlanes, AreOpenAtCreasesBehindWhichNoParticleStands)
+{
+  constexpr double width = 0.1 * spacing;
+  MeshRecipe left, middle, right;
+  left.field = [](const glm::dvec3& x) { return x.z - 0.4 * x.x; };
+  middle.field = [](const glm::dvec3& x) { return x.z + 0.6 * x.x; };
+  right.field = [](const glm::dvec3& x) { return x.z + 0.4 * width + 0.2 * x.x; };
+  ElementMesh mesh;
+  appendBox(mesh, left, { -1, -1, -1 }, { 0, 1, 1 });
+  appendBox(mesh, middle, { 0, -1, -1 }, { width, 1, 1 });
+  appendBox(mesh, right, { width, -1, -1 }, { 1, 1, 1 });
+  findFaceNeighbors(mesh, 1e-9);
+  DistributionParameters parameters;
+  parameters.sizing = { spacing };
+  const Distribution result = distributeFast({ &mesh, 0.0, 1e-9 }, parameters, {}, {});
+  int open = 0;
+  for (const Particle& p : besideRidge(result, 0.8 * spacing))
+  {
+    if (p.clips[0].isOpen())
+    {
+      ++open;
+      const double crease = p.position.xyz.x < 0.0 ? 0.0 : width;
+      EXPECT_NEAR(std::abs(p.clips[0].normal.xyz.x), 1.0, 1e-9);
+      EXPECT_NEAR(p.clips[0].distance, std::abs(p.position.xyz.x - crease), 1e-9);
+    }
+  }
+  EXPECT_GT(open, 20);
+}
+
 /// Where spacings are finest, a little farther off coarser splats cover what is cut off.
 TEST(ClipPlanes, AreAtCreasesThatParticlesStandCloserTo)
 {

@@ -82,6 +82,19 @@ TEST(FacePlanes, BoundaryCurvesBeyondTheSplatAreRankedAsCreases)
   EXPECT_TRUE(isSame(kept({ boundary, nearer })[0], nearer));
 }
 
+/// On a strip between a crease and a boundary curve another splat is seen.
+TEST(FacePlanes, CreasesBeforeABoundaryCurveAlongThemAreKept)
+{
+  const ClipPlane boundary = planeAt(axisX, 0.9, Pi);
+  const ClipPlane crease = planeAt(axisX, 0.5, 0.3);
+  const auto both = kept({ crease, boundary });
+  EXPECT_TRUE(isSame(both[0], boundary));
+  EXPECT_TRUE(isSame(both[1], crease));
+  // The same edge twice, and a crease beyond the end of the surface.
+  EXPECT_FALSE(kept({ planeAt(axisX, 0.85, 0.3), boundary })[1].exists());
+  EXPECT_FALSE(kept({ planeAt(axisX, 1.2, 0.3), boundary })[1].exists());
+}
+
 TEST(FacePlanes, TheSecondPlaneIsAnotherEdge)
 {
   const glm::dvec3 alike = glm::normalize(glm::dvec3(1.0, 0.5, 0.0));  // cosine 0.89
