@@ -93,8 +93,8 @@ def distances(name, points, center):
 
 @pytest.mark.parametrize("name", ["plane", "sphere", "cylinder"])
 @pytest.mark.parametrize("file", FILES)
-def test_particles_stand_on_the_slice_and_in_their_cells(shared_data, file, name):
-    grid = support.output_of(support.read(shared_data(file)))
+def test_particles_stand_on_the_slice_and_in_their_cells(data, file, name):
+    grid = support.output_of(support.read(data(file)))
     center, side, diagonal = middle_of(grid)
     level = 0.0 if name == "plane" else 0.31 * side
     function = {"plane": plane(center), "sphere": sphere(center, level), "cylinder": cylinder(center, radius=level)}[name]
@@ -102,8 +102,8 @@ def test_particles_stand_on_the_slice_and_in_their_cells(shared_data, file, name
     assert particles.GetNumberOfPoints() > 50
     points = support.points_of(particles)
     assert np.abs(distances(name, points, center) - level).max() < 2e-10 * diagonal
-    data = grid.GetPointData()
-    arrays = [data.GetArrayName(a) for a in range(data.GetNumberOfArrays()) if data.GetArray(a).GetNumberOfComponents() < 4]
+    inputs = grid.GetPointData()
+    arrays = [inputs.GetArrayName(a) for a in range(inputs.GetNumberOfArrays()) if inputs.GetArray(a).GetNumberOfComponents() < 4]
     arrays = [a for a in arrays if support.array_names(particles.GetPointData()) >= {a}]
     assert arrays
     positions, values, _ = support.evaluate_by_vtk(grid, particles, arrays[:2])
