@@ -220,7 +220,7 @@ def test_the_icons_stand_behind_those_of_paraview(plugin, data, screen, tmp_path
     assert min(in_toolbar[-2:]) > 150 and max(in_toolbar[:-2]) < 75, in_toolbar
     # ParaView's own icons are those that it has without the plugin, the later ones moved by two.
     assert np.array_equal(window[105:140, 16:388], without[105:140, 16:388])
-    assert any(np.array_equal(window[105:140, 430:780], without[105:140, 430 - s : 780 - s]) for s in range(60, 80))
+    assert any(np.array_equal(window[105:140, 464:780], without[105:140, 464 - s : 780 - s]) for s in range(60, 80))
 
 
 # Runs in ParaView's window: shows a file, and from then on writes down what is in the pipeline.
