@@ -61,7 +61,7 @@ class Session:
             reader = vtkXMLUnstructuredGridReader()
             reader.SetFileName(path)
             reader.Update()
-            print(json.dumps({"reading": False}), flush=True)
+            answer({"reading": False})
             return reader.GetOutput()
 
     def set_properties(self, properties):
