@@ -1,7 +1,6 @@
 #pragma once
 
-#include "Topology/ElementCube.h"
-#include "Topology/LeafTests.h"
+#include "Topology/ElementLeaves.h"
 
 namespace hop
 {
@@ -9,12 +8,13 @@ namespace hop
 /// Where a curve of the surface in a face of an element ends: on an edge of the element.
 struct CurveEnd
 {
-  /// Corners of the domain that the edge joins, as in ElementCube::corners, the lesser one first.
+  /// Corners of the domain that the edge joins, as in CubeShape::corners, the lesser one first.
   std::array<int, 2> edge{};
-  /// The how-manieth point of the surface on the edge it is, counted from the edge's first corner, and of how many.
+  /// The how-manieth point of the surface on the edge of the cube it is, counted from the edge's first corner, and of
+  /// how many.
   int order = 0;
   int count = 0;
-  /// Number among the element's points.
+  /// Number among the element's points on edges.
   int point = -1;
 };
 
@@ -26,11 +26,12 @@ struct FaceCurve
   int piece = -1;
   /// Whether it has no ends.
   bool isClosed = false;
-  /// Whether a part of it is missing.
+  /// Whether a part of it is not known.
   bool isBroken = false;
   std::array<CurveEnd, 2> ends;
-  /// Bounds of a closed curve, and the segment of an edge of one of its leaves in which it has a point; in the cube.
-  glm::dvec3 lower{ 0.0 }, upper{ 0.0 };
+  /// Bounds in the cube, and the segment of a leaf's edge on which the curve has a point.
+  glm::dvec3 lower{ 0.0 };
+  glm::dvec3 upper{ 0.0 };
   std::array<glm::dvec3, 2> segment{};
 };
 
@@ -41,35 +42,29 @@ struct SurfacePiece
   bool proven = true;
 };
 
-/// A leaf that holds a disc of the surface.
-struct DiscLeaf
-{
-  /// Lower corner in units of the smallest leaf, and the leaf's size in these.
-  glm::ivec3 lower{ 0 };
-  int size = 0;
-  /// See LeafTests.
-  std::uint8_t signs = 0;
-  int piece = -1;
-};
-
 /// The surface in one element.
 struct ElementSurface
 {
+  CubeShape shape;
   std::vector<SurfacePiece> pieces;
   std::vector<FaceCurve> curves;
-  /// Points of the surface on the edges of the cube.
+  /// Number of points of the surface on edges of the cube.
   int pointCount = 0;
-  /// Sorted for pieceAt().
-  std::vector<DiscLeaf> leaves;
-  /// Leaves of which nothing is proven.
-  int unresolvedLeaves = 0;
-  /// Which corner of the domain and face of the domain is behind each of the cube; face -1: the cube has collapsed there.
-  std::array<int, 6> domainFaces{};
-  ElementCube shape;
+  /// The leaves that hold discs, in the order of leafOrder(), and the pieces that the discs belong to.
+  std::vector<Leaf> leaves;
+  std::vector<int> pieceOfLeaf;
+  /// Whether there are leaves of which nothing is proven.
+  bool isResolved = true;
 
-  /// The piece in the leaf at a place or, if the leaf holds none, in the nearest one; -1 if there is none at all.
+  /// The piece in the leaf at a place or, if there is none, in the nearest leaf; -1 if there is no surface at all.
   /// \param t in the cube
   int pieceAt(const glm::dvec3& t) const;
 };
+
+/// Joins the discs in the leaves of an element to pieces of the surface:
+///   Euler characteristic = discs - arcs in faces of leaves + points on edges of leaves.
+/// Of a face between one leaf and several smaller ones the arcs of the smaller ones count, likewise of edges.
+/// Derivation: Documentation/algorithm.md, section Topology.
+ElementSurface joinLeaves(const CubeShape& shape, ElementLeaves leaves);
 
 } // namespace hop

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "Common/Monitor.h"
 #include "Topology/ElementSurface.h"
 
 namespace hop
@@ -35,7 +36,7 @@ struct SurfaceTopology
   bool isProven() const;
 
   /// The component that passes a place, or the one in the nearest leaf of the element; -1 if the element has none.
-  int componentAt(const ElementMesh& mesh, const Location& location) const;
+  int componentAt(const Location& location) const;
 };
 
 /// Proves the topology of the isosurface. Every element is split until the surface in every leaf is a disc that the

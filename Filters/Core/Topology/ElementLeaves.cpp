@@ -1,0 +1,131 @@
+#include "Topology/ElementLeaves.h"
+
+#include <algorithm>
+
+namespace hop
+{
+namespace
+{
+
+/// Coefficients that the boxes of one element have together at most, over all levels: some tenths of a second. Larger:
+/// elements with surfaces that nearly meet are resolved, and elements that are singular along lines take longer.
+constexpr std::size_t mostCoefficients = std::size_t{ 1 } << 23;
+
+/// A box that is not decided yet.
+struct Box
+{
+  Leaf leaf;
+  std::vector<double> values;
+};
+
+/// Splits a polynomial over the unit cube at a place of one axis, by de Casteljau's algorithm.
+/// \param values replaced by those of the lower part
+/// \param upper receives those of the upper part
+void splitAxis(const Degrees& degrees, int axis, double place, std::vector<double>& values,
+  std::vector<double>& upper)
+{
+  const int stride = axis == 0 ? 1 : axis == 1 ? degrees[0] + 1 : (degrees[0] + 1) * (degrees[1] + 1);
+  const int degree = degrees[axis];
+  const int count = static_cast<int>(values.size());
+  const int block = stride * (degree + 1);
+  upper = values;
+  for (int start = 0; start < count; start += block)
+  {
+    double* const line = &upper[start];
+    for (int step = 0; step <= degree; ++step)
+    {
+      std::copy(line, line + stride, &values[start + step * stride]);
+      for (int i = 0; i < (degree - step) * stride; ++i)
+      {
+        line[i] = (1.0 - place) * line[i] + place * line[i + stride];
+      }
+    }
+  }
+}
+
+/// Calls use(octant, values) for the eight octants of a box.
+template <class Use>
+void forOctants(const Degrees& degrees, Box& box, const Use& use)
+{
+  const bool isFirst = box.leaf.size == LeafGrid::Size;
+  std::array<std::vector<double>, 8> values;
+  values[0] = std::move(box.values);
+  for (int axis = 2; axis >= 0; --axis)
+  {
+    const double place = isFirst ? LeafGrid::FirstSplit[axis] : 0.5;
+    for (int octant = 0; octant < 8; octant += 2 << axis)
+    {
+      splitAxis(degrees, axis, place, values[octant], values[octant + (1 << axis)]);
+    }
+  }
+  const int half = box.leaf.size / 2;
+  for (int octant = 0; octant < 8; ++octant)
+  {
+    const glm::ivec3 side(octant & 1, octant >> 1 & 1, octant >> 2);
+    use(Leaf{ box.leaf.lower + half * side, half, 0 }, std::move(values[octant]));
+  }
+}
+
+} // namespace
+
+glm::dvec3 LeafGrid::fromCube(const glm::dvec3& t)
+{
+  glm::dvec3 place;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double split = FirstSplit[axis];
+    place[axis] = t[axis] < split ? 0.5 * t[axis] / split
+                                  : 0.5 + 0.5 * (t[axis] - split) / (1.0 - split);
+  }
+  return static_cast<double>(Size) * place;
+}
+
+glm::dvec3 LeafGrid::toCube(const glm::dvec3& place)
+{
+  glm::dvec3 t = place / static_cast<double>(Size);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double split = FirstSplit[axis];
+    t[axis] = t[axis] < 0.5 ? 2.0 * split * t[axis] : split + (2.0 * t[axis] - 1.0) * (1.0 - split);
+  }
+  return t;
+}
+
+ElementLeaves findLeaves(const ElementCube& cube, const LeafTests& tests)
+{
+  ElementLeaves leaves;
+  std::vector<Box> level;
+  std::size_t left = mostCoefficients;
+  const auto examine = [&](Leaf leaf, std::vector<double> values, std::vector<Box>& undecided)
+  {
+    left -= std::min(left, values.size());
+    const LeafSurface surface = tests.examine(values, cube.slack, leaf.signs);
+    if (surface == LeafSurface::Disc)
+    {
+      leaves.discs.push_back(leaf);
+    }
+    else if (surface == LeafSurface::Undecided)
+    {
+      undecided.push_back({ leaf, std::move(values) });
+    }
+  };
+  examine({ glm::ivec3(0), LeafGrid::Size, 0 }, cube.values, level);
+  while (!level.empty() && left > 0 && level.front().leaf.size > 1)
+  {
+    std::vector<Box> next;
+    for (Box& box : level)
+    {
+      forOctants(cube.degrees, box,
+        [&](const Leaf& leaf, std::vector<double> values)
+        { examine(leaf, std::move(values), next); });
+    }
+    level = std::move(next);
+  }
+  for (const Box& box : level)
+  {
+    leaves.unresolved.push_back(box.leaf);
+  }
+  return leaves;
+}
+
+} // namespace hop

@@ -1,0 +1,270 @@
+#include "Topology/SurfaceTopology.h"
+
+#include "Support/DisjointSets.h"
+#include "Topology/CurveMatching.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace hop
+{
+namespace
+{
+
+std::vector<ElementSurface> elementSurfaces(
+  const ElementMesh& mesh, double isovalue, const ParallelFor& parallelFor)
+{
+  std::vector<ElementSurface> surfaces(mesh.elements.size());
+  runParallel(parallelFor, static_cast<std::ptrdiff_t>(mesh.elements.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      std::optional<LeafTests> tests;
+      for (std::ptrdiff_t e = begin; e < end; ++e)
+      {
+        const ElementCube cube = elementCube(mesh, static_cast<int>(e), isovalue);
+        if (!cube.isFinite())
+        {
+          surfaces[e].isResolved = false;
+          continue;
+        }
+        if (!tests || tests->degrees() != cube.degrees)
+        {
+          tests.emplace(cube.degrees);
+        }
+        surfaces[e] = joinLeaves(cube.shape, findLeaves(cube, *tests));
+      }
+    });
+  return surfaces;
+}
+
+/// Joins the surfaces of elements: pieces at curves, and curves in points on edges of elements. Pieces, curves and points
+/// of all elements are numbered through.
+class ElementJoiner
+{
+public:
+  ElementJoiner(const std::vector<ElementSurface>& surfaces, std::vector<std::vector<CurveMatch>> matches)
+    : Surfaces(surfaces)
+    , Matches(std::move(matches))
+    , FirstPiece(numbersOf([](const ElementSurface& s) { return s.pieces.size(); }))
+    , FirstPoint(numbersOf([](const ElementSurface& s) { return static_cast<std::size_t>(s.pointCount); }))
+    , Pieces(FirstPiece.back())
+    , Points(FirstPoint.back())
+    , PieceOfPoint(FirstPoint.back(), -1)
+    , Doubtful(FirstPiece.back(), 0)
+  {
+  }
+
+  void join(SurfaceTopology& topology)
+  {
+    this->forCurves([this](int element, const FaceCurve& curve, const CurveMatch& match)
+      { this->joinAt(element, curve, match); });
+    this->listComponents(topology);
+    this->sumEulerCharacteristics(topology);
+    this->countBoundaryLoops(topology);
+  }
+
+private:
+  template <class Count>
+  std::vector<int> numbersOf(const Count& count) const
+  {
+    std::vector<int> first{ 0 };
+    for (const ElementSurface& surface : this->Surfaces)
+    {
+      first.push_back(first.back() + static_cast<int>(count(surface)));
+    }
+    return first;
+  }
+
+  /// Calls use(element, curve, match) for all curves.
+  template <class Use>
+  void forCurves(const Use& use)
+  {
+    for (int element = 0; element < static_cast<int>(this->Surfaces.size()); ++element)
+    {
+      const auto& curves = this->Surfaces[element].curves;
+      for (std::size_t n = 0; n < curves.size(); ++n)
+      {
+        use(element, curves[n], this->Matches[element][n]);
+      }
+    }
+  }
+
+  int pieceOf(int element, const FaceCurve& curve) const
+  {
+    return this->FirstPiece[element] + curve.piece;
+  }
+
+  int pointOf(int element, const FaceCurve& curve, int end) const
+  {
+    return this->FirstPoint[element] + curve.ends[end].point;
+  }
+
+  void joinAt(int element, const FaceCurve& curve, const CurveMatch& match)
+  {
+    const int piece = this->pieceOf(element, curve);
+    const bool hasEnds = !curve.isClosed && !curve.isBroken;
+    for (int end = 0; end < 2 && hasEnds; ++end)
+    {
+      this->PieceOfPoint[this->pointOf(element, curve, end)] = piece;
+    }
+    if (match.kind == CurveMatch::Joined)
+    {
+      const FaceCurve& other = this->Surfaces[match.element].curves[match.curve];
+      const CurveMatch& back = this->Matches[match.element][match.curve];
+      this->Pieces.unite(piece, this->pieceOf(match.element, other));
+      this->Doubtful[piece] |= back.kind != CurveMatch::Joined || back.element != element ||
+        &this->Surfaces[element].curves[back.curve] != &curve;
+      for (int end = 0; end < 2 && hasEnds; ++end)
+      {
+        this->Points.unite(this->pointOf(element, curve, end),
+          this->pointOf(match.element, other, end ^ match.firstEnd));
+      }
+    }
+    else if (match.kind == CurveMatch::Collapsed)
+    {
+      this->Points.unite(this->pointOf(element, curve, 0), this->pointOf(element, curve, 1));
+    }
+    this->Doubtful[piece] |= match.kind == CurveMatch::Unknown;
+  }
+
+  SurfaceComponent& componentOf(SurfaceTopology& topology, int piece)
+  {
+    return topology.components[this->ComponentOfPiece[this->Pieces.root(piece)]];
+  }
+
+  void listComponents(SurfaceTopology& topology)
+  {
+    this->ComponentOfPiece.resize(this->FirstPiece.back());
+    for (int element = 0; element < static_cast<int>(this->Surfaces.size()); ++element)
+    {
+      std::vector<int>& components = topology.componentOfPiece.emplace_back();
+      for (int piece = this->FirstPiece[element]; piece < this->FirstPiece[element + 1]; ++piece)
+      {
+        const int root = this->Pieces.root(piece);
+        if (root == piece)
+        {
+          this->ComponentOfPiece[piece] = static_cast<int>(topology.components.size());
+          topology.components.push_back({ 0, 0, true, element });
+        }
+        const SurfacePiece& what = this->Surfaces[element].pieces[piece - this->FirstPiece[element]];
+        components.push_back(this->ComponentOfPiece[root]);
+        SurfaceComponent& component = topology.components[this->ComponentOfPiece[root]];
+        component.eulerCharacteristic += what.eulerCharacteristic;
+        component.proven &= what.proven && !this->Doubtful[piece];
+      }
+    }
+  }
+
+  /// Without its boundary, which is circles, a piece counts as with it. Open curves count -1, closed ones 0, points 1.
+  void sumEulerCharacteristics(SurfaceTopology& topology)
+  {
+    this->forCurves(
+      [&](int element, const FaceCurve& curve, const CurveMatch& match)
+      {
+        const int piece = this->pieceOf(element, curve);
+        const bool isFirst = match.kind != CurveMatch::Joined ||
+          piece < this->pieceOf(match.element, this->Surfaces[match.element].curves[match.curve]);
+        if (!curve.isClosed && match.kind != CurveMatch::Collapsed && isFirst)
+        {
+          this->componentOf(topology, piece).eulerCharacteristic -= 1;
+        }
+      });
+    for (int point = 0; point < this->FirstPoint.back(); ++point)
+    {
+      if (this->Points.root(point) == point && this->PieceOfPoint[point] >= 0)
+      {
+        this->componentOf(topology, this->PieceOfPoint[point]).eulerCharacteristic += 1;
+      }
+    }
+  }
+
+  void countBoundaryLoops(SurfaceTopology& topology)
+  {
+    DisjointSets loops(this->FirstPoint.back());
+    std::vector<int> degree(this->FirstPoint.back(), 0);
+    this->forCurves(
+      [&](int element, const FaceCurve& curve, const CurveMatch& match)
+      {
+        if (match.kind == CurveMatch::End && curve.isClosed)
+        {
+          this->componentOf(topology, this->pieceOf(element, curve)).boundaryLoops += 1;
+        }
+        else if (match.kind == CurveMatch::End && !curve.isBroken)
+        {
+          const int first = this->Points.root(this->pointOf(element, curve, 0));
+          const int second = this->Points.root(this->pointOf(element, curve, 1));
+          ++degree[first];
+          ++degree[second];
+          loops.unite(first, second);
+        }
+      });
+    for (int point = 0; point < this->FirstPoint.back(); ++point)
+    {
+      if (degree[point] > 0)
+      {
+        SurfaceComponent& component = this->componentOf(topology, this->PieceOfPoint[point]);
+        component.proven &= degree[point] == 2;
+        component.boundaryLoops += loops.root(point) == point;
+      }
+    }
+  }
+
+  const std::vector<ElementSurface>& Surfaces;
+  std::vector<std::vector<CurveMatch>> Matches;
+  /// Number of the first piece and point of each element; last, how many there are.
+  std::vector<int> FirstPiece;
+  std::vector<int> FirstPoint;
+  DisjointSets Pieces;
+  DisjointSets Points;
+  std::vector<int> PieceOfPoint;
+  std::vector<char> Doubtful;
+  std::vector<int> ComponentOfPiece;
+};
+
+std::vector<std::int64_t> unresolvedCells(
+  const ElementMesh& mesh, const std::vector<ElementSurface>& surfaces)
+{
+  std::vector<std::int64_t> cells;
+  for (std::size_t e = 0; e < surfaces.size(); ++e)
+  {
+    if (!surfaces[e].isResolved)
+    {
+      cells.push_back(mesh.elements[e].cell);
+    }
+  }
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  return cells;
+}
+
+} // namespace
+
+bool SurfaceTopology::isProven() const
+{
+  return this->unresolvedCells.empty() &&
+    std::all_of(this->components.begin(), this->components.end(),
+      [](const SurfaceComponent& component) { return component.proven; });
+}
+
+int SurfaceTopology::componentAt(const Location& location) const
+{
+  const ElementSurface& surface = this->surfaces[location.element];
+  const int piece = surface.pieceAt(surface.shape.inCube(location.u));
+  return piece < 0 ? -1 : this->componentOfPiece[location.element][piece];
+}
+
+SurfaceTopology findTopology(const ElementMesh& mesh, double isovalue, const FaceLocator* locator,
+  const ParallelFor& parallelFor)
+{
+  SurfaceTopology topology;
+  topology.surfaces = elementSurfaces(mesh, isovalue, parallelFor);
+  std::vector<std::vector<CurveMatch>> matches(mesh.elements.size());
+  forAll(parallelFor, mesh.elements.size(),
+    [&](std::size_t e)
+    { matches[e] = matchCurves(mesh, isovalue, static_cast<int>(e), topology.surfaces, locator); });
+  ElementJoiner(topology.surfaces, std::move(matches)).join(topology);
+  topology.unresolvedCells = unresolvedCells(mesh, topology.surfaces);
+  return topology;
+}
+
+} // namespace hop

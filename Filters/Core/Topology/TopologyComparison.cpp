@@ -1,0 +1,1 @@
+#include "Topology/TopologyComparison.h"
