@@ -1,1 +1,219 @@
 #include "Topology/TopologyComparison.h"
+
+#include "Support/DisjointSets.h"
+#include "Support/SortedBy.h"
+
+#include <algorithm>
+
+namespace hop
+{
+namespace
+{
+
+/// A triangle as one of its corners sees it: the other two in their order.
+struct FanTriangle
+{
+  int from = -1;
+  int to = -1;
+};
+
+/// What a vertex knows of the mesh's boundary.
+struct Fan
+{
+  /// The next vertex along the boundary, with the triangles to the left; -1 inside.
+  int next = -1;
+  /// Whether the triangles are one fan, open or closed.
+  bool isOne = true;
+};
+
+/// Follows the triangles around a vertex.
+Fan followFan(const std::vector<FanTriangle>& triangles)
+{
+  const auto isStart = [&](const FanTriangle& first)
+  {
+    return std::none_of(triangles.begin(), triangles.end(),
+      [&](const FanTriangle& other) { return other.to == first.from; });
+  };
+  const auto start = std::find_if(triangles.begin(), triangles.end(), isStart);
+  Fan fan;
+  fan.next = start == triangles.end() ? -1 : start->from;
+  auto at = start == triangles.end() ? triangles.begin() : start;
+  std::size_t visited = 0;
+  while (at != triangles.end() && visited < triangles.size())
+  {
+    ++visited;
+    const int to = at->to;
+    const bool isClosed = fan.next < 0 && to == triangles.front().from;
+    at = isClosed ? triangles.end()
+                  : std::find_if(triangles.begin(), triangles.end(),
+                      [to](const FanTriangle& other) { return other.from == to; });
+  }
+  const auto hasTwin = [&](const FanTriangle& one)
+  {
+    return std::count_if(triangles.begin(), triangles.end(),
+             [&](const FanTriangle& other) { return other.from == one.from || other.to == one.to; }) > 1;
+  };
+  fan.isOne = visited == triangles.size() &&
+    std::none_of(triangles.begin(), triangles.end(), hasTwin);
+  return fan;
+}
+
+/// The fans of all vertices.
+std::vector<Fan> findFans(std::size_t vertexCount, const std::vector<std::array<int, 3>>& triangles,
+  const ParallelFor& parallelFor)
+{
+  std::vector<int> corners;
+  corners.reserve(3 * triangles.size());
+  for (const std::array<int, 3>& triangle : triangles)
+  {
+    corners.insert(corners.end(), triangle.begin(), triangle.end());
+  }
+  const Grouping ofVertex =
+    groupedBy(corners, vertexCount, [](int vertex) { return vertex; }, parallelFor);
+  std::vector<Fan> fans(vertexCount);
+  forAll(parallelFor, vertexCount,
+    [&](std::size_t vertex)
+    {
+      std::vector<FanTriangle> around;
+      for (int n = ofVertex.start[vertex]; n < ofVertex.start[vertex + 1]; ++n)
+      {
+        const int corner = ofVertex.order[n];
+        const std::array<int, 3>& triangle = triangles[corner / 3];
+        around.push_back({ triangle[(corner + 1) % 3], triangle[(corner + 2) % 3] });
+      }
+      fans[vertex] = followFan(around);
+    });
+  return fans;
+}
+
+/// Counts vertices, edges, triangles and boundary loops of the mesh's components.
+class MeshCounter
+{
+public:
+  MeshCounter(std::size_t vertexCount, const std::vector<std::array<int, 3>>& triangles)
+    : VertexCount(static_cast<int>(vertexCount))
+    , Triangles(triangles)
+    , Joined(vertexCount)
+    , ComponentOfVertex(vertexCount, -1)
+  {
+    for (const std::array<int, 3>& triangle : triangles)
+    {
+      this->Joined.unite(triangle[0], triangle[1]);
+      this->Joined.unite(triangle[0], triangle[2]);
+    }
+  }
+
+  const std::vector<int>& componentOfVertex() const { return this->ComponentOfVertex; }
+
+  std::vector<ComponentComparison> count(const std::vector<Fan>& fans)
+  {
+    std::vector<ComponentComparison> components;
+    std::vector<std::int64_t> doubledEdges; // 3 F + B, where B edges have one triangle
+    for (int vertex = 0; vertex < this->VertexCount; ++vertex)
+    {
+      const int root = this->Joined.root(vertex);
+      if (root == vertex)
+      {
+        this->ComponentOfVertex[vertex] = static_cast<int>(components.size());
+        components.emplace_back().vertex = vertex;
+        doubledEdges.push_back(0);
+      }
+      const int number = this->ComponentOfVertex[vertex] = this->ComponentOfVertex[root];
+      components[number].eulerCharacteristic += 1;
+      components[number].isManifold &= fans[vertex].isOne;
+      doubledEdges[number] += fans[vertex].next >= 0;
+    }
+    for (const std::array<int, 3>& triangle : this->Triangles)
+    {
+      components[this->ComponentOfVertex[triangle[0]]].eulerCharacteristic += 1;
+      doubledEdges[this->ComponentOfVertex[triangle[0]]] += 3;
+    }
+    for (std::size_t n = 0; n < components.size(); ++n)
+    {
+      components[n].eulerCharacteristic -= doubledEdges[n] / 2;
+    }
+    this->countLoops(fans, components);
+    return components;
+  }
+
+private:
+  void countLoops(const std::vector<Fan>& fans, std::vector<ComponentComparison>& components) const
+  {
+    DisjointSets loops(fans.size());
+    for (int vertex = 0; vertex < this->VertexCount; ++vertex)
+    {
+      if (fans[vertex].next >= 0)
+      {
+        loops.unite(vertex, fans[vertex].next);
+      }
+    }
+    for (int vertex = 0; vertex < this->VertexCount; ++vertex)
+    {
+      components[this->ComponentOfVertex[vertex]].boundaryLoops +=
+        fans[vertex].next >= 0 && loops.root(vertex) == vertex;
+    }
+  }
+
+  int VertexCount;
+  const std::vector<std::array<int, 3>>& Triangles;
+  DisjointSets Joined;
+  std::vector<int> ComponentOfVertex;
+};
+
+/// The component of the surface on which all vertices of each component of the mesh lie, or -1.
+void findCounterparts(const std::vector<int>& surfaceComponents,
+  const std::vector<int>& componentOfVertex, std::vector<ComponentComparison>& components)
+{
+  for (ComponentComparison& component : components)
+  {
+    component.component = surfaceComponents[component.vertex];
+  }
+  for (std::size_t vertex = 0; vertex < surfaceComponents.size(); ++vertex)
+  {
+    ComponentComparison& component = components[componentOfVertex[vertex]];
+    if (component.component != surfaceComponents[vertex])
+    {
+      component.component = -1;
+    }
+  }
+}
+
+} // namespace
+
+TopologyComparison compareTopology(const SurfaceTopology& topology, const Buffer<Particle>& vertices,
+  const std::vector<std::array<int, 3>>& triangles, const ParallelFor& parallelFor)
+{
+  std::vector<int> surfaceComponents(vertices.size());
+  forAll(parallelFor, vertices.size(),
+    [&](std::size_t v) { surfaceComponents[v] = topology.componentAt(vertices[v].location); });
+  TopologyComparison comparison;
+  MeshCounter counter(vertices.size(), triangles);
+  comparison.meshComponents = counter.count(findFans(vertices.size(), triangles, parallelFor));
+  findCounterparts(surfaceComponents, counter.componentOfVertex(), comparison.meshComponents);
+
+  std::vector<int> meshesOn(topology.components.size(), 0);
+  for (const ComponentComparison& mesh : comparison.meshComponents)
+  {
+    if (mesh.component >= 0)
+    {
+      ++meshesOn[mesh.component];
+    }
+  }
+  comparison.proven = topology.isProven();
+  for (ComponentComparison& mesh : comparison.meshComponents)
+  {
+    if (mesh.component >= 0)
+    {
+      const SurfaceComponent& surface = topology.components[mesh.component];
+      mesh.proven = surface.proven && mesh.isManifold && meshesOn[mesh.component] == 1 &&
+        surface.eulerCharacteristic == mesh.eulerCharacteristic &&
+        surface.boundaryLoops == mesh.boundaryLoops;
+    }
+    comparison.proven &= mesh.proven;
+  }
+  comparison.missingComponents = std::count(meshesOn.begin(), meshesOn.end(), 0);
+  comparison.proven &= comparison.missingComponents == 0;
+  return comparison;
+}
+
+} // namespace hop
