@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 namespace hop
 {
@@ -13,6 +15,46 @@ namespace
 double fieldAt(const ElementMesh& mesh, const Location& location)
 {
   return evaluateGradient(mesh.form(location.element), location.u).value.w;
+}
+
+/// A place on a face from two coordinates of its own; on a triangle their sum is 1 at most.
+ReferencePoint onFace(Domain domain, const Face& face, double s, double t)
+{
+  const auto& corners = facts(domain).corners;
+  const glm::dvec3 origin = corners[face.corners[0]].xyz;
+  const glm::dvec3 across = corners[face.corners[1]].xyz - origin;
+  const glm::dvec3 up = corners[face.corners[face.cornerCount - 1]].xyz - origin;
+  return { origin + s * across + t * up };
+}
+
+/// Whether another element lies behind a face that is not joined, at one of some places inside the face.
+bool isSomethingBehind(
+  const ElementMesh& mesh, const FaceLocator& locator, int element, int face)
+{
+  if (!locator.mayContinue(element, face))
+  {
+    return false;
+  }
+  // Places along each side. More find neighbours that overlap with a small part of the face.
+  constexpr int count = 4;
+  const Face& what = mesh.face(element, face);
+  std::int64_t evaluations = 0;
+  for (int i = 0; i < count; ++i)
+  {
+    for (int j = 0; j < (what.cornerCount == 3 ? count - i : count); ++j)
+    {
+      const double inset = what.cornerCount == 3 ? 0.3 : 0.5; // from the sides of the face
+      const ReferencePoint u =
+        onFace(mesh.elements[element].domain, what, (i + inset) / count, (j + inset) / count);
+      const WorldPoint place{ glm::dvec3(evaluateGradient(mesh.form(element), u).value) };
+      if (locator.locate(
+            place, element, face, std::numeric_limits<double>::infinity(), evaluations))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
 }
 
 bool areSame(const CurveEnd& a, const CurveEnd& b)
@@ -59,7 +101,7 @@ public:
     {
       for (int i = 0; i <= (face.cornerCount == 3 ? n - j : n); ++i)
       {
-        const Location here{ this->Element, this->onFace(face, double(i) / n, double(j) / n) };
+        const Location here{ this->Element, onFace(this->Here.shape.domain, face, double(i) / n, double(j) / n) };
         const Location there = crossFace(this->Mesh, here, this->DomainFace);
         largest = std::max(largest, std::abs(fieldAt(this->Mesh, here) - fieldAt(this->Mesh, there)));
       }
@@ -94,16 +136,6 @@ private:
       this->CornerThere[here] = there;
       back[there] = here;
     }
-  }
-
-  /// A place on the face from two coordinates of its own.
-  ReferencePoint onFace(const Face& face, double s, double t) const
-  {
-    const auto& corners = facts(this->Here.shape.domain).corners;
-    const glm::dvec3 origin = corners[face.corners[0]].xyz;
-    const glm::dvec3 across = corners[face.corners[1]].xyz - origin;
-    const glm::dvec3 up = corners[face.corners[face.cornerCount - 1]].xyz - origin;
-    return { origin + s * across + t * up };
   }
 
   /// An end as the neighbour numbers it.
@@ -205,8 +237,8 @@ std::vector<CurveMatch> matchCurves(const ElementMesh& mesh, double isovalue, in
   const ElementSurface& here = surfaces[element];
   std::vector<CurveMatch> matches(here.curves.size());
   std::optional<FaceMatcher> matcher;
-  int matcherFace = -1;
-  bool agrees = false;
+  int lastFace = -1;
+  bool isKnown = false; // what is behind the last face
   for (std::size_t n = 0; n < here.curves.size(); ++n)
   {
     const FaceCurve& curve = here.curves[n];
@@ -215,19 +247,23 @@ std::vector<CurveMatch> matchCurves(const ElementMesh& mesh, double isovalue, in
     {
       matches[n] = matchCollapsed(curve);
     }
-    else if (mesh.neighbor(element, face).element < 0)
-    {
-      matches[n].kind = locator && locator->mayContinue(element, face) ? CurveMatch::Unknown : CurveMatch::End;
-    }
     else
     {
-      if (face != matcherFace)
+      const bool isJoined = mesh.neighbor(element, face).element >= 0;
+      if (face != lastFace)
       {
-        matcher.emplace(mesh, isovalue, surfaces, element, face);
-        matcherFace = face;
-        agrees = matcher->agrees();
+        lastFace = face;
+        if (isJoined)
+        {
+          matcher.emplace(mesh, isovalue, surfaces, element, face);
+        }
+        isKnown = isJoined ? matcher->agrees() : !locator || !isSomethingBehind(mesh, *locator, element, face);
       }
-      matches[n] = agrees ? matcher->match(curve) : CurveMatch{};
+      if (isKnown)
+      {
+        matches[n].kind = CurveMatch::End;
+        matches[n] = isJoined ? matcher->match(curve) : matches[n];
+      }
     }
   }
   return matches;

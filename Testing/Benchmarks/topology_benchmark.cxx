@@ -1,0 +1,129 @@
+// What is proven of the topology of isosurfaces of a file, and how long that takes.
+//
+//   topology_benchmark FILE.vtu [ARRAY [ISOVALUE ...]]
+//
+// Without isovalues those at 10, 30, 50, 70 and 90% of the array's range (magnitude of vectors); without array all
+// point arrays. Prints a line an isovalue: elements that may hold surface, those that do, components and how many of
+// them are proven, Euler characteristic and boundary loops of the proven ones in sum, cells without proof, microseconds
+// an element that may hold surface, on one thread, and those of the particles' distribution at the default spacing.
+
+#include "Conversion/GridElements.h"
+#include "Fast/FastDistribution.h"
+#include "Surface/FaceLocator.h"
+#include "Topology/SurfaceTopology.h"
+
+#include "vtkDataArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkUnstructuredGrid.h"
+#include "vtkXMLUnstructuredGridReader.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <vector>
+
+namespace
+{
+
+double secondsOf(const std::function<void()>& work)
+{
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Seconds of the particles' distribution, about 100 spacings along the longest side.
+double distributionSeconds(const hop::ElementMesh& mesh, double isovalue, std::size_t& particles)
+{
+  const double extent = hop::meshExtent(mesh);
+  hop::DistributionParameters parameters;
+  parameters.sizing = { 0.008 * extent, 10.0 };
+  return secondsOf(
+    [&]()
+    {
+      particles = hop::distributeFast({ &mesh, isovalue, 1e-10 * extent }, parameters, {}, {})
+                    .particles.size();
+    });
+}
+
+void measure(vtkUnstructuredGrid* grid, vtkDataArray* array, double isovalue)
+{
+  const int component = hop::componentOf({ { grid, array, nullptr, "" } }, 9);
+  const hop::InputBlocks blocks({ { grid, array, nullptr, "" } }, component);
+  const hop::GridElements elements =
+    hop::buildGridElements(blocks, hop::NodeSpacing::Uniform, { isovalue }, {});
+  if (elements.mesh.elements.empty() || !elements.canBe(isovalue))
+  {
+    return;
+  }
+  const double level = elements.fieldIsovalue(isovalue);
+  const hop::FaceLocator locator(elements.mesh, level, {});
+  hop::SurfaceTopology topology;
+  const double seconds =
+    secondsOf([&]() { topology = hop::findTopology(elements.mesh, level, &locator, {}); });
+  const auto withSurface = std::count_if(topology.surfaces.begin(), topology.surfaces.end(),
+    [](const hop::ElementSurface& surface) { return !surface.pieces.empty(); });
+  std::int64_t proven = 0, euler = 0, loops = 0;
+  for (const hop::SurfaceComponent& c : topology.components)
+  {
+    proven += c.proven;
+    euler += c.proven ? c.eulerCharacteristic : 0;
+    loops += c.proven ? c.boundaryLoops : 0;
+  }
+  std::size_t particles = 0;
+  const double distribution = distributionSeconds(elements.mesh, level, particles);
+  const double count = static_cast<double>(elements.mesh.elements.size());
+  std::printf("  %-12s %10.4g %6.0f %6td  %4zu %4lld  %4lld %4lld  %4zu  %8.1f %8.1f us %8zu\n", array->GetName(),
+    isovalue, count, withSurface, topology.components.size(), static_cast<long long>(proven),
+    static_cast<long long>(euler), static_cast<long long>(loops), topology.unresolvedCells.size(),
+    1e6 * seconds / count, 1e6 * distribution / count, particles);
+  std::fflush(stdout);
+}
+
+} // namespace
+
+int main(int argc, char* argv[])
+{
+  if (argc < 2)
+  {
+    std::fprintf(stderr, "usage: topology_benchmark FILE.vtu [ARRAY [ISOVALUE ...]]\n");
+    return EXIT_FAILURE;
+  }
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  reader->SetFileName(argv[1]);
+  reader->Update();
+  vtkUnstructuredGrid* grid = reader->GetOutput();
+  std::printf("%s: array, isovalue, elements, with surface, components, proven, Euler characteristic, loops, "
+              "unresolved cells, us an element, us of the particles, particles\n",
+    argv[1]);
+  for (int a = 0; a < grid->GetPointData()->GetNumberOfArrays(); ++a)
+  {
+    vtkDataArray* array = grid->GetPointData()->GetArray(a);
+    if (!array || (argc > 2 && std::string(argv[2]) != array->GetName()))
+    {
+      continue;
+    }
+    std::vector<double> isovalues;
+    for (int i = 3; i < argc; ++i)
+    {
+      isovalues.push_back(std::atof(argv[i]));
+    }
+    double range[2];
+    array->GetRange(range, array->GetNumberOfComponents() > 1 ? -1 : 0);
+    for (const double share : { 0.1, 0.3, 0.5, 0.7, 0.9 })
+    {
+      if (argc <= 3)
+      {
+        isovalues.push_back(range[0] + share * (range[1] - range[0]));
+      }
+    }
+    for (const double isovalue : isovalues)
+    {
+      measure(grid, array, isovalue);
+    }
+  }
+  return EXIT_SUCCESS;
+}
