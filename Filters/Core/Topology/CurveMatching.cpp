@@ -12,6 +12,11 @@ namespace hop
 namespace
 {
 
+WorldPoint positionAt(const ElementMesh& mesh, const Location& location)
+{
+  return { glm::dvec3(evaluateGradient(mesh.form(location.element), location.u).value) };
+}
+
 double fieldAt(const ElementMesh& mesh, const Location& location)
 {
   return evaluateGradient(mesh.form(location.element), location.u).value.w;
@@ -37,6 +42,9 @@ bool isSomethingBehind(
   }
   // Places along each side. More find neighbours that overlap with a small part of the face.
   constexpr int count = 4;
+  // Largest gap, as a share of the distance from the nearest corner of the face. Larger: what is beside the face, beyond
+  // a corner, counts as behind it; smaller: neighbours are not found where curved faces approximate each other badly.
+  constexpr double largestGap = 0.02;
   const Face& what = mesh.face(element, face);
   std::int64_t evaluations = 0;
   for (int i = 0; i < count; ++i)
@@ -46,9 +54,14 @@ bool isSomethingBehind(
       const double inset = what.cornerCount == 3 ? 0.3 : 0.5; // from the sides of the face
       const ReferencePoint u =
         onFace(mesh.elements[element].domain, what, (i + inset) / count, (j + inset) / count);
-      const WorldPoint place{ glm::dvec3(evaluateGradient(mesh.form(element), u).value) };
-      if (locator.locate(
-            place, element, face, std::numeric_limits<double>::infinity(), evaluations))
+      const WorldPoint place = positionAt(mesh, { element, u });
+      double toCorner = std::numeric_limits<double>::infinity();
+      for (int c = 0; c < what.cornerCount; ++c)
+      {
+        const ReferencePoint corner = facts(mesh.elements[element].domain).corners[what.corners[c]];
+        toCorner = std::min(toCorner, length(place - positionAt(mesh, { element, corner })));
+      }
+      if (locator.locate(place, element, face, largestGap * toCorner, evaluations))
       {
         return true;
       }
