@@ -1,10 +1,9 @@
 #include "Topology/CurveMatching.h"
 
-#include "Surface/FaceLocator.h"
+#include "Topology/CoarserFace.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 namespace hop
@@ -12,62 +11,62 @@ namespace hop
 namespace
 {
 
-WorldPoint positionAt(const ElementMesh& mesh, const Location& location)
-{
-  return { glm::dvec3(evaluateGradient(mesh.form(location.element), location.u).value) };
-}
-
 double fieldAt(const ElementMesh& mesh, const Location& location)
 {
   return evaluateGradient(mesh.form(location.element), location.u).value.w;
 }
 
-/// A place on a face from two coordinates of its own; on a triangle their sum is 1 at most.
-ReferencePoint onFace(Domain domain, const Face& face, double s, double t)
+/// A point of the surface on a segment of an element's cube that holds one, by bisection.
+Location pointOn(const ElementMesh& mesh, double isovalue, int element, const CubeShape& shape,
+  std::array<glm::dvec3, 2> segment)
 {
-  const auto& corners = facts(domain).corners;
-  const glm::dvec3 origin = corners[face.corners[0]].xyz;
-  const glm::dvec3 across = corners[face.corners[1]].xyz - origin;
-  const glm::dvec3 up = corners[face.corners[face.cornerCount - 1]].xyz - origin;
-  return { origin + s * across + t * up };
+  constexpr int steps = 50; // as many as doubles have digits
+  const auto at = [&](const glm::dvec3& t) { return Location{ element, shape.inElement(t) }; };
+  const bool isPositive = fieldAt(mesh, at(segment[0])) > isovalue;
+  for (int step = 0; step < steps; ++step)
+  {
+    const glm::dvec3 middle = 0.5 * (segment[0] + segment[1]);
+    const bool isSame = (fieldAt(mesh, at(middle)) > isovalue) == isPositive;
+    segment[isSame ? 0 : 1] = middle;
+  }
+  return at(segment[0]);
 }
 
-/// Whether another element lies behind a face that is not joined, at one of some places inside the face.
-bool isSomethingBehind(
-  const ElementMesh& mesh, const FaceLocator& locator, int element, int face)
+/// Whether the fields on two sides of a face agree at places that determine polynomials of both degrees.
+/// \param behind behind(u) is the place on the other side
+template <class Behind>
+bool fieldsAgree(const ElementMesh& mesh, int element, int face, int other, const Behind& behind)
 {
-  if (!locator.mayContinue(element, face))
+  const auto degreeOf = [&](int e)
   {
-    return false;
-  }
-  // Places along each side. More find neighbours that overlap with a small part of the face.
-  constexpr int count = 4;
-  // Largest gap, as a share of the distance from the nearest corner of the face. Larger: what is beside the face, beyond
-  // a corner, counts as behind it; smaller: neighbours are not found where curved faces approximate each other badly.
-  constexpr double largestGap = 0.02;
+    const Degrees& degrees = mesh.elements[e].degrees;
+    return *std::max_element(degrees.begin(), degrees.end());
+  };
+  const auto rangeOf = [&](int e)
+  {
+    const Range range = fieldRange(mesh.form(e));
+    return range.upper - range.lower;
+  };
   const Face& what = mesh.face(element, face);
-  std::int64_t evaluations = 0;
-  for (int i = 0; i < count; ++i)
+  const int n = std::max(degreeOf(element), degreeOf(other));
+  double largest = 0.0;
+  for (int j = 0; j <= n; ++j)
   {
-    for (int j = 0; j < (what.cornerCount == 3 ? count - i : count); ++j)
+    for (int i = 0; i <= (what.cornerCount == 3 ? n - j : n); ++i)
     {
-      const double inset = what.cornerCount == 3 ? 0.3 : 0.5; // from the sides of the face
-      const ReferencePoint u =
-        onFace(mesh.elements[element].domain, what, (i + inset) / count, (j + inset) / count);
-      const WorldPoint place = positionAt(mesh, { element, u });
-      double toCorner = std::numeric_limits<double>::infinity();
-      for (int c = 0; c < what.cornerCount; ++c)
-      {
-        const ReferencePoint corner = facts(mesh.elements[element].domain).corners[what.corners[c]];
-        toCorner = std::min(toCorner, length(place - positionAt(mesh, { element, corner })));
-      }
-      if (locator.locate(place, element, face, largestGap * toCorner, evaluations))
-      {
-        return true;
-      }
+      const ReferencePoint u = placeOnFace(
+        mesh.elements[element].domain, what, static_cast<double>(i) / n, static_cast<double>(j) / n);
+      largest = std::max(largest, std::abs(fieldAt(mesh, { element, u }) - fieldAt(mesh, behind(u))));
     }
   }
-  return false;
+  return largest <= LargestDifference * std::min(rangeOf(element), rangeOf(other));
+}
+
+/// The face of an element's cube that stands for a face of its domain.
+int cubeFaceOf(const CubeShape& shape, int face)
+{
+  return static_cast<int>(
+    std::find(shape.faces.begin(), shape.faces.end(), face) - shape.faces.begin());
 }
 
 bool areSame(const CurveEnd& a, const CurveEnd& b)
@@ -89,50 +88,26 @@ public:
     , DomainFace(face)
     , Behind(mesh.neighbor(element, face))
   {
-    const auto& faces = this->There.shape.faces;
-    this->FaceThere =
-      static_cast<int>(std::find(faces.begin(), faces.end(), int(this->Behind.face)) - faces.begin());
+    this->FaceThere = cubeFaceOf(this->There.shape, this->Behind.face);
     this->mapCorners();
-  }
-
-  /// Whether corners correspond, and the two fields agree at places that determine polynomials of both degrees.
-  bool agrees() const
-  {
-    if (!this->CornersFit)
-    {
-      return false;
-    }
-    const Face& face = this->Mesh.face(this->Element, this->DomainFace);
-    const auto degreeOf = [&](int element)
-    {
-      const Degrees& degrees = this->Mesh.elements[element].degrees;
-      return *std::max_element(degrees.begin(), degrees.end());
-    };
-    const int n = std::max(degreeOf(this->Element), degreeOf(this->Behind.element));
-    double largest = 0.0;
-    for (int j = 0; j <= n; ++j)
-    {
-      for (int i = 0; i <= (face.cornerCount == 3 ? n - j : n); ++i)
-      {
-        const Location here{ this->Element, onFace(this->Here.shape.domain, face, double(i) / n, double(j) / n) };
-        const Location there = crossFace(this->Mesh, here, this->DomainFace);
-        largest = std::max(largest, std::abs(fieldAt(this->Mesh, here) - fieldAt(this->Mesh, there)));
-      }
-    }
-    const auto rangeOf = [&](int element)
-    {
-      const Range range = fieldRange(this->Mesh.form(element));
-      return range.upper - range.lower;
-    };
-    return largest <= LargestDifference * std::min(rangeOf(this->Element), rangeOf(this->Behind.element));
+    this->Agrees = this->agrees();
   }
 
   CurveMatch match(const FaceCurve& curve) const
   {
-    return curve.isBroken ? CurveMatch{} : curve.isClosed ? this->matchClosed(curve) : this->matchOpen(curve);
+    return curve.isBroken || !this->Agrees ? CurveMatch{} : curve.isClosed ? this->matchClosed(curve) : this->matchOpen(curve);
   }
 
 private:
+  /// Whether corners correspond, and the two fields agree.
+  bool agrees() const
+  {
+    return this->CornersFit &&
+      fieldsAgree(this->Mesh, this->Element, this->DomainFace, this->Behind.element,
+        [&](const ReferencePoint& u)
+        { return crossFace(this->Mesh, { this->Element, u }, this->DomainFace); });
+  }
+
   /// Lists which corner of the neighbour each corner of the face is.
   void mapCorners()
   {
@@ -185,40 +160,12 @@ private:
 
   CurveMatch matchClosed(const FaceCurve& curve) const
   {
-    // Cube units: the place on the curve is known by bisection.
-    constexpr double rounding = 1e-9;
-    const Location place = crossFace(this->Mesh, this->placeOn(curve), this->DomainFace);
-    const glm::dvec3 t = this->There.shape.inCube(place.u);
-    CurveMatch found;
-    for (const FaceCurve& other : this->There.curves)
-    {
-      if (other.face == this->FaceThere && other.isClosed &&
-        glm::all(glm::lessThanEqual(other.lower - rounding, t)) &&
-        glm::all(glm::greaterThanEqual(other.upper + rounding, t)))
-      {
-        if (found.kind == CurveMatch::Joined)
-        {
-          return {};
-        }
-        found = this->joinedTo(other, 0);
-      }
-    }
-    return found;
-  }
-
-  /// A point of a curve, by bisection of its segment.
-  Location placeOn(const FaceCurve& curve) const
-  {
-    std::array<glm::dvec3, 2> ends = curve.segment;
-    const auto at = [&](const glm::dvec3& t) { return Location{ this->Element, this->Here.shape.inElement(t) }; };
-    const bool isPositive = fieldAt(this->Mesh, at(ends[0])) > this->Isovalue;
-    for (int step = 0; step < 50; ++step)
-    {
-      const glm::dvec3 middle = 0.5 * (ends[0] + ends[1]);
-      const bool isSame = (fieldAt(this->Mesh, at(middle)) > this->Isovalue) == isPositive;
-      ends[isSame ? 0 : 1] = middle;
-    }
-    return at(ends[0]);
+    const Location here =
+      pointOn(this->Mesh, this->Isovalue, this->Element, this->Here.shape, curve.segment);
+    const Location there = crossFace(this->Mesh, here, this->DomainFace);
+    const int other = this->There.curveAt(this->FaceThere, this->There.shape.inCube(there.u));
+    return other >= 0 && this->There.curves[other].isClosed ? this->joinedTo(this->There.curves[other], 0)
+                                                            : CurveMatch{};
   }
 
   const ElementMesh& Mesh;
@@ -232,6 +179,7 @@ private:
   int FaceThere = -1;
   std::array<int, MaximumCorners> CornerThere{};
   bool CornersFit = true;
+  bool Agrees = false;
 };
 
 CurveMatch matchCollapsed(const FaceCurve& curve)
@@ -242,44 +190,87 @@ CurveMatch matchCollapsed(const FaceCurve& curve)
   return match;
 }
 
+/// Matches the curves in one face that is not joined.
+class OpenFaceMatcher
+{
+public:
+  OpenFaceMatcher(const ElementMesh& mesh, double isovalue,
+    const std::vector<ElementSurface>& surfaces, const FaceLocator* locator, int element, int face)
+    : Mesh(mesh)
+    , Isovalue(isovalue)
+    , Surfaces(surfaces)
+    , Element(element)
+  {
+    if (!locator || !isSomethingBehind(mesh, *locator, element, face))
+    {
+      this->Kind = CurveMatch::End;
+      return;
+    }
+    this->Coarser = findCoarserFace(mesh, *locator, element, face);
+    this->Kind = !this->Coarser ? CurveMatch::Divided
+      : fieldsAgree(mesh, element, face, this->Coarser->element, *this->Coarser)
+      ? CurveMatch::PartOf
+      : CurveMatch::Unknown;
+  }
+
+  CurveMatch match(const FaceCurve& curve) const
+  {
+    CurveMatch match;
+    match.kind = curve.isBroken ? CurveMatch::Unknown : this->Kind;
+    if (match.kind == CurveMatch::PartOf)
+    {
+      const ElementSurface& there = this->Surfaces[this->Coarser->element];
+      const Location here = pointOn(this->Mesh, this->Isovalue, this->Element,
+        this->Surfaces[this->Element].shape, curve.segment);
+      match.element = this->Coarser->element;
+      match.curve = there.curveAt(cubeFaceOf(there.shape, this->Coarser->face),
+        there.shape.inCube((*this->Coarser)(here.u).u));
+      match.kind = match.curve < 0 ? CurveMatch::Unknown : CurveMatch::PartOf;
+    }
+    return match;
+  }
+
+private:
+  const ElementMesh& Mesh;
+  double Isovalue;
+  const std::vector<ElementSurface>& Surfaces;
+  int Element;
+  CurveMatch::Kind Kind = CurveMatch::Unknown;
+  std::optional<CoarserFace> Coarser;
+};
+
 } // namespace
 
 std::vector<CurveMatch> matchCurves(const ElementMesh& mesh, double isovalue, int element,
   const std::vector<ElementSurface>& surfaces, const FaceLocator* locator)
 {
   const ElementSurface& here = surfaces[element];
-  std::vector<CurveMatch> matches(here.curves.size());
-  std::optional<FaceMatcher> matcher;
+  std::vector<CurveMatch> matches;
+  std::optional<FaceMatcher> joined;
+  std::optional<OpenFaceMatcher> open;
   int lastFace = -1;
-  bool isKnown = false; // what is behind the last face
-  for (std::size_t n = 0; n < here.curves.size(); ++n)
+  for (const FaceCurve& curve : here.curves)
   {
-    const FaceCurve& curve = here.curves[n];
     const int face = here.shape.faces[curve.face];
-    if (face < 0)
+    const bool isJoined = face >= 0 && mesh.neighbor(element, face).element >= 0;
+    if (face >= 0 && face != lastFace)
     {
-      matches[n] = matchCollapsed(curve);
+      joined.reset();
+      open.reset();
+      isJoined ? (void)joined.emplace(mesh, isovalue, surfaces, element, face)
+               : (void)open.emplace(mesh, isovalue, surfaces, locator, element, face);
+      lastFace = face;
     }
-    else
-    {
-      const bool isJoined = mesh.neighbor(element, face).element >= 0;
-      if (face != lastFace)
-      {
-        lastFace = face;
-        if (isJoined)
-        {
-          matcher.emplace(mesh, isovalue, surfaces, element, face);
-        }
-        isKnown = isJoined ? matcher->agrees() : !locator || !isSomethingBehind(mesh, *locator, element, face);
-      }
-      if (isKnown)
-      {
-        matches[n].kind = CurveMatch::End;
-        matches[n] = isJoined ? matcher->match(curve) : matches[n];
-      }
-    }
+    matches.push_back(face < 0 ? matchCollapsed(curve) : isJoined ? joined->match(curve) : open->match(curve));
   }
   return matches;
+}
+
+WorldPoint positionOfEnd(const ElementMesh& mesh, double isovalue, int element,
+  const ElementSurface& surface, const CurveEnd& end)
+{
+  const Location place = pointOn(mesh, isovalue, element, surface.shape, end.segment);
+  return { glm::dvec3(evaluateGradient(mesh.form(element), place.u).value) };
 }
 
 } // namespace hop

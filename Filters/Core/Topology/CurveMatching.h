@@ -16,21 +16,26 @@ struct CurveMatch
     Joined,
     /// Nothing: the surface ends in the curve.
     End,
+    /// A curve of a larger face, of which this curve is a part.
+    PartOf,
+    /// Curves of smaller faces: this curve consists of those that are parts of it.
+    Divided,
     /// The face has collapsed to an edge, and the curve to a point of the edge.
     Collapsed,
     /// Something that does not fit.
     Unknown
   };
   Kind kind = Unknown;
-  /// Of a joined curve: its element and number there, and which of its ends the first end of this curve is.
+  /// Element and number there of the joined or larger curve; which of a joined curve's ends the first end of this curve
+  /// is.
   int element = -1;
   int curve = -1;
   int firstEnd = 0;
 };
 
-/// Finds the curves of neighbours that are those of an element. The two fields of a joined face have to agree, and curves
-/// correspond if their ends are the same: the how-manieth points of the surface on the same edges. Closed curves
-/// correspond if one has a point within the bounds of the other, and of no third one.
+/// Finds the curves of neighbours that are those of an element. The two fields at the face have to agree. At a joined face
+/// curves correspond if their ends are the same: the how-manieth points of the surface on the same edges. Closed curves
+/// correspond, and curves in faces beside hanging nodes, if a point of one lies in a leaf of the other.
 /// \param surfaces one an element
 /// \param locator see findTopology()
 /// \return one entry a curve of the element
@@ -41,5 +46,9 @@ std::vector<CurveMatch> matchCurves(const ElementMesh& mesh, double isovalue, in
 /// coefficients. Larger: the surface is taken to go on where particles end it; smaller: fields that are continuous but
 /// for the digits of their file are not.
 constexpr double LargestDifference = 1e-4;
+
+/// Where an end of a curve is, world units.
+WorldPoint positionOfEnd(const ElementMesh& mesh, double isovalue, int element,
+  const ElementSurface& surface, const CurveEnd& end);
 
 } // namespace hop

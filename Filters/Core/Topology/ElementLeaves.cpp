@@ -7,9 +7,11 @@ namespace hop
 namespace
 {
 
-/// Coefficients that the boxes of one element have together at most, over all levels: some tenths of a second. Larger:
-/// elements with surfaces that nearly meet are resolved, and elements that are singular along lines take longer.
-constexpr std::size_t mostCoefficients = std::size_t{ 1 } << 23;
+/// Boxes that one element is split into at most, over all levels, and coefficients that they have together: as long as one
+/// of the two is not reached, splitting goes on. Larger: elements with surfaces that nearly meet are resolved, and
+/// elements that are singular along lines take longer, some tenths of a second at most.
+constexpr std::size_t mostBoxes = 4096;
+constexpr std::size_t mostCoefficients = std::size_t{ 1 } << 20;
 
 /// A box that is not decided yet.
 struct Box
@@ -95,10 +97,11 @@ ElementLeaves findLeaves(const ElementCube& cube, const LeafTests& tests)
 {
   ElementLeaves leaves;
   std::vector<Box> level;
-  std::size_t left = mostCoefficients;
+  std::size_t examined = 0;
+  const std::size_t most = std::max(mostBoxes, mostCoefficients / cube.values.size());
   const auto examine = [&](Leaf leaf, std::vector<double> values, std::vector<Box>& undecided)
   {
-    left -= std::min(left, values.size());
+    ++examined;
     const LeafSurface surface = tests.examine(values, cube.slack, leaf.signs);
     if (surface == LeafSurface::Disc)
     {
@@ -110,7 +113,7 @@ ElementLeaves findLeaves(const ElementCube& cube, const LeafTests& tests)
     }
   };
   examine({ glm::ivec3(0), LeafGrid::Size, 0 }, cube.values, level);
-  while (!level.empty() && left > 0 && level.front().leaf.size > 1)
+  while (!level.empty() && examined < most && level.front().leaf.size > 1)
   {
     std::vector<Box> next;
     for (Box& box : level)

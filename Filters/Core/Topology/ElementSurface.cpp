@@ -3,7 +3,6 @@
 #include "Topology/LeafComplex.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace hop
 {
@@ -49,6 +48,14 @@ int cubeEdgeOf(const LeafPart& point)
                             [&](const CubeEdge& edge)
                             { return edge.axis == point.axis() && edge.first == corner; }) -
     edges.begin());
+}
+
+/// An edge of a leaf in the cube.
+std::array<glm::dvec3, 2> segmentOf(const LeafPart& edge)
+{
+  glm::ivec3 end = edge.lower();
+  end[edge.axis()] += edge.size();
+  return { LeafGrid::toCube(glm::dvec3(edge.lower())), LeafGrid::toCube(glm::dvec3(end)) };
 }
 
 /// Makes the pieces and curves of an element's surface.
@@ -128,7 +135,9 @@ private:
       const int count = static_cast<int>(onEdge[e].size());
       for (int n = 0; n < count; ++n)
       {
-        this->EndOfPoint[onEdge[e][n].second] = this->endAt(e, n, count);
+        CurveEnd& end = this->EndOfPoint[onEdge[e][n].second];
+        end = this->endAt(e, n, count);
+        end.segment = segmentOf(points[onEdge[e][n].second]);
       }
     }
   }
@@ -140,7 +149,8 @@ private:
     const int first = this->Surface.shape.corners[cubeEdges()[edge].first];
     const int second = this->Surface.shape.corners[cubeEdges()[edge].second];
     const auto [less, more] = std::minmax(first, second);
-    return { { less, more }, first < second ? n : count - 1 - n, count, this->Surface.pointCount++ };
+    return { { less, more }, first < second ? n : count - 1 - n, count,
+      this->Surface.pointCount++, {} };
   }
 
   void makeCurves(int face)
@@ -199,7 +209,7 @@ private:
         curveOfArc[arc] = static_cast<int>(this->Surface.curves.size());
         this->Surface.curves.push_back(this->newCurve(face, *arcs[arc], openPoints[arc]));
       }
-      widen(this->Surface.curves[curveOfArc[first]], arcs[arc]->part);
+      this->Surface.curves[curveOfArc[first]].leaves.push_back(arcs[arc]->leaves[0]);
     }
   }
 
@@ -218,28 +228,15 @@ private:
       curve.isBroken = curve.ends[n].point < 0 || curve.ends[n].edge[0] == curve.ends[n].edge[1];
     }
     this->Surface.pieces[curve.piece].proven &= !curve.isBroken;
-    curve.lower = glm::dvec3(std::numeric_limits<double>::infinity());
-    curve.upper = -curve.lower;
     const Leaf& leaf = this->Surface.leaves[arc.leaves[0]];
     for (const int edge : edgesOfCubeFace(arc.face))
     {
       if (isCrossed(cubeEdges()[edge], leaf.signs))
       {
-        const LeafPart part = edgeOf(leaf, edge);
-        glm::ivec3 end = part.lower();
-        end[part.axis()] += part.size();
-        curve.segment = { LeafGrid::toCube(glm::dvec3(part.lower())), LeafGrid::toCube(glm::dvec3(end)) };
+        curve.segment = segmentOf(edgeOf(leaf, edge));
       }
     }
     return curve;
-  }
-
-  static void widen(FaceCurve& curve, const LeafPart& square)
-  {
-    glm::ivec3 end = square.lower() + square.size();
-    end[square.axis()] -= square.size();
-    curve.lower = glm::min(curve.lower, LeafGrid::toCube(glm::dvec3(square.lower())));
-    curve.upper = glm::max(curve.upper, LeafGrid::toCube(glm::dvec3(end)));
   }
 
   ElementSurface& Surface;
@@ -259,7 +256,7 @@ double squaredDistance(const Leaf& leaf, const glm::dvec3& place)
 
 } // namespace
 
-int ElementSurface::pieceAt(const glm::dvec3& t) const
+int ElementSurface::leafAt(const glm::dvec3& t) const
 {
   if (this->leaves.empty())
   {
@@ -277,7 +274,25 @@ int ElementSurface::pieceAt(const glm::dvec3& t) const
   {
     best = std::min_element(this->leaves.begin(), this->leaves.end(), nearer);
   }
-  return this->pieceOfLeaf[best - this->leaves.begin()];
+  return static_cast<int>(best - this->leaves.begin());
+}
+
+int ElementSurface::pieceAt(const glm::dvec3& t) const
+{
+  const int leaf = this->leafAt(t);
+  return leaf < 0 ? -1 : this->pieceOfLeaf[leaf];
+}
+
+int ElementSurface::curveAt(int face, const glm::dvec3& t) const
+{
+  const int leaf = this->leafAt(t);
+  const auto found = std::find_if(this->curves.begin(), this->curves.end(),
+    [&](const FaceCurve& curve)
+    {
+      return curve.face == face &&
+        std::find(curve.leaves.begin(), curve.leaves.end(), leaf) != curve.leaves.end();
+    });
+  return found == this->curves.end() ? -1 : static_cast<int>(found - this->curves.begin());
 }
 
 ElementSurface joinLeaves(const CubeShape& shape, ElementLeaves leaves)

@@ -16,6 +16,8 @@ struct CurveEnd
   int count = 0;
   /// Number among the element's points on edges.
   int point = -1;
+  /// A segment of the edge that holds the point and no other one; in the cube.
+  std::array<glm::dvec3, 2> segment{};
 };
 
 /// A curve in which the surface meets a face of an element's cube.
@@ -29,10 +31,10 @@ struct FaceCurve
   /// Whether a part of it is not known.
   bool isBroken = false;
   std::array<CurveEnd, 2> ends;
-  /// Bounds in the cube, and the segment of a leaf's edge on which the curve has a point.
-  glm::dvec3 lower{ 0.0 };
-  glm::dvec3 upper{ 0.0 };
+  /// A segment in the cube that holds a point of the curve and no other one: an edge of one of its leaves.
   std::array<glm::dvec3, 2> segment{};
+  /// Indices of the leaves that it passes.
+  std::vector<int> leaves;
 };
 
 /// A connected piece of the surface in an element.
@@ -56,9 +58,13 @@ struct ElementSurface
   /// Whether there are leaves of which nothing is proven.
   bool isResolved = true;
 
-  /// The piece in the leaf at a place or, if there is none, in the nearest leaf; -1 if there is no surface at all.
+  /// The leaf at a place or, if there is none, the nearest one; -1 if there is no surface at all.
   /// \param t in the cube
+  int leafAt(const glm::dvec3& t) const;
+  /// The piece in that leaf, or -1.
   int pieceAt(const glm::dvec3& t) const;
+  /// The curve through a point of the surface on a face of the cube; -1 if the leaf there shows none.
+  int curveAt(int face, const glm::dvec3& t) const;
 };
 
 /// Joins the discs in the leaves of an element to pieces of the surface:

@@ -4,7 +4,9 @@
 #include "Topology/CurveMatching.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
+#include <tuple>
 
 namespace hop
 {
@@ -37,13 +39,28 @@ std::vector<ElementSurface> elementSurfaces(
   return surfaces;
 }
 
+/// A curve, by its element and its number there.
+struct CurveReference
+{
+  int element = -1;
+  int curve = -1;
+
+  bool operator==(const CurveReference& other) const
+  {
+    return this->element == other.element && this->curve == other.curve;
+  }
+};
+
 /// Joins the surfaces of elements: pieces at curves, and curves in points on edges of elements. Pieces, curves and points
 /// of all elements are numbered through.
 class ElementJoiner
 {
 public:
-  ElementJoiner(const std::vector<ElementSurface>& surfaces, std::vector<std::vector<CurveMatch>> matches)
-    : Surfaces(surfaces)
+  ElementJoiner(const ElementMesh& mesh, double isovalue, const std::vector<ElementSurface>& surfaces,
+    std::vector<std::vector<CurveMatch>> matches)
+    : Mesh(mesh)
+    , Isovalue(isovalue)
+    , Surfaces(surfaces)
     , Matches(std::move(matches))
     , FirstPiece(numbersOf([](const ElementSurface& s) { return s.pieces.size(); }))
     , FirstPoint(numbersOf([](const ElementSurface& s) { return static_cast<std::size_t>(s.pointCount); }))
@@ -58,6 +75,7 @@ public:
   {
     this->forCurves([this](int element, const FaceCurve& curve, const CurveMatch& match)
       { this->joinAt(element, curve, match); });
+    this->joinDivided();
     this->listComponents(topology);
     this->sumEulerCharacteristics(topology);
     this->countBoundaryLoops(topology);
@@ -127,6 +145,144 @@ private:
     this->Doubtful[piece] |= match.kind == CurveMatch::Unknown;
   }
 
+  /// A curve in a face beside hanging nodes, and the curve of the larger face whose part it is.
+  struct Part
+  {
+    CurveReference whole;
+    CurveReference part;
+  };
+
+  const FaceCurve& curveOf(const CurveReference& which) const
+  {
+    return this->Surfaces[which.element].curves[which.curve];
+  }
+
+  int pieceOf(const CurveReference& which) const { return this->pieceOf(which.element, this->curveOf(which)); }
+
+  int pointOf(const CurveReference& which, int end)
+  {
+    return this->Points.root(this->pointOf(which.element, this->curveOf(which), end));
+  }
+
+  /// Joins the curves of larger faces with their parts.
+  void joinDivided()
+  {
+    std::vector<Part> parts;
+    for (int element = 0; element < static_cast<int>(this->Surfaces.size()); ++element)
+    {
+      for (int curve = 0; curve < static_cast<int>(this->Matches[element].size()); ++curve)
+      {
+        const CurveMatch& match = this->Matches[element][curve];
+        if (match.kind == CurveMatch::PartOf)
+        {
+          parts.push_back({ { match.element, match.curve }, { element, curve } });
+        }
+        else if (match.kind == CurveMatch::Divided)
+        {
+          parts.push_back({ { element, curve }, {} });
+        }
+      }
+    }
+    std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b)
+      { return std::tie(a.whole.element, a.whole.curve) < std::tie(b.whole.element, b.whole.curve); });
+    for (auto first = parts.begin(), next = first; first != parts.end(); first = next)
+    {
+      std::vector<CurveReference> ofWhole;
+      for (next = first; next != parts.end() && next->whole == first->whole; ++next)
+      {
+        if (next->part.element >= 0)
+        {
+          ofWhole.push_back(next->part);
+        }
+      }
+      this->joinParts(first->whole, ofWhole);
+    }
+  }
+
+  void joinParts(const CurveReference& whole, const std::vector<CurveReference>& parts)
+  {
+    bool fits = this->Matches[whole.element][whole.curve].kind == CurveMatch::Divided;
+    for (const CurveReference& part : parts)
+    {
+      this->Pieces.unite(this->pieceOf(whole), this->pieceOf(part));
+    }
+    const FaceCurve& curve = this->curveOf(whole);
+    const bool isOneLoop = parts.size() == 1 && this->curveOf(parts[0]).isClosed;
+    if (fits && !(curve.isClosed && isOneLoop))
+    {
+      const auto ends = this->endsOfPath(parts);
+      fits = ends && ends->empty() == curve.isClosed;
+      fits = fits && (curve.isClosed || this->joinEnds(whole, *ends));
+    }
+    this->Doubtful[this->pieceOf(whole)] |= !fits;
+  }
+
+  /// An end of a curve.
+  struct End
+  {
+    CurveReference curve;
+    int end = 0;
+  };
+
+  /// The two ends of a path of open curves; none if the path is closed.
+  /// \return nothing if the curves are not one path
+  std::optional<std::vector<End>> endsOfPath(const std::vector<CurveReference>& parts)
+  {
+    std::map<int, std::vector<std::pair<End, int>>> atPoint; // ends, and the number of the part
+    for (int n = 0; n < static_cast<int>(parts.size()); ++n)
+    {
+      for (int end = 0; end < 2 && !this->curveOf(parts[n]).isClosed; ++end)
+      {
+        atPoint[this->pointOf(parts[n], end)].push_back({ { parts[n], end }, n });
+      }
+    }
+    DisjointSets joined(parts.size());
+    std::vector<End> open;
+    bool fits = !parts.empty();
+    for (const auto& [point, ends] : atPoint)
+    {
+      fits = fits && ends.size() <= 2;
+      joined.unite(ends.front().second, ends.back().second);
+      if (ends.size() == 1)
+      {
+        open.push_back(ends.front().first);
+      }
+    }
+    for (int n = 0; n < static_cast<int>(parts.size()); ++n)
+    {
+      fits = fits && joined.root(n) == 0 && !this->curveOf(parts[n]).isClosed;
+    }
+    return fits && (open.empty() || open.size() == 2) ? std::optional(open) : std::nullopt;
+  }
+
+  WorldPoint positionOf(const End& end) const
+  {
+    return positionOfEnd(this->Mesh, this->Isovalue, end.curve.element,
+      this->Surfaces[end.curve.element], this->curveOf(end.curve).ends[end.end]);
+  }
+
+  /// Unites the ends of a curve with those of the path that it consists of, where they are in the same places.
+  bool joinEnds(const CurveReference& whole, const std::vector<End>& path)
+  {
+    // Distance between ends in one place, as a share of the distance between the ends of the curve: more than digits of
+    // files. Larger: ends that are far apart count as one; smaller: short curves are in doubt.
+    constexpr double samePlace = 1e-2;
+    std::array<std::array<double, 2>, 2> apart{};
+    for (int n = 0; n < 2; ++n)
+    {
+      for (int m = 0; m < 2; ++m)
+      {
+        apart[n][m] = length(this->positionOf({ whole, n }) - this->positionOf(path[m]));
+      }
+    }
+    const int swap = apart[0][0] + apart[1][1] <= apart[0][1] + apart[1][0] ? 0 : 1;
+    for (int n = 0; n < 2; ++n)
+    {
+      this->Points.unite(this->pointOf(whole, n), this->pointOf(path[n ^ swap].curve, path[n ^ swap].end));
+    }
+    return apart[0][swap] + apart[1][1 - swap] <= samePlace * (apart[0][1 - swap] + apart[1][swap]);
+  }
+
   SurfaceComponent& componentOf(SurfaceTopology& topology, int piece)
   {
     return topology.components[this->ComponentOfPiece[this->Pieces.root(piece)]];
@@ -164,7 +320,8 @@ private:
         const int piece = this->pieceOf(element, curve);
         const bool isFirst = match.kind != CurveMatch::Joined ||
           piece < this->pieceOf(match.element, this->Surfaces[match.element].curves[match.curve]);
-        if (!curve.isClosed && match.kind != CurveMatch::Collapsed && isFirst)
+        const bool counts = match.kind != CurveMatch::Collapsed && match.kind != CurveMatch::Divided;
+        if (!curve.isClosed && counts && isFirst)
         {
           this->componentOf(topology, piece).eulerCharacteristic -= 1;
         }
@@ -209,6 +366,8 @@ private:
     }
   }
 
+  const ElementMesh& Mesh;
+  double Isovalue;
   const std::vector<ElementSurface>& Surfaces;
   std::vector<std::vector<CurveMatch>> Matches;
   /// Number of the first piece and point of each element; last, how many there are.
@@ -262,7 +421,7 @@ SurfaceTopology findTopology(const ElementMesh& mesh, double isovalue, const Fac
   forAll(parallelFor, mesh.elements.size(),
     [&](std::size_t e)
     { matches[e] = matchCurves(mesh, isovalue, static_cast<int>(e), topology.surfaces, locator); });
-  ElementJoiner(topology.surfaces, std::move(matches)).join(topology);
+  ElementJoiner(mesh, isovalue, topology.surfaces, std::move(matches)).join(topology);
   topology.unresolvedCells = unresolvedCells(mesh, topology.surfaces);
   return topology;
 }
