@@ -33,7 +33,7 @@ check_rooms() {
   done
 }
 
-core_rooms=(Kernel Support Elements Surface Isolation Edges Fast Classic)
+core_rooms=(Kernel Support Elements Surface Isolation Edges Mesh Fast Classic)
 check_rooms Filters/Core "${core_rooms[@]}"
 if grep -n 'include "Fast/' Filters/Core/Classic/*.*; then complain "the two distributions know each other"; fi
 check_rooms Filters Input Conversion Output Run
