@@ -243,6 +243,24 @@ std::vector<ReportArray> makeReportArrays()
   };
 }
 
+std::vector<MeshReportArray> makeMeshReportArrays()
+{
+  return {
+    { "MeshOpenLoops",
+      "Holes of the mesh that are no boundary curves of the surface, of all blocks together.",
+      [](const MeshReport& report) { return report.openLoops; } },
+    { "MeshOpenLength", "Length of the edges around these holes, world units.",
+      [](const MeshReport& report) { return report.openLength; } },
+    { "MeshUnusedParticles",
+      "Particles of the block that are corners of no triangle, and not in the output.",
+      [](const MeshReport& report) { return report.unusedParticles; } },
+    { "MeshStraightNodes",
+      "Nodes of curved triangles that were not found on the surface, and stay on straight edges or "
+      "in the plane of the corners; of all blocks together.",
+      [](const MeshReport& report) { return report.straightNodes; } },
+  };
+}
+
 std::vector<OutputArray> makeDescriptions()
 {
   std::vector<OutputArray> rows;
@@ -268,6 +286,12 @@ const std::vector<ParticleArray>& particleArrays()
 const std::vector<ReportArray>& reportArrays()
 {
   static const std::vector<ReportArray> table = makeReportArrays();
+  return table;
+}
+
+const std::vector<MeshReportArray>& meshReportArrays()
+{
+  static const std::vector<MeshReportArray> table = makeMeshReportArrays();
   return table;
 }
 

@@ -67,12 +67,20 @@ void addReplaced(const InputBlock& block, std::set<std::string>& names)
       names.insert(std::string("point array '") + array->GetName() + "'");
     }
   }
+  const auto addField = [&](const char* name)
+  {
+    if (block.grid->GetFieldData()->HasArray(name))
+    {
+      names.insert(std::string("field array '") + name + "'");
+    }
+  };
   for (const ReportArray& array : reportArrays())
   {
-    if (block.grid->GetFieldData()->HasArray(array.name))
-    {
-      names.insert(std::string("field array '") + array.name + "'");
-    }
+    addField(array.name);
+  }
+  for (const MeshReportArray& array : meshReportArrays())
+  {
+    addField(array.name);
   }
 }
 
@@ -101,6 +109,21 @@ BlockReport reportOf(const std::vector<IsovalueParticles>& isovalues, const Cell
     result.undecidedCells.push_back(*cell - begin);
   }
   return result;
+}
+
+/// Sums the reports of all isovalues' meshes.
+MeshReport meshReportOf(
+  const std::vector<IsovalueParticles>& isovalues, const BlockRows& rows, double unitOfLength)
+{
+  MeshReport sum;
+  sum.unusedParticles = rows.unusedParticles;
+  for (const IsovalueParticles& some : isovalues)
+  {
+    sum.openLoops += some.mesh.openLoops;
+    sum.openLength += unitOfLength * some.mesh.openLength;
+    sum.straightNodes += some.mesh.straightNodes;
+  }
+  return sum;
 }
 
 /// ParaView is not to offer an array to colour by.
@@ -143,6 +166,7 @@ private:
   void addCellArrays();
   void copyCellData(const vtkIdType* cellIds, vtkIdType begin, vtkIdType end);
   void addReport(const std::vector<IsovalueParticles>& isovalues);
+  void addMeshReport(const std::vector<IsovalueParticles>& isovalues);
   template <class Array>
   vtkSmartPointer<Array> newArray(const std::string& name, int components) const;
   template <class Array, class Write>
@@ -188,6 +212,7 @@ void Packer::pack(const std::vector<IsovalueParticles>& isovalues)
   this->fillRows();
   this->addCellArrays();
   this->addReport(isovalues);
+  this->addMeshReport(isovalues);
 }
 
 /// Lets fillRows() call write(row number, row) for every row.
@@ -252,7 +277,10 @@ void Packer::addVertices()
   offsets->SetValue(this->rowCount(), this->rowCount());
   vtkNew<vtkCellArray> vertices;
   vertices->SetData(offsets, connectivity);
-  vtkPolyData::SafeDownCast(this->Output)->SetVerts(vertices);
+  if (auto* polydata = vtkPolyData::SafeDownCast(this->Output))
+  {
+    polydata->SetVerts(vertices);
+  } // else there is no surface to be curved triangles
 }
 
 /// Triangles, or Lagrange triangles.
@@ -464,6 +492,36 @@ void Packer::addReport(const std::vector<IsovalueParticles>& isovalues)
       array->InsertNextValue(value);
     }
     target->AddArray(array);
+  }
+}
+
+/// Tells, in any mesh, what it lacks.
+void Packer::addMeshReport(const std::vector<IsovalueParticles>& isovalues)
+{
+  vtkFieldData* target = this->Output->GetFieldData();
+  const MeshReport report = meshReportOf(isovalues, this->Content, this->Elements.units.length);
+  for (const MeshReportArray& row : meshReportArrays())
+  {
+    target->RemoveArray(row.name);
+    if (this->Content.nodesPerCell == 0)
+    {
+      continue;
+    }
+    const auto add = [&](auto* array, auto value)
+    {
+      array->SetName(row.name);
+      hide(array);
+      array->InsertNextValue(value);
+      target->AddArray(array);
+    };
+    if (const auto* count = std::get_if<0>(&row.value))
+    {
+      add(vtkNew<vtkIdTypeArray>().Get(), static_cast<vtkIdType>((*count)(report)));
+    }
+    else
+    {
+      add(vtkNew<vtkDoubleArray>().Get(), std::get<1>(row.value)(report));
+    }
   }
 }
 
