@@ -150,11 +150,8 @@ void Sharing::addCellsOf(std::size_t block, const std::vector<int>& cells, Block
       }
     }
   };
-  forNodes(
-    [&](int corner, int vertex)
-    {
-      this->StandIn[vertex] = this->StandIn[vertex] == none ? corner : this->StandIn[vertex];
-    });
+  forNodes([&](int corner, int vertex)
+    { this->StandIn[vertex] = this->StandIn[vertex] == none ? corner : this->StandIn[vertex]; });
   for (const int vertex : this->Order)
   {
     if (this->StandIn[vertex] != none)

@@ -136,8 +136,8 @@ void hide(vtkAbstractArray* array)
 class Packer
 {
 public:
-  Packer(const InputBlocks& blocks, std::size_t block, const GridElements& elements,
-    BlockRows rows, bool withDiagnostics, Interruptible& work)
+  Packer(const InputBlocks& blocks, std::size_t block, const GridElements& elements, BlockRows rows,
+    bool withDiagnostics, Interruptible& work)
     : Blocks(blocks)
     , Block(block)
     , Grid(blocks[block].grid)
@@ -296,8 +296,7 @@ void Packer::addMeshCells()
     offsets->SetValue(c, perCell * c);
   }
   connectivity->SetNumberOfValues(perCell * count);
-  std::copy(
-    this->Content.nodes.begin(), this->Content.nodes.end(), connectivity->GetPointer(0));
+  std::copy(this->Content.nodes.begin(), this->Content.nodes.end(), connectivity->GetPointer(0));
   vtkNew<vtkCellArray> cells;
   cells->SetData(offsets, connectivity);
   if (auto* curved = vtkUnstructuredGrid::SafeDownCast(this->Output))

@@ -73,8 +73,7 @@ public:
     {
       return this->Grid->GetCellType(this->cellOf(row));
     }
-    const BlockCell own =
-      this->Blocks.locate(this->Mesh.elements[row.location().element].cell);
+    const BlockCell own = this->Blocks.locate(this->Mesh.elements[row.location().element].cell);
     return this->Blocks[own.block].grid->GetCellType(own.cell);
   }
 

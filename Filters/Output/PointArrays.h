@@ -17,8 +17,8 @@ struct EvaluatedArray
 /// \param block that has the arrays. At rows in other blocks their arrays of the same name are evaluated; where a block
 /// lacks one, the row gets the value of its stand-in.
 /// \param rows sorted by element for the most part
-void evaluatePointArrays(const InputBlocks& blocks, std::size_t block,
-  const GridElements& elements, const std::vector<EvaluatedArray>& arrays, const std::vector<ParticleRow>& rows,
+void evaluatePointArrays(const InputBlocks& blocks, std::size_t block, const GridElements& elements,
+  const std::vector<EvaluatedArray>& arrays, const std::vector<ParticleRow>& rows,
   const ParallelFor& parallelFor);
 
 } // namespace hop

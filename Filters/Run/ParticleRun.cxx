@@ -225,9 +225,8 @@ void GroupRun::fill(const GridElements& elements, const std::vector<RankShare>& 
     const Work ofIsovalue = work.part(begin, begin + shareOfIsovalue);
     IsovalueParticles& some = particles.emplace_back();
     some.isovalue = origin.isovalue;
-    some.distribution =
-      this->distribute(elements, origin, this->Group * isovalues.size() + i, shares[i],
-        ofIsovalue.part(0.0, ProgressAt::Joined));
+    some.distribution = this->distribute(elements, origin, this->Group * isovalues.size() + i,
+      shares[i], ofIsovalue.part(0.0, ProgressAt::Joined));
     counts[i] += static_cast<std::int64_t>(particles.back().distribution.particles.size());
     this->Caller.tell(reviewDistribution(this->Blocks, particles.back().distribution,
       origin.isovalue, this->Properties.numberOfParticles));

@@ -201,12 +201,14 @@ UserMessages reviewMesh(const IsovalueParticles& some, double unit)
   text << "Isovalue " << some.isovalue << ": ";
   if (mesh.openLoops > 0)
   {
-    text << "the mesh has " << mesh.openLoops << " holes that are no boundary curves of the surface, "
-         << unit * mesh.openLength << " long together. ";
+    text << "the mesh has " << mesh.openLoops
+         << " holes that are no boundary curves of the surface, " << unit * mesh.openLength
+         << " long together. ";
   }
   if (mesh.straightNodes > 0)
   {
-    text << mesh.straightNodes << " nodes of curved triangles were not found on the surface and stay on straight edges. ";
+    text << mesh.straightNodes
+         << " nodes of curved triangles were not found on the surface and stay on straight edges. ";
   }
   if (mesh.openLoops == 0 && mesh.straightNodes == 0)
   {
