@@ -158,8 +158,9 @@ void Sharing::addCellsOf(std::size_t block, const std::vector<int>& cells, Block
     {
       this->RowOf[vertex] = static_cast<int>(result.rows.size());
       ParticleRow row = rowOf(this->Some, vertex);
-      const double size = length(this->Normals[vertex]);
-      row.normal = size > 0.0 ? (1.0 / size) * this->Normals[vertex] : row.normal;
+      const WorldVector& sum = this->Normals[vertex];
+      const bool isMean = sum.xyz != row.normal.xyz && length(sum) > 0.0;
+      row.normal = isMean ? (1.0 / length(sum)) * sum : row.normal;
       row.area = this->Areas[vertex];
       result.rows.push_back(row);
     }
