@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Mesh/ConstrainedEdges.h"
+#include "Mesh/TangentView.h"
 #include "Mesh/TriangleFans.h"
 
 namespace hop
@@ -15,6 +15,6 @@ namespace hop
 /// agree.
 /// Derivation: Documentation/algorithm.md, section Mesh.
 TriangleFans agreedTriangles(
-  const Buffer<Particle>& particles, const ConstrainedEdges& edges, const ParallelFor& parallelFor);
+  const ParticleNeighbors& neighbors, const ConstrainedEdges& edges, const ParallelFor& parallelFor);
 
 } // namespace hop

@@ -1,7 +1,5 @@
 #include "Mesh/TangentView.h"
 
-#include "Surface/Patch.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,18 +22,6 @@ struct SameSheet
 };
 
 constexpr double fullTurn = 6.283185307179586;
-
-double crossOf(const glm::dvec2& a, const glm::dvec2& b)
-{
-  return a.x * b.y - a.y * b.x;
-}
-
-/// Counterclockwise angle from one direction to another, in [0, 2 pi).
-double turnFrom(const glm::dvec2& from, const glm::dvec2& to)
-{
-  const double angle = std::atan2(crossOf(from, to), glm::dot(from, to));
-  return angle < 0.0 ? angle + fullTurn : angle;
-}
 
 /// Whether the line from the origin to a place crosses the segment from a to b between their ends.
 bool crosses(const glm::dvec2& place, const glm::dvec2& a, const glm::dvec2& b)
@@ -62,21 +48,10 @@ ParticleNeighbors::ParticleNeighbors(
 bool TangentView::isOnSheet(int particle) const
 {
   const glm::vec3& normal = this->Particles.normals[particle];
-  const glm::dvec3 apart = this->Particles.points.positions[particle] - this->Origin;
+  const glm::dvec3 apart = this->Particles.points.positions[particle] - this->Plane.origin;
   return glm::dot(normal, this->Normal) > SameSheet::Cosine &&
-    std::abs(glm::dot(apart, glm::dvec3(normal + this->Normal))) * this->PerSpacing <=
+    std::abs(glm::dot(apart, glm::dvec3(normal + this->Normal))) * this->Plane.perSpacing <=
     2.0 * SameSheet::Thickness;
-}
-
-/// Where a particle stands in the plane.
-FlatNeighbor TangentView::flat(int particle) const
-{
-  const glm::dvec3 apart =
-    (this->Particles.points.positions[particle] - this->Origin) * this->PerSpacing;
-  const glm::dvec2 shadow(glm::dot(apart, this->Across), glm::dot(apart, this->Along));
-  const double squared = glm::dot(shadow, shadow);
-  const double stretch = squared > 0.0 ? std::sqrt(glm::dot(apart, apart) / squared) : 0.0;
-  return { stretch * shadow, particle };
 }
 
 /// The constrained edges that end at a neighbour.
@@ -182,12 +157,9 @@ void TangentView::makeSectors()
 void TangentView::lookFrom(int particle)
 {
   this->Middle = particle;
-  this->Origin = this->Particles.points.positions[particle];
   this->Normal = this->Particles.normals[particle];
-  const auto [across, along] = tangentsOf(this->Normal);
-  this->Across = across;
-  this->Along = along;
-  this->PerSpacing = 1.0 / this->Particles.points.spacings[particle];
+  this->Plane = TangentPlane(this->Particles.points.positions[particle], this->Normal,
+    this->Particles.points.spacings[particle]);
   this->Neighbors.clear();
   this->Sectors.clear();
   bool isNearEdge = false;
