@@ -61,7 +61,6 @@ public:
     , Particles(distribution.particles)
     , Fans(fans)
     , Parallel(parallelFor)
-    , Walker(surface)
     , Surface(surface)
   {
   }
@@ -71,14 +70,33 @@ public:
     this->Loops = findOpenLoops(this->Particles, this->Edges, this->Fans, this->Parallel);
     this->sortLoops();
     this->findLoose();
+    this->prepareWalks();
     for (const std::size_t hole : this->Holes)
     {
       askCaller(this->Parallel);
-      this->fill(hole);
+      const std::size_t before = this->Particles.size();
+      if (!this->fill(hole))
+      {
+        this->dropParticlesBehind(before);
+      }
     }
   }
 
 private:
+  /// Walks pass faces that the mesh does not join.
+  void prepareWalks()
+  {
+    if (!this->Holes.empty())
+    {
+      if (!this->Surface.locator)
+      {
+        this->Locator.emplace(*this->Surface.mesh, this->Surface.isovalue, this->Parallel);
+        this->Surface.locator = &*this->Locator;
+      }
+      this->Walker.emplace(this->Surface);
+    }
+  }
+
   const glm::dvec3& at(int particle) const { return this->Particles[particle].position.xyz; }
   glm::dvec3 normalOf(int particle) const { return this->Particles[particle].normal.xyz; }
 
@@ -139,8 +157,7 @@ private:
   bool surrounds(const std::vector<int>& loop, int particle) const
   {
     const Particle& middle = this->Particles[particle];
-    const TangentPlane plane(
-      middle.position.xyz, glm::vec3(middle.normal.xyz), middle.spacing);
+    const TangentPlane plane(middle.position.xyz, glm::vec3(middle.normal.xyz), middle.spacing);
     double turn = 0.0;
     glm::dvec2 before = plane.flat(this->at(loop.back()));
     for (const int corner : loop)
@@ -161,8 +178,8 @@ private:
   std::optional<std::size_t> holeAround(int particle) const
   {
     std::optional<std::size_t> found;
-    for (const int* j = this->Neighbors.seen.begin(particle); j != this->Neighbors.seen.end(particle);
-         ++j)
+    for (const int* j = this->Neighbors.seen.begin(particle);
+         j != this->Neighbors.seen.end(particle); ++j)
     {
       const auto holes = this->HolesOf.find(*j);
       for (const std::size_t hole :
@@ -235,14 +252,14 @@ private:
       return;
     }
     std::vector<int> detour(loop.begin() + static_cast<std::ptrdiff_t>(there), loop.end());
-    detour.insert(
-      detour.end(), loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(there));
+    detour.insert(detour.end(), loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(there));
     if (loop.size() > 1)
     {
       detour.push_back(loop[there]);
     }
     detour.push_back(border[here]);
-    border.insert(border.begin() + static_cast<std::ptrdiff_t>(here) + 1, detour.begin(), detour.end());
+    border.insert(
+      border.begin() + static_cast<std::ptrdiff_t>(here) + 1, detour.begin(), detour.end());
   }
 
   /// The cost of a triangle: the harmonic index, least for an equilateral one. Among all triangulations of points in a
@@ -275,9 +292,9 @@ private:
   /// The place on the surface below a point near a particle, if the surface goes on there.
   std::optional<Evaluated> placeBelow(const glm::dvec3& point, int particle, double spacing)
   {
-    const Evaluated start = this->Walker.evaluate(this->Particles[particle].location);
-    const Evaluated there = this->Walker.evaluate(
-      this->Walker.move(start, WorldVector{ point - start.point.map.position.xyz }));
+    const Evaluated start = this->Walker->evaluate(this->Particles[particle].location);
+    const Evaluated there = this->Walker->evaluate(
+      this->Walker->move(start, WorldVector{ point - start.point.map.position.xyz }));
     const double slope = length(there.point.gradient);
     const double aside = glm::distance(there.point.map.position.xyz, point);
     if (!(aside <= Hole::Beside * spacing) ||
@@ -358,18 +375,19 @@ private:
     const double spacing = this->spacingOf(*largest);
     const auto below = this->placeBelow(this->shapeOf(*largest).middle, (*largest)[0], spacing);
     Evaluated place;
-    if (!below || !this->Walker.project(below->location, spacing, place))
+    if (!below || !this->Walker->project(below->location, spacing, place))
     {
       return std::nullopt;
     }
-    place = this->Walker.evaluateCurved(place.location);
+    place = this->Walker->evaluateCurved(place.location);
     this->Particles.push_back(particleAt(
       place.location, place.point, curvature(place.point.gradient, place.hessian), spacing));
     this->Fans.appendVertex();
     return static_cast<int>(this->Particles.size()) - 1;
   }
 
-  void fill(std::size_t hole)
+  /// \return whether it was filled
+  bool fill(std::size_t hole)
   {
     std::vector<int> border = this->Loops[hole].particles;
     for (const std::vector<int>& loop : this->Loose[hole])
@@ -382,7 +400,7 @@ private:
       const std::vector<Triangle> triangles = this->triangulate(border);
       if (triangles.empty())
       {
-        return;
+        return false;
       }
       if (const auto added = this->addParticle(triangles))
       {
@@ -390,8 +408,18 @@ private:
       }
       else if (this->accept(triangles))
       {
-        return;
+        return true;
       }
+    }
+    return false;
+  }
+
+  void dropParticlesBehind(std::size_t count)
+  {
+    while (this->Particles.size() > count)
+    {
+      this->Particles.pop_back();
+      this->Fans.dropLastVertex();
     }
   }
 
@@ -400,8 +428,9 @@ private:
   Buffer<Particle>& Particles;
   TriangleFans& Fans;
   const ParallelFor& Parallel;
-  SurfaceWalker Walker;
-  const Isosurface& Surface;
+  Isosurface Surface;
+  std::optional<FaceLocator> Locator;
+  std::optional<SurfaceWalker> Walker;
   std::vector<OpenLoop> Loops;
   /// Indices of loops around holes, and around pieces of the mesh.
   std::vector<std::size_t> Holes, Islands;

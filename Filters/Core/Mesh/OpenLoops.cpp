@@ -110,8 +110,7 @@ private:
       return ends.begin();
     }
     const Particle& here = this->Particles[at];
-    const TangentPlane plane(
-      here.position.xyz, glm::vec3(here.normal.xyz), here.spacing);
+    const TangentPlane plane(here.position.xyz, glm::vec3(here.normal.xyz), here.spacing);
     const glm::dvec2 back = plane.flat(this->Particles[before].position.xyz);
     const auto turn = [&](int end)
     { return turnFrom(plane.flat(this->Particles[end].position.xyz), back); };
@@ -130,8 +129,7 @@ std::vector<OpenLoop> findOpenLoops(const Buffer<Particle>& particles,
 {
   std::vector<char> isOpen(particles.size());
   forAll(parallelFor, particles.size(),
-    [&](std::size_t i)
-    { isOpen[i] = !openEdgesOf(static_cast<int>(i), edges, fans).empty(); });
+    [&](std::size_t i) { isOpen[i] = !openEdgesOf(static_cast<int>(i), edges, fans).empty(); });
   LoopWalker walker(particles);
   for (const int particle : markedIndices(isOpen, particles.size()))
   {

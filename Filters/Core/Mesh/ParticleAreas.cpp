@@ -111,7 +111,8 @@ private:
   /// edge.
   static constexpr double AtEdge = 0.05;
 
-  /// The cell, cut off at planes that are not nearer than `nearest`.
+  /// The cell, cut off at boundary curves that are not nearer than `nearest`. (Creases have particles of their own where
+  /// the surface turns much; where it turns little the cells of both sides meet as on a smooth surface.)
   void startCell(const std::vector<FlatNeighbor>& neighbors, double nearest)
   {
     this->Whole.start();
@@ -128,7 +129,7 @@ private:
     for (const ClipPlane& plane : this->At->clips)
     {
       const double distance = plane.distance / this->At->spacing;
-      if (plane.exists() && distance >= nearest)
+      if (plane.isBoundary() && distance >= nearest)
       {
         this->Whole.cut(this->View.plane().directionOf(plane.normal.xyz), distance);
       }

@@ -63,8 +63,8 @@ private:
       const double others = this->best(first, apex).cost + this->best(apex, last).cost;
       if (others < solution.cost)
       {
-        const double whole = others +
-          this->Cost({ this->Polygon[first], this->Polygon[apex], this->Polygon[last] });
+        const double whole =
+          others + this->Cost({ this->Polygon[first], this->Polygon[apex], this->Polygon[last] });
         if (whole < solution.cost)
         {
           solution = { whole, apex };
