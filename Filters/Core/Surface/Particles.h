@@ -130,7 +130,7 @@ struct DistributionReport
 struct Distribution
 {
   Buffer<Particle> particles;
-  /// Indices into `particles`.
+  /// By the indices of the particles; Fast only.
   SurfaceEdges edges;
   DistributionReport report;
 };
