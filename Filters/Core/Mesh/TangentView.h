@@ -22,8 +22,10 @@ struct ParticleNeighbors
   /// No neighbour farther away is in an empty circle: its diameter.
   static constexpr double Reach = 2.0 * LargestRadius;
 
-  ParticleNeighbors(const Buffer<Particle>& particles, const ParallelFor& parallelFor);
+  /// \pre the particles outlive it
+  ParticleNeighbors(const Buffer<Particle>& all, const ParallelFor& parallelFor);
 
+  const Buffer<Particle>& particles;
   SpacedPoints points;
   Buffer<glm::vec3> normals;
   SeenLists seen;
@@ -71,6 +73,7 @@ private:
   };
 
   bool isOnSheet(int particle) const;
+  bool turnsAsExpected(int particle) const;
   FlatNeighbor flat(int particle) const
   {
     return { this->Plane.flat(this->Particles.points.positions[particle]), particle };
