@@ -20,21 +20,19 @@ struct SideOfSegment
   static constexpr double Clear = 0.2;
 };
 
-/// How far the surface ends to the left of a segment at one of its particles: 1, it ends to the left; -1, to the right;
-/// between these, it ends before or behind.
+/// On which side of a segment the surface ends, as one of its particles knows: positive, to the left; negative, to the
+/// right. At the tip of a slit or of a strip the particle knows of both sides, and the sum is about zero.
 double endsToTheLeft(const Particle& particle, const glm::dvec3& left)
 {
-  double most = 0.0;
+  double sum = 0.0;
   for (const ClipPlane& plane : particle.clips)
   {
-    const double here = glm::dot(plane.normal.xyz, left);
-    if (plane.distance <= SideOfSegment::AtEdge * particle.spacing &&
-      std::abs(here) > std::abs(most))
+    if (plane.distance <= SideOfSegment::AtEdge * particle.spacing)
     {
-      most = here;
+      sum += glm::dot(plane.normal.xyz, left);
     }
   }
-  return most;
+  return sum;
 }
 
 /// Calls use(edge) for a segment, directed so that the surface is to its left.

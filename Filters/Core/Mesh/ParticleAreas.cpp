@@ -2,7 +2,6 @@
 
 #include "Mesh/TangentView.h"
 #include "Support/Interruptible.h"
-#include "Surface/Patch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,11 +11,6 @@ namespace hop
 {
 namespace
 {
-
-double crossOf(const glm::dvec2& a, const glm::dvec2& b)
-{
-  return a.x * b.y - a.y * b.x;
-}
 
 /// The part of a particle's tangent plane that is nearer to it than to others: a convex polygon, in units of the
 /// spacing. To be reused: its memory only grows.
@@ -99,7 +93,6 @@ public:
   {
     this->View.lookFrom(particle);
     this->At = &this->Particles[particle];
-    this->Tangents = tangentsOf(glm::vec3(this->At->normal.xyz));
     double area = 0.0;
     if (this->View.sectors().empty())
     {
@@ -118,13 +111,8 @@ private:
   /// edge.
   static constexpr double AtEdge = 0.05;
 
-  glm::dvec2 inPlane(const glm::dvec3& v) const
-  {
-    return { glm::dot(v, glm::dvec3(this->Tangents[0])),
-      glm::dot(v, glm::dvec3(this->Tangents[1])) };
-  }
-
-  /// The cell, cut off at planes that are not nearer than `nearest`.
+  /// The cell, cut off at boundary curves that are not nearer than `nearest`. (Creases have particles of their own where
+  /// the surface turns much; where it turns little the cells of both sides meet as on a smooth surface.)
   void startCell(const std::vector<FlatNeighbor>& neighbors, double nearest)
   {
     this->Whole.start();
@@ -141,9 +129,9 @@ private:
     for (const ClipPlane& plane : this->At->clips)
     {
       const double distance = plane.distance / this->At->spacing;
-      if (plane.exists() && distance >= nearest)
+      if (plane.isBoundary() && distance >= nearest)
       {
-        this->Whole.cut(this->inPlane(plane.normal.xyz), distance);
+        this->Whole.cut(this->View.plane().directionOf(plane.normal.xyz), distance);
       }
     }
   }
@@ -154,7 +142,8 @@ private:
   double areaOfCell() const
   {
     const Curvature& curvature = this->At->curvature;
-    const glm::dvec3 a(this->Tangents[0]), b(this->Tangents[1]);
+    const glm::dvec3& a = this->View.plane().across;
+    const glm::dvec3& b = this->View.plane().along;
     const double xx = glm::dot(a, curvature.shape * a);
     const double xy = glm::dot(a, curvature.shape * b);
     const double yy = glm::dot(b, curvature.shape * b);
@@ -180,7 +169,7 @@ private:
     double bend = 0.0;
     for (const ClipPlane& plane : this->At->clips)
     {
-      const double facing = glm::dot(this->inPlane(plane.normal.xyz), outward);
+      const double facing = glm::dot(this->View.plane().directionOf(plane.normal.xyz), outward);
       if (plane.distance < AtEdge * this->At->spacing && facing > most)
       {
         most = facing;
@@ -197,9 +186,8 @@ private:
     // Convex parts: less than half a turn each.
     constexpr int parts = 3;
     const double begin = std::atan2(first.y, first.x);
-    double width = std::atan2(crossOf(first, last), glm::dot(first, last));
     constexpr double fullTurn = 6.283185307179586;
-    width = width > 0.0 ? width : width + fullTurn;
+    const double width = sector.first == sector.last ? fullTurn : turnFrom(first, last);
     double area = 0.0;
     for (int part = 0; part < parts; ++part)
     {
@@ -216,7 +204,6 @@ private:
   const Buffer<Particle>& Particles;
   TangentView View;
   const Particle* At = nullptr;
-  std::array<glm::vec3, 2> Tangents{};
   Cell Whole;
 };
 

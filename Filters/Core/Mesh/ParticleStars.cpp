@@ -14,11 +14,6 @@ namespace
 /// area; larger: gaps beside particles that stand too close.
 constexpr double leastSine = 1e-3;
 
-double crossOf(const glm::dvec2& a, const glm::dvec2& b)
-{
-  return a.x * b.y - a.y * b.x;
-}
-
 /// The star of one particle.
 class Star
 {
@@ -135,11 +130,10 @@ void addStar(int particle, TangentView& view, std::vector<LinkEdge>& fan)
 } // namespace
 
 TriangleFans agreedTriangles(
-  const Buffer<Particle>& particles, const ConstrainedEdges& edges, const ParallelFor& parallelFor)
+  const ParticleNeighbors& neighbors, const ConstrainedEdges& edges, const ParallelFor& parallelFor)
 {
-  const ParticleNeighbors neighbors(particles, parallelFor);
   TriangleFans fans(
-    particles.size(), parallelFor, [&]() { return TangentView(neighbors, edges); },
+    neighbors.normals.size(), parallelFor, [&]() { return TangentView(neighbors, edges); },
     [](int particle, std::vector<LinkEdge>& fan, TangentView& view)
     { addStar(particle, view, fan); });
   fans.keepAgreed(parallelFor);

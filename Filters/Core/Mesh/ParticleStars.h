@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Mesh/ConstrainedEdges.h"
+#include "Mesh/TangentView.h"
 #include "Mesh/TriangleFans.h"
 
 namespace hop
@@ -14,7 +14,7 @@ namespace hop
 /// Triangles overlap nowhere where the stars' planes see the surface as a graph; holes are left where stars do not
 /// agree.
 /// Derivation: Documentation/algorithm.md, section Mesh.
-TriangleFans agreedTriangles(
-  const Buffer<Particle>& particles, const ConstrainedEdges& edges, const ParallelFor& parallelFor);
+TriangleFans agreedTriangles(const ParticleNeighbors& neighbors, const ConstrainedEdges& edges,
+  const ParallelFor& parallelFor);
 
 } // namespace hop

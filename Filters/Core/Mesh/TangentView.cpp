@@ -1,7 +1,5 @@
 #include "Mesh/TangentView.h"
 
-#include "Surface/Patch.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,21 +19,14 @@ struct SameSheet
   /// constant curvature. Larger: the next sheet but one of a thin body counts; smaller: neighbours are lost where the
   /// surface bends unevenly.
   static constexpr double Thickness = 0.5;
+  /// Cosine between normals, 26 degrees, above which curvature need not explain the angle: changes the time.
+  static constexpr float Alike = 0.9f;
+  /// Largest difference between the normals' difference and the one that follows from curvature. Larger: sheets that cross
+  /// at a jump of the field count as one; smaller: neighbours are lost where curvature varies within a spacing.
+  static constexpr double Unexplained = 0.4;
 };
 
 constexpr double fullTurn = 6.283185307179586;
-
-double crossOf(const glm::dvec2& a, const glm::dvec2& b)
-{
-  return a.x * b.y - a.y * b.x;
-}
-
-/// Counterclockwise angle from one direction to another, in [0, 2 pi).
-double turnFrom(const glm::dvec2& from, const glm::dvec2& to)
-{
-  const double angle = std::atan2(crossOf(from, to), glm::dot(from, to));
-  return angle < 0.0 ? angle + fullTurn : angle;
-}
 
 /// Whether the line from the origin to a place crosses the segment from a to b between their ends.
 bool crosses(const glm::dvec2& place, const glm::dvec2& a, const glm::dvec2& b)
@@ -45,38 +36,57 @@ bool crosses(const glm::dvec2& place, const glm::dvec2& a, const glm::dvec2& b)
     crossOf(along, -a) * crossOf(along, place - a) < 0.0;
 }
 
+/// The largest angle by which the surface turns at creases between a particle and a place, radians.
+/// \param apart from the particle to the place
+double creaseBefore(const Particle& particle, const glm::dvec3& apart)
+{
+  double angle = 0.0;
+  for (const ClipPlane& plane : particle.clips)
+  {
+    if (plane.exists() && !plane.isBoundary() &&
+      glm::dot(plane.normal.xyz, apart) >= plane.distance)
+    {
+      angle = std::max<double>(angle, plane.dihedralAngle);
+    }
+  }
+  return angle;
+}
+
 } // namespace
 
-ParticleNeighbors::ParticleNeighbors(
-  const Buffer<Particle>& particles, const ParallelFor& parallelFor)
-  : points(
-      particles.size(), [&](std::size_t i) { return particles[i].position.xyz; },
-      [&](std::size_t i) { return particles[i].spacing; }, parallelFor)
-  , normals(particles.size())
+ParticleNeighbors::ParticleNeighbors(const Buffer<Particle>& all, const ParallelFor& parallelFor)
+  : particles(all)
+  , points(
+      all.size(), [&](std::size_t i) { return all[i].position.xyz; },
+      [&](std::size_t i) { return all[i].spacing; }, parallelFor)
+  , normals(all.size())
   , seen(points.positions, points.spacings, Reach, parallelFor)
 {
-  forAll(parallelFor, particles.size(),
-    [&](std::size_t i) { this->normals[i] = particles[i].normal.xyz; });
+  forAll(parallelFor, all.size(), [&](std::size_t i) { this->normals[i] = all[i].normal.xyz; });
+}
+
+/// Whether the normals of a neighbour and of the middle differ as curvature says: by the mean of both shape operators,
+/// times the way between them, to third order in its length. Creases between them add their angle.
+bool TangentView::turnsAsExpected(int particle) const
+{
+  const Particle& here = this->Particles.particles[this->Middle];
+  const Particle& there = this->Particles.particles[particle];
+  const glm::dvec3 apart = (there.position - here.position).xyz;
+  const glm::dvec3 expected = 0.5 * ((here.curvature.shape + there.curvature.shape) * apart);
+  const double tolerance =
+    SameSheet::Unexplained + std::max(creaseBefore(here, apart), creaseBefore(there, -apart));
+  return glm::distance((there.normal - here.normal).xyz, expected) <= tolerance;
 }
 
 bool TangentView::isOnSheet(int particle) const
 {
   const glm::vec3& normal = this->Particles.normals[particle];
-  const glm::dvec3 apart = this->Particles.points.positions[particle] - this->Origin;
-  return glm::dot(normal, this->Normal) > SameSheet::Cosine &&
-    std::abs(glm::dot(apart, glm::dvec3(normal + this->Normal))) * this->PerSpacing <=
-    2.0 * SameSheet::Thickness;
-}
-
-/// Where a particle stands in the plane.
-FlatNeighbor TangentView::flat(int particle) const
-{
-  const glm::dvec3 apart =
-    (this->Particles.points.positions[particle] - this->Origin) * this->PerSpacing;
-  const glm::dvec2 shadow(glm::dot(apart, this->Across), glm::dot(apart, this->Along));
-  const double squared = glm::dot(shadow, shadow);
-  const double stretch = squared > 0.0 ? std::sqrt(glm::dot(apart, apart) / squared) : 0.0;
-  return { stretch * shadow, particle };
+  const glm::dvec3 apart = this->Particles.points.positions[particle] - this->Plane.origin;
+  const float cosine = glm::dot(normal, this->Normal);
+  return cosine > SameSheet::Cosine &&
+    std::abs(glm::dot(apart, glm::dvec3(normal + this->Normal))) * this->Plane.perSpacing <=
+    2.0 * SameSheet::Thickness &&
+    (cosine > SameSheet::Alike || this->turnsAsExpected(particle));
 }
 
 /// The constrained edges that end at a neighbour.
@@ -182,12 +192,9 @@ void TangentView::makeSectors()
 void TangentView::lookFrom(int particle)
 {
   this->Middle = particle;
-  this->Origin = this->Particles.points.positions[particle];
   this->Normal = this->Particles.normals[particle];
-  const auto [across, along] = tangentsOf(this->Normal);
-  this->Across = across;
-  this->Along = along;
-  this->PerSpacing = 1.0 / this->Particles.points.spacings[particle];
+  this->Plane = TangentPlane(this->Particles.points.positions[particle], this->Normal,
+    this->Particles.points.spacings[particle]);
   this->Neighbors.clear();
   this->Sectors.clear();
   bool isNearEdge = false;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Mesh/ConstrainedEdges.h"
+#include "Mesh/TangentPlane.h"
 #include "Support/SpacedPoints.h"
 #include "Support/SpacingGrid.h"
 
@@ -21,8 +22,10 @@ struct ParticleNeighbors
   /// No neighbour farther away is in an empty circle: its diameter.
   static constexpr double Reach = 2.0 * LargestRadius;
 
-  ParticleNeighbors(const Buffer<Particle>& particles, const ParallelFor& parallelFor);
+  /// \pre the particles outlive it
+  ParticleNeighbors(const Buffer<Particle>& all, const ParallelFor& parallelFor);
 
+  const Buffer<Particle>& particles;
   SpacedPoints points;
   Buffer<glm::vec3> normals;
   SeenLists seen;
@@ -58,6 +61,7 @@ public:
   /// are left out.
   void lookFrom(int particle);
 
+  const TangentPlane& plane() const { return this->Plane; }
   const std::vector<FlatNeighbor>& neighbors() const { return this->Neighbors; }
   /// Empty for a particle that is on no constrained edge.
   const std::vector<Sector>& sectors() const { return this->Sectors; }
@@ -69,7 +73,11 @@ private:
   };
 
   bool isOnSheet(int particle) const;
-  FlatNeighbor flat(int particle) const;
+  bool turnsAsExpected(int particle) const;
+  FlatNeighbor flat(int particle) const
+  {
+    return { this->Plane.flat(this->Particles.points.positions[particle]), particle };
+  }
   void collectEdges();
   bool isHidden(const FlatNeighbor& neighbor) const;
   bool isSeenFromTheLeft(const FlatNeighbor& neighbor) const;
@@ -78,10 +86,8 @@ private:
   const ParticleNeighbors& Particles;
   const ConstrainedEdges& Edges;
   int Middle = -1;
-  glm::dvec3 Origin{ 0.0 };
   glm::vec3 Normal{ 0.0f };
-  glm::dvec3 Across{ 0.0 }, Along{ 0.0 };
-  double PerSpacing = 1.0;
+  TangentPlane Plane;
   std::vector<FlatNeighbor> Neighbors;
   std::vector<FlatEdge> FlatEdges;
   std::vector<Sector> Sectors;

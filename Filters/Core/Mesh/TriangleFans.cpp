@@ -101,6 +101,12 @@ void TriangleFans::appendVertex()
   this->Places.push_back({ 0, -1 });
 }
 
+void TriangleFans::dropLastVertex()
+{
+  this->Places.pop_back();
+  this->Changed.erase(static_cast<int>(this->Places.size()));
+}
+
 void TriangleFans::add(const Triangle& triangle)
 {
   for (int corner = 0; corner < 3; ++corner)

@@ -52,6 +52,8 @@ public:
   void remove(const Triangle& triangle);
   /// For a vertex that was appended to the particles.
   void appendVertex();
+  /// \pre the last vertex was appended, and has no triangle
+  void dropLastVertex();
 
   /// All triangles, each once, the least corner first, in ascending order of this corner.
   std::vector<Triangle> triangles(const ParallelFor& parallelFor) const;
