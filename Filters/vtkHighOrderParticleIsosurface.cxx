@@ -14,10 +14,10 @@
 
 #include "vtkContourValues.h"
 #include "vtkDataObjectTree.h"
+#include "vtkDataObjectTypes.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
@@ -165,7 +165,13 @@ bool vtkHighOrderParticleIsosurface::IsAskedForMore(vtkInformationVector* output
       (executive && executive->GetPipelineMTime() > this->LastAbort.GetMTime()));
 }
 
-/// vtkPolyData for a grid, a composite of the input's own kind for a composite.
+/// Of what is not a composite.
+int vtkHighOrderParticleIsosurface::KindOfOutput() const
+{
+  return this->OutputType == CURVED_TRIANGLES ? VTK_UNSTRUCTURED_GRID : VTK_POLY_DATA;
+}
+
+/// Data of KindOfOutput() for a grid, a composite of the input's own kind for a composite.
 int vtkHighOrderParticleIsosurface::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
@@ -182,7 +188,7 @@ int vtkHighOrderParticleIsosurface::RequestDataObject(
   }
   else
   {
-    wanted = vtkSmartPointer<vtkPolyData>::New();
+    wanted.TakeReference(vtkDataObjectTypes::NewDataObject(this->KindOfOutput()));
   }
   if (!output || !output->IsA(wanted->GetClassName()))
   {
@@ -216,7 +222,7 @@ int vtkHighOrderParticleIsosurface::RequestData(
 
 void vtkHighOrderParticleIsosurface::Run(vtkDataObject* input, vtkDataObject* output)
 {
-  const hop::GatheredBlocks gathered = hop::gatherBlocks(input, output);
+  const hop::GatheredBlocks gathered = hop::gatherBlocks(input, this->KindOfOutput(), output);
   // Ranks agree on the scale before any of them may return.
   const hop::RunScale scale = hop::findScale(gathered.blocks, this->Spacing, this->Tolerance);
   if (!this->WarmStart)
@@ -257,7 +263,8 @@ std::uint64_t vtkHighOrderParticleIsosurface::HashOfRequest(vtkDataObject* input
   }
   for (const vtkIdType number : { vtkIdType(this->Component), vtkIdType(this->NodeSpacing),
          vtkIdType(this->Method), vtkIdType(this->Quality), vtkIdType(this->Seed),
-         this->NumberOfParticles, vtkIdType(this->WarmStart), vtkIdType(this->PassDiagnostics) })
+         this->NumberOfParticles, vtkIdType(this->WarmStart), vtkIdType(this->PassDiagnostics),
+         vtkIdType(this->OutputType), vtkIdType(this->Order) })
   {
     hash.addWord(static_cast<std::uint64_t>(number));
   }
@@ -312,6 +319,8 @@ hop::RunProperties vtkHighOrderParticleIsosurface::PropertiesOfRun()
   properties.isClassic = this->Method == CLASSIC;
   properties.isWarmStart = this->WarmStart;
   properties.passesDiagnostics = this->PassDiagnostics;
+  properties.outputType = static_cast<hop::OutputType>(this->OutputType);
+  properties.order = this->Order;
   return properties;
 }
 
@@ -375,6 +384,8 @@ void vtkHighOrderParticleIsosurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfParticles: " << this->NumberOfParticles << "\n";
   os << indent << "WarmStart: " << (this->WarmStart ? "On" : "Off") << "\n";
   os << indent << "PassDiagnostics: " << (this->PassDiagnostics ? "On" : "Off") << "\n";
+  os << indent << "OutputType: " << this->OutputType << "\n";
+  os << indent << "Order: " << this->Order << "\n";
   os << indent << "ContourValues:\n";
   this->ContourValues->PrintSelf(os, indent.GetNextIndent());
 }

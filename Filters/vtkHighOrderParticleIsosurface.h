@@ -8,6 +8,13 @@
  * pieces. Particles stand at an even spacing in world space, closer where the surface bends, as far as AngularDensity
  * asks for it. Points are ordered by isovalue, then by cell.
  *
+ * With OutputType TRIANGLES the output is vtkPolyData as well, a mesh of the surface whose points are the particles, and
+ * with CURVED_TRIANGLES it is vtkUnstructuredGrid of VTK_LAGRANGE_TRIANGLE cells with further points on the surface.
+ * Particles in one place on the two sides of a crease are one point there, with the mean normal. A triangle belongs to
+ * the block of its first corner; corners in other blocks are copied. Cell arrays are those of the cell in which the first
+ * corner lies, and `Cell_Id`. What a mesh lacks stands in its field data: `MeshOpenLoops`, `MeshOpenLength`,
+ * `MeshUnusedParticles`, `MeshStraightNodes`.
+ *
  * The blocks of a composite are one mesh: particles of neighbouring blocks see each other, and each goes to the block
  * of the cell in which it ends. Blocks that have a cell in common, as several results on one grid do, are kept apart.
  * Blocks that lack F, and data sets that are no unstructured grids, take no part and are named in one warning. Where F
@@ -26,7 +33,7 @@
  *
  * Point data of the output: every numeric point array of the input, evaluated by the element's own polynomials in
  * double precision (the contoured one holds the isovalue), and arrays of the filter's own:
- * - geometry: `Normals`, `Radius`, `Mean_Curvature`, `Gauss_Curvature`, `Residual`;
+ * - geometry: `Normals`, `Radius`, `Area`, `Mean_Curvature`, `Gauss_Curvature`, `Residual`;
  * - where the particle is: `Isovalue`, `Cell_Id` and, with the same ids in the same memory, `vtkOriginalCellIds`;
  * - for the renderer alone, in the hidden array `__vtkValidMask__Splats`: `Shape_Operator`; where the surface ends or
  *   turns near the particle: `Clip_Normal`, `Clip_Distance`, `Clip_Angle`, `Clip_Curvature` (with method FAST);
@@ -211,6 +218,30 @@ public:
   vtkBooleanMacro(WarmStart, bool);
   ///@}
 
+  enum OutputTypes
+  {
+    PARTICLES = 0,
+    TRIANGLES = 1,
+    CURVED_TRIANGLES = 2
+  };
+
+  ///@{
+  /**
+   * What the output is made of: PARTICLES (default); a mesh of TRIANGLES whose corners are the particles; or
+   * CURVED_TRIANGLES, Lagrange triangles of the given Order whose nodes all lie on the isosurface.
+   */
+  vtkSetClampMacro(OutputType, int, PARTICLES, CURVED_TRIANGLES);
+  vtkGetMacro(OutputType, int);
+  ///@}
+
+  ///@{
+  /**
+   * Polynomial order of curved triangles. Range 2 to 4, default 2.
+   */
+  vtkSetClampMacro(Order, int, 2, 4);
+  vtkGetMacro(Order, int);
+  ///@}
+
   ///@{
   /**
    * Whether the output tells how it was made: the arrays of the renderer under their names, more about the place of
@@ -276,6 +307,7 @@ private:
 
   bool IsAskedForMore(vtkInformationVector* outputs);
   void Run(vtkDataObject* input, vtkDataObject* output);
+  int KindOfOutput() const;
   std::uint64_t HashOfRequest(vtkDataObject* input);
   hop::RunProperties PropertiesOfRun();
   hop::RunCaller CallerOfRun();
@@ -295,6 +327,8 @@ private:
   vtkIdType NumberOfParticles = 0;
   bool WarmStart = true;
   bool PassDiagnostics = false;
+  int OutputType = PARTICLES;
+  int Order = 2;
   std::unique_ptr<hop::PreviousRun> Previous;
   std::unique_ptr<hop::KeptOutput> Kept;
   /** Whether the run at hand told an error: its output is not kept, for memory may suffice the next time. */

@@ -3,11 +3,12 @@
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObjectTree.h"
 #include "vtkDataObjectTreeIterator.h"
+#include "vtkDataObjectTypes.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkPartitionedDataSetCollection.h"
-#include "vtkPolyData.h"
+#include "vtkPointSet.h"
 #include "vtkSmartPointer.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -36,7 +37,7 @@ std::string labelOf(unsigned int flatIndex, const std::string& name)
   return label;
 }
 
-GatheredBlocks gatherLeaves(vtkDataObjectTree* input, vtkDataObjectTree* output)
+GatheredBlocks gatherLeaves(vtkDataObjectTree* input, int kind, vtkDataObjectTree* output)
 {
   GatheredBlocks result;
   // In a collection the partitioned data sets have names; its leaves, their pieces, have none.
@@ -57,8 +58,10 @@ GatheredBlocks gatherLeaves(vtkDataObjectTree* input, vtkDataObjectTree* output)
       labelOf(node->GetCurrentFlatIndex(), ownName.empty() ? nameOfPieces : ownName);
     if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data))
     {
-      const vtkNew<vtkPolyData> particles;
-      output->SetDataSet(node, particles);
+      vtkSmartPointer<vtkDataObject> leaf;
+      leaf.TakeReference(vtkDataObjectTypes::NewDataObject(kind));
+      auto* particles = vtkPointSet::SafeDownCast(leaf);
+      output->SetDataSet(node, leaf);
       result.blocks.push_back({ grid, nullptr, particles, name });
     }
     else
@@ -71,19 +74,19 @@ GatheredBlocks gatherLeaves(vtkDataObjectTree* input, vtkDataObjectTree* output)
 
 } // namespace
 
-GatheredBlocks gatherBlocks(vtkDataObject* input, vtkDataObject* output)
+GatheredBlocks gatherBlocks(vtkDataObject* input, int kind, vtkDataObject* output)
 {
   auto* tree = vtkDataObjectTree::SafeDownCast(input);
   if (!tree)
   {
     return { { { vtkUnstructuredGrid::SafeDownCast(input), nullptr,
-               vtkPolyData::SafeDownCast(output), "" } },
+               vtkPointSet::SafeDownCast(output), "" } },
       {} };
   }
   auto* outputTree = vtkDataObjectTree::SafeDownCast(output);
   outputTree->CopyStructure(tree);
   outputTree->GetFieldData()->PassData(tree->GetFieldData());
-  return gatherLeaves(tree, outputTree);
+  return gatherLeaves(tree, kind, outputTree);
 }
 
 } // namespace hop

@@ -16,8 +16,9 @@ struct GatheredBlocks
 };
 
 /// \param input a vtkUnstructuredGrid, or a composite of data sets
-/// \param output vtkPolyData, or a composite of the input's kind, which receives the input's structure, its names and,
-/// in the place of every grid, empty vtkPolyData
-GatheredBlocks gatherBlocks(vtkDataObject* input, vtkDataObject* output);
+/// \param kind of the outputs of grids: VTK_POLY_DATA or VTK_UNSTRUCTURED_GRID
+/// \param output of that kind, or a composite of the input's kind, which receives the input's structure, its names and,
+/// in the place of every grid, an empty output
+GatheredBlocks gatherBlocks(vtkDataObject* input, int kind, vtkDataObject* output);
 
 } // namespace hop

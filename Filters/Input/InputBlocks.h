@@ -9,20 +9,21 @@
 #include <string>
 #include <vector>
 
-class vtkPolyData;
+class vtkPointSet;
 class vtkUnsignedCharArray;
 class vtkUnstructuredGrid;
 
 namespace hop
 {
 
-/// One grid of the input, and the output that receives its particles.
+/// One grid of the input, and the output that receives its particles or their mesh.
 struct InputBlock
 {
   vtkSmartPointer<vtkUnstructuredGrid> grid;
   /// Nodal values to contour by: a point array of the grid, or an array that was made for it.
   vtkSmartPointer<vtkDataArray> scalars;
-  vtkPolyData* particles = nullptr;
+  /// vtkPolyData, or vtkUnstructuredGrid for curved triangles.
+  vtkPointSet* particles = nullptr;
   /// For messages; empty where the input is one grid.
   std::string name;
   /// Modification time of what the scalars were made of.

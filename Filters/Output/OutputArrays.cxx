@@ -42,7 +42,7 @@ void writeShapeOperator(const ParticleRow& row, const RowCells& cells, double* o
 void writePlacement(const ParticleRow& row, const RowCells& cells, double* out)
 {
   writeVector(cells.position(row).xyz, out);
-  writeVector(row.particle->normal.xyz, out + 3);
+  writeVector(row.normal.xyz, out + 3);
 }
 
 void writeParametricCoordinates(const ParticleRow& row, const RowCells& cells, double* out)
@@ -104,12 +104,17 @@ std::vector<ParticleArray> makeParticleArrays()
     { NormalsArray, 3,
       "Unit normal of the surface, -grad F/|grad F|: towards lower values, as Contour orients it.",
       [](const ParticleRow& row, const RowCells&, float* out)
-      { writeVector(glm::vec3(row.particle->normal.xyz), out); } },
+      { writeVector(glm::vec3(row.normal.xyz), out); } },
     { "Radius", 1,
       "Radius of the particle's splat, world units: the distance to neighbours that the particle "
       "wants; less where it stands alone on a component of the surface smaller than this distance.",
       [](const ParticleRow& row, const RowCells& cells, double* out)
       { *out = cells.length(row.particle->radiusPerSpacing * row.particle->spacing); } },
+    { "Area", 1,
+      "Area of the surface around the particle, world units squared: their sum is the area of the "
+      "surface. Nodes inside edges and faces of curved triangles have none.",
+      [](const ParticleRow& row, const RowCells& cells, double* out)
+      { *out = cells.area(row.area); } },
     { "Mean_Curvature", 1,
       "Mean of the two principal curvatures with respect to Normals, 1/world units: 1/r on a "
       "sphere of radius r with high values inside.",
@@ -238,6 +243,24 @@ std::vector<ReportArray> makeReportArrays()
   };
 }
 
+std::vector<MeshReportArray> makeMeshReportArrays()
+{
+  return {
+    { "MeshOpenLoops",
+      "Holes of the mesh that are no boundary curves of the surface, of all blocks together.",
+      [](const MeshReport& report) { return report.openLoops; } },
+    { "MeshOpenLength", "Length of the edges around these holes, world units.",
+      [](const MeshReport& report) { return report.openLength; } },
+    { "MeshUnusedParticles",
+      "Particles of the block that are corners of no triangle, and not in the output.",
+      [](const MeshReport& report) { return report.unusedParticles; } },
+    { "MeshStraightNodes",
+      "Nodes of curved triangles that were not found on the surface, and stay on straight edges or "
+      "in the plane of the corners; of all blocks together.",
+      [](const MeshReport& report) { return report.straightNodes; } },
+  };
+}
+
 std::vector<OutputArray> makeDescriptions()
 {
   std::vector<OutputArray> rows;
@@ -263,6 +286,12 @@ const std::vector<ParticleArray>& particleArrays()
 const std::vector<ReportArray>& reportArrays()
 {
   static const std::vector<ReportArray> table = makeReportArrays();
+  return table;
+}
+
+const std::vector<MeshReportArray>& meshReportArrays()
+{
+  static const std::vector<MeshReportArray> table = makeMeshReportArrays();
   return table;
 }
 

@@ -68,6 +68,28 @@ struct ReportArray
   std::vector<vtkIdType> (*values)(const BlockReport& report);
 };
 
+/// What became of a mesh; sums over all isovalues.
+struct MeshReport
+{
+  std::int64_t openLoops = 0;
+  /// World units.
+  double openLength = 0.0;
+  std::int64_t unusedParticles = 0;
+  std::int64_t straightNodes = 0;
+};
+
+/// A field-data array of meshes: one number.
+struct MeshReportArray
+{
+  const char* name;
+  /// For users.
+  const char* meaning;
+  std::variant<std::int64_t (*)(const MeshReport&), double (*)(const MeshReport&)> value;
+};
+
+/// In the order of the output.
+const std::vector<MeshReportArray>& meshReportArrays();
+
 /// In the order of the output.
 const std::vector<ParticleArray>& particleArrays();
 

@@ -2,10 +2,10 @@
 
 #include "Output/OutputArrays.h"
 #include "Output/PointArrays.h"
-#include "Support/SortedBy.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkCellType.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -15,6 +15,7 @@
 #include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
@@ -66,12 +67,20 @@ void addReplaced(const InputBlock& block, std::set<std::string>& names)
       names.insert(std::string("point array '") + array->GetName() + "'");
     }
   }
+  const auto addField = [&](const char* name)
+  {
+    if (block.grid->GetFieldData()->HasArray(name))
+    {
+      names.insert(std::string("field array '") + name + "'");
+    }
+  };
   for (const ReportArray& array : reportArrays())
   {
-    if (block.grid->GetFieldData()->HasArray(array.name))
-    {
-      names.insert(std::string("field array '") + array.name + "'");
-    }
+    addField(array.name);
+  }
+  for (const MeshReportArray& array : meshReportArrays())
+  {
+    addField(array.name);
   }
 }
 
@@ -102,19 +111,35 @@ BlockReport reportOf(const std::vector<IsovalueParticles>& isovalues, const Cell
   return result;
 }
 
+/// Sums the reports of all isovalues' meshes.
+MeshReport meshReportOf(
+  const std::vector<IsovalueParticles>& isovalues, const BlockRows& rows, double unitOfLength)
+{
+  MeshReport sum;
+  sum.unusedParticles = rows.unusedParticles;
+  for (const IsovalueParticles& some : isovalues)
+  {
+    sum.openLoops += some.mesh.openLoops;
+    sum.openLength += unitOfLength * some.mesh.openLength;
+    sum.straightNodes += some.mesh.straightNodes;
+  }
+  return sum;
+}
+
 /// ParaView is not to offer an array to colour by.
 void hide(vtkAbstractArray* array)
 {
   array->GetInformation()->Set(vtkAbstractArray::GUI_HIDE(), 1);
 }
 
-/// Writes the particles of one block.
+/// Writes the output of one block.
 class Packer
 {
 public:
-  Packer(const InputBlocks& blocks, std::size_t block, const GridElements& elements,
-    std::vector<ParticleRow> rows, bool withDiagnostics, Interruptible& work)
+  Packer(const InputBlocks& blocks, std::size_t block, const GridElements& elements, BlockRows rows,
+    bool withDiagnostics, Interruptible& work)
     : Blocks(blocks)
+    , Block(block)
     , Grid(blocks[block].grid)
     , Scalars(blocks[block].scalars)
     , FirstCell(blocks.firstCell(block))
@@ -124,7 +149,8 @@ public:
     , WithDiagnostics(withDiagnostics)
     , Work(work)
     , Output(blocks[block].particles)
-    , Rows(std::move(rows))
+    , Content(std::move(rows))
+    , Rows(this->Content.rows)
   {
   }
 
@@ -133,12 +159,14 @@ public:
 private:
   void addPoints();
   void addVertices();
+  void addMeshCells();
   void addOwnArrays();
   void addIds(const char* name, RowWriter<vtkIdType> write, vtkSmartPointer<vtkIdTypeArray>& same);
   void addPointArrays();
   void addCellArrays();
   void copyCellData(const vtkIdType* cellIds, vtkIdType begin, vtkIdType end);
   void addReport(const std::vector<IsovalueParticles>& isovalues);
+  void addMeshReport(const std::vector<IsovalueParticles>& isovalues);
   template <class Array>
   vtkSmartPointer<Array> newArray(const std::string& name, int components) const;
   template <class Array, class Write>
@@ -149,6 +177,7 @@ private:
   vtkIdType rowCount() const { return static_cast<vtkIdType>(this->Rows.size()); }
 
   const InputBlocks& Blocks;
+  std::size_t Block;
   vtkUnstructuredGrid* Grid;
   vtkDataArray* Scalars;
   std::int64_t FirstCell;
@@ -157,8 +186,9 @@ private:
   const CellCensus& Census;
   bool WithDiagnostics;
   Interruptible& Work;
-  vtkPolyData* Output;
-  std::vector<ParticleRow> Rows;
+  vtkPointSet* Output;
+  const BlockRows Content;
+  const std::vector<ParticleRow>& Rows;
   /// Each writes rows begin to end - 1 of one array.
   std::vector<std::function<void(std::ptrdiff_t begin, std::ptrdiff_t end)>> Writers;
   std::vector<EvaluatedArray> Evaluated;
@@ -169,12 +199,20 @@ void Packer::pack(const std::vector<IsovalueParticles>& isovalues)
 {
   this->HasSeveralIsovalues = isovalues.size() > 1;
   this->addPoints();
-  this->addVertices();
+  if (this->Content.nodesPerCell > 0)
+  {
+    this->addMeshCells();
+  }
+  else
+  {
+    this->addVertices();
+  }
   this->addPointArrays();
   this->addOwnArrays();
   this->fillRows();
   this->addCellArrays();
   this->addReport(isovalues);
+  this->addMeshReport(isovalues);
 }
 
 /// Lets fillRows() call write(row number, row) for every row.
@@ -208,7 +246,7 @@ void Packer::fillRows()
       }
     });
   evaluatePointArrays(
-    this->Blocks, this->Elements, this->Evaluated, this->Rows, std::ref(this->Work));
+    this->Blocks, this->Block, this->Elements, this->Evaluated, this->Rows, std::ref(this->Work));
 }
 
 void Packer::addPoints()
@@ -239,7 +277,36 @@ void Packer::addVertices()
   offsets->SetValue(this->rowCount(), this->rowCount());
   vtkNew<vtkCellArray> vertices;
   vertices->SetData(offsets, connectivity);
-  this->Output->SetVerts(vertices);
+  if (auto* polydata = vtkPolyData::SafeDownCast(this->Output))
+  {
+    polydata->SetVerts(vertices);
+  } // else there is no surface to be curved triangles
+}
+
+/// Triangles, or Lagrange triangles.
+void Packer::addMeshCells()
+{
+  const vtkIdType perCell = this->Content.nodesPerCell;
+  const auto count = static_cast<vtkIdType>(this->Content.cells.size());
+  vtkNew<vtkIdTypeArray> offsets;
+  vtkNew<vtkIdTypeArray> connectivity;
+  offsets->SetNumberOfValues(count + 1);
+  for (vtkIdType c = 0; c <= count; ++c)
+  {
+    offsets->SetValue(c, perCell * c);
+  }
+  connectivity->SetNumberOfValues(perCell * count);
+  std::copy(this->Content.nodes.begin(), this->Content.nodes.end(), connectivity->GetPointer(0));
+  vtkNew<vtkCellArray> cells;
+  cells->SetData(offsets, connectivity);
+  if (auto* curved = vtkUnstructuredGrid::SafeDownCast(this->Output))
+  {
+    curved->SetCells(VTK_LAGRANGE_TRIANGLE, cells);
+  }
+  else
+  {
+    vtkPolyData::SafeDownCast(this->Output)->SetPolys(cells);
+  }
 }
 
 /// A point array of the output, yet to be filled.
@@ -363,16 +430,28 @@ void Packer::addCellArrays()
   target->CopyGlobalIdsOff();          // several particles share a cell: its id is no id of theirs
   target->CopyHigherOrderDegreesOff(); // vertices have no degrees
   target->CopyFieldOff(vtkDataSetAttributes::GhostArrayName());
-  target->CopyAllocate(source, this->rowCount());
-  const vtkIdType* cellIds =
-    vtkIdTypeArray::SafeDownCast(this->Output->GetPointData()->GetArray(CellIdsArray))
-      ->GetPointer(0);
+  const bool isMesh = this->Content.nodesPerCell > 0;
+  const vtkIdType count =
+    isMesh ? static_cast<vtkIdType>(this->Content.cells.size()) : this->rowCount();
+  target->CopyAllocate(source, count);
+  const vtkIdType* cellIds = isMesh
+    ? this->Content.cells.data()
+    : vtkIdTypeArray::SafeDownCast(this->Output->GetPointData()->GetArray(CellIdsArray))
+        ->GetPointer(0);
   // Rows between two questions whether to end early: fewer cost more calls, more delay an abort. Chosen by experiment.
   constexpr vtkIdType rowsAtOnce = 65536;
-  for (vtkIdType begin = 0; begin < this->rowCount(); begin += rowsAtOnce)
+  for (vtkIdType begin = 0; begin < count; begin += rowsAtOnce)
   {
     this->Work.ask();
-    this->copyCellData(cellIds, begin, std::min(this->rowCount(), begin + rowsAtOnce));
+    this->copyCellData(cellIds, begin, std::min(count, begin + rowsAtOnce));
+  }
+  if (isMesh)
+  {
+    vtkNew<vtkIdTypeArray> ids;
+    ids->SetName(CellIdsArray);
+    ids->SetNumberOfValues(count);
+    std::copy_n(cellIds, count, ids->GetPointer(0));
+    target->AddArray(ids);
   }
 }
 
@@ -415,22 +494,32 @@ void Packer::addReport(const std::vector<IsovalueParticles>& isovalues)
   }
 }
 
-/// Adds the particles of one isovalue to the rows of their blocks, sorted by element: neighbours in memory then share
-/// an element.
-void addRows(const InputBlocks& blocks, const ElementMesh& mesh, const IsovalueParticles& some,
-  Interruptible& work, std::vector<std::vector<ParticleRow>>& rowsOfBlocks)
+/// Tells, in any mesh, what it lacks.
+void Packer::addMeshReport(const std::vector<IsovalueParticles>& isovalues)
 {
-  const Buffer<Particle>& particles = some.distribution.particles;
-  const Grouping ofElements = groupedBy(
-    particles, mesh.elements.size(),
-    [](const Particle& particle) { return particle.location.element; }, std::ref(work));
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+  vtkFieldData* target = this->Output->GetFieldData();
+  const MeshReport report = meshReportOf(isovalues, this->Content, this->Elements.units.length);
+  for (const MeshReportArray& row : meshReportArrays())
   {
-    const BlockCell where = blocks.locate(mesh.elements[e].cell);
-    const bool isGhost = blocks.isGhost(where);
-    for (int n = ofElements.start[e]; n < ofElements.start[e + 1] && !isGhost; ++n)
+    target->RemoveArray(row.name);
+    if (this->Content.nodesPerCell == 0)
     {
-      rowsOfBlocks[where.block].push_back({ &particles[ofElements.order[n]], some.isovalue });
+      continue;
+    }
+    const auto add = [&](auto* array, auto value)
+    {
+      array->SetName(row.name);
+      hide(array);
+      array->InsertNextValue(value);
+      target->AddArray(array);
+    };
+    if (const auto* count = std::get_if<0>(&row.value))
+    {
+      add(vtkNew<vtkIdTypeArray>().Get(), static_cast<vtkIdType>((*count)(report)));
+    }
+    else
+    {
+      add(vtkNew<vtkDoubleArray>().Get(), std::get<1>(row.value)(report));
     }
   }
 }
@@ -450,12 +539,7 @@ std::vector<std::string> replacedArrays(const std::vector<InputBlock>& blocks)
 void packParticles(const InputBlocks& blocks, const GridElements& elements,
   const std::vector<IsovalueParticles>& isovalues, bool withDiagnostics, Interruptible& work)
 {
-  std::vector<std::vector<ParticleRow>> rows(blocks.size());
-  for (const IsovalueParticles& some : isovalues)
-  {
-    work.ask();
-    addRows(blocks, elements.mesh, some, work, rows);
-  }
+  std::vector<BlockRows> rows = shareOutToBlocks(blocks, elements.mesh, isovalues, work);
   for (std::size_t b = 0; b < blocks.size(); ++b)
   {
     work.raiseFraction(static_cast<double>(b) / static_cast<double>(blocks.size()));

@@ -1,8 +1,6 @@
 #pragma once
 
-#include "Conversion/GridElements.h"
-#include "Support/Interruptible.h"
-#include "Surface/Particles.h"
+#include "Output/OutputRows.h"
 
 #include <string>
 #include <vector>
@@ -10,17 +8,10 @@
 namespace hop
 {
 
-/// Particles of one isovalue.
-struct IsovalueParticles
-{
-  double isovalue = 0.0;
-  Distribution distribution;
-};
-
-/// Writes particles as vtkPolyData, one a block: points, vertex cells, the particles' own arrays, the
-/// point arrays of the block's grid evaluated and its cell arrays copied. Particles in ghost cells are
-/// left out: they belong to another rank. See vtkHighOrderParticleIsosurface for names and meaning of
-/// the arrays.
+/// Writes particles, or meshes between them, one output a block: points, cells, the particles' own arrays, the
+/// point arrays of the block's grid evaluated and its cell arrays copied. What belongs to ghost cells is
+/// left out: another rank has it. Particles are vertices and triangles polygons of vtkPolyData; curved triangles are
+/// Lagrange triangles of vtkUnstructuredGrid. See vtkHighOrderParticleIsosurface for names and meaning of the arrays.
 /// \param withDiagnostics whether to write all arrays of Output/OutputArrays.h, the report included
 /// \throw Interrupted if work's monitor asks for an early end; the outputs are unfinished then
 void packParticles(const InputBlocks& blocks, const GridElements& elements,

@@ -16,6 +16,15 @@ struct ParticleRow
 {
   const Particle* particle = nullptr;
   double isovalue = 0.0;
+  /// The particle's; the mean where particles in one place are one point of a mesh.
+  WorldVector normal;
+  /// Of the surface around it, in the unit of the run.
+  double area = 0.0;
+  /// For a corner of a mesh that lies in another block: a corner of the same triangle in this block, and its row.
+  const Particle* standIn = nullptr;
+  std::ptrdiff_t rowOfStandIn = -1;
+
+  const Location& location() const { return this->particle->location; }
 };
 
 /// Looks up the cells in which the particles of one block stand.
@@ -23,7 +32,8 @@ class RowCells
 {
 public:
   RowCells(const InputBlocks& blocks, std::size_t block, const GridElements& elements)
-    : Grid(blocks[block].grid)
+    : Blocks(blocks)
+    , Grid(blocks[block].grid)
     , FirstCell(blocks.firstCell(block))
     , Mesh(elements.mesh)
     , UnitOfLength(elements.units.length)
@@ -46,16 +56,25 @@ public:
     return finite(ofRun * this->UnitOfValue * (this->IsSquared ? this->UnitOfValue : 1.0));
   }
 
-  /// The number of the particle's cell in the block's grid.
+  /// An area of the run in world units squared.
+  double area(double ofRun) const { return finite(this->length(this->length(ofRun))); }
+
+  /// The number of the particle's cell in the block's grid, or of its stand-in's.
   vtkIdType cellOf(const ParticleRow& row) const
   {
-    return this->Mesh.elements[row.particle->location.element].cell - this->FirstCell;
+    const Particle& particle = row.standIn ? *row.standIn : *row.particle;
+    return this->Mesh.elements[particle.location.element].cell - this->FirstCell;
   }
 
-  /// VTK's type of the particle's cell.
+  /// VTK's type of the particle's own cell.
   int cellTypeOf(const ParticleRow& row) const
   {
-    return this->Grid->GetCellType(this->cellOf(row));
+    if (!row.standIn)
+    {
+      return this->Grid->GetCellType(this->cellOf(row));
+    }
+    const BlockCell own = this->Blocks.locate(this->Mesh.elements[row.location().element].cell);
+    return this->Blocks[own.block].grid->GetCellType(own.cell);
   }
 
 private:
@@ -66,6 +85,7 @@ private:
     return std::clamp(number, -largest, largest);
   }
 
+  const InputBlocks& Blocks;
   vtkUnstructuredGrid* Grid;
   std::int64_t FirstCell;
   const ElementMesh& Mesh;

@@ -31,13 +31,22 @@ struct Target
   int stride = 0;
 };
 
+/// The array of a grid that goes on a block's array in this grid; nullptr if there is none.
+vtkDataArray* continuationOf(vtkDataArray* array, vtkUnstructuredGrid* grid)
+{
+  vtkDataArray* other = grid->GetPointData()->GetArray(array->GetName());
+  return other && other->GetNumberOfComponents() == array->GetNumberOfComponents() ? other
+                                                                                   : nullptr;
+}
+
 /// Evaluates all arrays at some rows. Each thread has an evaluator of its own.
 class ArrayEvaluator
 {
 public:
-  ArrayEvaluator(const InputBlocks& blocks, const GridElements& elements,
+  ArrayEvaluator(const InputBlocks& blocks, std::size_t block, const GridElements& elements,
     const std::vector<EvaluatedArray>& arrays, const std::vector<ParticleRow>& rows)
     : Blocks(blocks)
+    , Block(block)
     , Elements(elements)
     , Arrays(arrays)
     , Rows(rows)
@@ -72,7 +81,7 @@ public:
 
 private:
   int width() const { return static_cast<int>(this->Targets.size()); }
-  int elementOf(std::ptrdiff_t row) const { return this->Rows[row].particle->location.element; }
+  int elementOf(std::ptrdiff_t row) const { return this->Rows[row].location().element; }
 
   /// Converts all arrays to Bernstein form on an element: one row of components a coefficient.
   void convert(int element)
@@ -89,9 +98,21 @@ private:
     double* column = this->Nodal.data();
     for (const EvaluatedArray& array : this->Arrays)
     {
-      for (int c = 0; c < array.source->GetNumberOfComponents(); ++c)
+      vtkDataArray* source =
+        block == this->Block ? array.source : continuationOf(array.source, grid);
+      for (int c = 0; c < array.source->GetNumberOfComponents(); ++c, ++column)
       {
-        gatherComponent(array.source, ids, nodes, c, column++, this->width());
+        if (source)
+        {
+          gatherComponent(source, ids, nodes, c, column, this->width());
+        }
+        else
+        {
+          for (int n = 0; n < nodes; ++n)
+          {
+            column[static_cast<std::ptrdiff_t>(n) * this->width()] = 0.0;
+          }
+        }
       }
     }
     this->Coefficients.resize(static_cast<std::size_t>(basis.coefficientCount()) * this->width());
@@ -119,7 +140,7 @@ private:
          this->elementOf(this->BatchEnd) == element;
          ++this->BatchEnd)
     {
-      this->Points.push_back(this->Rows[this->BatchEnd].particle->location.u);
+      this->Points.push_back(this->Rows[this->BatchEnd].location().u);
     }
   }
 
@@ -152,6 +173,7 @@ private:
   }
 
   const InputBlocks& Blocks;
+  std::size_t Block;
   const GridElements& Elements;
   const std::vector<EvaluatedArray>& Arrays;
   const std::vector<ParticleRow>& Rows;
@@ -168,9 +190,33 @@ private:
   JetBatch Jets;
 };
 
+/// Rows in blocks that lack an array get the value of their stand-ins.
+void copyFromStandIns(const InputBlocks& blocks, const GridElements& elements,
+  const std::vector<EvaluatedArray>& arrays, const std::vector<ParticleRow>& rows)
+{
+  for (std::size_t r = 0; r < rows.size(); ++r)
+  {
+    if (!rows[r].standIn)
+    {
+      continue;
+    }
+    const Element& element = elements.mesh.elements[rows[r].location().element];
+    vtkUnstructuredGrid* grid = blocks[blocks.locate(element.cell).block].grid;
+    for (const EvaluatedArray& array : arrays)
+    {
+      const std::ptrdiff_t width = array.source->GetNumberOfComponents();
+      if (!continuationOf(array.source, grid))
+      {
+        std::copy_n(array.target + rows[r].rowOfStandIn * width, width,
+          array.target + static_cast<std::ptrdiff_t>(r) * width);
+      }
+    }
+  }
+}
+
 } // namespace
 
-void evaluatePointArrays(const InputBlocks& blocks, const GridElements& elements,
+void evaluatePointArrays(const InputBlocks& blocks, std::size_t block, const GridElements& elements,
   const std::vector<EvaluatedArray>& arrays, const std::vector<ParticleRow>& rows,
   const ParallelFor& parallelFor)
 {
@@ -180,7 +226,8 @@ void evaluatePointArrays(const InputBlocks& blocks, const GridElements& elements
   }
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(rows.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-    { ArrayEvaluator(blocks, elements, arrays, rows).evaluate(begin, end); });
+    { ArrayEvaluator(blocks, block, elements, arrays, rows).evaluate(begin, end); });
+  copyFromStandIns(blocks, elements, arrays, rows);
 }
 
 } // namespace hop

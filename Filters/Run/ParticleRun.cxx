@@ -34,6 +34,8 @@ struct ProgressAt
   static constexpr double Converted = 0.1;
   /// Particles of all isovalues are distributed; packing follows.
   static constexpr double Distributed = 0.95;
+  /// Of an isovalue's own progress: its particles are distributed, and joined to a mesh if one is asked for.
+  static constexpr double Joined = 0.8;
 };
 
 /// A part of the run, as far as progress and threads are concerned.
@@ -118,6 +120,7 @@ private:
   RunOrigin makeOrigin() const;
   Distribution distribute(const GridElements& elements, const RunOrigin& origin, std::size_t number,
     const RankShare& share, const Work& work) const;
+  void join(const GridElements& elements, IsovalueParticles& some, const Work& work) const;
 
   const InputBlocks& Blocks;
   std::size_t Group;
@@ -219,17 +222,33 @@ void GroupRun::fill(const GridElements& elements, const std::vector<RankShare>& 
   {
     origin.isovalue = isovalues[i];
     const double begin = ProgressAt::Converted + static_cast<double>(i) * shareOfIsovalue;
-    particles.push_back({ origin.isovalue,
-      this->distribute(elements, origin, this->Group * isovalues.size() + i, shares[i],
-        work.part(begin, begin + shareOfIsovalue)) });
+    const Work ofIsovalue = work.part(begin, begin + shareOfIsovalue);
+    IsovalueParticles& some = particles.emplace_back();
+    some.isovalue = origin.isovalue;
+    some.distribution = this->distribute(elements, origin, this->Group * isovalues.size() + i,
+      shares[i], ofIsovalue.part(0.0, ProgressAt::Joined));
     counts[i] += static_cast<std::int64_t>(particles.back().distribution.particles.size());
     this->Caller.tell(reviewDistribution(this->Blocks, particles.back().distribution,
       origin.isovalue, this->Properties.numberOfParticles));
     this->reviewSpacing(elements, origin, particles.back().distribution, work);
+    this->join(elements, some, ofIsovalue.part(ProgressAt::Joined, 1.0));
   }
   const Work packing = work.part(ProgressAt::Distributed, 1.0);
   Interruptible loops(packing.monitor, packing.parallelFor);
   packParticles(this->Blocks, elements, particles, this->Properties.passesDiagnostics, loops);
+}
+
+/// Joins the particles of an isosurface to a mesh, if one is asked for.
+/// \throw Interrupted
+void GroupRun::join(const GridElements& elements, IsovalueParticles& some, const Work& work) const
+{
+  if (!elements.canBe(some.isovalue) || some.distribution.report.aborted)
+  {
+    return;
+  }
+  addMesh({ &elements.mesh, elements.fieldIsovalue(some.isovalue), this->Scale.tolerance },
+    this->Properties.outputType, this->Properties.order, some, work.monitor, work.parallelFor);
+  this->Caller.tell(reviewMesh(some, this->Scale.unit));
 }
 
 /// Tells of places where the surface bends faster than the particles can follow, and what it takes to follow it.

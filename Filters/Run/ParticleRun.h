@@ -4,6 +4,7 @@
 #include "Input/InputBlocks.h"
 #include "Input/UserMessage.h"
 #include "Run/PreviousRun.h"
+#include "Run/RunMesh.h"
 #include "Run/RunScale.h"
 #include "Surface/DistributionParameters.h"
 
@@ -30,6 +31,9 @@ struct RunProperties
   bool isWarmStart = true;
   /// Whether the output tells more than pictures need.
   bool passesDiagnostics = false;
+  OutputType outputType = OutputType::Particles;
+  /// Of curved triangles.
+  int order = 2;
 };
 
 /// How a run speaks to the filter.

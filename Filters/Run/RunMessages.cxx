@@ -194,6 +194,33 @@ UserMessage reviewUndersampled(const InputBlocks& blocks, const Distribution& di
   return { UserMessage::Warning, whole.str() };
 }
 
+UserMessages reviewMesh(const IsovalueParticles& some, double unit)
+{
+  const ParticleMesh& mesh = some.mesh;
+  std::ostringstream text;
+  text << "Isovalue " << some.isovalue << ": ";
+  if (mesh.openLoops > 0)
+  {
+    text << "the mesh has " << mesh.openLoops
+         << " holes that are no boundary curves of the surface, " << unit * mesh.openLength
+         << " long together. ";
+  }
+  if (mesh.straightNodes > 0)
+  {
+    text << mesh.straightNodes
+         << " nodes of curved triangles were not found on the surface and stay on straight edges. ";
+  }
+  if (mesh.openLoops == 0 && mesh.straightNodes == 0)
+  {
+    return {};
+  }
+  const DistributionReport& report = some.distribution.report;
+  text << "Of its particles " << report.particlesUndersampled << " are undersampled; of its boxes "
+       << report.boxesUndecided << " are undecided, with " << report.singularPoints
+       << " singular points. A smaller Spacing helps where the surface bends fast.";
+  return { { UserMessage::Warning, text.str() } };
+}
+
 UserMessages reviewSurfaces(const InputBlocks& blocks, const std::vector<double>& isovalues,
   const std::vector<std::int64_t>& counts, bool isExplained)
 {

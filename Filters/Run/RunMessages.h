@@ -3,6 +3,7 @@
 #include "Conversion/CellCensus.h"
 #include "Input/InputBlocks.h"
 #include "Input/UserMessage.h"
+#include "Output/OutputRows.h"
 #include "Run/SpacingAdvice.h"
 #include "Surface/Particles.h"
 
@@ -35,6 +36,10 @@ UserMessages reviewDistribution(const InputBlocks& blocks, const Distribution& d
 /// \param cell of the particle advice.worst
 UserMessage reviewUndersampled(const InputBlocks& blocks, const Distribution& distribution,
   const SpacingAdvice& advice, std::int64_t cell, double isovalue, std::int64_t numberOfParticles);
+
+/// Tells what a mesh lacks.
+/// \param unit of length of the run, world units
+UserMessages reviewMesh(const IsovalueParticles& some, double unit);
 
 /// Tells which isovalues have no surface in any block on any rank, and the range of the values. Every rank has to call
 /// this.

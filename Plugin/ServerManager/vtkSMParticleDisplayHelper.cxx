@@ -12,6 +12,8 @@
 #include "vtkSMSourceProxy.h"
 #include "vtkSmartPointer.h"
 
+#include <string>
+
 namespace
 {
 // No points, or a probe's points of which none lies in a cell.
@@ -36,6 +38,18 @@ bool HasParticlesAsInput(vtkSMProxy* filter)
   }
   return false;
 }
+
+// How output is to be shown; nullptr where ParaView decides. Our own filters know it before they have any particles.
+const char* KindFor(vtkSMProxy* source, vtkPVDataInformation* data)
+{
+  vtkSMProperty* type = source->GetProperty("OutputType");
+  const std::string name = source->GetVTKClassName() ? source->GetVTKClassName() : "";
+  if (type && name.rfind("vtkHighOrderParticle", 0) == 0)
+  {
+    return vtkSMPropertyHelper(type).GetAsInt() == 0 ? "Surface Splats" : "Surface";
+  }
+  return hop::isParticles(data) ? "Surface Splats" : nullptr;
+}
 }
 
 vtkStandardNewMacro(vtkSMParticleDisplayHelper);
@@ -53,13 +67,14 @@ void vtkSMParticleDisplayHelper::PostInitializeProxy(
   {
     return;
   }
-  if (kind->GetMTime() <= initializationTimeStamp && hop::isParticles(data))
+  vtkSMProxy* filter = vtkSMPropertyHelper(input).GetAsProxy();
+  const char* wanted = KindFor(filter, data);
+  if (wanted && kind->GetMTime() <= initializationTimeStamp)
   {
     // ParaView leaves properties alone that were set here.
-    vtkSMPropertyHelper(kind).Set("Surface Splats");
+    vtkSMPropertyHelper(kind).Set(wanted);
     proxy->UpdateVTKObjects();
   }
-  vtkSMProxy* filter = vtkSMPropertyHelper(input).GetAsProxy();
   if (IsNothing(data) && HasParticlesAsInput(filter))
   {
     vtkWarningMacro(<< filter->GetXMLLabel()

@@ -20,7 +20,8 @@ public:
 
   /**
    * Chooses 'Surface Splats' where the input of the representation is particles, unless the user has chosen: points with
-   * the arrays `Normals`, `Radius` and `Isovalue` and one cell each. Meshes have other numbers of cells. Warns where a filter
+   * the arrays `Normals`, `Radius` and `Isovalue` and one cell each. Meshes have other numbers of cells. What this
+   * project's filters give is shown by their property OutputType, also where it is empty. Warns where a filter
    * found nothing in particles, because it looks for cells.
    */
   void PostInitializeProxy(

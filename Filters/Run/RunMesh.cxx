@@ -1,0 +1,85 @@
+#include "Run/RunMesh.h"
+
+#include "Mesh/CurvedTriangles.h"
+#include "Mesh/SurfaceMesh.h"
+#include "Support/DisjointSets.h"
+#include "Support/Interruptible.h"
+
+#include <functional>
+#include <numeric>
+
+namespace hop
+{
+
+namespace
+{
+
+/// For each particle the first one in the same place.
+std::vector<int> verticesOf(const Distribution& distribution)
+{
+  DisjointSets places(distribution.particles.size());
+  for (const auto& [a, b] : distribution.edges.coincident)
+  {
+    places.unite(a, b);
+  }
+  std::vector<int> vertices(distribution.particles.size());
+  for (std::size_t p = 0; p < vertices.size(); ++p)
+  {
+    vertices[p] = places.root(static_cast<int>(p));
+  }
+  return vertices;
+}
+
+/// Bends the triangles of a mesh.
+void bend(const Isosurface& surface, const std::vector<std::array<int, 3>>& triangles, int order,
+  IsovalueParticles& some, const ParallelFor& parallelFor)
+{
+  const FaceLocator locator(*surface.mesh, surface.isovalue, parallelFor);
+  Isosurface located = surface;
+  located.locator = &locator;
+  ParticleMesh& mesh = some.mesh;
+  Buffer<Particle>& particles = some.distribution.particles;
+  CurvedTriangles curved =
+    bendTriangles(located, triangles, mesh.vertices, order, particles, parallelFor);
+  mesh.nodesPerCell = CurvedTriangles::nodeCount(order);
+  mesh.nodes = std::move(curved.nodes);
+  mesh.straightNodes = curved.straightNodes;
+  // Each new node is alone in its place.
+  const std::size_t corners = mesh.vertices.size();
+  mesh.vertices.resize(particles.size());
+  std::iota(mesh.vertices.begin() + static_cast<std::ptrdiff_t>(corners), mesh.vertices.end(),
+    static_cast<int>(corners));
+  some.distribution.report.evaluations += curved.evaluations + locator.evaluations();
+}
+
+} // namespace
+
+void addMesh(const Isosurface& surface, OutputType type, int order, IsovalueParticles& some,
+  const Monitor& monitor, const ParallelFor& parallelFor)
+{
+  Distribution& distribution = some.distribution;
+  std::vector<std::array<int, 3>> triangles;
+  if (type != OutputType::Particles)
+  {
+    SurfaceMesh mesh = meshSurface(surface, distribution, monitor, parallelFor);
+    triangles = std::move(mesh.triangles);
+    some.mesh.openLoops = mesh.openLoops;
+    some.mesh.openLength = mesh.openLength;
+    some.mesh.nodesPerCell = 3;
+    some.mesh.vertices = verticesOf(distribution);
+  }
+  some.areas = particleAreas(distribution, monitor, parallelFor);
+  if (type == OutputType::CurvedTriangles)
+  {
+    Interruptible loops(monitor, parallelFor);
+    bend(surface, triangles, order, some, std::ref(loops));
+    return;
+  }
+  some.mesh.nodes.reserve(3 * triangles.size());
+  for (const std::array<int, 3>& corners : triangles)
+  {
+    some.mesh.nodes.insert(some.mesh.nodes.end(), corners.begin(), corners.end());
+  }
+}
+
+} // namespace hop
