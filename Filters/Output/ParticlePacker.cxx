@@ -427,8 +427,7 @@ void addRows(const InputBlocks& blocks, const ElementMesh& mesh, const IsovalueP
   for (std::size_t e = 0; e < mesh.elements.size(); ++e)
   {
     const BlockCell where = blocks.locate(mesh.elements[e].cell);
-    const bool isGhost = blocks.isGhost(where);
-    for (int n = ofElements.start[e]; n < ofElements.start[e + 1] && !isGhost; ++n)
+    for (int n = ofElements.start[e]; n < ofElements.start[e + 1]; ++n)
     {
       rowsOfBlocks[where.block].push_back({ &particles[ofElements.order[n]], some.isovalue });
     }

@@ -18,9 +18,9 @@ struct IsovalueParticles
 };
 
 /// Writes particles as vtkPolyData, one a block: points, vertex cells, the particles' own arrays, the
-/// point arrays of the block's grid evaluated and its cell arrays copied. Particles in ghost cells are
-/// left out: they belong to another rank. See vtkHighOrderParticleIsosurface for names and meaning of
-/// the arrays.
+/// point arrays of the block's grid evaluated and its cell arrays copied. See vtkHighOrderParticleIsosurface for names
+/// and meaning of the arrays.
+/// \param elements coefficients and neighbours are not needed
 /// \param withDiagnostics whether to write all arrays of Output/OutputArrays.h, the report included
 /// \throw Interrupted if work's monitor asks for an early end; the outputs are unfinished then
 void packParticles(const InputBlocks& blocks, const GridElements& elements,
