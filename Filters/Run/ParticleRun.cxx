@@ -240,7 +240,7 @@ std::vector<Distribution> GroupRun::distribute(const GridElements& elements, con
     {
       Interruptible loops(work.monitor, work.parallelFor);
       loops.raiseFraction(ProgressAt::Converted);
-      orderCanonically(this->All, std::ref(loops));
+      orderCanonically(this->All, this->Scale.cube, std::ref(loops));
       joinElements(this->All.mesh, std::ref(loops));
       const SurfaceWorker worker(this->All.mesh, this->AllBlocks, this->Properties, this->Scale,
         this->Caller, this->Previous);

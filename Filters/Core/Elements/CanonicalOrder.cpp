@@ -83,26 +83,15 @@ bool comesBefore(const BernsteinForm& a, const BernsteinForm& b)
 
 } // namespace
 
-std::vector<int> canonicalOrder(const ElementMesh& mesh, const ParallelFor& parallelFor)
+std::vector<int> canonicalOrder(
+  const ElementMesh& mesh, const MeshCube& cube, const ParallelFor& parallelFor)
 {
-  std::vector<glm::dvec3> centroids(mesh.elements.size());
-  forAll(parallelFor, centroids.size(),
-    [&](std::size_t e) { centroids[e] = centroidOf(mesh.form(static_cast<int>(e))); });
-  glm::dvec3 lower(std::numeric_limits<double>::infinity());
-  glm::dvec3 upper = -lower;
-  for (const glm::dvec3& centroid : centroids)
-  {
-    lower = glm::min(lower, centroid);
-    upper = glm::max(upper, centroid);
-  }
-  const glm::dvec3 sides = upper - lower;
-  const double side = std::max({ sides.x, sides.y, sides.z });
-  std::vector<Keyed> keyed(centroids.size());
+  std::vector<Keyed> keyed(mesh.elements.size());
   forAll(parallelFor, keyed.size(),
     [&](std::size_t e)
     {
-      const glm::dvec3 x = side > 0.0 ? (centroids[e] - lower) / side : glm::dvec3(0.0);
-      keyed[e] = { mortonKey(x), static_cast<int>(e) };
+      const int element = static_cast<int>(e);
+      keyed[e] = { mortonKey((centroidOf(mesh.form(element)) - cube.lower) / cube.side), element };
     });
   askCaller(parallelFor);
   std::stable_sort(keyed.begin(), keyed.end(),

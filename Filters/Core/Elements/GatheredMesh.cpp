@@ -1,7 +1,5 @@
 #include "Elements/GatheredMesh.h"
 
-#include "Elements/CanonicalOrder.h"
-
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
@@ -109,9 +107,10 @@ void gatherMesh(Exchange& exchange, int worker, ElementMesh& mine,
   }
 }
 
-void orderCanonically(GatheredMesh& all, const ParallelFor& parallelFor)
+void orderCanonically(
+  GatheredMesh& all, const MeshCube& cube, const ParallelFor& parallelFor)
 {
-  const std::vector<int> order = canonicalOrder(all.mesh, parallelFor);
+  const std::vector<int> order = canonicalOrder(all.mesh, cube, parallelFor);
   std::vector<Element> elements(order.size());
   std::vector<ElementHome> homes(order.size());
   forAll(parallelFor, order.size(),

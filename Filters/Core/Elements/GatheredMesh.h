@@ -1,5 +1,6 @@
 #pragma once
 
+#include "Elements/CanonicalOrder.h"
 #include "Elements/ElementMesh.h"
 #include "Support/Exchange.h"
 
@@ -57,6 +58,7 @@ void gatherMesh(Exchange& exchange, int worker, ElementMesh& mine,
   const std::vector<MeshSize>& sizes, GatheredMesh& all);
 
 /// Puts gathered elements into their canonical order.
-void orderCanonically(GatheredMesh& all, const ParallelFor& parallelFor);
+void orderCanonically(
+  GatheredMesh& all, const MeshCube& cube, const ParallelFor& parallelFor);
 
 } // namespace hop
