@@ -245,10 +245,11 @@ void vtkHighOrderParticleIsosurface::Run(vtkDataObject* input, vtkDataObject* ou
     this->Tell(messages);
   };
   const hop::InputBlocks blocks(checked.sound, hop::componentOf(checked.sound, this->Component));
-  const std::vector<std::int64_t> counts =
+  const hop::RunResult result =
     hop::ParticleRun(properties, scale, caller, *this->Previous).run(blocks);
-  this->Tell(
-    hop::reviewSurfaces(blocks, properties.isovalues, counts, hasTold || hop::isAborted(this)));
+  this->HasFailed = this->HasFailed || !result.isComplete;
+  this->Tell(hop::reviewSurfaces(
+    blocks, properties.isovalues, result.counts, hasTold || hop::isAborted(this)));
 }
 
 /// One number for all that the output depends on but previous runs.

@@ -28,8 +28,10 @@
  * degree 1 to 15, tetrahedra and wedges of degree 1 to 10, with uniform or anisotropic degrees, rational Bezier cells
  * included. Other cells (polyhedra, pentagonal and hexagonal prisms, 2-D cells), and cells with values that are not
  * finite or without volume, are skipped, counted, and named in one warning. Partly inverted cells are kept, and named
- * there as well. Ghost cells (duplicate, refined or hidden ones by vtkGhostType) carry particles across the borders of
- * pieces but own none.
+ * there as well. Ghost cells (duplicate, refined or hidden ones by vtkGhostType) are left out.
+ *
+ * On several MPI ranks the surface is one: all ranks together have the particles that one rank has, bit for bit, however
+ * cells lie on ranks. Each isosurface is distributed by one rank, and particles are given to the rank of their cell.
  *
  * Point data of the output: every numeric point array of the input, evaluated by the element's own polynomials in
  * double precision (the contoured one holds the isovalue), and arrays of the filter's own:
@@ -199,8 +201,7 @@ public:
   ///@{
   /**
    * If positive, the number of particles for each isovalue, over all blocks and ranks; the spacing then
-   * follows, the same on all ranks. Blocks that share cells are isosurfaces of their own. With ghost cells it
-   * is about that number. 0 lets Spacing decide. Default 0.
+   * follows. Blocks that share cells are isosurfaces of their own. 0 lets Spacing decide. Default 0.
    */
   vtkSetClampMacro(NumberOfParticles, vtkIdType, 0, VTK_ID_MAX);
   vtkGetMacro(NumberOfParticles, vtkIdType);

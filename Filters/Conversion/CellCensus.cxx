@@ -58,7 +58,7 @@ void CellCensus::count(Verdict verdict, vtkIdType cell, int cellType)
       this->level.add(cell);
       break;
     case Verdict::Keep:
-    case Verdict::Hidden:
+    case Verdict::Ghost:
       break;
   }
 }

@@ -20,8 +20,8 @@ enum class Verdict : char
   BadWeights,
   Level,
   Unsupported,
-  /// Hidden by vtkGhostType.
-  Hidden
+  /// By vtkGhostType another piece's, hidden, or replaced.
+  Ghost
 };
 
 /// Cells that were left out for one reason: their number, and the first of them.
@@ -62,7 +62,7 @@ struct CellCensus
   /// Kept cells whose Jacobian determinant changes its sign: partly inverted.
   SkippedCells folded;
 
-  /// Counts a cell that is left out. Hidden cells are not counted: the file means them to be ignored.
+  /// Counts a cell that is left out. Ghost cells are not counted: the file means them to be ignored.
   /// \param cellType VTK's type of the cell
   void count(Verdict verdict, vtkIdType cell, int cellType);
   /// Adds the census of cells that come after these in the block.

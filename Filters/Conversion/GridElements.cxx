@@ -2,18 +2,15 @@
 
 #include "Conversion/CellValues.h"
 #include "Conversion/ConvertCells.h"
-#include "Conversion/JudgeCells.h"
 #include "Conversion/NodeOrder.h"
 #include "Elements/CornerNumbers.h"
 #include "Support/KeepMarked.h"
 
-#include "vtkDataArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 namespace hop
 {
@@ -36,84 +33,20 @@ struct Room
   }
 };
 
-/// See GridElements::origin: the middle of the range of all values where the range is small, whatever the isovalues.
-double originOf(const InputBlocks& blocks)
-{
-  // Largest range, as a fraction of the middle value, at which the middle is subtracted: three digits are won. Where
-  // the range is larger there is less to win, and zero stays zero. Chosen by experiment.
-  constexpr double little = 1e-3;
-  double lowest = std::numeric_limits<double>::infinity();
-  double highest = -lowest;
-  for (std::size_t b = 0; b < blocks.size() && !blocks.isMagnitude(); ++b)
-  {
-    double range[2];
-    blocks[b].scalars->GetFiniteRange(range, blocks.component());
-    lowest = std::min(lowest, range[0]);
-    highest = std::max(highest, range[1]);
-  }
-  const double middle = 0.5 * lowest + 0.5 * highest;
-  return lowest <= highest && highest - lowest < little * std::abs(middle) ? middle : 0.0;
-}
-
-/// The unit of the chosen scalar in which it changes by about one in half of the cells: a few cells with values of quite
-/// another size do not matter. 1 if there are no cells.
-double usualUnit(const std::vector<JudgedCells>& ranges)
-{
-  std::vector<double> units;
-  for (const JudgedCells& range : ranges)
-  {
-    for (const KeptCell& kept : range.kept)
-    {
-      units.push_back(unitOf(kept.change));
-    }
-  }
-  if (units.empty())
-  {
-    return 1.0;
-  }
-  const auto median = units.begin() + static_cast<std::ptrdiff_t>(units.size() / 2);
-  std::nth_element(units.begin(), median, units.end());
-  return *median;
-}
-
-using Corners = decltype(Element::corners);
-
-/// The corners in an order in which copies of a cell can be compared, which may list them differently.
-Corners sortedCorners(const Element& element)
-{
-  Corners corners = element.corners;
-  std::sort(corners.begin(), corners.end());
-  return corners;
-}
-
-/// Fractions of the work that are done after its stages. They only move the progress bar; chosen by experiment.
-struct ConversionProgress
-{
-  static constexpr double Judged = 0.2;
-  static constexpr double Converted = 0.3;
-  static constexpr double CornersFound = 0.5;
-  static constexpr double CornersNumbered = 0.9;
-};
-
-/// Builds the elements of all blocks, stage by stage.
+/// Builds elements of judged cells.
 class Builder
 {
 public:
-  Builder(const InputBlocks& blocks, NodeSpacing spacing, const std::vector<double>& isovalues,
-    const ParallelFor& parallelFor, const std::function<void(double)>& reached, double unitOfLength)
+  Builder(const InputBlocks& blocks, const std::vector<double>& isovalues, GridElements& result,
+    const ParallelFor& parallelFor)
     : Blocks(blocks)
     , Isovalues(isovalues)
     , Parallel(parallelFor)
-    , Reached(reached)
+    , Result(result)
   {
-    this->Result.squared = blocks.isMagnitude();
-    this->Result.origin = originOf(blocks);
-    this->Result.units.length = unitOfLength;
-    this->Result.kinds = std::make_unique<CellBases>(spacing);
-    this->Result.census.resize(blocks.size());
   }
 
-  GridElements build();
+  void build(const std::vector<JudgedCells>& judged);
 
 private:
   void makeElements(const std::vector<JudgedCells>& ranges);
@@ -125,36 +58,22 @@ private:
   std::vector<BlockCell> foldedCells(
     const std::vector<JacobianSign>& signs, const CellBasis* cell, bool& areMost) const;
   void dropCollapsed(const std::vector<JacobianSign>& signs);
-  void dropDoubledGhosts(std::vector<double>& tolerances);
   void keep(const std::vector<char>& marks);
 
   const InputBlocks& Blocks;
   const std::vector<double>& Isovalues;
   const ParallelFor& Parallel;
-  const std::function<void(double)>& Reached;
-  GridElements Result;
+  GridElements& Result;
 };
 
-GridElements Builder::build()
+void Builder::build(const std::vector<JudgedCells>& judged)
 {
-  ElementMesh& mesh = this->Result.mesh;
-  const std::vector<JudgedCells> judged =
-    judgeCells(this->Blocks, this->Isovalues, *this->Result.kinds, this->Parallel);
-  this->Result.units.value = usualUnit(judged);
   this->makeElements(judged);
-  this->Reached(ConversionProgress::Judged);
   std::vector<JacobianSign> signs = convertCells(this->Blocks, this->Result.bases,
-    { this->Isovalues, this->Result.origin }, this->Result.units, mesh, this->Parallel);
-  this->Reached(ConversionProgress::Converted);
+    { this->Isovalues, this->Result.origin }, this->Result.units, this->Result.mesh,
+    this->Parallel);
   this->dropMisordered(signs);
   this->dropCollapsed(signs);
-  std::vector<double> tolerances = cornerTolerances(mesh, this->Parallel);
-  this->Reached(ConversionProgress::CornersFound);
-  numberCorners(mesh, tolerances, this->Parallel);
-  this->Reached(ConversionProgress::CornersNumbered);
-  this->dropDoubledGhosts(tolerances);
-  findFaceNeighbors(mesh, tolerances, this->Parallel);
-  return std::move(this->Result);
 }
 
 /// Makes elements of the cells to keep, with room for their coefficients.
@@ -321,37 +240,6 @@ void Builder::dropCollapsed(const std::vector<JacobianSign>& signs)
   this->keep(marks);
 }
 
-/// Removes ghosts whose original, or another copy, is in the mesh too; readers of files in pieces bring both. Such a
-/// ghost would claim the faces of its neighbours a second time.
-void Builder::dropDoubledGhosts(std::vector<double>& tolerances)
-{
-  const std::vector<Element>& elements = this->Result.mesh.elements;
-  std::vector<char> marks;
-  marks.reserve(elements.size());
-  for (const Element& element : elements)
-  {
-    marks.push_back(!this->Blocks.isGhost(this->Blocks.locate(element.cell)));
-  }
-  if (std::find(marks.begin(), marks.end(), 0) == marks.end())
-  {
-    return;
-  }
-  std::set<Corners> present;
-  for (std::size_t e = 0; e < elements.size(); ++e)
-  {
-    if (marks[e])
-    {
-      present.insert(sortedCorners(elements[e]));
-    }
-  }
-  for (std::size_t e = 0; e < elements.size(); ++e)
-  {
-    marks[e] = marks[e] || present.insert(sortedCorners(elements[e])).second;
-  }
-  this->keep(marks);
-  keepMarked(tolerances, marks);
-}
-
 /// Removes elements without a mark.
 void Builder::keep(const std::vector<char>& marks)
 {
@@ -361,11 +249,94 @@ void Builder::keep(const std::vector<char>& marks)
 
 } // namespace
 
-GridElements buildGridElements(const InputBlocks& blocks, NodeSpacing spacing,
-  const std::vector<double>& isovalues, const ParallelFor& parallelFor,
-  const std::function<void(double)>& reached, double unitOfLength)
+double usualUnit(const UnitCounts& counts)
 {
-  return Builder(blocks, spacing, isovalues, parallelFor, reached, unitOfLength).build();
+  std::int64_t all = 0;
+  for (const auto& [exponent, count] : counts)
+  {
+    all += count;
+  }
+  std::int64_t upTo = 0;
+  for (const auto& [exponent, count] : counts)
+  {
+    upTo += count;
+    if (upTo > all / 2)
+    {
+      return std::ldexp(1.0, exponent);
+    }
+  }
+  return 1.0;
+}
+
+double originFor(const std::array<double, 2>& range)
+{
+  // Largest range, as a fraction of the middle value, at which the middle is subtracted: three digits are won. Where
+  // the range is larger there is less to win, and zero stays zero. Chosen by experiment.
+  constexpr double little = 1e-3;
+  const auto [lowest, highest] = range;
+  const double middle = 0.5 * lowest + 0.5 * highest;
+  return lowest <= highest && highest - lowest < little * std::abs(middle) ? middle : 0.0;
+}
+
+std::array<double, 2> valueRange(const InputBlocks& blocks)
+{
+  if (blocks.isMagnitude())
+  {
+    return { 0.0, 0.0 };
+  }
+  std::array<double, 2> all{ std::numeric_limits<double>::infinity(),
+    -std::numeric_limits<double>::infinity() };
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+  {
+    const auto [lowest, highest] =
+      finiteRange(blocks[b].grid, blocks[b].scalars, blocks.component());
+    all = { std::min(all[0], lowest), std::max(all[1], highest) };
+  }
+  return all;
+}
+
+GridConversion::GridConversion(const InputBlocks& blocks, NodeSpacing spacing,
+  const std::vector<double>& isovalues, double origin, double unitOfLength)
+  : Blocks(blocks)
+  , Isovalues(isovalues)
+{
+  this->Result.squared = blocks.isMagnitude();
+  this->Result.origin = origin;
+  this->Result.units.length = unitOfLength;
+  this->Result.kinds = std::make_unique<CellBases>(spacing);
+  this->Result.census.resize(blocks.size());
+}
+
+UnitCounts GridConversion::judge(const ParallelFor& parallelFor)
+{
+  this->Judged = judgeCells(this->Blocks, this->Isovalues, *this->Result.kinds, parallelFor);
+  UnitCounts counts;
+  for (const JudgedCells& range : this->Judged)
+  {
+    for (const KeptCell& kept : range.kept)
+    {
+      ++counts[std::ilogb(unitOf(kept.change))];
+    }
+  }
+  return counts;
+}
+
+GridElements GridConversion::convert(double unitOfValue, const ParallelFor& parallelFor)
+{
+  this->Result.units.value = unitOfValue;
+  Builder(this->Blocks, this->Isovalues, this->Result, parallelFor).build(this->Judged);
+  this->Judged.clear();
+  return std::move(this->Result);
+}
+
+GridElements buildGridElements(const InputBlocks& blocks, NodeSpacing spacing,
+  const std::vector<double>& isovalues, const ParallelFor& parallelFor)
+{
+  GridConversion conversion(blocks, spacing, isovalues, originFor(valueRange(blocks)), 1.0);
+  const double unit = usualUnit(conversion.judge(parallelFor));
+  GridElements elements = conversion.convert(unit, parallelFor);
+  joinElements(elements.mesh, parallelFor);
+  return elements;
 }
 
 } // namespace hop

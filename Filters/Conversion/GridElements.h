@@ -3,19 +3,22 @@
 #include "Common/Monitor.h"
 #include "Conversion/CellBases.h"
 #include "Conversion/CellCensus.h"
+#include "Conversion/JudgeCells.h"
 #include "Conversion/RunUnits.h"
 #include "Elements/ElementMesh.h"
 #include "Input/InputBlocks.h"
 
-#include <functional>
+#include <array>
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <vector>
 
 namespace hop
 {
 
-/// Grids as elements: the cells that can hold one of the isosurfaces, in Bernstein form and joined at their faces
-/// within and across blocks, with the bases to evaluate further arrays on them.
+/// Grids as elements: the cells that can hold one of the isosurfaces, in Bernstein form, with the bases to evaluate
+/// further arrays on them.
 struct GridElements
 {
   /// Its elements name their cells by the numbers of InputBlocks.
@@ -47,13 +50,48 @@ struct GridElements
   }
 };
 
-/// Converts the cells of all blocks.
+/// How often each unit occurs among the changes of the chosen scalar in cells: a power of two by its exponent.
+using UnitCounts = std::map<int, std::int64_t>;
+
+/// The unit of the chosen scalar in which it changes by about one in half of the cells: a few cells with values of quite
+/// another size do not matter. 1 if there are no cells.
+double usualUnit(const UnitCounts& counts);
+
+/// See GridElements::origin: the middle of the range of all values where the range is small, whatever the isovalues.
+/// \param range of all values; the lowest above the highest where there are none
+double originFor(const std::array<double, 2>& range);
+
+/// The range of the chosen scalar in all blocks, 0 to 0 where a magnitude is contoured.
+std::array<double, 2> valueRange(const InputBlocks& blocks);
+
+/// Converts the cells of all blocks, stage by stage: between the stages ranks agree on what they have found out.
+class GridConversion
+{
+public:
+  /// \param isovalues of the chosen scalar, at least one
+  /// \param origin see GridElements
+  /// \param unitOfLength of the mesh, world units, a power of two
+  /// \pre all arguments outlive the conversion
+  GridConversion(const InputBlocks& blocks, NodeSpacing spacing,
+    const std::vector<double>& isovalues, double origin, double unitOfLength);
+
+  /// Finds the cells that can hold surface.
+  UnitCounts judge(const ParallelFor& parallelFor);
+
+  /// Converts the cells that judge() has found. The elements are in the order of their cells, and not joined.
+  /// \param unitOfValue usualUnit() of the cells of all ranks
+  GridElements convert(double unitOfValue, const ParallelFor& parallelFor);
+
+private:
+  const InputBlocks& Blocks;
+  const std::vector<double>& Isovalues;
+  std::vector<JudgedCells> Judged;
+  GridElements Result;
+};
+
+/// Converts the cells of all blocks and joins the elements, where there are no other ranks.
 /// \param isovalues of the chosen scalar, at least one
-/// \param reached receives the fraction of the work that is done, 0 to 1; may throw to end it early
-/// \param unitOfLength of the mesh, world units, a power of two
-GridElements buildGridElements(
-  const InputBlocks& blocks, NodeSpacing spacing, const std::vector<double>& isovalues,
-  const ParallelFor& parallelFor, const std::function<void(double)>& reached = [](double) {},
-  double unitOfLength = 1.0);
+GridElements buildGridElements(const InputBlocks& blocks, NodeSpacing spacing,
+  const std::vector<double>& isovalues, const ParallelFor& parallelFor);
 
 } // namespace hop

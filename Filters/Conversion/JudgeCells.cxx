@@ -3,7 +3,6 @@
 #include "Conversion/CellValues.h"
 #include "Conversion/RunUnits.h"
 
-#include "vtkDataSetAttributes.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -131,10 +130,9 @@ void Judge::judge(JudgedCells& range, BasisLookup& bases, CellValues& values) co
 /// \param cell the cell's basis, or nullptr
 Verdict Judge::judge(const BlockCell& where, const CellBasis* cell, CellValues& values) const
 {
-  vtkUnsignedCharArray* ghosts = this->Ghosts[where.block];
-  if (ghosts && (ghosts->GetValue(where.cell) & vtkDataSetAttributes::HIDDENCELL))
+  if (isGhostCell(this->Ghosts[where.block], where.cell))
   {
-    return Verdict::Hidden;
+    return Verdict::Ghost;
   }
   if (!cell)
   {

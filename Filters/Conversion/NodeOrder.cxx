@@ -3,7 +3,6 @@
 #include "Conversion/ConvertCells.h"
 #include "Elements/Bernstein.h"
 
-#include "vtkDataSetAttributes.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -305,12 +304,6 @@ public:
   std::vector<std::vector<vtkIdType>> take();
 
 private:
-  bool isHidden(const BlockCell& where) const
-  {
-    vtkUnsignedCharArray* ghosts = this->Ghosts[where.block];
-    return ghosts && (ghosts->GetValue(where.cell) & vtkDataSetAttributes::HIDDENCELL);
-  }
-
   const InputBlocks& Blocks;
   const CellBasis& Cell;
   std::vector<vtkUnsignedCharArray*> Ghosts;
@@ -332,7 +325,7 @@ void FoldedCells::find(const std::vector<std::vector<int>>& orders, bool isAny, 
       for (std::ptrdiff_t number = begin; number < end; ++number)
       {
         const BlockCell where = this->Blocks.locate(number);
-        if (this->isHidden(where) ||
+        if (isGhostCell(this->Ghosts[where.block], where.cell) ||
           bases.basisOf(this->Blocks[where.block].grid, where.cell) != &this->Cell)
         {
           continue;

@@ -15,7 +15,7 @@ namespace hop
 /// another program.
 struct MisorderedCells
 {
-  /// One ascending list a block. All cells of the kind are looked at, with or without surface, but for hidden cells.
+  /// One ascending list a block. All cells of the kind are looked at, with or without surface, but for ghost cells.
   std::vector<std::vector<vtkIdType>> cells;
   /// What makes them sound: "nodes 8 and 9 exchanged", "their nodes in the order 0 1 3 2"; empty where it is not known.
   std::string remedy;

@@ -234,58 +234,56 @@ std::set<Members> SharedCells::find() const
   return sets;
 }
 
-/// Pairs of blocks that have a cell in common; the earlier block comes first.
-std::set<std::pair<std::size_t, std::size_t>> blocksThatShareCells(
-  const InputBlocks& blocks, const ParallelFor& parallelFor)
+} // namespace
+
+BlockPairs blocksThatShareCells(const InputBlocks& blocks, const ParallelFor& parallelFor)
 {
-  std::set<std::pair<std::size_t, std::size_t>> pairs;
+  BlockPairs pairs;
   for (const Members& members : SharedCells(blocks, parallelFor).find())
   {
     for (auto first = members.begin(); first != members.end(); ++first)
     {
       std::for_each(first + 1, members.end(),
         [&](std::size_t other) {
-          pairs.insert({ *first, other });
+          pairs.insert(std::minmax({ blocks[*first].number, blocks[other].number }));
         });
     }
   }
   return pairs;
 }
 
-} // namespace
-
-std::vector<InputBlocks> groupWithoutSharedCells(
-  const InputBlocks& blocks, const ParallelFor& parallelFor)
+std::vector<std::set<int>> groupsWithoutSharedCells(
+  const std::set<int>& numbers, const BlockPairs& sharing)
 {
-  const auto sharing = blocksThatShareCells(blocks, parallelFor);
-  std::vector<Members> groups;
-  for (std::size_t b = 0; b < blocks.size(); ++b)
+  std::vector<std::set<int>> groups;
+  for (const int number : numbers)
   {
-    const auto isFree = [&](const Members& group)
+    const auto isFree = [&](const std::set<int>& group)
     {
       return std::none_of(group.begin(), group.end(),
-        [&](std::size_t member) {
-          return sharing.count({ member, b }) > 0;
-        });
+        [&](int member) { return sharing.count({ member, number }) > 0; });
     };
     auto group = std::find_if(groups.begin(), groups.end(), isFree);
     if (group == groups.end())
     {
-      group = groups.insert(groups.end(), Members{});
+      group = groups.insert(groups.end(), std::set<int>());
     }
-    group->push_back(b);
+    group->insert(number);
   }
-  std::vector<InputBlocks> result;
-  for (const Members& group : groups)
+  return groups;
+}
+
+InputBlocks blocksOfGroup(const InputBlocks& blocks, const std::set<int>& group)
+{
+  std::vector<InputBlock> members;
+  for (std::size_t b = 0; b < blocks.size(); ++b)
   {
-    std::vector<InputBlock> members;
-    for (const std::size_t member : group)
+    if (group.count(blocks[b].number) > 0)
     {
-      members.push_back(blocks[member]);
+      members.push_back(blocks[b]);
     }
-    result.emplace_back(std::move(members), blocks.component());
   }
-  return result;
+  return { std::move(members), blocks.component() };
 }
 
 } // namespace hop

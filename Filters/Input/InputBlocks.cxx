@@ -1,7 +1,11 @@
 #include "Input/InputBlocks.h"
 
+#include "Input/VtkCompatibility.h"
+
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -11,6 +15,43 @@
 
 namespace hop
 {
+
+namespace
+{
+
+/// A mark for each point that a cell of this rank has; empty where no cell is a ghost: then all points count.
+std::vector<char> pointsOfOwnCells(vtkUnstructuredGrid* grid)
+{
+  vtkUnsignedCharArray* ghosts = grid->GetCellGhostArray();
+  const vtkIdType cells = ghosts ? grid->GetNumberOfCells() : 0;
+  vtkIdType first = 0;
+  while (first < cells && !isGhostCell(ghosts, first))
+  {
+    ++first;
+  }
+  if (first == cells)
+  {
+    return {};
+  }
+  std::vector<char> marks(grid->GetNumberOfPoints(), 0);
+  vtkNew<vtkIdList> room;
+  for (vtkIdType cell = 0; cell < cells; ++cell)
+  {
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    cellPoints(grid->GetCells(), cell, count, ids, room);
+    for (vtkIdType i = 0; i < count && !isGhostCell(ghosts, cell); ++i)
+    {
+      if (ids[i] >= 0 && ids[i] < grid->GetNumberOfPoints())
+      {
+        marks[ids[i]] = 1;
+      }
+    }
+  }
+  return marks;
+}
+
+} // namespace
 
 InputBlocks::InputBlocks(std::vector<InputBlock> blocks, int component)
   : Blocks(std::move(blocks))
@@ -28,11 +69,6 @@ BlockCell InputBlocks::locate(std::int64_t number) const
   const auto next = std::upper_bound(this->FirstCells.begin(), this->FirstCells.end(), number);
   const auto block = static_cast<std::size_t>(next - this->FirstCells.begin()) - 1;
   return { block, number - this->FirstCells[block] };
-}
-
-bool InputBlocks::isGhost(const BlockCell& cell) const
-{
-  return isGhostCell(this->Blocks[cell.block].grid->GetCellGhostArray(), cell.cell);
 }
 
 std::string InputBlocks::describe(std::int64_t number) const
@@ -58,9 +94,10 @@ bool isGhostCell(vtkUnsignedCharArray* ghosts, vtkIdType cell)
 vtkBoundingBox finiteBounds(vtkUnstructuredGrid* grid)
 {
   const auto isFinite = [](double x) { return std::isfinite(x); };
+  const std::vector<char> owned = pointsOfOwnCells(grid);
   double bounds[6];
   grid->GetBounds(bounds);
-  if (std::all_of(bounds, bounds + 6, isFinite))
+  if (owned.empty() && std::all_of(bounds, bounds + 6, isFinite))
   {
     return vtkBoundingBox(bounds);
   }
@@ -69,12 +106,36 @@ vtkBoundingBox finiteBounds(vtkUnstructuredGrid* grid)
   {
     double x[3];
     grid->GetPoint(i, x);
-    if (std::all_of(x, x + 3, isFinite))
+    if ((owned.empty() || owned[i]) && std::all_of(x, x + 3, isFinite))
     {
       box.AddPoint(x);
     }
   }
   return box;
+}
+
+std::array<double, 2> finiteRange(vtkUnstructuredGrid* grid, vtkDataArray* values, int component)
+{
+  constexpr int magnitude = -1; // as VTK numbers it
+  const int asVtk = component == InputBlocks::Magnitude ? magnitude : component;
+  const std::vector<char> owned = pointsOfOwnCells(grid);
+  std::array<double, 2> range;
+  if (owned.empty())
+  {
+    values->GetFiniteRange(range.data(), asVtk);
+    return range;
+  }
+  const auto some = vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(values->GetDataType()));
+  some->SetNumberOfComponents(values->GetNumberOfComponents());
+  for (vtkIdType i = 0; i < std::min(grid->GetNumberOfPoints(), values->GetNumberOfTuples()); ++i)
+  {
+    if (owned[i])
+    {
+      some->InsertNextTuple(i, values);
+    }
+  }
+  some->GetFiniteRange(range.data(), asVtk);
+  return range;
 }
 
 } // namespace hop

@@ -5,6 +5,7 @@
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -28,6 +29,8 @@ struct InputBlock
   std::string name;
   /// Modification time of what the scalars were made of.
   vtkMTimeType scalarsTime = 0;
+  /// Its place in a composite, VTK's flat index: the same on all ranks. 0 where the input is one grid.
+  int number = 0;
 };
 
 /// A cell, given by its block and its number in the block.
@@ -51,14 +54,14 @@ public:
   std::size_t size() const { return this->Blocks.size(); }
   const InputBlock& operator[](std::size_t block) const { return this->Blocks[block]; }
   int component() const { return this->Component; }
+  /// The same blocks, contoured by another component.
+  InputBlocks withComponent(int component) const { return { this->Blocks, component }; }
   bool isMagnitude() const { return this->Component == Magnitude; }
   std::int64_t cellCount() const { return this->FirstCells.back(); }
   /// The number of a block's first cell; for block size() the number of all cells.
   std::int64_t firstCell(std::size_t block) const { return this->FirstCells[block]; }
   /// \pre 0 <= number < cellCount()
   BlockCell locate(std::int64_t number) const;
-  /// See isGhostCell().
-  bool isGhost(const BlockCell& cell) const;
   /// "cell 7", or "cell 7 of block 'wing'".
   std::string describe(std::int64_t number) const;
 
@@ -72,12 +75,17 @@ private:
 /// \param asked number of components or more for the magnitude; scalars have but one component
 int componentOf(const std::vector<InputBlock>& blocks, int asked);
 
-/// Whether a cell belongs to another piece, is hidden, or was replaced by finer cells. Such a cell is a neighbour that
-/// owns no particles. Other bits of `vtkGhostType` are ignored.
+/// Whether a cell belongs to another piece, is hidden, or was replaced by finer cells. Such a cell is left out: the
+/// piece that it belongs to has it, too. Other bits of `vtkGhostType` are ignored.
 /// \param ghosts the grid's ghost array, or nullptr
 bool isGhostCell(vtkUnsignedCharArray* ghosts, vtkIdType cell);
 
-/// The bounds of the points of a grid with finite coordinates.
+/// The bounds of the points of a grid with finite coordinates, without points that only ghost cells have.
 vtkBoundingBox finiteBounds(vtkUnstructuredGrid* grid);
+
+/// The lowest and highest finite value of an array of a grid's points, without points that only ghost cells have.
+/// \param component or InputBlocks::Magnitude
+/// \return the lowest above the highest where there is none
+std::array<double, 2> finiteRange(vtkUnstructuredGrid* grid, vtkDataArray* values, int component);
 
 } // namespace hop

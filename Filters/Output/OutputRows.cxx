@@ -18,8 +18,7 @@ ParticleRow rowOf(const IsovalueParticles& some, int particle)
   row.particle = &some.distribution.particles[particle];
   row.isovalue = some.isovalue;
   row.normal = row.particle->normal;
-  const auto index = static_cast<std::size_t>(particle);
-  row.area = index < some.areas.size() ? some.areas[index] : 0.0;
+  row.area = row.particle->area;
   return row;
 }
 
@@ -40,7 +39,6 @@ private:
   {
     return this->BlockOfElements[this->Particles[particle].location.element];
   }
-  bool isGhost(int particle) const { return this->blockOf(particle) == this->Blocks.size(); }
   int vertexOf(int particle) const { return this->Some.mesh.vertices[particle]; }
   void collectVertices();
   void addCellsOf(std::size_t block, const std::vector<int>& cells, BlockRows& result);
@@ -51,7 +49,6 @@ private:
   const IsovalueParticles& Some;
   const Buffer<Particle>& Particles;
   Interruptible& Work;
-  /// Blocks.size() for ghost cells.
   std::vector<std::size_t> BlockOfElements;
   /// Particles in the order of their elements.
   std::vector<int> Order;
@@ -74,8 +71,7 @@ Sharing::Sharing(const InputBlocks& blocks, const ElementMesh& mesh, const Isova
 {
   for (const Element& element : mesh.elements)
   {
-    const BlockCell where = blocks.locate(element.cell);
-    this->BlockOfElements.push_back(blocks.isGhost(where) ? blocks.size() : where.block);
+    this->BlockOfElements.push_back(blocks.locate(element.cell).block);
   }
   this->Order = sortedBy(
     this->Particles, mesh.elements.size(),
@@ -86,10 +82,7 @@ void Sharing::addParticles(std::vector<BlockRows>& result) const
 {
   for (const int particle : this->Order)
   {
-    if (!this->isGhost(particle))
-    {
-      result[this->blockOf(particle)].rows.push_back(rowOf(this->Some, particle));
-    }
+    result[this->blockOf(particle)].rows.push_back(rowOf(this->Some, particle));
   }
 }
 
@@ -120,7 +113,7 @@ void Sharing::addMesh(std::vector<BlockRows>& result)
 {
   this->collectVertices();
   const ParticleMesh& mesh = this->Some.mesh;
-  std::vector<std::vector<int>> cellsOfBlocks(this->Blocks.size() + 1);
+  std::vector<std::vector<int>> cellsOfBlocks(this->Blocks.size());
   for (std::size_t first = 0; first < mesh.nodes.size(); first += mesh.nodesPerCell)
   {
     cellsOfBlocks[this->blockOf(mesh.nodes[first])].push_back(static_cast<int>(first));

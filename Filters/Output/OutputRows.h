@@ -32,8 +32,6 @@ struct IsovalueParticles
 {
   double isovalue = 0.0;
   Distribution distribution;
-  /// Area of the surface around each particle, in the unit of the run; nodes of curved cells, behind the others, have none.
-  std::vector<double> areas;
   ParticleMesh mesh;
 };
 
@@ -52,7 +50,7 @@ struct BlockRows
 };
 
 /// Shares out particles and cells to the blocks: a particle goes to the block of its cell, a triangle to the block of
-/// its first corner. Corners in other blocks are copied. What belongs to ghost cells is left out: another rank has it.
+/// its first corner. Corners in other blocks are copied.
 /// \throw Interrupted
 std::vector<BlockRows> shareOutToBlocks(const InputBlocks& blocks, const ElementMesh& mesh,
   const std::vector<IsovalueParticles>& isovalues, Interruptible& work);

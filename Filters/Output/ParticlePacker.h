@@ -9,9 +9,10 @@ namespace hop
 {
 
 /// Writes particles, or meshes between them, one output a block: points, cells, the particles' own arrays, the
-/// point arrays of the block's grid evaluated and its cell arrays copied. What belongs to ghost cells is
-/// left out: another rank has it. Particles are vertices and triangles polygons of vtkPolyData; curved triangles are
-/// Lagrange triangles of vtkUnstructuredGrid. See vtkHighOrderParticleIsosurface for names and meaning of the arrays.
+/// point arrays of the block's grid evaluated and its cell arrays copied. Particles are vertices and triangles polygons
+/// of vtkPolyData; curved triangles are Lagrange triangles of vtkUnstructuredGrid. See vtkHighOrderParticleIsosurface for
+/// names and meaning of the arrays.
+/// \param elements coefficients and neighbours are not needed
 /// \param withDiagnostics whether to write all arrays of Output/OutputArrays.h, the report included
 /// \throw Interrupted if work's monitor asks for an early end; the outputs are unfinished then
 void packParticles(const InputBlocks& blocks, const GridElements& elements,

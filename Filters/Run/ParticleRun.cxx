@@ -1,23 +1,23 @@
 #include "Run/ParticleRun.h"
 
-#include "Classic/ClassicDistribution.h"
 #include "Common/VtkThreads.h"
 #include "Conversion/GridElements.h"
-#include "Fast/FastDistribution.h"
+#include "Elements/CornerNumbers.h"
+#include "Elements/GatheredMesh.h"
 #include "Input/BlockGroups.h"
 #include "Output/ParticlePacker.h"
-#include "Run/ParticleLimit.h"
+#include "Run/RankBlocks.h"
 #include "Run/Ranks.h"
 #include "Run/RunMessages.h"
-#include "Run/SpacingAdvice.h"
+#include "Run/SurfaceWorker.h"
+#include "Run/Work.h"
 #include "Support/Interruptible.h"
-#include "Surface/SpacingSearch.h"
+#include "Surface/ParticlesHome.h"
 
 #include "vtkPolyData.h"
 
-#include <algorithm>
 #include <functional>
-#include <numeric>
+#include <new>
 #include <optional>
 
 namespace hop
@@ -30,293 +30,267 @@ namespace
 /// shares of the time, chosen by experiment.
 struct ProgressAt
 {
+  /// Cells that can hold surface are known.
+  static constexpr double Judged = 0.02;
   /// Cells are converted to elements.
-  static constexpr double Converted = 0.1;
+  static constexpr double Converted = 0.03;
+  /// Elements are joined.
+  static constexpr double Joined = 0.1;
   /// Particles of all isovalues are distributed; packing follows.
   static constexpr double Distributed = 0.95;
-  /// Of an isovalue's own progress: its particles are distributed, and joined to a mesh if one is asked for.
-  static constexpr double Joined = 0.8;
 };
 
-/// A part of the run, as far as progress and threads are concerned.
-struct Work
+/// The part of a run that is about one group of blocks, which are contoured as one mesh. Where it fails or is
+/// interrupted on one rank, it goes on with the other ranks to the next step that all take together, where all leave.
+class GroupRun
 {
-  Monitor monitor;
-  const ParallelFor& parallelFor;
-
-  /// \param begin, end fractions of this work
-  Work part(double begin, double end) const
+public:
+  /// \param blocks none where only other ranks have blocks of the group
+  GroupRun(Exchange& exchange, const InputBlocks& blocks, std::size_t group,
+    const RunProperties& properties, const RunScale& scale, const RunCaller& caller,
+    PreviousRun& previous)
+    : Ranks(exchange)
+    , Blocks(blocks)
+    , AllBlocks(exchange, blocks)
+    , Group(group)
+    , Properties(properties)
+    , Scale(scale)
+    , Caller(caller)
+    , Previous(previous)
+    , IsSound(!caller.isAborted())
   {
-    return { { [this, begin, end](double fraction)
-               { return this->monitor.proceed(begin + (end - begin) * fraction); } },
-      this->parallelFor };
   }
+
+  /// \param counts one an isovalue; receives the numbers of particles in addition to what is there
+  /// \return whether all ranks have their particles; the same on all ranks
+  bool run(const Work& work, std::vector<std::int64_t>& counts);
+
+private:
+  template <class Use>
+  void attempt(const Use& use);
+  bool areAllSound() { return allAgree(this->Ranks, this->IsSound); }
+  std::size_t numberOf(std::size_t isovalue) const
+  {
+    return this->Group * this->Properties.isovalues.size() + isovalue;
+  }
+  /// The rank that distributes the particles of an isovalue. It follows from the isovalue's number alone, so that the
+  /// rank that remembers the particles of the last run is asked again.
+  int workerOf(std::size_t isovalue) const
+  {
+    return static_cast<int>(this->numberOf(isovalue) % this->Ranks.size());
+  }
+  bool isWorker(int rank) const;
+  std::optional<GridElements> convert(const Work& work);
+  bool gather(GridElements& elements);
+  std::vector<IsovalueParticles> distribute(const GridElements& elements, const Work& work);
+  bool bringHome(std::vector<IsovalueParticles>& particles, const ParallelFor& parallelFor);
+
+  Exchange& Ranks;
+  const InputBlocks& Blocks;
+  const RankBlocks AllBlocks;
+  std::size_t Group;
+  const RunProperties& Properties;
+  const RunScale& Scale;
+  const RunCaller& Caller;
+  PreviousRun& Previous;
+  /// Of all ranks' elements.
+  std::vector<MeshSize> Sizes;
+  /// On workers: the elements of all ranks.
+  GatheredMesh All;
+  /// Whether nothing has failed on this rank, and nobody has asked it to stop.
+  bool IsSound;
 };
 
-/// Uses blocks for some work; if it is interrupted or memory runs out, they stay without particles.
+/// Does some work that is this rank's own, unless something has failed before.
 template <class Use>
-void unlessAborted(const InputBlocks& blocks, const RunProperties& properties,
-  const RunCaller& caller, const Use& use)
+void GroupRun::attempt(const Use& use)
 {
-  if (blocks.size() == 0 || caller.isAborted())
+  if (!this->IsSound)
   {
     return;
   }
-  const auto empty = [&]()
-  {
-    for (std::size_t b = 0; b < blocks.size(); ++b)
-    {
-      blocks[b].particles->Initialize();
-    }
-  };
   try
   {
     use();
   }
   catch (const Interrupted&)
   {
-    empty();
+    this->IsSound = false;
   }
   catch (const std::exception& failure)
   {
-    empty();
-    caller.tell({ describeFailure(failure, properties.numberOfParticles) });
+    this->IsSound = false;
+    this->Caller.tell({ describeFailure(failure, this->Properties.numberOfParticles) });
   }
 }
 
-/// The part of a run that is about one group of blocks, which are contoured as one mesh.
-class GroupRun
+bool GroupRun::isWorker(int rank) const
 {
-public:
-  /// \param blocks none where only other ranks have a group of that number
-  GroupRun(const InputBlocks& blocks, std::size_t group, const RunProperties& properties,
-    const RunScale& scale, const RunCaller& caller, PreviousRun& previous)
-    : Blocks(blocks)
-    , Group(group)
-    , Properties(properties)
-    , Scale(scale)
-    , Caller(caller)
-    , Previous(previous)
+  for (std::size_t i = 0; i < this->Properties.isovalues.size(); ++i)
   {
+    if (this->workerOf(i) == rank)
+    {
+      return true;
+    }
   }
-
-  /// \param counts one an isovalue; receives the numbers of particles in addition to what is there
-  void run(const Work& work, std::vector<std::int64_t>& counts);
-
-private:
-  template <class Use>
-  void unlessAborted(const Use& use) const
-  {
-    hop::unlessAborted(this->Blocks, this->Properties, this->Caller, use);
-  }
-  GridElements convert(const Work& work) const;
-  std::vector<RankShare> shareOut(const GridElements& elements, const Work& work) const;
-  SurfaceCount countWanted(
-    const GridElements& elements, double isovalue, double spacing, const Work& work) const;
-  void fill(const GridElements& elements, const std::vector<RankShare>& shares, const Work& work,
-    std::vector<std::int64_t>& counts) const;
-  void reviewSpacing(const GridElements& elements, const RunOrigin& origin,
-    const Distribution& distribution, const Work& work) const;
-  RunOrigin makeOrigin() const;
-  Distribution distribute(const GridElements& elements, const RunOrigin& origin, std::size_t number,
-    const RankShare& share, const Work& work) const;
-  void join(const GridElements& elements, IsovalueParticles& some, const Work& work) const;
-
-  const InputBlocks& Blocks;
-  std::size_t Group;
-  const RunProperties& Properties;
-  const RunScale& Scale;
-  const RunCaller& Caller;
-  PreviousRun& Previous;
-};
-
-/// Distributes the particles of all isovalues. A rank without blocks, or one that is to stop, takes part in what ranks
-/// agree on.
-void GroupRun::run(const Work& work, std::vector<std::int64_t>& counts)
-{
-  std::optional<GridElements> elements;
-  this->unlessAborted([&]() { elements = this->convert(work.part(0.0, ProgressAt::Converted)); });
-  const GridElements none;
-  const std::vector<RankShare> shares = this->shareOut(
-    elements ? *elements : none, work.part(ProgressAt::Converted, ProgressAt::Converted));
-  if (elements)
-  {
-    this->unlessAborted([&]() { this->fill(*elements, shares, work, counts); });
-  }
+  return false;
 }
 
-/// \throw Interrupted
-GridElements GroupRun::convert(const Work& work) const
+bool GroupRun::run(const Work& work, std::vector<std::int64_t>& counts)
+{
+  std::optional<GridElements> elements = this->convert(work);
+  if (!elements || !this->gather(*elements))
+  {
+    return false;
+  }
+  std::vector<IsovalueParticles> particles = this->distribute(*elements, work);
+  if (!this->bringHome(particles, work.parallelFor))
+  {
+    return false;
+  }
+  this->All = {};
+  this->attempt(
+    [&]()
+    {
+      const Work packing = work.part(ProgressAt::Distributed, 1.0);
+      Interruptible loops(packing.monitor, packing.parallelFor);
+      packParticles(this->Blocks, *elements, particles, this->Properties.passesDiagnostics, loops);
+    });
+  for (std::size_t i = 0; i < particles.size(); ++i)
+  {
+    counts[i] += static_cast<std::int64_t>(particles[i].distribution.particles.size());
+  }
+  return this->areAllSound();
+}
+
+/// Converts this rank's cells.
+/// \return nothing, on all ranks, where one of them has failed
+std::optional<GridElements> GroupRun::convert(const Work& work)
 {
   Interruptible loops(work.monitor, work.parallelFor);
-  const auto reached = [&](double share)
-  {
-    loops.raiseFraction(share);
-    loops.ask();
-  };
-  GridElements elements = buildGridElements(this->Blocks, this->Properties.nodeSpacing,
-    this->Properties.isovalues, std::ref(loops), reached, this->Scale.unit);
-  this->Caller.tell(reviewCells(this->Blocks, elements.census));
-  return elements;
+  std::optional<GridConversion> conversion;
+  std::optional<GridElements> elements;
+  UnitCounts counts;
+  this->attempt(
+    [&]()
+    {
+      conversion.emplace(this->Blocks, this->Properties.nodeSpacing, this->Properties.isovalues,
+        originFor(this->AllBlocks.range()), this->Scale.unit);
+      counts = conversion->judge(std::ref(loops));
+      loops.raiseFraction(ProgressAt::Judged);
+      loops.ask();
+    });
+  const double unit = usualUnit(sumOfRanks(this->Ranks, counts));
+  this->attempt(
+    [&]()
+    {
+      elements = conversion->convert(unit, std::ref(loops));
+      loops.raiseFraction(ProgressAt::Converted);
+      loops.ask();
+      this->Caller.tell(reviewCells(this->Blocks, elements->census));
+    });
+  return this->areAllSound() ? std::move(elements) : std::nullopt;
 }
 
-/// How many particles of each isovalue this rank is to give, if their number is given; those in ghost cells, which
-/// are not kept, are more.
-std::vector<RankShare> GroupRun::shareOut(const GridElements& elements, const Work& work) const
+/// Sends this rank's elements to the workers; their coefficients are not needed here any more.
+/// \return false, on all ranks, where a worker has no memory for the elements
+bool GroupRun::gather(GridElements& elements)
+{
+  this->Sizes = gatherFromAll(this->Ranks, sizeOf(elements.mesh, this->Blocks.cellCount()));
+  this->attempt(
+    [&]()
+    {
+      if (this->isWorker(this->Ranks.rank()))
+      {
+        this->All = roomFor(this->Sizes);
+      }
+    });
+  if (!this->areAllSound())
+  {
+    return false;
+  }
+  for (int worker = 0; worker < this->Ranks.size(); ++worker)
+  {
+    if (this->isWorker(worker))
+    {
+      gatherMesh(this->Ranks, worker, elements.mesh, this->Sizes, this->All);
+    }
+  }
+  elements.mesh.coefficients = {};
+  elements.mesh.weights = {};
+  return true;
+}
+
+/// Distributes the particles of the isovalues that this rank is the worker of.
+/// \return one entry an isovalue; those of other workers have no particles
+std::vector<IsovalueParticles> GroupRun::distribute(const GridElements& elements, const Work& work)
 {
   const std::vector<double>& isovalues = this->Properties.isovalues;
-  const std::int64_t number = this->Properties.numberOfParticles;
-  std::vector<RankShare> shares(isovalues.size(), { number, 0.0 });
-  const auto isGhost = [&](const Element& element)
-  { return this->Blocks.isGhost(this->Blocks.locate(element.cell)); };
-  const std::vector<Element>& all = elements.mesh.elements;
-  const bool isShared = isOneOfRanks() || std::any_of(all.begin(), all.end(), isGhost);
-  // More than all ranks hold is refused by each of them when it is asked for.
-  if (isShared && number > 0 &&
-    static_cast<double>(number) <= sumOfRanks(static_cast<double>(particlesThatFit())))
+  std::vector<IsovalueParticles> particles(isovalues.size());
+  for (std::size_t i = 0; i < isovalues.size(); ++i)
   {
-    shares = shareOutToRanks(number, isovalues.size(),
-      SpacingSearch::FirstSpacingPerDiagonal * this->Scale.diagonal,
-      [&](std::size_t i, double spacing)
+    particles[i].isovalue = isovalues[i];
+  }
+  if (!this->isWorker(this->Ranks.rank()))
+  {
+    return particles;
+  }
+  const double share =
+    (ProgressAt::Distributed - ProgressAt::Joined) / static_cast<double>(isovalues.size());
+  this->attempt(
+    [&]()
+    {
+      Interruptible loops(work.monitor, work.parallelFor);
+      loops.raiseFraction(ProgressAt::Converted);
+      orderCanonically(this->All, this->Scale.cube, std::ref(loops));
+      joinElements(this->All.mesh, std::ref(loops));
+      const SurfaceWorker worker(this->All.mesh, this->AllBlocks, this->Properties, this->Scale,
+        this->Caller, this->Previous);
+      for (std::size_t i = 0; i < isovalues.size() && !this->Caller.isAborted(); ++i)
       {
-        SurfaceCount wanted;
-        this->unlessAborted(
-          [&]() { wanted = this->countWanted(elements, isovalues[i], spacing, work); });
-        return wanted;
+        if (this->workerOf(i) == this->Ranks.rank() && elements.canBe(isovalues[i]))
+        {
+          const double begin = ProgressAt::Joined + static_cast<double>(i) * share;
+          worker.distribute(elements.fieldIsovalue(isovalues[i]), this->numberOf(i),
+            work.part(begin, begin + share), particles[i]);
+        }
+      }
+    });
+  this->IsSound = this->IsSound && !this->Caller.isAborted();
+  return particles;
+}
+
+/// \param particles of the isovalues that this rank is the worker of; receives this rank's of all isovalues
+/// \return false, on all ranks, where one of them has failed
+bool GroupRun::bringHome(
+  std::vector<IsovalueParticles>& particles, const ParallelFor& parallelFor)
+{
+  bool isComplete = true;
+  for (std::size_t i = 0; i < particles.size(); ++i)
+  {
+    Distribution& distribution = particles[i].distribution;
+    HomeParticles home = hop::bringHome(this->Ranks, this->workerOf(i), distribution,
+      this->IsSound, this->All, this->Sizes, parallelFor);
+    distribution = std::move(home.distribution);
+    isComplete = isComplete && home.isComplete;
+    this->attempt(
+      [&]()
+      {
+        if (home.lacksMemory)
+        {
+          throw std::bad_alloc();
+        }
       });
   }
-  return shares;
+  return isComplete;
 }
 
-/// \throw Interrupted
-SurfaceCount GroupRun::countWanted(
-  const GridElements& elements, double isovalue, double spacing, const Work& work) const
+void empty(const InputBlocks& blocks)
 {
-  if (!elements.canBe(isovalue))
+  for (std::size_t b = 0; b < blocks.size(); ++b)
   {
-    return {};
+    blocks[b].particles->Initialize();
   }
-  const std::vector<double> ofElements =
-    particlesPerElement({ &elements.mesh, elements.fieldIsovalue(isovalue), this->Scale.tolerance },
-      { spacing, this->Properties.angularDensity }, work.monitor, work.parallelFor);
-  SurfaceCount wanted;
-  for (std::size_t e = 0; e < ofElements.size(); ++e)
-  {
-    const bool isGhost = this->Blocks.isGhost(this->Blocks.locate(elements.mesh.elements[e].cell));
-    (isGhost ? wanted.ghosts : wanted.owned) += ofElements[e];
-  }
-  return wanted;
-}
-
-/// Distributes particles and packs them.
-/// \throw Interrupted
-void GroupRun::fill(const GridElements& elements, const std::vector<RankShare>& shares,
-  const Work& work, std::vector<std::int64_t>& counts) const
-{
-  const std::vector<double>& isovalues = this->Properties.isovalues;
-  const double shareOfIsovalue =
-    (ProgressAt::Distributed - ProgressAt::Converted) / static_cast<double>(isovalues.size());
-  RunOrigin origin = this->makeOrigin();
-  std::vector<IsovalueParticles> particles;
-  for (std::size_t i = 0; i < isovalues.size() && !this->Caller.isAborted(); ++i)
-  {
-    origin.isovalue = isovalues[i];
-    const double begin = ProgressAt::Converted + static_cast<double>(i) * shareOfIsovalue;
-    const Work ofIsovalue = work.part(begin, begin + shareOfIsovalue);
-    IsovalueParticles& some = particles.emplace_back();
-    some.isovalue = origin.isovalue;
-    some.distribution = this->distribute(elements, origin, this->Group * isovalues.size() + i,
-      shares[i], ofIsovalue.part(0.0, ProgressAt::Joined));
-    counts[i] += static_cast<std::int64_t>(particles.back().distribution.particles.size());
-    this->Caller.tell(reviewDistribution(this->Blocks, particles.back().distribution,
-      origin.isovalue, this->Properties.numberOfParticles));
-    this->reviewSpacing(elements, origin, particles.back().distribution, work);
-    this->join(elements, some, ofIsovalue.part(ProgressAt::Joined, 1.0));
-  }
-  const Work packing = work.part(ProgressAt::Distributed, 1.0);
-  Interruptible loops(packing.monitor, packing.parallelFor);
-  packParticles(this->Blocks, elements, particles, this->Properties.passesDiagnostics, loops);
-}
-
-/// Joins the particles of an isosurface to a mesh, if one is asked for.
-/// \throw Interrupted
-void GroupRun::join(const GridElements& elements, IsovalueParticles& some, const Work& work) const
-{
-  if (!elements.canBe(some.isovalue) || some.distribution.report.aborted)
-  {
-    return;
-  }
-  addMesh({ &elements.mesh, elements.fieldIsovalue(some.isovalue), this->Scale.tolerance },
-    this->Properties.outputType, this->Properties.order, some, work.monitor, work.parallelFor);
-  this->Caller.tell(reviewMesh(some, this->Scale.unit));
-}
-
-/// Tells of places where the surface bends faster than the particles can follow, and what it takes to follow it.
-/// \throw Interrupted
-void GroupRun::reviewSpacing(const GridElements& elements, const RunOrigin& origin,
-  const Distribution& distribution, const Work& work) const
-{
-  if (distribution.report.aborted || !hasTooManyUndersampled(distribution))
-  {
-    return;
-  }
-  const std::int64_t number = this->Properties.numberOfParticles;
-  const Work rest = work.part(ProgressAt::Distributed, ProgressAt::Distributed);
-  const SizingFunction sizing{ number > 0 ? 0.0 : this->Scale.spacing,
-    this->Properties.angularDensity };
-  const auto countAt = [&](double spacing)
-  {
-    const std::vector<double> counts = particlesPerElement(
-      { &elements.mesh, elements.fieldIsovalue(origin.isovalue), this->Scale.tolerance },
-      { spacing, this->Properties.angularDensity }, rest.monitor, rest.parallelFor);
-    return std::accumulate(counts.begin(), counts.end(), 0.0);
-  };
-  const SpacingAdvice advice = adviseSpacing(distribution, sizing, this->Scale.unit, countAt);
-  const int worst = distribution.particles[advice.worst].location.element;
-  this->Caller.tell({ reviewUndersampled(this->Blocks, distribution, advice,
-    elements.mesh.elements[worst].cell, origin.isovalue, number) });
-}
-
-/// What the group's isosurfaces are made of, but for the isovalue.
-RunOrigin GroupRun::makeOrigin() const
-{
-  RunOrigin origin = originOf(this->Blocks);
-  origin.nodeSpacing = this->Properties.nodeSpacing;
-  origin.unit = this->Scale.unit;
-  origin.parameters.sizing = { this->Scale.spacing, this->Properties.angularDensity };
-  origin.parameters.quality = this->Properties.quality;
-  origin.parameters.seed = this->Properties.seed;
-  origin.parameters.particleCount = this->Properties.numberOfParticles;
-  origin.parameters.particleLimit = particlesThatFit();
-  return origin;
-}
-
-/// \param number tells the isosurfaces of a run from one another
-Distribution GroupRun::distribute(const GridElements& elements, const RunOrigin& origin,
-  std::size_t number, const RankShare& share, const Work& work) const
-{
-  if ((this->Properties.numberOfParticles > 0 && share.count == 0) ||
-    !elements.canBe(origin.isovalue))
-  {
-    return {};
-  }
-  const bool continues = this->Properties.isWarmStart && !this->Properties.isClassic;
-  DistributionParameters parameters = origin.parameters;
-  parameters.particleCount = share.count;
-  parameters.firstSpacing = share.spacing;
-  if (continues)
-  {
-    parameters.start = this->Previous.startOf(number, origin, elements.mesh);
-  }
-  const auto method = this->Properties.isClassic ? distributeClassic : distributeFast;
-  Distribution distribution =
-    method({ &elements.mesh, elements.fieldIsovalue(origin.isovalue), this->Scale.tolerance },
-      parameters, work.monitor, work.parallelFor);
-  if (continues)
-  {
-    this->Previous.remember(number, origin, elements.mesh, distribution, work.parallelFor);
-  }
-  return distribution;
 }
 
 } // namespace
@@ -330,48 +304,73 @@ ParticleRun::ParticleRun(const RunProperties& properties, const RunScale& scale,
 {
 }
 
-std::vector<std::int64_t> ParticleRun::run(const InputBlocks& blocks) const
+RunResult ParticleRun::run(const InputBlocks& mine) const
 {
-  std::vector<std::int64_t> counts(this->Properties.isovalues.size(), 0);
-  const std::vector<InputBlocks> groups = this->groupsOf(blocks);
-  const InputBlocks none({}, blocks.component());
-  // A number of particles is shared out group by group, also by ranks that have fewer of them.
-  const std::size_t count =
-    this->Properties.numberOfParticles > 0 ? largestOfRanks(groups.size()) : groups.size();
-  for (std::size_t g = 0; g < count; ++g)
+  RunResult result;
+  result.counts.resize(this->Properties.isovalues.size(), 0);
+  const std::unique_ptr<Exchange> exchange = makeExchange();
+  UserMessages messages;
+  const InputBlocks blocks = mine.withComponent(agreeOnComponent(*exchange, mine, messages));
+  this->Caller.tell(messages);
+  std::vector<std::set<int>> groups;
+  result.isComplete = allAgree(*exchange, messages.empty()) && this->findGroups(*exchange, blocks, groups);
+  for (std::size_t g = 0; g < groups.size(); ++g)
   {
-    GroupRun group(g < groups.size() ? groups[g] : none, g, this->Properties, this->Scale,
-      this->Caller, this->Previous);
-    const double share = 1.0 / static_cast<double>(count);
+    const double share = 1.0 / static_cast<double>(groups.size());
     const double begin = share * static_cast<double>(g);
+    const InputBlocks members = blocksOfGroup(blocks, groups[g]);
     withThreads(
       [&](const ParallelFor& parallelFor)
       {
         const Work whole{ { this->Caller.report }, parallelFor };
-        group.run(whole.part(begin, begin + share), counts);
+        GroupRun group(*exchange, members, g, this->Properties, this->Scale, this->Caller,
+          this->Previous);
+        if (!group.run(whole.part(begin, begin + share), result.counts))
+        {
+          empty(members);
+          result.isComplete = false;
+        }
       });
   }
-  return counts;
+  return result;
 }
 
-/// Blocks that are contoured as one mesh each; none where the run is to stop.
-std::vector<InputBlocks> ParticleRun::groupsOf(const InputBlocks& blocks) const
+/// The numbers of blocks that are contoured as one mesh each.
+/// \return false, on all ranks, where one of them has failed or is to stop
+bool ParticleRun::findGroups(
+  Exchange& exchange, const InputBlocks& blocks, std::vector<std::set<int>>& groups) const
 {
-  if (blocks.size() == 1)
-  {
-    return { blocks };
-  }
-  std::vector<InputBlocks> groups;
+  bool isSound = !this->Caller.isAborted();
+  BlockPairs sharing;
   // Grouping is quick beside the rest: the progress stays at 0.
   const Monitor monitor{ [this](double) { return this->Caller.report(0.0); } };
-  withThreads(
-    [&](const ParallelFor& parallelFor)
+  const auto find = [&](const ParallelFor& parallelFor)
+  {
+    Interruptible loops(monitor, parallelFor);
+    sharing = blocksThatShareCells(blocks, std::ref(loops));
+  };
+  try
+  {
+    if (isSound && blocks.size() > 1)
     {
-      Interruptible loops(monitor, parallelFor);
-      unlessAborted(blocks, this->Properties, this->Caller,
-        [&]() { groups = groupWithoutSharedCells(blocks, std::ref(loops)); });
-    });
-  return groups;
+      withThreads(find);
+    }
+  }
+  catch (const Interrupted&)
+  {
+    isSound = false;
+  }
+  catch (const std::exception& failure)
+  {
+    isSound = false;
+    this->Caller.tell({ describeFailure(failure, this->Properties.numberOfParticles) });
+  }
+  if (!allAgree(exchange, isSound))
+  {
+    return false;
+  }
+  groups = agreeOnGroups(exchange, blocks, sharing);
+  return true;
 }
 
 } // namespace hop

@@ -6,10 +6,12 @@
 #include "Run/PreviousRun.h"
 #include "Run/RunMesh.h"
 #include "Run/RunScale.h"
+#include "Support/Exchange.h"
 #include "Surface/DistributionParameters.h"
 
 #include <cstdint>
 #include <functional>
+#include <set>
 #include <vector>
 
 namespace hop
@@ -47,25 +49,36 @@ struct RunCaller
   std::function<void(const UserMessages&)> tell;
 };
 
+/// What a run gives besides the particles.
+struct RunResult
+{
+  /// The number of this rank's particles, one an isovalue.
+  std::vector<std::int64_t> counts;
+  /// Whether nothing has failed or been interrupted on any rank.
+  bool isComplete = false;
+};
+
 /// The road of one request, from checked blocks to their particles. Blocks that share cells are put into different
-/// groups. For each group, cells are converted to elements, ranks share out the number of particles if it is given,
-/// particles are distributed on each isosurface, and packed into the outputs of the blocks.
+/// groups. For each group, every rank converts its own cells to elements and sends those that can hold surface to the
+/// workers: for each isosurface one rank, which distributes the particles as if it were alone. Particles go home to the
+/// rank of their cell, which packs them into the outputs of its blocks.
 ///
-/// Where the run is interrupted or memory runs out, blocks stay without particles.
+/// Where the run is interrupted or memory runs out on one rank, the group's blocks stay without particles on all.
 class ParticleRun
 {
 public:
-  /// \param previous holds the places of the previous run's particles, and then of this run's
+  /// \param previous holds the places of the particles of the previous run, and then of this run, of the isosurfaces
+  /// that this rank is the worker of
   /// \pre all arguments outlive the run
   ParticleRun(const RunProperties& properties, const RunScale& scale, const RunCaller& caller,
     PreviousRun& previous);
 
   /// Every rank has to call this, also one without blocks.
-  /// \return the number of this rank's particles, one an isovalue
-  std::vector<std::int64_t> run(const InputBlocks& blocks) const;
+  RunResult run(const InputBlocks& mine) const;
 
 private:
-  std::vector<InputBlocks> groupsOf(const InputBlocks& blocks) const;
+  bool findGroups(
+    Exchange& exchange, const InputBlocks& blocks, std::vector<std::set<int>>& groups) const;
 
   const RunProperties& Properties;
   const RunScale& Scale;

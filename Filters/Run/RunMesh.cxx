@@ -68,7 +68,9 @@ void addMesh(const Isosurface& surface, OutputType type, int order, IsovaluePart
     some.mesh.nodesPerCell = 3;
     some.mesh.vertices = verticesOf(distribution);
   }
-  some.areas = particleAreas(distribution, monitor, parallelFor);
+  const std::vector<double> areas = particleAreas(distribution, monitor, parallelFor);
+  forAll(parallelFor, areas.size(),
+    [&](std::size_t p) { distribution.particles[p].area = areas[p]; });
   if (type == OutputType::CurvedTriangles)
   {
     Interruptible loops(monitor, parallelFor);

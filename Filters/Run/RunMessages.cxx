@@ -5,6 +5,7 @@
 
 #include "vtkBoundingBox.h"
 #include "vtkDataArray.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <array>
@@ -29,7 +30,7 @@ std::string describeError(const DistributionReport& report, std::int64_t numberO
     fewerParticles(numberOfParticles) + ".";
 }
 
-std::string describeUndecided(const InputBlocks& blocks, const DistributionReport& report)
+std::string describeUndecided(const RankBlocks& blocks, const DistributionReport& report)
 {
   std::ostringstream text;
   text
@@ -70,7 +71,7 @@ std::string describeAdvice(
   return text.str();
 }
 
-std::string describeUndersampled(const InputBlocks& blocks, const Distribution& distribution,
+std::string describeUndersampled(const RankBlocks& blocks, const Distribution& distribution,
   const SpacingAdvice& advice, std::int64_t cell, std::int64_t numberOfParticles)
 {
   const std::size_t count = distribution.particles.size();
@@ -90,16 +91,15 @@ std::string describeUndersampled(const InputBlocks& blocks, const Distribution& 
 /// the highest where there are no values.
 std::array<double, 2> rangeOfValues(const InputBlocks& blocks)
 {
-  constexpr int magnitude = -1; // as VTK numbers it
   vtkBoundingBox box;
   for (std::size_t b = 0; b < blocks.size(); ++b)
   {
-    double range[2];
-    blocks[b].scalars->GetFiniteRange(range, blocks.isMagnitude() ? magnitude : blocks.component());
-    if (range[0] <= range[1])
+    const auto [lowest, highest] =
+      finiteRange(blocks[b].grid, blocks[b].scalars, blocks.component());
+    if (lowest <= highest)
     {
-      box.AddPoint(range[0], 0.0, 0.0);
-      box.AddPoint(range[1], 0.0, 0.0);
+      box.AddPoint(lowest, 0.0, 0.0);
+      box.AddPoint(highest, 0.0, 0.0);
     }
   }
   const vtkBoundingBox all = overAllRanks(box);
@@ -157,7 +157,7 @@ UserMessages reviewCells(const InputBlocks& blocks, const std::vector<CellCensus
   return { { UserMessage::Warning, "Not every cell is as it should be:" + remarks } };
 }
 
-UserMessages reviewDistribution(const InputBlocks& blocks, const Distribution& distribution,
+UserMessages reviewDistribution(const RankBlocks& blocks, const Distribution& distribution,
   double isovalue, std::int64_t numberOfParticles)
 {
   UserMessages messages;
@@ -185,7 +185,7 @@ UserMessages reviewDistribution(const InputBlocks& blocks, const Distribution& d
   return messages;
 }
 
-UserMessage reviewUndersampled(const InputBlocks& blocks, const Distribution& distribution,
+UserMessage reviewUndersampled(const RankBlocks& blocks, const Distribution& distribution,
   const SpacingAdvice& advice, std::int64_t cell, double isovalue, std::int64_t numberOfParticles)
 {
   std::ostringstream whole;

@@ -4,6 +4,7 @@
 #include "Input/InputBlocks.h"
 #include "Input/UserMessage.h"
 #include "Output/OutputRows.h"
+#include "Run/RankBlocks.h"
 #include "Run/SpacingAdvice.h"
 #include "Surface/Particles.h"
 
@@ -29,12 +30,12 @@ UserMessages reviewArrays(const std::vector<InputBlock>& blocks);
 UserMessages reviewCells(const InputBlocks& blocks, const std::vector<CellCensus>& census);
 
 /// Tells what a distribution could not do.
-UserMessages reviewDistribution(const InputBlocks& blocks, const Distribution& distribution,
+UserMessages reviewDistribution(const RankBlocks& blocks, const Distribution& distribution,
   double isovalue, std::int64_t numberOfParticles);
 
 /// Tells of a surface that bends faster than the spacing of its particles can follow.
 /// \param cell of the particle advice.worst
-UserMessage reviewUndersampled(const InputBlocks& blocks, const Distribution& distribution,
+UserMessage reviewUndersampled(const RankBlocks& blocks, const Distribution& distribution,
   const SpacingAdvice& advice, std::int64_t cell, double isovalue, std::int64_t numberOfParticles);
 
 /// Tells what a mesh lacks.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "Elements/CanonicalOrder.h"
 #include "Input/InputBlocks.h"
 
 #include <vector>
@@ -16,6 +17,8 @@ struct RunScale
   double tolerance = 0.0;
   /// Diagonal of the bounds.
   double diagonal = 0.0;
+  /// Around the bounds.
+  MeshCube cube;
 };
 
 /// Every rank has to call this: the bounds are those of all ranks.

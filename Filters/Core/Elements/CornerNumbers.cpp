@@ -105,4 +105,11 @@ void numberCorners(
   }
 }
 
+void joinElements(ElementMesh& mesh, const ParallelFor& parallelFor)
+{
+  const std::vector<double> tolerances = cornerTolerances(mesh, parallelFor);
+  numberCorners(mesh, tolerances, parallelFor);
+  findFaceNeighbors(mesh, tolerances, parallelFor);
+}
+
 } // namespace hop

@@ -15,4 +15,8 @@ std::vector<double> cornerTolerances(const ElementMesh& mesh, const ParallelFor&
 void numberCorners(
   ElementMesh& mesh, const std::vector<double>& tolerances, const ParallelFor& parallelFor = {});
 
+/// Joins elements at their faces: numbers their corners and finds their neighbours. All that is needed before particles
+/// can be distributed on them.
+void joinElements(ElementMesh& mesh, const ParallelFor& parallelFor = {});
+
 } // namespace hop

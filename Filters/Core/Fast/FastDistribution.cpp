@@ -292,10 +292,7 @@ double FastSystem::targetCount() const
 /// Finds the spacing that goes with a given number of particles.
 void FastSystem::matchSpacing(std::int64_t count)
 {
-  const double firstSpacing = this->Parameters.firstSpacing > 0.0
-    ? this->Parameters.firstSpacing
-    : meshExtent(this->Mesh) * SpacingSearch::FirstSpacingPerDiagonal;
-  findSpacing(count, firstSpacing,
+  findSpacing(count, meshExtent(this->Mesh) * SpacingSearch::FirstSpacingPerDiagonal,
     [this](double spacing)
     {
       this->Sizing.spacing = spacing;

@@ -33,9 +33,6 @@ struct DistributionParameters
   std::uint64_t seed = 1;
   /// 0: as many particles as the spacing asks for. Otherwise this many, and the spacing follows.
   std::int64_t particleCount = 0;
-  /// Spacing to try first where a number of particles is given, world units. It is kept if it gives that number to a
-  /// hundredth. 0: 1/50 of the mesh's diagonal. Fast only.
-  double firstSpacing = 0.0;
   /// Places of this mesh to start from: particles of the last run, on a surface nearby. Parts of the surface without
   /// such a place are seeded; where few places are near the surface, all of it is. Fast only.
   std::vector<Location> start;

@@ -71,6 +71,8 @@ struct Particle
   /// Where the splat leaves the particle's element, nearest first: colours that differ from element to element end
   /// there.
   std::array<CellBorder, CellBorder::Most> borders;
+  /// Of the surface around it (particleAreas()), world units squared; 0 where it was not computed.
+  double area = 0.0;
   /// On a boundary curve where the field jumps between elements: F - c in the element behind the face. Zero elsewhere.
   double jump = 0.0;
   /// Ratio of the splat's radius to the spacing, 1 at most: less where the particle stands alone on a component of the

@@ -1,6 +1,7 @@
 #include "Surface/WarmStart.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace hop
 {
@@ -25,15 +26,19 @@ Buffer<CellPlace> cellPlaces(
 
 std::vector<Location> findPlaces(const ElementMesh& mesh, const Buffer<CellPlace>& places)
 {
+  const auto cellOf = [&](int element) { return mesh.elements[element].cell; };
+  std::vector<int> byCell(mesh.elements.size());
+  std::iota(byCell.begin(), byCell.end(), 0);
+  std::sort(byCell.begin(), byCell.end(), [&](int a, int b) { return cellOf(a) < cellOf(b); });
   std::vector<Location> found;
   for (const CellPlace& place : places)
   {
-    const auto element = std::lower_bound(mesh.elements.begin(), mesh.elements.end(), place.cell,
-      [](const Element& e, std::int64_t cell) { return e.cell < cell; });
-    if (element != mesh.elements.end() && element->cell == place.cell &&
-      insideMargin(element->domain, place.u) >= 0.0)
+    const auto element = std::lower_bound(byCell.begin(), byCell.end(), place.cell,
+      [&](int e, std::int64_t cell) { return cellOf(e) < cell; });
+    if (element != byCell.end() && cellOf(*element) == place.cell &&
+      insideMargin(mesh.elements[*element].domain, place.u) >= 0.0)
     {
-      found.push_back({ static_cast<int>(element - mesh.elements.begin()), place.u });
+      found.push_back({ *element, place.u });
     }
   }
   return found;

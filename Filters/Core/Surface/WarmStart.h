@@ -20,7 +20,6 @@ Buffer<CellPlace> cellPlaces(
   const ElementMesh& mesh, const Buffer<Particle>& particles, const ParallelFor& parallelFor);
 
 /// The places whose cells are elements of this mesh, and that lie inside these elements.
-/// \pre elements ascend by cell, as in the input
 std::vector<Location> findPlaces(const ElementMesh& mesh, const Buffer<CellPlace>& places);
 
 } // namespace hop

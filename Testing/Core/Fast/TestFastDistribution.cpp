@@ -254,20 +254,6 @@ TEST(FastDistribution, SaysBeforehandHowManyParticlesElementsTake)
   }
 }
 
-TEST(FastDistribution, KeepsAFirstSpacingThatGivesTheNumber)
-{
-  const ElementMesh mesh = meshOf(Domain::Hexahedron, 2, sphere({ 0, 0, 0 }, 0.6).field);
-  constexpr double spacing = 0.0543;
-  const std::vector<double> counts =
-    particlesPerElement({ &mesh, 0.0, tolerance }, { spacing, 0.0 }, {}, {});
-  DistributionParameters parameters = withSpacing(1.0);
-  parameters.particleCount = std::llround(std::accumulate(counts.begin(), counts.end(), 0.0));
-  parameters.firstSpacing = spacing;
-  const Distribution result = distribute(mesh, parameters);
-  EXPECT_EQ(static_cast<std::int64_t>(result.particles.size()), parameters.particleCount);
-  EXPECT_EQ(static_cast<float>(result.particles[0].spacing), static_cast<float>(spacing));
-}
-
 void expectSame(const Distribution& a, const Distribution& b)
 {
   ASSERT_EQ(a.particles.size(), b.particles.size());

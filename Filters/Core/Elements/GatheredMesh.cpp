@@ -1,0 +1,126 @@
+#include "Elements/GatheredMesh.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+namespace hop
+{
+
+namespace
+{
+
+/// Entries of the meshes of all ranks before a rank's own, or of all.
+MeshSize sumOf(const std::vector<MeshSize>& sizes, std::size_t count)
+{
+  MeshSize sum;
+  for (std::size_t r = 0; r < count; ++r)
+  {
+    sum.elements += sizes[r].elements;
+    sum.coefficients += sizes[r].coefficients;
+    sum.weights += sizes[r].weights;
+    sum.cells += sizes[r].cells;
+  }
+  return sum;
+}
+
+/// Copies an array here, or receives it.
+template <class T>
+void take(Exchange& exchange, const std::vector<T>& mine, T* room, std::int64_t count, int from)
+{
+  if (from == exchange.rank())
+  {
+    std::copy(mine.begin(), mine.end(), room);
+  }
+  else
+  {
+    receiveArray(exchange, room, static_cast<std::size_t>(count), from);
+  }
+}
+
+/// Takes the mesh of a rank into its part of the room.
+void takeMesh(Exchange& exchange, const ElementMesh& mine, const std::vector<MeshSize>& sizes,
+  int from, GatheredMesh& all)
+{
+  const MeshSize before = sumOf(sizes, from);
+  const MeshSize& size = sizes[from];
+  Element* elements = all.mesh.elements.data() + before.elements;
+  take(exchange, mine.elements, elements, size.elements, from);
+  take(exchange, mine.coefficients, all.mesh.coefficients.data() + before.coefficients,
+    size.coefficients, from);
+  // Where any rank has weights there is room for a weight of every coefficient.
+  take(exchange, mine.weights, all.mesh.weights.data() + (size.weights > 0 ? before.coefficients : 0),
+    size.weights, from);
+  for (std::int64_t e = 0; e < size.elements; ++e)
+  {
+    elements[e].firstCoefficient += static_cast<std::size_t>(before.coefficients);
+    elements[e].cell += before.cells;
+    all.homes[before.elements + e] = { from, static_cast<int>(e) };
+  }
+}
+
+} // namespace
+
+GatheredMesh roomFor(const std::vector<MeshSize>& sizes)
+{
+  GatheredMesh all;
+  const MeshSize sum = sumOf(sizes, sizes.size());
+  if (sum.elements > std::numeric_limits<int>::max())
+  {
+    throw std::length_error("too many cells at the surface");
+  }
+  all.homes.resize(sum.elements);
+  all.mesh.elements.resize(sum.elements);
+  if (sizes.size() > 1)
+  {
+    all.mesh.coefficients.resize(sum.coefficients);
+    all.mesh.weights.resize(sum.weights > 0 ? sum.coefficients : 0);
+  }
+  return all;
+}
+
+void gatherMesh(Exchange& exchange, int worker, ElementMesh& mine,
+  const std::vector<MeshSize>& sizes, GatheredMesh& all)
+{
+  if (exchange.isAlone())
+  {
+    all.mesh.coefficients = std::move(mine.coefficients);
+    all.mesh.weights = std::move(mine.weights);
+    all.mesh.elements = mine.elements;
+    for (std::size_t e = 0; e < all.homes.size(); ++e)
+    {
+      all.homes[e] = { 0, static_cast<int>(e) };
+    }
+  }
+  else if (exchange.rank() == worker)
+  {
+    for (int from = 0; from < exchange.size(); ++from)
+    {
+      takeMesh(exchange, mine, sizes, from, all);
+    }
+  }
+  else
+  {
+    sendArray(exchange, mine.elements.data(), mine.elements.size(), worker);
+    sendArray(exchange, mine.coefficients.data(), mine.coefficients.size(), worker);
+    sendArray(exchange, mine.weights.data(), mine.weights.size(), worker);
+  }
+}
+
+void orderCanonically(
+  GatheredMesh& all, const MeshCube& cube, const ParallelFor& parallelFor)
+{
+  const std::vector<int> order = canonicalOrder(all.mesh, cube, parallelFor);
+  std::vector<Element> elements(order.size());
+  std::vector<ElementHome> homes(order.size());
+  forAll(parallelFor, order.size(),
+    [&](std::size_t i)
+    {
+      elements[i] = all.mesh.elements[order[i]];
+      homes[i] = all.homes[order[i]];
+    });
+  all.mesh.elements = std::move(elements);
+  all.homes = std::move(homes);
+}
+
+} // namespace hop
