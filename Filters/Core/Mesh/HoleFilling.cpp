@@ -178,6 +178,10 @@ private:
   std::optional<std::size_t> holeAround(int particle) const
   {
     std::optional<std::size_t> found;
+    if (static_cast<std::size_t>(particle) >= this->Neighbors.seen.size())
+    {
+      return found; // it was added to fill a hole
+    }
     for (const int* j = this->Neighbors.seen.begin(particle);
          j != this->Neighbors.seen.end(particle); ++j)
     {
