@@ -41,6 +41,11 @@ bool dropExtraFans(const Distribution& distribution, const ConstrainedEdges& edg
   {
     vertices.insert(vertices.end(), loop.particles.begin(), loop.particles.end());
   }
+  // The surface may touch itself at its end.
+  for (const auto& segment : distribution.edges.segments)
+  {
+    vertices.insert(vertices.end(), segment.begin(), segment.end());
+  }
   return keepOneFan(vertices, fans);
 }
 
