@@ -199,7 +199,7 @@ LeafSurface LeafTests::examine(
     const double value = values[this->Corners[corner]];
     if (!(std::abs(value) > slack))
     {
-      return LeafSurface::Undecided;
+      return LeafSurface::ZeroAtCorner;
     }
     signs = static_cast<std::uint8_t>(signs | (value > 0.0) << corner);
   }

@@ -4,6 +4,7 @@
 #include "Support/SortedBy.h"
 
 #include <algorithm>
+#include <set>
 
 namespace hop
 {
@@ -160,13 +161,17 @@ private:
   std::vector<int> ComponentOfVertex;
 };
 
-/// The component of the surface on which all vertices of each component of the mesh lie, or -1.
-void findCounterparts(const std::vector<int>& surfaceComponents,
+/// Finds the component of the surface on which all vertices of each component of the mesh lie.
+/// \return for each component of the surface the number of components of the mesh with vertices on it, which lie on it
+///   alone or not
+std::vector<int> findCounterparts(const std::vector<int>& surfaceComponents, std::size_t componentCount,
   const std::vector<int>& componentOfVertex, std::vector<ComponentComparison>& components)
 {
+  std::set<std::pair<int, int>> pairs; // of components of surface and mesh
   for (ComponentComparison& component : components)
   {
     component.component = surfaceComponents[component.vertex];
+    pairs.emplace(component.component, componentOfVertex[component.vertex]);
   }
   for (std::size_t vertex = 0; vertex < surfaceComponents.size(); ++vertex)
   {
@@ -174,8 +179,18 @@ void findCounterparts(const std::vector<int>& surfaceComponents,
     if (component.component != surfaceComponents[vertex])
     {
       component.component = -1;
+      pairs.emplace(surfaceComponents[vertex], componentOfVertex[vertex]);
     }
   }
+  std::vector<int> meshesOn(componentCount, 0);
+  for (const auto& [component, mesh] : pairs)
+  {
+    if (component >= 0)
+    {
+      ++meshesOn[component];
+    }
+  }
+  return meshesOn;
 }
 
 } // namespace
@@ -189,16 +204,8 @@ TopologyComparison compareTopology(const SurfaceTopology& topology, const Buffer
   TopologyComparison comparison;
   MeshCounter counter(vertices.size(), triangles);
   comparison.meshComponents = counter.count(findFans(vertices.size(), triangles, parallelFor));
-  findCounterparts(surfaceComponents, counter.componentOfVertex(), comparison.meshComponents);
-
-  std::vector<int> meshesOn(topology.components.size(), 0);
-  for (const ComponentComparison& mesh : comparison.meshComponents)
-  {
-    if (mesh.component >= 0)
-    {
-      ++meshesOn[mesh.component];
-    }
-  }
+  const std::vector<int> meshesOn = findCounterparts(surfaceComponents, topology.components.size(),
+    counter.componentOfVertex(), comparison.meshComponents);
   comparison.proven = topology.isProven();
   for (ComponentComparison& mesh : comparison.meshComponents)
   {
