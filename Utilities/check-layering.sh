@@ -33,9 +33,10 @@ check_rooms() {
   done
 }
 
-core_rooms=(Kernel Support Elements Surface Isolation Topology Edges Fast Classic)
+core_rooms=(Kernel Support Elements Surface Isolation Topology Edges Mesh Fast Classic)
 check_rooms Filters/Core "${core_rooms[@]}"
 if grep -n 'include "Fast/' Filters/Core/Classic/*.*; then complain "the two distributions know each other"; fi
+if grep -n 'include "Mesh/' Filters/Core/{Fast,Classic}/*.*; then complain "a distribution knows the mesh"; fi
 check_rooms Filters Input Conversion Output Run
 check_rooms Rendering OpenGL Particles Drawing Passes Shading
 

@@ -2,6 +2,7 @@
 
 #include "Edges/BoundaryTracer.h"
 #include "Edges/CellBorders.h"
+#include "Edges/CurveSegments.h"
 #include "Edges/FaceCrossings.h"
 #include "Edges/FacePlanes.h"
 #include "Edges/ParticleGrid.h"
@@ -97,6 +98,16 @@ WorldVector outwardAt(const ElementMesh& mesh, const Evaluated& at, int face)
   return { glm::length(along) > 0.0 ? -glm::normalize(along) : glm::dvec3(0.0) };
 }
 
+/// What a place on a boundary curve turns out to be.
+enum class PlaceKind
+{
+  OnCurve,
+  /// No point of the surface was found there.
+  Lost,
+  /// The surface goes on, so that there is no boundary curve.
+  Inside
+};
+
 /// Makes particles of places; one finisher a thread.
 class BoundaryFinisher
 {
@@ -112,8 +123,8 @@ public:
   {
   }
 
-  /// \return whether there is a boundary curve
-  bool finish(const BoundaryPlace& place, BoundaryParticle& result);
+  /// \param result written if the place is on a boundary curve
+  PlaceKind finish(const BoundaryPlace& place, BoundaryParticle& result);
 
   std::int64_t evaluations() const
   {
@@ -169,6 +180,7 @@ private:
   void finish(const ParallelFor& parallelFor);
   bool isTooNear(std::size_t i, std::size_t j) const;
   void thinOut(const ParallelFor& parallelFor);
+  void connect(const std::vector<char>& kept, const std::vector<int>& standIns);
   void addOtherSides();
 
   Isosurface Surface;
@@ -179,6 +191,9 @@ private:
   BoundaryTracer Tracer;
   SurfaceWalker Walker;
   std::vector<BoundaryPlace> Places;
+  std::vector<CurveRange> Ranges;
+  /// What became of the places: at first with the particles before they are thinned out.
+  std::vector<CurvePlace> Outcomes;
   BoundaryCurves Result;
 };
 
@@ -242,6 +257,7 @@ void BoundarySampler::follow(const BoundaryHint& hint, const ParallelFor& parall
 void BoundarySampler::sample(BoundaryTrace trace)
 {
   std::vector<BoundaryVertex>& vertices = trace.vertices;
+  const std::size_t firstPlace = this->Places.size();
   if (trace.closed)
   {
     const auto corner = std::find_if(
@@ -261,6 +277,7 @@ void BoundarySampler::sample(BoundaryTrace trace)
     this->sampleStretch({ &vertices[first], last + 1 - first }, end && !trace.closed);
     first = last;
   }
+  this->Ranges.push_back({ firstPlace, this->Places.size() - firstPlace, trace.closed });
 }
 
 /// A place on Hermite's cubic between two points of a boundary curve in one element, or on the line between the points
@@ -324,14 +341,18 @@ void BoundarySampler::sampleStretch(Span<BoundaryVertex> vertices, bool withEnd)
   }
 }
 
-bool BoundaryFinisher::finish(const BoundaryPlace& place, BoundaryParticle& result)
+PlaceKind BoundaryFinisher::finish(const BoundaryPlace& place, BoundaryParticle& result)
 {
   const auto point = this->Exact.project(place.location, place.face, place.spacing);
   const auto beyond = point ? this->lookBehind(*point) : std::nullopt;
-  Anchor anchor;
-  if (!beyond || !anchorPatch(point->at, anchor, result.patch))
+  if (point && !beyond)
   {
-    return false;
+    return PlaceKind::Inside;
+  }
+  Anchor anchor;
+  if (!point || !anchorPatch(point->at, anchor, result.patch))
+  {
+    return PlaceKind::Lost;
   }
   const FieldPoint& field = point->at.point;
   result.patch.spacing =
@@ -346,7 +367,7 @@ bool BoundaryFinisher::finish(const BoundaryPlace& place, BoundaryParticle& resu
   markCellBorders(*this->Surface.mesh, jet, field.map, result.particle);
   result.side = this->sideAt(point->face, point->at, jet);
   result.otherSide = this->sideAt(beyond->otherFace, point->at, jet);
-  return true;
+  return PlaceKind::OnCurve;
 }
 
 /// How the surface ends at a face; nothing for no face.
@@ -400,7 +421,7 @@ void BoundarySampler::finish(const ParallelFor& parallelFor)
 {
   Buffer<BoundaryParticle>& particles = this->Result.particles;
   particles.resize(this->Places.size());
-  std::vector<char> found(particles.size());
+  std::vector<PlaceKind> kinds(particles.size());
   std::atomic<std::int64_t> evaluations{ 0 };
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(particles.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
@@ -408,10 +429,18 @@ void BoundarySampler::finish(const ParallelFor& parallelFor)
       BoundaryFinisher finisher(this->Surface, this->Jumps, this->Proxy, this->Sizing);
       for (std::ptrdiff_t n = begin; n < end; ++n)
       {
-        found[n] = finisher.finish(this->Places[n], particles[n]);
+        kinds[n] = finisher.finish(this->Places[n], particles[n]);
       }
       evaluations += finisher.evaluations();
     });
+  std::vector<char> found(particles.size());
+  this->Outcomes.resize(particles.size());
+  int count = 0;
+  for (std::size_t n = 0; n < particles.size(); ++n)
+  {
+    found[n] = kinds[n] == PlaceKind::OnCurve;
+    this->Outcomes[n] = { found[n] ? count++ : -1, -1, kinds[n] == PlaceKind::Inside };
+  }
   keepMarked(particles, found);
   this->Result.evaluations += evaluations;
 }
@@ -466,6 +495,7 @@ void BoundarySampler::thinOut(const ParallelFor& parallelFor)
   const std::vector<char> kept =
     keepFirst(std::vector<char>(count, 1), count, parallelFor, visitEarlier);
   std::vector<char> closesSlit(count, 0);
+  std::vector<int> standIns(count, -1);
   for (std::size_t i = 0; i < count; ++i)
   {
     if (!kept[i])
@@ -477,6 +507,10 @@ void BoundarySampler::thinOut(const ParallelFor& parallelFor)
             !areAcrossSurface(particles[i], particles[j]);
           closesSlit[j] = closesSlit[j] || isSlit;
           closesSlit[i] = closesSlit[i] || isSlit;
+          const auto distanceTo = [&](std::size_t k)
+          { return glm::distance(points.positions[i], points.positions[k]); };
+          const bool isNearest = standIns[i] < 0 || distanceTo(j) < distanceTo(standIns[i]);
+          standIns[i] = kept[j] && isNearest ? static_cast<int>(j) : standIns[i];
         });
       if (particles[i].particle.jump == 0.0 && !closesSlit[i])
       {
@@ -491,7 +525,32 @@ void BoundarySampler::thinOut(const ParallelFor& parallelFor)
       particles[i].side = {};
     }
   }
+  this->connect(kept, standIns);
   keepMarked(particles, kept);
+}
+
+/// Finds out which particles follow each other on a curve. Two at which the surface ends no more, because a slit was
+/// closed, are not the ends of a piece of curve.
+/// \param kept marks the particles that stay
+/// \param standIns for each of the others the particle that is too near to it
+void BoundarySampler::connect(const std::vector<char>& kept, const std::vector<int>& standIns)
+{
+  const Buffer<BoundaryParticle>& particles = this->Result.particles;
+  for (CurvePlace& place : this->Outcomes)
+  {
+    if (place.particle >= 0 && !kept[place.particle])
+    {
+      place.standIn = standIns[place.particle];
+      place.particle = -1;
+    }
+  }
+  std::vector<std::array<int, 2>> segments = segmentsOf(this->Outcomes, this->Ranges);
+  segments.erase(std::remove_if(segments.begin(), segments.end(),
+                   [&](const std::array<int, 2>& pair) {
+                     return !particles[pair[0]].side.exists() && !particles[pair[1]].side.exists();
+                   }),
+    segments.end());
+  this->Result.segments = withoutDropped(segments, kept);
 }
 
 /// Corners tell of both curves that meet there.

@@ -49,6 +49,8 @@ struct BoundaryCurves
   /// Places of the curves that are too near to particles to be particles, as on a strip of the surface narrower than a
   /// spacing; and corners as seen from the second curve there. They tell where splats are to be cut off.
   Buffer<BoundaryParticle> thinned;
+  /// Pairs of particles that follow each other on a curve, see CurveSegments.h.
+  std::vector<std::array<int, 2>> segments;
   std::int64_t evaluations = 0;
 };
 

@@ -3,6 +3,7 @@
 #include "Edges/BoundaryCurves.h"
 #include "Edges/ClipPlanes.h"
 #include "Edges/CreaseSpacings.h"
+#include "Edges/CurveSegments.h"
 #include "Edges/SmallComponents.h"
 #include "Fast/FinishParticles.h"
 #include "Fast/GivenNumber.h"
@@ -317,6 +318,10 @@ void FastSystem::keepOnBoundary(std::size_t most)
   }
   keepMarked(this->Curves.particles, kept);
   keepMarked(this->BoundaryPatches, kept);
+  if (left < count)
+  {
+    this->Curves.segments = withoutDropped(this->Curves.segments, kept);
+  }
 }
 
 void FastSystem::addSamples(const std::vector<int>& boxes)
@@ -482,6 +487,11 @@ void FastSystem::finish()
   particles.resize(closeGaps(particles, particles.size(), kept));
   const ParticleGrid all(particles, this->Curves.particles, this->Parallel);
   markClipPlanes(this->Surface, all, this->Curves.thinned, this->Parallel);
+  const int first = static_cast<int>(particles.size());
+  for (const auto& [a, b] : this->Curves.segments)
+  {
+    this->Result.edges.segments.push_back({ first + a, first + b });
+  }
   for (const BoundaryParticle& boundary : this->Curves.particles)
   {
     particles.push_back(boundary.particle);

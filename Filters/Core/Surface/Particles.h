@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Support/Buffer.h"
+#include "Surface/SurfaceEdges.h"
 #include "Surface/SurfaceWalker.h"
 
 #include <array>
@@ -129,6 +130,8 @@ struct DistributionReport
 struct Distribution
 {
   Buffer<Particle> particles;
+  /// By the indices of the particles; Fast only.
+  SurfaceEdges edges;
   DistributionReport report;
 };
 

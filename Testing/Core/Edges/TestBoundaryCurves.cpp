@@ -100,6 +100,27 @@ TEST_P(BoundaryCurvesIn, OfASphereAreCirclesOfEvenParticles)
   }
 }
 
+/// Every particle on a closed curve has two neighbours, one spacing away.
+TEST_P(BoundaryCurvesIn, OfASphereAreChainsOfParticles)
+{
+  MeshRecipe recipe;
+  recipe.domain = this->GetParam();
+  recipe.field = sphere({ 0, 0, 0 }, 1.2).field;
+  const BoundaryCurves curves = curvesOf(makeMesh(recipe));
+  std::vector<int> neighbors(curves.particles.size());
+  for (const auto& [a, b] : curves.segments)
+  {
+    ++neighbors[a];
+    ++neighbors[b];
+    EXPECT_NEAR(
+      glm::distance(curves.particles[a].patch.position, curves.particles[b].patch.position),
+      spacing, 0.04 * spacing);
+  }
+  ASSERT_FALSE(neighbors.empty());
+  EXPECT_EQ(std::count(neighbors.begin(), neighbors.end(), 2),
+    static_cast<std::ptrdiff_t>(neighbors.size()));
+}
+
 /// The caps beyond the faces are holes of the surface: the circles bend outwards, with geodesic curvature cot(theta)/R
 /// at the angle theta from the pole, cos(theta) = 1/R.
 TEST_P(BoundaryCurvesIn, OfASphereKnowTheWayOutAndTheirBend)

@@ -134,6 +134,27 @@ TEST_P(FastOpenCover, BoundariesAreClosedLinesOfParticles)
   EXPECT_NEAR(static_cast<double>(result.particles.size()), expected, 0.03 * expected);
 }
 
+/// Pairs of neighbours are handed on by the indices of the particles: all stand on the boundary, and every particle
+/// there has two.
+TEST_P(FastOpenCover, HandsOnWhichParticlesAreNeighboursOnTheBoundary)
+{
+  const auto& [testCase, domain] = this->GetParam();
+  constexpr double spacing = 0.09;
+  const Distribution result =
+    distribute(meshOf(domain, 2, testCase.surface.field), withSpacing(spacing));
+  std::vector<int> neighbors(result.particles.size());
+  for (const auto& [a, b] : result.edges.segments)
+  {
+    ++neighbors[a];
+    ++neighbors[b];
+    EXPECT_LT(length(result.particles[a].position - result.particles[b].position), 2.0 * spacing);
+  }
+  for (std::size_t i = 0; i < neighbors.size(); ++i)
+  {
+    EXPECT_EQ(neighbors[i], onCube(result.particles[i].position.xyz) ? 2 : 0);
+  }
+}
+
 TEST_P(FastOpenCover, ClipsWhereTheSurfaceEnds)
 {
   const auto& [open, domain] = this->GetParam();

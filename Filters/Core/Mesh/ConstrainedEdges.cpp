@@ -1,0 +1,99 @@
+#include "Mesh/ConstrainedEdges.h"
+
+#include "Support/SortedBy.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hop
+{
+namespace
+{
+
+struct SideOfSegment
+{
+  /// Largest distance of the plane of an edge that a particle on the edge has, in units of its spacing: zero but for
+  /// rounding. Larger: planes of other edges nearby count as well.
+  static constexpr double AtEdge = 0.05;
+  /// Sine of the least angle between a segment and the planes' normals, summed up over both ends, at which they tell
+  /// the side; chosen by experiment.
+  static constexpr double Clear = 0.2;
+};
+
+/// On which side of a segment the surface ends, as one of its particles knows: positive, to the left; negative, to the
+/// right. At the tip of a slit or of a strip the particle knows of both sides, and the sum is about zero.
+double endsToTheLeft(const Particle& particle, const glm::dvec3& left)
+{
+  double sum = 0.0;
+  for (const ClipPlane& plane : particle.clips)
+  {
+    if (plane.distance <= SideOfSegment::AtEdge * particle.spacing)
+    {
+      sum += glm::dot(plane.normal.xyz, left);
+    }
+  }
+  return sum;
+}
+
+/// Calls use(edge) for a segment, directed so that the surface is to its left.
+template <class Use>
+void direct(const Buffer<Particle>& particles, const std::array<int, 2>& segment, const Use& use)
+{
+  const auto [a, b] = segment;
+  const Particle& first = particles[a];
+  const Particle& second = particles[b];
+  const glm::dvec3 along = (second.position - first.position).xyz;
+  const glm::dvec3 across = glm::cross(first.normal.xyz + second.normal.xyz, along);
+  const double length = glm::length(across);
+  const glm::dvec3 left = length > 0.0 ? across / length : across;
+  const double ends = endsToTheLeft(first, left) + endsToTheLeft(second, left);
+  if (ends < SideOfSegment::Clear)
+  {
+    use(std::array<int, 2>{ a, b });
+  }
+  if (ends > -SideOfSegment::Clear)
+  {
+    use(std::array<int, 2>{ b, a });
+  }
+}
+
+void group(const std::vector<std::array<int, 2>>& edges, int by, std::size_t particleCount,
+  std::vector<int>& ends, std::vector<int>& start)
+{
+  Grouping grouping =
+    groupedBy(edges, particleCount, [by](const std::array<int, 2>& edge) { return edge[by]; });
+  for (const int e : grouping.order)
+  {
+    ends.push_back(edges[e][1 - by]);
+  }
+  start = std::move(grouping.start);
+}
+
+} // namespace
+
+ConstrainedEdges::ConstrainedEdges(const Distribution& distribution)
+{
+  std::vector<Edge> edges;
+  for (const Edge& segment : distribution.edges.segments)
+  {
+    if (segment[0] != segment[1])
+    {
+      direct(distribution.particles, segment, [&](const Edge& edge) { edges.push_back(edge); });
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  if (!edges.empty())
+  {
+    group(edges, 0, distribution.particles.size(), this->Next, this->NextStart);
+    group(edges, 1, distribution.particles.size(), this->Previous, this->PreviousStart);
+  }
+}
+
+bool ConstrainedEdges::has(int a, int b) const
+{
+  const Span<int> next = this->after(a);
+  return std::find(next.begin(), next.end(), b) != next.end();
+}
+
+} // namespace hop

@@ -1,0 +1,458 @@
+#include "Mesh/HoleFilling.h"
+
+#include "Mesh/PolygonTriangulation.h"
+#include "Surface/SurfaceWalker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+
+namespace hop
+{
+namespace
+{
+
+/// Chosen by experiment, lengths in units of the spacing.
+struct Hole
+{
+  /// Largest number of edges: the time grows with its cube. Holes on surfaces that particles can follow have up to some
+  /// twenty.
+  static constexpr std::size_t MostEdges = 96;
+  /// Largest circumradius of a triangle that needs no further particle, see ParticleNeighbors::LargestRadius.
+  static constexpr double LargestRadius = ParticleNeighbors::LargestRadius;
+  /// Largest distance between the middle of a triangle and the surface, and between that middle and where a walk along
+  /// the surface towards it ends. Larger: the surface's end is covered where it has no particles; smaller: strongly bent
+  /// surface stays open.
+  static constexpr double Beside = 0.5;
+  /// Times that a triangulation is sought without what was wrong with the last one.
+  static constexpr int Attempts = 24;
+};
+
+/// A triangle in space.
+struct Shape
+{
+  glm::dvec3 middle{ 0.0 };
+  /// Its length is twice the area.
+  glm::dvec3 normal{ 0.0 };
+  double sumOfSquares = 0.0;
+  double productOfSides = 0.0;
+
+  double circumradius() const { return this->productOfSides / (2.0 * glm::length(this->normal)); }
+};
+
+using Pair = std::pair<int, int>;
+
+Pair pairOf(int a, int b)
+{
+  return std::minmax(a, b);
+}
+
+class HoleFiller
+{
+public:
+  HoleFiller(const Isosurface& surface, const ParticleNeighbors& neighbors,
+    const ConstrainedEdges& edges, Distribution& distribution, TriangleFans& fans,
+    const ParallelFor& parallelFor)
+    : Neighbors(neighbors)
+    , Edges(edges)
+    , Particles(distribution.particles)
+    , Fans(fans)
+    , Parallel(parallelFor)
+    , Surface(surface)
+  {
+  }
+
+  void fillAll()
+  {
+    this->Loops = findOpenLoops(this->Particles, this->Edges, this->Fans, this->Parallel);
+    this->sortLoops();
+    this->findLoose();
+    this->prepareWalks();
+    for (const std::size_t hole : this->Holes)
+    {
+      askCaller(this->Parallel);
+      const std::size_t before = this->Particles.size();
+      if (!this->fill(hole))
+      {
+        this->dropParticlesBehind(before);
+      }
+    }
+  }
+
+private:
+  /// Walks pass faces that the mesh does not join.
+  void prepareWalks()
+  {
+    if (!this->Holes.empty())
+    {
+      if (!this->Surface.locator)
+      {
+        this->Locator.emplace(*this->Surface.mesh, this->Surface.isovalue, this->Parallel);
+        this->Surface.locator = &*this->Locator;
+      }
+      this->Walker.emplace(this->Surface);
+    }
+  }
+
+  const glm::dvec3& at(int particle) const { return this->Particles[particle].position.xyz; }
+  glm::dvec3 normalOf(int particle) const { return this->Particles[particle].normal.xyz; }
+
+  Shape shapeOf(const Triangle& triangle) const
+  {
+    const auto& [a, b, c] = triangle;
+    const glm::dvec3 ab = this->at(b) - this->at(a);
+    const glm::dvec3 bc = this->at(c) - this->at(b);
+    const glm::dvec3 ca = this->at(a) - this->at(c);
+    return { (this->at(a) + this->at(b) + this->at(c)) / 3.0, glm::cross(ab, bc),
+      glm::dot(ab, ab) + glm::dot(bc, bc) + glm::dot(ca, ca),
+      glm::length(ab) * glm::length(bc) * glm::length(ca) };
+  }
+
+  double spacingOf(const Triangle& triangle) const
+  {
+    double sum = 0.0;
+    for (const int corner : triangle)
+    {
+      sum += this->Particles[corner].spacing;
+    }
+    return sum / 3.0;
+  }
+
+  /// Twice the area of a loop as seen from where the normals of its particles point to: negative around a piece of the
+  /// mesh.
+  double areaOf(const std::vector<int>& loop) const
+  {
+    glm::dvec3 area(0.0), normal(0.0);
+    for (std::size_t n = 0; n < loop.size(); ++n)
+    {
+      const glm::dvec3 a = this->at(loop[n]) - this->at(loop[0]);
+      const glm::dvec3 b = this->at(loop[n + 1 < loop.size() ? n + 1 : 0]) - this->at(loop[0]);
+      area += glm::cross(a, b);
+      normal += this->normalOf(loop[n]);
+    }
+    return glm::dot(area, normal);
+  }
+
+  void sortLoops()
+  {
+    for (std::size_t n = 0; n < this->Loops.size(); ++n)
+    {
+      const OpenLoop& loop = this->Loops[n];
+      if (loop.isClosed && loop.edgeCount() <= Hole::MostEdges)
+      {
+        const bool isHole = loop.particles.size() >= 3 && this->areaOf(loop.particles) > 0.0;
+        (isHole ? this->Holes : this->Islands).push_back(n);
+        for (const int particle : isHole ? loop.particles : std::vector<int>())
+        {
+          this->HolesOf[particle].push_back(n);
+        }
+      }
+    }
+  }
+
+  /// Whether a loop runs around a particle once, counterclockwise, in the particle's tangent plane.
+  bool surrounds(const std::vector<int>& loop, int particle) const
+  {
+    const Particle& middle = this->Particles[particle];
+    const TangentPlane plane(middle.position.xyz, glm::vec3(middle.normal.xyz), middle.spacing);
+    double turn = 0.0;
+    glm::dvec2 before = plane.flat(this->at(loop.back()));
+    for (const int corner : loop)
+    {
+      if (corner == particle || glm::dot(this->normalOf(corner), middle.normal.xyz) <= 0.0)
+      {
+        return false;
+      }
+      const glm::dvec2 next = plane.flat(this->at(corner));
+      turn += std::atan2(crossOf(before, next), glm::dot(before, next));
+      before = next;
+    }
+    constexpr double halfTurn = 3.14159;
+    return turn > halfTurn;
+  }
+
+  /// The hole in which a particle lies.
+  std::optional<std::size_t> holeAround(int particle) const
+  {
+    std::optional<std::size_t> found;
+    if (static_cast<std::size_t>(particle) >= this->Neighbors.seen.size())
+    {
+      return found; // it was added to fill a hole
+    }
+    for (const int* j = this->Neighbors.seen.begin(particle);
+         j != this->Neighbors.seen.end(particle); ++j)
+    {
+      const auto holes = this->HolesOf.find(*j);
+      for (const std::size_t hole :
+        holes == this->HolesOf.end() ? std::vector<std::size_t>() : holes->second)
+      {
+        if ((!found || hole < *found) && this->surrounds(this->Loops[hole].particles, particle))
+        {
+          found = hole;
+        }
+      }
+    }
+    return found;
+  }
+
+  /// Finds what lies inside of holes: pieces of the mesh, and particles without triangles.
+  void findLoose()
+  {
+    if (this->Holes.empty())
+    {
+      return;
+    }
+    for (const std::size_t island : this->Islands)
+    {
+      const std::vector<int>& loop = this->Loops[island].particles;
+      if (const auto hole = this->holeAround(loop.front()))
+      {
+        this->Loose[*hole].push_back(loop);
+      }
+    }
+    for (std::size_t i = 0; i < this->Particles.size(); ++i)
+    {
+      const int particle = static_cast<int>(i);
+      if (!this->Fans.hasTriangles(particle) && !this->Edges.isOnEdge(particle))
+      {
+        if (const auto hole = this->holeAround(particle))
+        {
+          this->Loose[*hole].push_back({ particle });
+        }
+      }
+    }
+  }
+
+  bool mayJoin(int a, int b) const
+  {
+    return a != b && this->Fans.apexOf(a, b) < 0 && this->Fans.apexOf(b, a) < 0 &&
+      !this->Edges.joins(a, b);
+  }
+
+  /// Joins a loop inside of a hole to the hole's border by an edge that the border passes in both directions, the
+  /// shortest one: the border then runs around the loop as well.
+  void join(std::vector<int>& border, const std::vector<int>& loop) const
+  {
+    double least = std::numeric_limits<double>::infinity();
+    std::size_t here = 0, there = 0;
+    for (std::size_t i = 0; i < border.size(); ++i)
+    {
+      for (std::size_t j = 0; j < loop.size(); ++j)
+      {
+        const double distance = glm::distance(this->at(border[i]), this->at(loop[j]));
+        if (distance < least && this->mayJoin(border[i], loop[j]))
+        {
+          least = distance;
+          here = i;
+          there = j;
+        }
+      }
+    }
+    if (!std::isfinite(least))
+    {
+      return;
+    }
+    std::vector<int> detour(loop.begin() + static_cast<std::ptrdiff_t>(there), loop.end());
+    detour.insert(detour.end(), loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(there));
+    if (loop.size() > 1)
+    {
+      detour.push_back(loop[there]);
+    }
+    detour.push_back(border[here]);
+    border.insert(
+      border.begin() + static_cast<std::ptrdiff_t>(here) + 1, detour.begin(), detour.end());
+  }
+
+  /// The cost of a triangle: the harmonic index, least for an equilateral one. Among all triangulations of points in a
+  /// plane the Delaunay triangulation has the least sum of it (Musin 1997).
+  double costOf(const Triangle& triangle) const
+  {
+    const auto& [a, b, c] = triangle;
+    constexpr double forbidden = std::numeric_limits<double>::infinity();
+    if (a == b || b == c || c == a || this->Rejected.count(sorted(triangle)) > 0)
+    {
+      return forbidden;
+    }
+    const Shape shape = this->shapeOf(triangle);
+    for (const int corner : triangle)
+    {
+      if (glm::dot(shape.normal, this->normalOf(corner)) <= 0.0)
+      {
+        return forbidden;
+      }
+    }
+    return shape.sumOfSquares / glm::length(shape.normal);
+  }
+
+  static Triangle sorted(Triangle triangle)
+  {
+    std::sort(triangle.begin(), triangle.end());
+    return triangle;
+  }
+
+  /// The place on the surface below a point near a particle, if the surface goes on there.
+  std::optional<Evaluated> placeBelow(const glm::dvec3& point, int particle, double spacing)
+  {
+    const Evaluated start = this->Walker->evaluate(this->Particles[particle].location);
+    const Evaluated there = this->Walker->evaluate(
+      this->Walker->move(start, WorldVector{ point - start.point.map.position.xyz }));
+    const double slope = length(there.point.gradient);
+    const double aside = glm::distance(there.point.map.position.xyz, point);
+    if (!(aside <= Hole::Beside * spacing) ||
+      !(std::abs(there.point.value) <= Hole::Beside * spacing * slope))
+    {
+      return std::nullopt;
+    }
+    return there;
+  }
+
+  bool isOnSurface(const Triangle& triangle)
+  {
+    const Shape shape = this->shapeOf(triangle);
+    const auto there = this->placeBelow(shape.middle, triangle[0], this->spacingOf(triangle));
+    return there && glm::dot(surfaceNormal(there->point.gradient).xyz, shape.normal) > 0.0;
+  }
+
+  /// Adds the triangles if none of them is wrong; else remembers what is.
+  bool accept(const std::vector<Triangle>& triangles)
+  {
+    std::set<Pair> passed;
+    bool isGood = true;
+    for (const Triangle& triangle : triangles)
+    {
+      bool isNew = true;
+      for (int n = 0; n < 3; ++n)
+      {
+        const int a = triangle[n];
+        const int b = triangle[(n + 1) % 3];
+        isNew = isNew && this->Fans.apexOf(a, b) < 0 && passed.insert({ a, b }).second;
+      }
+      if (!isNew || !this->isOnSurface(triangle))
+      {
+        this->Rejected.insert(sorted(triangle));
+        isGood = false;
+      }
+    }
+    if (isGood)
+    {
+      for (const Triangle& triangle : triangles)
+      {
+        this->Fans.add(triangle);
+      }
+    }
+    return isGood;
+  }
+
+  std::vector<Triangle> triangulate(const std::vector<int>& border)
+  {
+    std::set<Pair> borderEdges;
+    for (std::size_t n = 0; n < border.size(); ++n)
+    {
+      borderEdges.insert(pairOf(border[n], border[n + 1 < border.size() ? n + 1 : 0]));
+    }
+    return triangulatePolygon(
+      border, [this](const Triangle& triangle) { return this->costOf(triangle); },
+      [&](int a, int b) { return this->mayJoin(a, b) && borderEdges.count(pairOf(a, b)) == 0; });
+  }
+
+  /// Adds a particle in the middle of the largest triangle, if that is too large.
+  std::optional<int> addParticle(const std::vector<Triangle>& triangles)
+  {
+    double most = Hole::LargestRadius;
+    const Triangle* largest = nullptr;
+    for (const Triangle& triangle : triangles)
+    {
+      const double radius = this->shapeOf(triangle).circumradius() / this->spacingOf(triangle);
+      if (radius > most)
+      {
+        most = radius;
+        largest = &triangle;
+      }
+    }
+    if (!largest)
+    {
+      return std::nullopt;
+    }
+    const double spacing = this->spacingOf(*largest);
+    const auto below = this->placeBelow(this->shapeOf(*largest).middle, (*largest)[0], spacing);
+    Evaluated place;
+    if (!below || !this->Walker->project(below->location, spacing, place))
+    {
+      return std::nullopt;
+    }
+    place = this->Walker->evaluateCurved(place.location);
+    this->Particles.push_back(particleAt(
+      place.location, place.point, curvature(place.point.gradient, place.hessian), spacing));
+    this->Fans.appendVertex();
+    return static_cast<int>(this->Particles.size()) - 1;
+  }
+
+  /// \return whether it was filled
+  bool fill(std::size_t hole)
+  {
+    std::vector<int> border = this->Loops[hole].particles;
+    for (const std::vector<int>& loop : this->Loose[hole])
+    {
+      this->join(border, loop);
+    }
+    this->Rejected.clear();
+    for (int attempt = 0; attempt < Hole::Attempts; ++attempt)
+    {
+      const std::vector<Triangle> triangles = this->triangulate(border);
+      if (triangles.empty())
+      {
+        return false;
+      }
+      if (const auto added = this->addParticle(triangles))
+      {
+        this->join(border, { *added });
+      }
+      else if (this->accept(triangles))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  void dropParticlesBehind(std::size_t count)
+  {
+    while (this->Particles.size() > count)
+    {
+      this->Particles.pop_back();
+      this->Fans.dropLastVertex();
+    }
+  }
+
+  const ParticleNeighbors& Neighbors;
+  const ConstrainedEdges& Edges;
+  Buffer<Particle>& Particles;
+  TriangleFans& Fans;
+  const ParallelFor& Parallel;
+  Isosurface Surface;
+  std::optional<FaceLocator> Locator;
+  std::optional<SurfaceWalker> Walker;
+  std::vector<OpenLoop> Loops;
+  /// Indices of loops around holes, and around pieces of the mesh.
+  std::vector<std::size_t> Holes, Islands;
+  /// By particle: the holes at whose borders it is.
+  std::map<int, std::vector<std::size_t>> HolesOf;
+  /// By hole: what lies inside it.
+  std::map<std::size_t, std::vector<std::vector<int>>> Loose;
+  /// Triangles that a triangulation of the present hole must not have, sorted corners.
+  std::set<Triangle> Rejected;
+};
+
+} // namespace
+
+void fillHoles(const Isosurface& surface, const ParticleNeighbors& neighbors,
+  const ConstrainedEdges& edges, Distribution& distribution, TriangleFans& fans,
+  const ParallelFor& parallelFor)
+{
+  HoleFiller(surface, neighbors, edges, distribution, fans, parallelFor).fillAll();
+}
+
+} // namespace hop

@@ -1,0 +1,141 @@
+#include "Mesh/OpenLoops.h"
+
+#include "Mesh/TangentPlane.h"
+#include "Support/KeepMarked.h"
+
+#include <algorithm>
+#include <map>
+
+namespace hop
+{
+namespace
+{
+
+/// Ends of the edges that begin at a particle and lack a triangle to their left, ascending.
+std::vector<int> openEdgesOf(int particle, const ConstrainedEdges& edges, const TriangleFans& fans)
+{
+  std::vector<int> ends;
+  // The triangle to the right of an edge sees the edge's end as the end of the edge opposite to the particle.
+  fans.visit(particle,
+    [&](const LinkEdge& edge)
+    {
+      const bool endsHere = edges.has(edge.to, particle) && !edges.has(particle, edge.to);
+      if (!endsHere && fans.apexOf(particle, edge.to) < 0)
+      {
+        ends.push_back(edge.to);
+      }
+    });
+  for (const int next : edges.after(particle))
+  {
+    if (fans.apexOf(particle, next) < 0)
+    {
+      ends.push_back(next);
+    }
+  }
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  return ends;
+}
+
+/// Joins edges to loops.
+class LoopWalker
+{
+public:
+  explicit LoopWalker(const Buffer<Particle>& particles)
+    : Particles(particles)
+  {
+  }
+
+  void add(int particle, std::vector<int> ends) { this->Ends.emplace(particle, std::move(ends)); }
+
+  std::vector<OpenLoop> walk()
+  {
+    // Where edges do not close, a loop begins at an edge that nothing leads to.
+    std::map<int, int> arriving;
+    for (const auto& [particle, ends] : this->Ends)
+    {
+      for (const int end : ends)
+      {
+        ++arriving[end];
+      }
+    }
+    std::vector<OpenLoop> loops;
+    for (const auto& [particle, ends] : this->Ends)
+    {
+      const auto arrived = arriving.find(particle);
+      const int there = arrived == arriving.end() ? 0 : arrived->second;
+      for (int surplus = static_cast<int>(ends.size()) - there; surplus > 0; --surplus)
+      {
+        loops.push_back(this->walkFrom(particle));
+      }
+    }
+    for (const auto& [particle, ends] : this->Ends)
+    {
+      while (!ends.empty())
+      {
+        loops.push_back(this->walkFrom(particle));
+      }
+    }
+    return loops;
+  }
+
+private:
+  OpenLoop walkFrom(int start)
+  {
+    OpenLoop loop;
+    int before = -1;
+    int at = start;
+    do
+    {
+      loop.particles.push_back(at);
+      const auto next = this->Ends.find(at);
+      if (next == this->Ends.end() || next->second.empty())
+      {
+        loop.isClosed = false;
+        break;
+      }
+      const auto end = this->choose(before, at, next->second);
+      before = at;
+      at = *end;
+      next->second.erase(end);
+    } while (at != start);
+    return loop;
+  }
+
+  /// Of several edges, the next one clockwise from the edge by which the loop has come: what lies between them is open.
+  std::vector<int>::iterator choose(int before, int at, std::vector<int>& ends) const
+  {
+    if (before < 0 || ends.size() == 1)
+    {
+      return ends.begin();
+    }
+    const Particle& here = this->Particles[at];
+    const TangentPlane plane(here.position.xyz, glm::vec3(here.normal.xyz), here.spacing);
+    const glm::dvec2 back = plane.flat(this->Particles[before].position.xyz);
+    const auto turn = [&](int end)
+    { return turnFrom(plane.flat(this->Particles[end].position.xyz), back); };
+    return std::min_element(
+      ends.begin(), ends.end(), [&](int a, int b) { return turn(a) < turn(b); });
+  }
+
+  const Buffer<Particle>& Particles;
+  std::map<int, std::vector<int>> Ends;
+};
+
+} // namespace
+
+std::vector<OpenLoop> findOpenLoops(const Buffer<Particle>& particles,
+  const ConstrainedEdges& edges, const TriangleFans& fans, const ParallelFor& parallelFor)
+{
+  std::vector<char> isOpen(particles.size());
+  forAll(parallelFor, particles.size(),
+    [&](std::size_t i) { isOpen[i] = !openEdgesOf(static_cast<int>(i), edges, fans).empty(); });
+  LoopWalker walker(particles);
+  for (const int particle : markedIndices(isOpen, particles.size()))
+  {
+    walker.add(particle, openEdgesOf(particle, edges, fans));
+  }
+  return walker.walk();
+}
+
+} // namespace hop

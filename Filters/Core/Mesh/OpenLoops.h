@@ -1,0 +1,28 @@
+#pragma once
+
+#include "Mesh/ConstrainedEdges.h"
+#include "Mesh/TriangleFans.h"
+
+#include <vector>
+
+namespace hop
+{
+
+/// Particles in order along edges that lack a triangle to their left, as seen from where the normals point to: the
+/// border of a hole counterclockwise, or that of a piece of the mesh clockwise.
+struct OpenLoop
+{
+  std::vector<int> particles;
+  /// Whether the last edge leads back to the first particle. It does not where constrained edges end in the midst of
+  /// the surface.
+  bool isClosed = true;
+
+  std::size_t edgeCount() const { return this->particles.size() - (this->isClosed ? 0 : 1); }
+};
+
+/// All edges that lack a triangle though the surface does not end there, as loops, in the order of their first
+/// particles.
+std::vector<OpenLoop> findOpenLoops(const Buffer<Particle>& particles,
+  const ConstrainedEdges& edges, const TriangleFans& fans, const ParallelFor& parallelFor);
+
+} // namespace hop

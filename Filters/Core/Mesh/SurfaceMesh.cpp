@@ -1,0 +1,70 @@
+#include "Mesh/SurfaceMesh.h"
+
+#include "Mesh/HoleFilling.h"
+#include "Mesh/ManifoldVertices.h"
+#include "Mesh/ParticleStars.h"
+#include "Support/Interruptible.h"
+
+#include <functional>
+
+namespace hop
+{
+namespace
+{
+
+/// What is open, and which particles have no triangle.
+void countOpen(const Distribution& distribution, const ConstrainedEdges& edges,
+  const TriangleFans& fans, SurfaceMesh& mesh, const ParallelFor& parallelFor)
+{
+  const Buffer<Particle>& particles = distribution.particles;
+  for (const OpenLoop& loop : findOpenLoops(particles, edges, fans, parallelFor))
+  {
+    ++mesh.openLoops;
+    for (std::size_t n = 0; n < loop.edgeCount(); ++n)
+    {
+      const int next = loop.particles[n + 1 < loop.particles.size() ? n + 1 : 0];
+      mesh.openLength += length(particles[next].position - particles[loop.particles[n]].position);
+    }
+  }
+  for (std::size_t i = 0; i < particles.size(); ++i)
+  {
+    mesh.unusedParticles += !fans.hasTriangles(static_cast<int>(i));
+  }
+}
+
+/// \return whether triangles were removed
+bool dropExtraFans(const Distribution& distribution, const ConstrainedEdges& edges,
+  TriangleFans& fans, const ParallelFor& parallelFor)
+{
+  std::vector<int> vertices;
+  for (const OpenLoop& loop : findOpenLoops(distribution.particles, edges, fans, parallelFor))
+  {
+    vertices.insert(vertices.end(), loop.particles.begin(), loop.particles.end());
+  }
+  return keepOneFan(vertices, fans);
+}
+
+} // namespace
+
+SurfaceMesh meshSurface(const Isosurface& surface, Distribution& distribution,
+  const Monitor& monitor, const ParallelFor& parallelFor)
+{
+  Interruptible work(monitor, parallelFor);
+  const ParallelFor parallel(std::ref(work));
+  const ConstrainedEdges edges(distribution);
+  const ParticleNeighbors neighbors(distribution.particles, parallel);
+  TriangleFans fans = agreedTriangles(neighbors, edges, parallel);
+  fillHoles(surface, neighbors, edges, distribution, fans, parallel);
+  // Holes that touched in a vertex have become one, which may be filled.
+  if (dropExtraFans(distribution, edges, fans, parallel))
+  {
+    fillHoles(surface, neighbors, edges, distribution, fans, parallel);
+    dropExtraFans(distribution, edges, fans, parallel);
+  }
+  SurfaceMesh mesh;
+  mesh.triangles = fans.triangles(parallel);
+  countOpen(distribution, edges, fans, mesh, parallel);
+  return mesh;
+}
+
+} // namespace hop

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "Common/Monitor.h"
+#include "Surface/Particles.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace hop
+{
+
+/// A triangle mesh of the surface whose vertices are the particles.
+struct SurfaceMesh
+{
+  /// Corners as indices into the particles, counterclockwise as seen from where the normals point to. Coincident
+  /// particles keep their own indices.
+  std::vector<std::array<int, 3>> triangles;
+  /// What stayed open although it is no boundary curve: number of loops of edges with one triangle, and their length,
+  /// world units.
+  std::int64_t openLoops = 0;
+  double openLength = 0.0;
+  /// Particles without a triangle.
+  std::int64_t unusedParticles = 0;
+};
+
+/// Joins particles to triangles: those that the Delaunay triangulations in the tangent planes of all three corners
+/// agree about (ParticleStars.h). No edge has three triangles, and no triangle is turned away from the normal of one of
+/// its corners.
+/// Derivation: Documentation/algorithm.md, section Mesh.
+/// \param distribution may get particles where a hole is filled with a new one
+/// \throw Interrupted if the monitor asks for an early end
+SurfaceMesh meshSurface(const Isosurface& surface, Distribution& distribution,
+  const Monitor& monitor, const ParallelFor& parallelFor);
+
+/// Area of the surface around each particle, world units squared: its cell of the Voronoi diagram in its tangent plane,
+/// cut off at boundary curves and creases. Needs no mesh.
+/// \throw Interrupted if the monitor asks for an early end
+std::vector<double> particleAreas(
+  const Distribution& distribution, const Monitor& monitor, const ParallelFor& parallelFor);
+
+} // namespace hop

@@ -1,0 +1,96 @@
+#pragma once
+
+#include "Mesh/ConstrainedEdges.h"
+#include "Mesh/TangentPlane.h"
+#include "Support/SpacedPoints.h"
+#include "Support/SpacingGrid.h"
+
+#include <glm/glm.hpp>
+
+#include <vector>
+
+namespace hop
+{
+
+/// Who is near whom on the surface.
+struct ParticleNeighbors
+{
+  /// Largest circumradius of a triangle in a star, in units of the spacing: 1/sqrt(3) in hexagonal packing, about 1
+  /// where a particle is missing. Chosen by experiment. Larger: triangles across thin gaps, and more neighbours to look
+  /// at; smaller: holes where particles stand unevenly.
+  static constexpr double LargestRadius = 1.2;
+  /// No neighbour farther away is in an empty circle: its diameter.
+  static constexpr double Reach = 2.0 * LargestRadius;
+
+  /// \pre the particles outlive it
+  ParticleNeighbors(const Buffer<Particle>& all, const ParallelFor& parallelFor);
+
+  const Buffer<Particle>& particles;
+  SpacedPoints points;
+  Buffer<glm::vec3> normals;
+  SeenLists seen;
+};
+
+/// A neighbour of a particle in its tangent plane, at its distance in space; in units of the particle's spacing.
+struct FlatNeighbor
+{
+  glm::dvec2 place{ 0.0 };
+  int index = -1;
+};
+
+/// The surface around one particle after the other, laid into the tangent plane. Each thread needs one of its own.
+class TangentView
+{
+public:
+  TangentView(const ParticleNeighbors& particles, const ConstrainedEdges& edges)
+    : Particles(particles)
+    , Edges(edges)
+  {
+  }
+
+  /// A part of the plane around the particle in which the surface goes on: counterclockwise from one neighbour on a
+  /// constrained edge to another; from a neighbour around to itself where only one edge ends at the particle.
+  struct Sector
+  {
+    std::vector<FlatNeighbor> neighbors;
+    int first = 0;
+    int last = 0;
+  };
+
+  /// Lays the neighbours of a particle into its plane that are on the same sheet. Those that a constrained edge hides
+  /// are left out.
+  void lookFrom(int particle);
+
+  const TangentPlane& plane() const { return this->Plane; }
+  const std::vector<FlatNeighbor>& neighbors() const { return this->Neighbors; }
+  /// Empty for a particle that is on no constrained edge.
+  const std::vector<Sector>& sectors() const { return this->Sectors; }
+
+private:
+  struct FlatEdge
+  {
+    FlatNeighbor from, to;
+  };
+
+  bool isOnSheet(int particle) const;
+  bool turnsAsExpected(int particle) const;
+  FlatNeighbor flat(int particle) const
+  {
+    return { this->Plane.flat(this->Particles.points.positions[particle]), particle };
+  }
+  void collectEdges();
+  bool isHidden(const FlatNeighbor& neighbor) const;
+  bool isSeenFromTheLeft(const FlatNeighbor& neighbor) const;
+  void makeSectors();
+
+  const ParticleNeighbors& Particles;
+  const ConstrainedEdges& Edges;
+  int Middle = -1;
+  glm::vec3 Normal{ 0.0f };
+  TangentPlane Plane;
+  std::vector<FlatNeighbor> Neighbors;
+  std::vector<FlatEdge> FlatEdges;
+  std::vector<Sector> Sectors;
+};
+
+} // namespace hop

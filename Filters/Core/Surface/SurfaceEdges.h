@@ -1,0 +1,20 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+namespace hop
+{
+
+/// What the particles on boundary curves and creases are to each other.
+struct SurfaceEdges
+{
+  /// Pairs of particles that are neighbours on a boundary curve, or on one side of a crease: edges of any mesh of the
+  /// surface.
+  std::vector<std::array<int, 2>> segments;
+  /// Pairs of particles in the same place on the two sides of a crease (more at corners, where each pair joins two of
+  /// them): one vertex of any mesh.
+  std::vector<std::array<int, 2>> coincident;
+};
+
+} // namespace hop

@@ -1,0 +1,135 @@
+// Meshes of known surfaces: closed, of the right topology, area and shape.
+
+#include "Mesh/SurfaceMesh.h"
+
+#include "AnalyticFields.h"
+#include "Fast/FastDistribution.h"
+#include "MeshMeasures.h"
+#include "TestMeshes.h"
+#include "ThreadedFor.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace hop::testing
+{
+namespace
+{
+
+struct Meshed
+{
+  ElementMesh elements;
+  Distribution distribution;
+  SurfaceMesh mesh;
+};
+
+/// \param spacing world units; the cube that holds the surface is 2 wide
+Meshed meshOf(const Field& field, int degree, double spacing, double angularDensity = 0.0)
+{
+  MeshRecipe recipe;
+  recipe.degrees = { degree, degree, degree };
+  recipe.map = wavyMap(0.1);
+  recipe.field = field;
+  Meshed result;
+  result.elements = makeMesh(recipe);
+  const Isosurface surface{ &result.elements, 0.0, 1e-9 };
+  DistributionParameters parameters;
+  parameters.sizing = { spacing, angularDensity };
+  result.distribution = distributeFast(surface, parameters, {}, {});
+  result.mesh = meshSurface(surface, result.distribution, {}, {});
+  return result;
+}
+
+/// What holds for every mesh of a smooth closed surface.
+void expectClosed(const Meshed& meshed)
+{
+  const MeshMeasures measures = measureMesh(meshed.distribution, meshed.mesh.triangles);
+  EXPECT_EQ(measures.badEdges, 0);
+  EXPECT_EQ(measures.openEdges, 0);
+  EXPECT_EQ(measures.badVertices, 0);
+  EXPECT_EQ(measures.turnedTriangles, 0);
+  EXPECT_EQ(measures.unusedParticles, 0);
+  EXPECT_EQ(meshed.mesh.openLoops, 0);
+  EXPECT_EQ(meshed.mesh.openLength, 0.0);
+  EXPECT_EQ(meshed.mesh.unusedParticles, 0);
+  EXPECT_GE(measures.medianMinAngle, 50.0);
+  EXPECT_GE(measures.lowMinAngle, 30.0);
+}
+
+double sumOf(const std::vector<double>& values)
+{
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+TEST(SurfaceMesh, ClosesASphere)
+{
+  const KnownSurface known = sphere({ 0, 0, 0 }, 0.6);
+  const Meshed meshed = meshOf(known.field, 4, 0.05);
+  expectClosed(meshed);
+  const MeshMeasures measures = measureMesh(meshed.distribution, meshed.mesh.triangles);
+  EXPECT_EQ(measures.eulerCharacteristic, 2);
+  EXPECT_EQ(measures.components, 1);
+  EXPECT_NEAR(measures.area / known.area, 1.0, 0.002);
+}
+
+TEST(SurfaceMesh, ClosesATorus)
+{
+  const KnownSurface known = torus(0.5, 0.22);
+  for (const double angularDensity : { 0.0, 7.0 })
+  {
+    const Meshed meshed =
+      meshOf(known.field, 6, angularDensity > 0.0 ? 0.12 : 0.04, angularDensity);
+    expectClosed(meshed);
+    const MeshMeasures measures = measureMesh(meshed.distribution, meshed.mesh.triangles);
+    EXPECT_EQ(measures.eulerCharacteristic, 0);
+    EXPECT_EQ(measures.components, 1);
+    EXPECT_NEAR(measures.area / known.area, 1.0, 0.005);
+  }
+}
+
+TEST(SurfaceMesh, KeepsTwoSpheresApart)
+{
+  // 0.03 spacings between them.
+  constexpr double spacing = 0.05;
+  constexpr double r = 0.4 - 0.5 * 0.03 * spacing;
+  const Meshed meshed =
+    meshOf(bothOf(sphere({ -0.4, 0, 0 }, r), sphere({ 0.4, 0, 0 }, r)).field, 4, spacing);
+  expectClosed(meshed);
+  const MeshMeasures measures = measureMesh(meshed.distribution, meshed.mesh.triangles);
+  EXPECT_EQ(measures.eulerCharacteristic, 4);
+  EXPECT_EQ(measures.components, 2);
+}
+
+TEST(SurfaceMesh, IsTheSameForAnyNumberOfThreads)
+{
+  Meshed one = meshOf(torus(0.5, 0.22).field, 6, 0.04);
+  const Isosurface surface{ &one.elements, 0.0, 1e-9 };
+  for (const int threads : { 2, 5 })
+  {
+    EXPECT_EQ(meshSurface(surface, one.distribution, {}, threadedFor(threads)).triangles,
+      one.mesh.triangles);
+  }
+}
+
+TEST(SurfaceMesh, IsEmptyWithoutParticles)
+{
+  Distribution nothing;
+  const SurfaceMesh mesh = meshSurface({}, nothing, {}, {});
+  EXPECT_TRUE(mesh.triangles.empty());
+  EXPECT_EQ(mesh.openLoops, 0);
+  EXPECT_TRUE(particleAreas(nothing, {}, {}).empty());
+}
+
+TEST(ParticleAreas, AddUpToTheSurface)
+{
+  const KnownSurface ball = sphere({ 0, 0, 0 }, 0.6);
+  const Meshed coarse = meshOf(ball.field, 4, 0.1);
+  EXPECT_NEAR(sumOf(particleAreas(coarse.distribution, {}, {})) / ball.area, 1.0, 0.002);
+  const KnownSurface ring = torus(0.5, 0.22);
+  const Meshed fine = meshOf(ring.field, 6, 0.05);
+  EXPECT_NEAR(sumOf(particleAreas(fine.distribution, {}, {})) / ring.area, 1.0, 0.002);
+}
+
+} // namespace
+} // namespace hop::testing
