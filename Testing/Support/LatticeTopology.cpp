@@ -27,7 +27,8 @@ public:
     : Grid{ n }
   {
     this->Positive.resize(static_cast<std::size_t>(n + 1) * (n + 1) * (n + 1));
-    this->forPoints(n + 1, [&](const glm::ivec3& p)
+    this->forPoints(n + 1,
+      [&](const glm::ivec3& p)
       { this->Positive[this->Grid.pointOf(p)] = field(this->Grid.placeOf(p)) > 0.0; });
     this->forPoints(n, [&](const glm::ivec3& p) { this->addCube(p); });
   }
@@ -122,7 +123,8 @@ private:
     for (int left = 0; left < 4; ++left)
     {
       std::array<int, 3> triangle{};
-      std::copy_if(corners.begin(), corners.end(), triangle.begin(), [&](int c) { return c != corners[left]; });
+      std::copy_if(corners.begin(), corners.end(), triangle.begin(),
+        [&](int c) { return c != corners[left]; });
       this->addTriangle(triangle, crossed);
     }
     if (!crossed.empty())
@@ -144,8 +146,8 @@ private:
       {
         if (this->Positive[triangle[a]] != this->Positive[triangle[b]])
         {
-          const auto [entry, isNew] =
-            this->Corners.try_emplace({ triangle[a], triangle[b] }, static_cast<int>(this->Parent.size()));
+          const auto [entry, isNew] = this->Corners.try_emplace(
+            { triangle[a], triangle[b] }, static_cast<int>(this->Parent.size()));
           if (isNew)
           {
             this->Parent.push_back(entry->second);

@@ -10,15 +10,15 @@ namespace
 /// How long one element is split.
 struct SplitLimits
 {
-  /// Coefficients of all boxes, over all levels, and between which bounds the number of boxes stays: a third of a second
-  /// at most. Chosen by experiment. Larger: more elements in which sheets nearly meet are resolved; smaller: elements
-  /// that are singular along lines take less time.
+  /// Coefficients of all boxes, over all levels, and between which bounds the number of boxes stays: a third of a
+  /// second at most. Chosen by experiment. Larger: more elements in which sheets nearly meet are resolved; smaller:
+  /// elements that are singular along lines take less time.
   static constexpr std::size_t Coefficients = std::size_t{ 1 } << 23;
   static constexpr std::size_t FewestBoxes = 2048;
   static constexpr std::size_t MostBoxes = 16384;
-  /// Size of a leaf, in units of the smallest one, from which it is not split because the field is the isovalue at one of
-  /// its corners, to rounding: all leaves at this corner would be like it. Smaller: fewer components pass unresolved
-  /// leaves, and surfaces in faces of elements take longer.
+  /// Size of a leaf, in units of the smallest one, from which it is not split because the field is the isovalue at
+  /// one of its corners, to rounding: all leaves at this corner would be like it. Smaller: fewer components pass
+  /// unresolved leaves, and surfaces in faces of elements take longer.
   static constexpr int SizeAtZero = LeafGrid::Size / 8;
 
   static std::size_t boxes(std::size_t coefficients)
@@ -40,7 +40,9 @@ struct Box
 void splitAxis(const Degrees& degrees, int axis, double place, std::vector<double>& values,
   std::vector<double>& upper)
 {
-  const int stride = axis == 0 ? 1 : axis == 1 ? degrees[0] + 1 : (degrees[0] + 1) * (degrees[1] + 1);
+  const int stride = axis == 0 ? 1
+    : axis == 1                ? degrees[0] + 1
+                               : (degrees[0] + 1) * (degrees[1] + 1);
   const int degree = degrees[axis];
   const int count = static_cast<int>(values.size());
   const int block = stride * (degree + 1);
@@ -90,8 +92,8 @@ glm::dvec3 LeafGrid::fromCube(const glm::dvec3& t)
   for (int axis = 0; axis < 3; ++axis)
   {
     const double split = FirstSplit[axis];
-    place[axis] = t[axis] < split ? 0.5 * t[axis] / split
-                                  : 0.5 + 0.5 * (t[axis] - split) / (1.0 - split);
+    place[axis] =
+      t[axis] < split ? 0.5 * t[axis] / split : 0.5 + 0.5 * (t[axis] - split) / (1.0 - split);
   }
   return static_cast<double>(Size) * place;
 }

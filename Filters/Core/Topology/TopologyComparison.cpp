@@ -52,10 +52,11 @@ Fan followFan(const std::vector<FanTriangle>& triangles)
   const auto hasTwin = [&](const FanTriangle& one)
   {
     return std::count_if(triangles.begin(), triangles.end(),
-             [&](const FanTriangle& other) { return other.from == one.from || other.to == one.to; }) > 1;
+             [&](const FanTriangle& other)
+             { return other.from == one.from || other.to == one.to; }) > 1;
   };
-  fan.isOne = visited == triangles.size() &&
-    std::none_of(triangles.begin(), triangles.end(), hasTwin);
+  fan.isOne =
+    visited == triangles.size() && std::none_of(triangles.begin(), triangles.end(), hasTwin);
   return fan;
 }
 
@@ -69,8 +70,8 @@ std::vector<Fan> findFans(std::size_t vertexCount, const std::vector<std::array<
   {
     corners.insert(corners.end(), triangle.begin(), triangle.end());
   }
-  const Grouping ofVertex =
-    groupedBy(corners, vertexCount, [](int vertex) { return vertex; }, parallelFor);
+  const Grouping ofVertex = groupedBy(
+    corners, vertexCount, [](int vertex) { return vertex; }, parallelFor);
   std::vector<Fan> fans(vertexCount);
   forAll(parallelFor, vertexCount,
     [&](std::size_t vertex)
@@ -164,8 +165,9 @@ private:
 /// Finds the component of the surface on which all vertices of each component of the mesh lie.
 /// \return for each component of the surface the number of components of the mesh with vertices on it, which lie on it
 ///   alone or not
-std::vector<int> findCounterparts(const std::vector<int>& surfaceComponents, std::size_t componentCount,
-  const std::vector<int>& componentOfVertex, std::vector<ComponentComparison>& components)
+std::vector<int> findCounterparts(const std::vector<int>& surfaceComponents,
+  std::size_t componentCount, const std::vector<int>& componentOfVertex,
+  std::vector<ComponentComparison>& components)
 {
   std::set<std::pair<int, int>> pairs; // of components of surface and mesh
   for (ComponentComparison& component : components)
@@ -195,8 +197,9 @@ std::vector<int> findCounterparts(const std::vector<int>& surfaceComponents, std
 
 } // namespace
 
-TopologyComparison compareTopology(const SurfaceTopology& topology, const Buffer<Particle>& vertices,
-  const std::vector<std::array<int, 3>>& triangles, const ParallelFor& parallelFor)
+TopologyComparison compareTopology(const SurfaceTopology& topology,
+  const Buffer<Particle>& vertices, const std::vector<std::array<int, 3>>& triangles,
+  const ParallelFor& parallelFor)
 {
   std::vector<int> surfaceComponents(vertices.size());
   forAll(parallelFor, vertices.size(),

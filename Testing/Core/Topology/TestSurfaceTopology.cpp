@@ -110,7 +110,8 @@ TEST(SurfaceTopology, GenusTwo)
   ASSERT_EQ(latticeTopology(field, 60), Numbers({ { -2, 0 } }));
   for (const Domain domain : allDomains)
   {
-    EXPECT_EQ(numbersOf(topologyOf(recipeFor(domain, 8, 1, field))), Numbers({ { -2, 0 } })) << domain;
+    EXPECT_EQ(numbersOf(topologyOf(recipeFor(domain, 8, 1, field))), Numbers({ { -2, 0 } }))
+      << domain;
   }
 }
 
@@ -248,7 +249,8 @@ TEST(SurfaceTopology, HangingNodes)
   { return ring.field(glm::dvec3(x.y, x.z, x.x) - middle); };
   expectProven(Domain::Hexahedron, sphere(middle, 0.61).field, { { 2, 0 } });
   expectProven(Domain::Hexahedron, sphere(middle, 1.07).field, { { -4, 6 } });
-  expectProven(Domain::Hexahedron, [=](const glm::dvec3& x) { return ring.field(x - middle); }, { { 0, 0 } });
+  expectProven(
+    Domain::Hexahedron, [=](const glm::dvec3& x) { return ring.field(x - middle); }, { { 0, 0 } });
   expectProven(Domain::Hexahedron, tilted, { { 0, 0 } });
   // A small sphere in one of the smaller faces, and one across all of them.
   expectProven(Domain::Hexahedron, sphere({ 0.01, 0.41, 0.53 }, 0.2).field, { { 2, 0 } });

@@ -21,8 +21,10 @@ struct TriangleMesh
 /// An octahedron around a centre, its faces split `times` times, on a sphere. Splitting gives middles to sides.
 TriangleMesh sphereMesh(const glm::dvec3& centre, double radius, int times)
 {
-  TriangleMesh mesh{ { { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 }, { 0, 0, 1 }, { 0, 0, -1 } },
-    { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 }, { 2, 0, 5 }, { 1, 2, 5 }, { 3, 1, 5 }, { 0, 3, 5 } } };
+  TriangleMesh mesh{ { { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 }, { 0, 0, 1 },
+                       { 0, 0, -1 } },
+    { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 }, { 2, 0, 5 }, { 1, 2, 5 }, { 3, 1, 5 },
+      { 0, 3, 5 } } };
   for (; times > 0; --times)
   {
     std::map<std::pair<int, int>, int> middles;
@@ -40,7 +42,8 @@ TriangleMesh sphereMesh(const glm::dvec3& centre, double radius, int times)
     for (const auto& [a, b, c] : mesh.triangles)
     {
       const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-      smaller.insert(smaller.end(), { { a, ab, ca }, { ab, b, bc }, { ca, bc, c }, { ab, bc, ca } });
+      smaller.insert(
+        smaller.end(), { { a, ab, ca }, { ab, b, bc }, { ca, bc, c }, { ab, bc, ca } });
     }
     mesh.triangles = smaller;
   }
