@@ -4,14 +4,17 @@
 //
 // Without isovalues those at 10, 30, 50, 70 and 90% of the array's range (magnitude of vectors); without array all
 // point arrays. Prints a line an isovalue: elements that may hold surface, those that do, components and how many of
-// them are proven, Euler characteristic and boundary loops of the proven ones in sum, cells without proof, microseconds
-// an element that may hold surface, on one thread, and those of the particles' distribution at the default spacing.
+// them are proven, Euler characteristic and boundary loops of the proven ones in sum, cells without proof; of the mesh
+// of the particles at 1/100 of the longest side: components, how many of them are proven, and components of the surface
+// that it lacks; microseconds an element that may hold surface, on one thread: certificate, distribution and mesh.
 
 #include "Conversion/GridElements.h"
 #include "Fast/FastDistribution.h"
+#include "Mesh/SurfaceMesh.h"
 #include "Surface/FaceLocator.h"
-#include "Topology/SurfaceTopology.h"
+#include "Topology/TopologyComparison.h"
 
+#include "vtkBoundingBox.h"
 #include "vtkDataArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -33,20 +36,6 @@ double secondsOf(const std::function<void()>& work)
   const auto start = std::chrono::steady_clock::now();
   work();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// Seconds of the particles' distribution, about 100 spacings along the longest side.
-double distributionSeconds(const hop::ElementMesh& mesh, double isovalue, std::size_t& particles)
-{
-  const double extent = hop::meshExtent(mesh);
-  hop::DistributionParameters parameters;
-  parameters.sizing = { 0.008 * extent, 10.0 };
-  return secondsOf(
-    [&]()
-    {
-      particles = hop::distributeFast({ &mesh, isovalue, 1e-10 * extent }, parameters, {}, {})
-                    .particles.size();
-    });
 }
 
 void measure(vtkUnstructuredGrid* grid, vtkDataArray* array, double isovalue)
@@ -73,13 +62,41 @@ void measure(vtkUnstructuredGrid* grid, vtkDataArray* array, double isovalue)
     euler += c.proven ? c.eulerCharacteristic : 0;
     loops += c.proven ? c.boundaryLoops : 0;
   }
-  std::size_t particles = 0;
-  const double distribution = distributionSeconds(elements.mesh, level, particles);
+  const double extent = grid->GetLength();
+  const hop::Isosurface surface{ &elements.mesh, level, 1e-10 * extent };
+  const vtkBoundingBox bounds(grid->GetBounds());
+  hop::DistributionParameters parameters;
+  parameters.sizing = { 0.01 * bounds.GetMaxLength(), 10.0 };
+  hop::Distribution distribution;
+  hop::SurfaceMesh mesh;
+  const double distributed =
+    secondsOf([&]() { distribution = hop::distributeFast(surface, parameters, {}, {}); });
+  const double meshed =
+    secondsOf([&]() { mesh = hop::meshSurface(surface, distribution, {}, {}); });
+  const hop::TopologyComparison comparison =
+    hop::compareTopology(topology, distribution.particles, mesh.triangles, {});
+  const auto same = std::count_if(comparison.meshComponents.begin(),
+    comparison.meshComponents.end(), [](const hop::ComponentComparison& c) { return c.proven; });
   const double count = static_cast<double>(elements.mesh.elements.size());
-  std::printf("  %-12s %10.4g %6.0f %6td  %4zu %4lld  %4lld %4lld  %4zu  %8.1f %8.1f us %8zu\n", array->GetName(),
-    isovalue, count, withSurface, topology.components.size(), static_cast<long long>(proven),
-    static_cast<long long>(euler), static_cast<long long>(loops), topology.unresolvedCells.size(),
-    1e6 * seconds / count, 1e6 * distribution / count, particles);
+  std::printf("  %-12s %10.4g %6.0f %6td %4zu %4lld %4lld %4lld %4zu  mesh %4zu %4td %4lld %s "
+              "%8.1f %8.1f %8.1f us\n",
+    array->GetName(), isovalue, count, withSurface, topology.components.size(),
+    static_cast<long long>(proven), static_cast<long long>(euler), static_cast<long long>(loops),
+    topology.unresolvedCells.size(), comparison.meshComponents.size(), same,
+    static_cast<long long>(comparison.missingComponents), comparison.proven ? "proven" : "      ",
+    1e6 * seconds / count, 1e6 * distributed / count, 1e6 * meshed / count);
+  if (std::getenv("TOPOLOGY_DETAILS"))
+  {
+    for (const hop::ComponentComparison& c : comparison.meshComponents)
+    {
+      const bool known = c.component >= 0;
+      const hop::SurfaceComponent none;
+      const hop::SurfaceComponent& s = known ? topology.components[c.component] : none;
+      std::printf("    mesh %lld %lld manifold %d vertex %d: component %d: %lld %lld proven %d\n",
+        (long long)c.eulerCharacteristic, (long long)c.boundaryLoops, c.isManifold, c.vertex,
+        c.component, (long long)s.eulerCharacteristic, (long long)s.boundaryLoops, s.proven);
+    }
+  }
   std::fflush(stdout);
 }
 
@@ -96,8 +113,9 @@ int main(int argc, char* argv[])
   reader->SetFileName(argv[1]);
   reader->Update();
   vtkUnstructuredGrid* grid = reader->GetOutput();
-  std::printf("%s: array, isovalue, elements, with surface, components, proven, Euler characteristic, loops, "
-              "unresolved cells, us an element, us of the particles, particles\n",
+  std::printf(
+    "%s: array, isovalue, elements, with surface, components, proven, Euler characteristic, loops, "
+    "unresolved cells, mesh: components, proven, missing\n",
     argv[1]);
   for (int a = 0; a < grid->GetPointData()->GetNumberOfArrays(); ++a)
   {

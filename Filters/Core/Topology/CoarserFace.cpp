@@ -9,8 +9,8 @@ namespace
 {
 
 /// Largest gap between a face and what is behind it, as a share of the distance from the nearest corner of the face.
-/// Larger: what is beside the face, beyond a corner, counts as behind it; smaller: neighbours are not found where curved
-/// faces approximate each other badly.
+/// Larger: what is beside the face, beyond a corner, counts as behind it; smaller: neighbours are not found where
+/// curved faces approximate each other badly.
 constexpr double largestGap = 0.02;
 
 WorldPoint positionAt(const ElementMesh& mesh, const Location& location)
@@ -19,8 +19,8 @@ WorldPoint positionAt(const ElementMesh& mesh, const Location& location)
 }
 
 /// The place behind a face.
-std::optional<LocatedPlace> locateBehind(const ElementMesh& mesh, const FaceLocator& locator,
-  const Location& location, int face)
+std::optional<LocatedPlace> locateBehind(
+  const ElementMesh& mesh, const FaceLocator& locator, const Location& location, int face)
 {
   const Face& what = mesh.face(location.element, face);
   const auto& corners = facts(mesh.elements[location.element].domain).corners;
@@ -60,8 +60,8 @@ bool isSomethingBehind(const ElementMesh& mesh, const FaceLocator& locator, int 
   {
     for (int j = 0; j < (what.cornerCount == 3 ? count - i : count); ++j)
     {
-      const ReferencePoint u = placeOnFace(
-        mesh.elements[element].domain, what, (i + inset) / count, (j + inset) / count);
+      const ReferencePoint u =
+        placeOnFace(mesh.elements[element].domain, what, (i + inset) / count, (j + inset) / count);
       if (locateBehind(mesh, locator, { element, u }, face))
       {
         return true;
@@ -82,16 +82,16 @@ std::optional<CoarserFace> findCoarserFace(
   const Domain domain = mesh.elements[element].domain;
   const double far = what.cornerCount == 3 ? 1.0 - 2.0 * inset : 1.0 - inset;
   const double last = what.cornerCount == 3 ? 0.4 : far;
-  const std::array<std::array<double, 2>, 4> at{
-    { { inset, inset }, { far, inset }, { inset, far }, { last, last } }
-  };
+  const std::array<std::array<double, 2>, 4> at{ { { inset, inset }, { far, inset }, { inset, far },
+    { last, last } } };
   std::array<glm::dvec3, 4> here, there;
   CoarserFace coarser;
   for (int n = 0; n < 4; ++n)
   {
     const ReferencePoint u = placeOnFace(domain, what, at[n][0], at[n][1]);
     const auto place = locateBehind(mesh, locator, { element, u }, face);
-    if (!place || (n > 0 && (place->location.element != coarser.element || place->face != coarser.face)))
+    if (!place ||
+      (n > 0 && (place->location.element != coarser.element || place->face != coarser.face)))
     {
       return std::nullopt;
     }

@@ -5,8 +5,8 @@
 namespace hop
 {
 
-/// A face of an element as a part of a larger face of another element, beside hanging nodes. Both are parametrized alike:
-/// places of one go to places of the other by an affine map.
+/// A face of an element as a part of a larger face of another element, beside hanging nodes. Both are parametrized
+/// alike: places of one go to places of the other by an affine map.
 struct CoarserFace
 {
   int element = -1;

@@ -54,9 +54,10 @@ bool fieldsAgree(const ElementMesh& mesh, int element, int face, int other, cons
   {
     for (int i = 0; i <= (what.cornerCount == 3 ? n - j : n); ++i)
     {
-      const ReferencePoint u = placeOnFace(
-        mesh.elements[element].domain, what, static_cast<double>(i) / n, static_cast<double>(j) / n);
-      largest = std::max(largest, std::abs(fieldAt(mesh, { element, u }) - fieldAt(mesh, behind(u))));
+      const ReferencePoint u = placeOnFace(mesh.elements[element].domain, what,
+        static_cast<double>(i) / n, static_cast<double>(j) / n);
+      largest =
+        std::max(largest, std::abs(fieldAt(mesh, { element, u }) - fieldAt(mesh, behind(u))));
     }
   }
   return largest <= LargestDifference * std::min(rangeOf(element), rangeOf(other));
@@ -95,7 +96,9 @@ public:
 
   CurveMatch match(const FaceCurve& curve) const
   {
-    return curve.isBroken || !this->Agrees ? CurveMatch{} : curve.isClosed ? this->matchClosed(curve) : this->matchOpen(curve);
+    return curve.isBroken || !this->Agrees ? CurveMatch{}
+      : curve.isClosed                     ? this->matchClosed(curve)
+                                           : this->matchOpen(curve);
   }
 
 private:
@@ -104,8 +107,9 @@ private:
   {
     return this->CornersFit &&
       fieldsAgree(this->Mesh, this->Element, this->DomainFace, this->Behind.element,
-        [&](const ReferencePoint& u)
-        { return crossFace(this->Mesh, { this->Element, u }, this->DomainFace); });
+        [&](const ReferencePoint& u) {
+          return crossFace(this->Mesh, { this->Element, u }, this->DomainFace);
+        });
   }
 
   /// Lists which corner of the neighbour each corner of the face is.
@@ -137,7 +141,8 @@ private:
 
   CurveMatch joinedTo(const FaceCurve& curve, int firstEnd) const
   {
-    return { CurveMatch::Joined, this->Behind.element, static_cast<int>(&curve - this->There.curves.data()), firstEnd };
+    return { CurveMatch::Joined, this->Behind.element,
+      static_cast<int>(&curve - this->There.curves.data()), firstEnd };
   }
 
   CurveMatch matchOpen(const FaceCurve& curve) const
@@ -164,8 +169,9 @@ private:
       pointOn(this->Mesh, this->Isovalue, this->Element, this->Here.shape, curve.segment);
     const Location there = crossFace(this->Mesh, here, this->DomainFace);
     const int other = this->There.curveAt(this->FaceThere, this->There.shape.inCube(there.u));
-    return other >= 0 && this->There.curves[other].isClosed ? this->joinedTo(this->There.curves[other], 0)
-                                                            : CurveMatch{};
+    return other >= 0 && this->There.curves[other].isClosed
+      ? this->joinedTo(this->There.curves[other], 0)
+      : CurveMatch{};
   }
 
   const ElementMesh& Mesh;
@@ -261,7 +267,9 @@ std::vector<CurveMatch> matchCurves(const ElementMesh& mesh, double isovalue, in
                : (void)open.emplace(mesh, isovalue, surfaces, locator, element, face);
       lastFace = face;
     }
-    matches.push_back(face < 0 ? matchCollapsed(curve) : isJoined ? joined->match(curve) : open->match(curve));
+    matches.push_back(face < 0 ? matchCollapsed(curve)
+        : isJoined             ? joined->match(curve)
+                               : open->match(curve));
   }
   return matches;
 }

@@ -33,9 +33,9 @@ struct CurveMatch
   int firstEnd = 0;
 };
 
-/// Finds the curves of neighbours that are those of an element. The two fields at the face have to agree. At a joined face
-/// curves correspond if their ends are the same: the how-manieth points of the surface on the same edges. Closed curves
-/// correspond, and curves in faces beside hanging nodes, if a point of one lies in a leaf of the other.
+/// Finds the curves of neighbours that are those of an element. The two fields at the face have to agree. At a joined
+/// face curves correspond if their ends are the same: the how-manieth points of the surface on the same edges. Closed
+/// curves correspond, and curves in faces beside hanging nodes, if a point of one lies in a leaf of the other.
 /// \param surfaces one an element
 /// \param locator see findTopology()
 /// \return one entry a curve of the element

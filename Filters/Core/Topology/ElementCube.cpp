@@ -109,7 +109,8 @@ std::array<int, 4> rolesFor(Domain domain, const std::array<double, MaximumCorne
   }
   if (domain == Domain::Tetrahedron)
   {
-    std::transform(values.begin(), values.begin() + 4, height.begin(), [](double v) { return std::abs(v); });
+    std::transform(
+      values.begin(), values.begin() + 4, height.begin(), [](double v) { return std::abs(v); });
   }
   std::vector<int> order(simplexCorners(domain));
   std::iota(order.begin(), order.end(), 0);
@@ -174,8 +175,7 @@ std::array<int, 6> cubeFaces(
     const std::set<int> atCube = cornersOfFace(corners, f);
     const auto& all = facts(domain).faces;
     const auto same = std::find_if(all.begin(), all.end(),
-      [&](const Face& face)
-      {
+      [&](const Face& face) {
         return std::set<int>(face.corners.begin(), face.corners.begin() + face.cornerCount) ==
           atCube;
       });
@@ -312,7 +312,8 @@ ElementCube elementCube(const ElementMesh& mesh, int element, double isovalue)
   if (form.domain == Domain::Hexahedron)
   {
     const std::array<int, 8> distinct = distinctCorners(mesh, element);
-    std::transform(corners.begin(), corners.end(), shape.corners.begin(), [&](int c) { return distinct[c]; });
+    std::transform(
+      corners.begin(), corners.end(), shape.corners.begin(), [&](int c) { return distinct[c]; });
   }
   shape.faces = cubeFaces(form.domain, corners, shape.corners);
   return cube;

@@ -17,7 +17,8 @@ struct CubeShape
   std::array<int, 8> corners{};
   /// The face of the domain that each face of the cube stands for; -1: it has collapsed to an edge or a point.
   std::array<int, 6> faces{};
-  /// Of a tetrahedron, and of a wedge's triangle: which corner is the cube's origin, and which corners its axes lead to.
+  /// Of a tetrahedron, and of a wedge's triangle: which corner is the cube's origin, and which corners its axes lead
+  /// to.
   std::array<int, 4> roles{ 0, 1, 2, 3 };
 
   /// The first corner of the domain in the place of a corner of the domain.

@@ -7,11 +7,25 @@ namespace hop
 namespace
 {
 
-/// Boxes that one element is split into at most, over all levels, and coefficients that they have together: as long as one
-/// of the two is not reached, splitting goes on. Larger: elements with surfaces that nearly meet are resolved, and
-/// elements that are singular along lines take longer, some tenths of a second at most.
-constexpr std::size_t mostBoxes = 4096;
-constexpr std::size_t mostCoefficients = std::size_t{ 1 } << 20;
+/// How long one element is split.
+struct SplitLimits
+{
+  /// Coefficients of all boxes, over all levels, and between which bounds the number of boxes stays: a third of a
+  /// second at most. Chosen by experiment. Larger: more elements in which sheets nearly meet are resolved; smaller:
+  /// elements that are singular along lines take less time.
+  static constexpr std::size_t Coefficients = std::size_t{ 1 } << 23;
+  static constexpr std::size_t FewestBoxes = 2048;
+  static constexpr std::size_t MostBoxes = 16384;
+  /// Size of a leaf, in units of the smallest one, from which it is not split because the field is the isovalue at
+  /// one of its corners, to rounding: all leaves at this corner would be like it. Smaller: fewer components pass
+  /// unresolved leaves, and surfaces in faces of elements take longer.
+  static constexpr int SizeAtZero = LeafGrid::Size / 8;
+
+  static std::size_t boxes(std::size_t coefficients)
+  {
+    return std::clamp(Coefficients / coefficients, FewestBoxes, MostBoxes);
+  }
+};
 
 /// A box that is not decided yet.
 struct Box
@@ -26,7 +40,9 @@ struct Box
 void splitAxis(const Degrees& degrees, int axis, double place, std::vector<double>& values,
   std::vector<double>& upper)
 {
-  const int stride = axis == 0 ? 1 : axis == 1 ? degrees[0] + 1 : (degrees[0] + 1) * (degrees[1] + 1);
+  const int stride = axis == 0 ? 1
+    : axis == 1                ? degrees[0] + 1
+                               : (degrees[0] + 1) * (degrees[1] + 1);
   const int degree = degrees[axis];
   const int count = static_cast<int>(values.size());
   const int block = stride * (degree + 1);
@@ -76,8 +92,8 @@ glm::dvec3 LeafGrid::fromCube(const glm::dvec3& t)
   for (int axis = 0; axis < 3; ++axis)
   {
     const double split = FirstSplit[axis];
-    place[axis] = t[axis] < split ? 0.5 * t[axis] / split
-                                  : 0.5 + 0.5 * (t[axis] - split) / (1.0 - split);
+    place[axis] =
+      t[axis] < split ? 0.5 * t[axis] / split : 0.5 + 0.5 * (t[axis] - split) / (1.0 - split);
   }
   return static_cast<double>(Size) * place;
 }
@@ -98,7 +114,7 @@ ElementLeaves findLeaves(const ElementCube& cube, const LeafTests& tests)
   ElementLeaves leaves;
   std::vector<Box> level;
   std::size_t examined = 0;
-  const std::size_t most = std::max(mostBoxes, mostCoefficients / cube.values.size());
+  const std::size_t most = SplitLimits::boxes(cube.values.size());
   const auto examine = [&](Leaf leaf, std::vector<double> values, std::vector<Box>& undecided)
   {
     ++examined;
@@ -107,7 +123,11 @@ ElementLeaves findLeaves(const ElementCube& cube, const LeafTests& tests)
     {
       leaves.discs.push_back(leaf);
     }
-    else if (surface == LeafSurface::Undecided)
+    else if (surface == LeafSurface::ZeroAtCorner && leaf.size <= SplitLimits::SizeAtZero)
+    {
+      leaves.unresolved.push_back(leaf);
+    }
+    else if (surface != LeafSurface::Empty)
     {
       undecided.push_back({ leaf, std::move(values) });
     }

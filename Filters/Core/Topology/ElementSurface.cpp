@@ -44,9 +44,9 @@ int cubeEdgeOf(const LeafPart& point)
     }
   }
   const auto& edges = cubeEdges();
-  return static_cast<int>(std::find_if(edges.begin(), edges.end(),
-                            [&](const CubeEdge& edge)
-                            { return edge.axis == point.axis() && edge.first == corner; }) -
+  return static_cast<int>(
+    std::find_if(edges.begin(), edges.end(),
+      [&](const CubeEdge& edge) { return edge.axis == point.axis() && edge.first == corner; }) -
     edges.begin());
 }
 
@@ -149,8 +149,8 @@ private:
     const int first = this->Surface.shape.corners[cubeEdges()[edge].first];
     const int second = this->Surface.shape.corners[cubeEdges()[edge].second];
     const auto [less, more] = std::minmax(first, second);
-    return { { less, more }, first < second ? n : count - 1 - n, count,
-      this->Surface.pointCount++, {} };
+    return { { less, more }, first < second ? n : count - 1 - n, count, this->Surface.pointCount++,
+      {} };
   }
 
   void makeCurves(int face)
@@ -167,20 +167,22 @@ private:
         {
           if (isCrossed(cubeEdges()[edge], leaf.signs))
           {
-            ends.push_back({ this->Complex.pointOn(edgeOf(leaf, edge)), static_cast<int>(arcs.size()) });
+            ends.push_back(
+              { this->Complex.pointOn(edgeOf(leaf, edge)), static_cast<int>(arcs.size()) });
           }
         }
         arcs.push_back(&square);
       }
     }
-    std::sort(ends.begin(), ends.end(), [](const ArcEnd& a, const ArcEnd& b)
+    std::sort(ends.begin(), ends.end(),
+      [](const ArcEnd& a, const ArcEnd& b)
       { return std::pair(a.point, a.arc) < std::pair(b.point, b.arc); });
     this->joinArcs(face, arcs, ends);
   }
 
   /// \param ends sorted by their points
-  void joinArcs(int face, const std::vector<const LeafComplex::Square*>& arcs,
-    const std::vector<ArcEnd>& ends)
+  void joinArcs(
+    int face, const std::vector<const LeafComplex::Square*>& arcs, const std::vector<ArcEnd>& ends)
   {
     DisjointSets joined(arcs.size());
     std::vector<std::vector<int>> openPoints(arcs.size()); // of each curve, by its first arc
@@ -300,8 +302,8 @@ ElementSurface joinLeaves(const CubeShape& shape, ElementLeaves leaves)
   ElementSurface surface;
   surface.shape = shape;
   surface.isResolved = leaves.unresolved.empty();
-  std::sort(leaves.discs.begin(), leaves.discs.end(), [](const Leaf& a, const Leaf& b)
-    { return leafOrder(a.lower) < leafOrder(b.lower); });
+  std::sort(leaves.discs.begin(), leaves.discs.end(),
+    [](const Leaf& a, const Leaf& b) { return leafOrder(a.lower) < leafOrder(b.lower); });
   if (!leaves.discs.empty())
   {
     LeafComplex complex(leaves);

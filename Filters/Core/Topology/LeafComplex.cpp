@@ -48,8 +48,8 @@ void forLarger(const LeafPart& part, bool isFace, const Use& use)
 int crossedEdges(const Leaf& leaf, int face)
 {
   const auto& edges = edgesOfCubeFace(face);
-  return static_cast<int>(std::count_if(edges.begin(), edges.end(),
-    [&](int e) { return isCrossed(cubeEdges()[e], leaf.signs); }));
+  return static_cast<int>(std::count_if(
+    edges.begin(), edges.end(), [&](int e) { return isCrossed(cubeEdges()[e], leaf.signs); }));
 }
 
 } // namespace
@@ -203,7 +203,8 @@ void LeafComplex::listPoints(const std::vector<Leaf>& discs)
   }
   auto& all = this->Segments;
   std::sort(all.begin(), all.end(),
-    [](const Segment& a, const Segment& b) { return std::tie(a.part, a.leaf) < std::tie(b.part, b.leaf); });
+    [](const Segment& a, const Segment& b)
+    { return std::tie(a.part, a.leaf) < std::tie(b.part, b.leaf); });
   all.erase(std::unique(all.begin(), all.end(),
               [](const Segment& a, const Segment& b) { return a.part == b.part; }),
     all.end());

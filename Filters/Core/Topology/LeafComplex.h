@@ -6,8 +6,8 @@
 namespace hop
 {
 
-/// A face or an edge of leaves that the surface crosses, as a number: its size, the axis that a face is normal to or that
-/// an edge runs along, and its lower corner. Larger ones come before smaller ones.
+/// A face or an edge of leaves that the surface crosses, as a number: its size, the axis that a face is normal to or
+/// that an edge runs along, and its lower corner. Larger ones come before smaller ones.
 class LeafPart
 {
 public:

@@ -199,7 +199,7 @@ LeafSurface LeafTests::examine(
     const double value = values[this->Corners[corner]];
     if (!(std::abs(value) > slack))
     {
-      return LeafSurface::Undecided;
+      return LeafSurface::ZeroAtCorner;
     }
     signs = static_cast<std::uint8_t>(signs | (value > 0.0) << corner);
   }
@@ -210,9 +210,9 @@ LeafSurface LeafTests::examine(
   }
   for (int e = 0; e < 12; ++e)
   {
-    if (isCrossed(cubeEdges()[e], signs)
-        ? !changesOnce(values, this->Edges[e], slack, signs >> cubeEdges()[e].second & 1 ? 1.0 : -1.0)
-        : !isOneSided(values, this->Edges[e], slack))
+    if (isCrossed(cubeEdges()[e], signs) ? !changesOnce(values, this->Edges[e], slack,
+                                             signs >> cubeEdges()[e].second & 1 ? 1.0 : -1.0)
+                                         : !isOneSided(values, this->Edges[e], slack))
     {
       return LeafSurface::Undecided;
     }
@@ -227,8 +227,7 @@ LeafSurface LeafTests::examine(
 }
 
 /// Whether the zeros in a face are one arc at most, and no closed curve.
-bool LeafTests::isOneArc(
-  const Face& face, const std::vector<double>& values, double slack) const
+bool LeafTests::isOneArc(const Face& face, const std::vector<double>& values, double slack) const
 {
   if (isOneSided(values, face.points, slack))
   {

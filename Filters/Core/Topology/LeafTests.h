@@ -12,9 +12,11 @@ enum class LeafSurface
 {
   /// There is none.
   Empty,
-  /// It is one disc. Its boundary crosses each edge of the leaf whose ends have different signs once, and no other edge;
-  /// it is one arc in each face with two crossed edges, and there is nothing of it in the other faces.
+  /// It is one disc. Its boundary crosses each edge of the leaf whose ends have different signs once, and no other
+  /// edge; it is one arc in each face with two crossed edges, and there is nothing of it in the other faces.
   Disc,
+  /// Not decided, as the field at a corner is zero to rounding.
+  ZeroAtCorner,
   Undecided
 };
 

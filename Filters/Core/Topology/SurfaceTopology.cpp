@@ -51,19 +51,20 @@ struct CurveReference
   }
 };
 
-/// Joins the surfaces of elements: pieces at curves, and curves in points on edges of elements. Pieces, curves and points
-/// of all elements are numbered through.
+/// Joins the surfaces of elements: pieces at curves, and curves in points on edges of elements. Pieces, curves and
+/// points of all elements are numbered through.
 class ElementJoiner
 {
 public:
-  ElementJoiner(const ElementMesh& mesh, double isovalue, const std::vector<ElementSurface>& surfaces,
-    std::vector<std::vector<CurveMatch>> matches)
+  ElementJoiner(const ElementMesh& mesh, double isovalue,
+    const std::vector<ElementSurface>& surfaces, std::vector<std::vector<CurveMatch>> matches)
     : Mesh(mesh)
     , Isovalue(isovalue)
     , Surfaces(surfaces)
     , Matches(std::move(matches))
     , FirstPiece(numbersOf([](const ElementSurface& s) { return s.pieces.size(); }))
-    , FirstPoint(numbersOf([](const ElementSurface& s) { return static_cast<std::size_t>(s.pointCount); }))
+    , FirstPoint(
+        numbersOf([](const ElementSurface& s) { return static_cast<std::size_t>(s.pointCount); }))
     , Pieces(FirstPiece.back())
     , Points(FirstPoint.back())
     , PieceOfPoint(FirstPoint.back(), -1)
@@ -157,7 +158,10 @@ private:
     return this->Surfaces[which.element].curves[which.curve];
   }
 
-  int pieceOf(const CurveReference& which) const { return this->pieceOf(which.element, this->curveOf(which)); }
+  int pieceOf(const CurveReference& which) const
+  {
+    return this->pieceOf(which.element, this->curveOf(which));
+  }
 
   int pointOf(const CurveReference& which, int end)
   {
@@ -183,8 +187,10 @@ private:
         }
       }
     }
-    std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b)
-      { return std::tie(a.whole.element, a.whole.curve) < std::tie(b.whole.element, b.whole.curve); });
+    std::stable_sort(parts.begin(), parts.end(),
+      [](const Part& a, const Part& b) {
+        return std::tie(a.whole.element, a.whole.curve) < std::tie(b.whole.element, b.whole.curve);
+      });
     for (auto first = parts.begin(), next = first; first != parts.end(); first = next)
     {
       std::vector<CurveReference> ofWhole;
@@ -278,7 +284,8 @@ private:
     const int swap = apart[0][0] + apart[1][1] <= apart[0][1] + apart[1][0] ? 0 : 1;
     for (int n = 0; n < 2; ++n)
     {
-      this->Points.unite(this->pointOf(whole, n), this->pointOf(path[n ^ swap].curve, path[n ^ swap].end));
+      this->Points.unite(
+        this->pointOf(whole, n), this->pointOf(path[n ^ swap].curve, path[n ^ swap].end));
     }
     return apart[0][swap] + apart[1][1 - swap] <= samePlace * (apart[0][1 - swap] + apart[1][swap]);
   }
@@ -302,7 +309,8 @@ private:
           this->ComponentOfPiece[piece] = static_cast<int>(topology.components.size());
           topology.components.push_back({ 0, 0, true, element });
         }
-        const SurfacePiece& what = this->Surfaces[element].pieces[piece - this->FirstPiece[element]];
+        const SurfacePiece& what =
+          this->Surfaces[element].pieces[piece - this->FirstPiece[element]];
         components.push_back(this->ComponentOfPiece[root]);
         SurfaceComponent& component = topology.components[this->ComponentOfPiece[root]];
         component.eulerCharacteristic += what.eulerCharacteristic;
@@ -320,7 +328,8 @@ private:
         const int piece = this->pieceOf(element, curve);
         const bool isFirst = match.kind != CurveMatch::Joined ||
           piece < this->pieceOf(match.element, this->Surfaces[match.element].curves[match.curve]);
-        const bool counts = match.kind != CurveMatch::Collapsed && match.kind != CurveMatch::Divided;
+        const bool counts =
+          match.kind != CurveMatch::Collapsed && match.kind != CurveMatch::Divided;
         if (!curve.isClosed && counts && isFirst)
         {
           this->componentOf(topology, piece).eulerCharacteristic -= 1;

@@ -4,6 +4,7 @@
 #include "Support/SortedBy.h"
 
 #include <algorithm>
+#include <set>
 
 namespace hop
 {
@@ -51,10 +52,11 @@ Fan followFan(const std::vector<FanTriangle>& triangles)
   const auto hasTwin = [&](const FanTriangle& one)
   {
     return std::count_if(triangles.begin(), triangles.end(),
-             [&](const FanTriangle& other) { return other.from == one.from || other.to == one.to; }) > 1;
+             [&](const FanTriangle& other)
+             { return other.from == one.from || other.to == one.to; }) > 1;
   };
-  fan.isOne = visited == triangles.size() &&
-    std::none_of(triangles.begin(), triangles.end(), hasTwin);
+  fan.isOne =
+    visited == triangles.size() && std::none_of(triangles.begin(), triangles.end(), hasTwin);
   return fan;
 }
 
@@ -68,8 +70,8 @@ std::vector<Fan> findFans(std::size_t vertexCount, const std::vector<std::array<
   {
     corners.insert(corners.end(), triangle.begin(), triangle.end());
   }
-  const Grouping ofVertex =
-    groupedBy(corners, vertexCount, [](int vertex) { return vertex; }, parallelFor);
+  const Grouping ofVertex = groupedBy(
+    corners, vertexCount, [](int vertex) { return vertex; }, parallelFor);
   std::vector<Fan> fans(vertexCount);
   forAll(parallelFor, vertexCount,
     [&](std::size_t vertex)
@@ -160,13 +162,18 @@ private:
   std::vector<int> ComponentOfVertex;
 };
 
-/// The component of the surface on which all vertices of each component of the mesh lie, or -1.
-void findCounterparts(const std::vector<int>& surfaceComponents,
-  const std::vector<int>& componentOfVertex, std::vector<ComponentComparison>& components)
+/// Finds the component of the surface on which all vertices of each component of the mesh lie.
+/// \return for each component of the surface the number of components of the mesh with vertices on it, which lie on it
+///   alone or not
+std::vector<int> findCounterparts(const std::vector<int>& surfaceComponents,
+  std::size_t componentCount, const std::vector<int>& componentOfVertex,
+  std::vector<ComponentComparison>& components)
 {
+  std::set<std::pair<int, int>> pairs; // of components of surface and mesh
   for (ComponentComparison& component : components)
   {
     component.component = surfaceComponents[component.vertex];
+    pairs.emplace(component.component, componentOfVertex[component.vertex]);
   }
   for (std::size_t vertex = 0; vertex < surfaceComponents.size(); ++vertex)
   {
@@ -174,14 +181,25 @@ void findCounterparts(const std::vector<int>& surfaceComponents,
     if (component.component != surfaceComponents[vertex])
     {
       component.component = -1;
+      pairs.emplace(surfaceComponents[vertex], componentOfVertex[vertex]);
     }
   }
+  std::vector<int> meshesOn(componentCount, 0);
+  for (const auto& [component, mesh] : pairs)
+  {
+    if (component >= 0)
+    {
+      ++meshesOn[component];
+    }
+  }
+  return meshesOn;
 }
 
 } // namespace
 
-TopologyComparison compareTopology(const SurfaceTopology& topology, const Buffer<Particle>& vertices,
-  const std::vector<std::array<int, 3>>& triangles, const ParallelFor& parallelFor)
+TopologyComparison compareTopology(const SurfaceTopology& topology,
+  const Buffer<Particle>& vertices, const std::vector<std::array<int, 3>>& triangles,
+  const ParallelFor& parallelFor)
 {
   std::vector<int> surfaceComponents(vertices.size());
   forAll(parallelFor, vertices.size(),
@@ -189,16 +207,8 @@ TopologyComparison compareTopology(const SurfaceTopology& topology, const Buffer
   TopologyComparison comparison;
   MeshCounter counter(vertices.size(), triangles);
   comparison.meshComponents = counter.count(findFans(vertices.size(), triangles, parallelFor));
-  findCounterparts(surfaceComponents, counter.componentOfVertex(), comparison.meshComponents);
-
-  std::vector<int> meshesOn(topology.components.size(), 0);
-  for (const ComponentComparison& mesh : comparison.meshComponents)
-  {
-    if (mesh.component >= 0)
-    {
-      ++meshesOn[mesh.component];
-    }
-  }
+  const std::vector<int> meshesOn = findCounterparts(surfaceComponents, topology.components.size(),
+    counter.componentOfVertex(), comparison.meshComponents);
   comparison.proven = topology.isProven();
   for (ComponentComparison& mesh : comparison.meshComponents)
   {

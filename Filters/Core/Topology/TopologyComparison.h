@@ -38,7 +38,8 @@ struct TopologyComparison
 /// Compares a triangle mesh with the surface.
 /// \param vertices points of the surface; those without triangle are components of their own
 /// \param triangles indices of vertices, wound alike
-TopologyComparison compareTopology(const SurfaceTopology& topology, const Buffer<Particle>& vertices,
-  const std::vector<std::array<int, 3>>& triangles, const ParallelFor& parallelFor);
+TopologyComparison compareTopology(const SurfaceTopology& topology,
+  const Buffer<Particle>& vertices, const std::vector<std::array<int, 3>>& triangles,
+  const ParallelFor& parallelFor);
 
 } // namespace hop
