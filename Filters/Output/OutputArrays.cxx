@@ -258,6 +258,16 @@ std::vector<MeshReportArray> makeMeshReportArrays()
       "Nodes of curved triangles that were not found on the surface, and stay on straight edges or "
       "in the plane of the corners; of all blocks together.",
       [](const MeshReport& report) { return report.straightNodes; } },
+    { "TopologyProven",
+      "1 if it is proven that the mesh has the components, Euler characteristics and boundary curves "
+      "of the surface, 0 if not; of all blocks together.",
+      [](const MeshReport& report) { return std::int64_t(report.isProven); } },
+    { "MeshComponents", "Connected parts of the mesh, of all blocks together.",
+      [](const MeshReport& report) { return report.components; } },
+    { "ComponentsUnproven",
+      "Parts of the mesh for which there is no such proof, and components of the surface that it "
+      "lacks; of all blocks together.",
+      [](const MeshReport& report) { return report.unprovenComponents; } },
   };
 }
 

@@ -76,6 +76,9 @@ struct MeshReport
   double openLength = 0.0;
   std::int64_t unusedParticles = 0;
   std::int64_t straightNodes = 0;
+  std::int64_t components = 0;
+  std::int64_t unprovenComponents = 0;
+  bool isProven = true;
 };
 
 /// A field-data array of meshes: one number.

@@ -25,6 +25,12 @@ struct ParticleMesh
   double openLength = 0.0;
   /// Nodes of curved cells that are not on the surface.
   std::int64_t straightNodes = 0;
+  /// Connected parts of the mesh, and those that are not proven to be as the surface is, with the components of the
+  /// surface that the mesh lacks.
+  std::int64_t components = 0;
+  std::int64_t unprovenComponents = 0;
+  /// Whether the mesh is proven to have the topology of the surface.
+  bool isProven = true;
 };
 
 /// Particles of one isovalue.

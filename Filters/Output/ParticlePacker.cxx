@@ -122,6 +122,9 @@ MeshReport meshReportOf(
     sum.openLoops += some.mesh.openLoops;
     sum.openLength += unitOfLength * some.mesh.openLength;
     sum.straightNodes += some.mesh.straightNodes;
+    sum.components += some.mesh.components;
+    sum.unprovenComponents += some.mesh.unprovenComponents;
+    sum.isProven = sum.isProven && some.mesh.isProven;
   }
   return sum;
 }

@@ -4,6 +4,7 @@
 #include "Mesh/SurfaceMesh.h"
 #include "Support/DisjointSets.h"
 #include "Support/Interruptible.h"
+#include "Topology/TopologyComparison.h"
 
 #include <functional>
 #include <numeric>
@@ -28,6 +29,32 @@ std::vector<int> verticesOf(const Distribution& distribution)
     vertices[p] = places.root(static_cast<int>(p));
   }
   return vertices;
+}
+
+/// Compares a mesh with what is proven of the surface.
+/// \param mesh whose vertices are known; receives what comes out
+void prove(const Isosurface& surface, const Buffer<Particle>& particles,
+  std::vector<std::array<int, 3>> triangles, ParticleMesh& mesh, const ParallelFor& parallelFor)
+{
+  for (std::array<int, 3>& corners : triangles)
+  {
+    for (int& corner : corners)
+    {
+      corner = mesh.vertices[corner];
+    }
+  }
+  const FaceLocator locator(*surface.mesh, surface.isovalue, parallelFor);
+  const SurfaceTopology topology =
+    findTopology(*surface.mesh, surface.isovalue, &locator, parallelFor);
+  const TopologyComparison comparison =
+    compareTopology(topology, particles, triangles, parallelFor);
+  mesh.components = static_cast<std::int64_t>(comparison.meshComponents.size());
+  mesh.unprovenComponents = comparison.missingComponents;
+  for (const ComponentComparison& component : comparison.meshComponents)
+  {
+    mesh.unprovenComponents += !component.proven;
+  }
+  mesh.isProven = comparison.proven;
 }
 
 /// Bends the triangles of a mesh.
@@ -67,6 +94,8 @@ void addMesh(const Isosurface& surface, OutputType type, int order, IsovaluePart
     some.mesh.openLength = mesh.openLength;
     some.mesh.nodesPerCell = 3;
     some.mesh.vertices = verticesOf(distribution);
+    Interruptible loops(monitor, parallelFor);
+    prove(surface, distribution.particles, triangles, some.mesh, std::ref(loops));
   }
   const std::vector<double> areas = particleAreas(distribution, monitor, parallelFor);
   forAll(parallelFor, areas.size(),
