@@ -252,7 +252,7 @@ std::vector<MeshReportArray> makeMeshReportArrays()
     { "MeshOpenLength", "Length of the edges around these holes, world units.",
       [](const MeshReport& report) { return report.openLength; } },
     { "MeshUnusedParticles",
-      "Particles of the block that are corners of no triangle, and not in the output.",
+      "Particles that are corners of no triangle, and not in the output; of all blocks together.",
       [](const MeshReport& report) { return report.unusedParticles; } },
     { "MeshStraightNodes",
       "Nodes of curved triangles that were not found on the surface, and stay on straight edges or "

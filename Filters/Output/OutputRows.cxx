@@ -35,14 +35,21 @@ public:
   void addMesh(std::vector<BlockRows>& result);
 
 private:
+  bool isForeign(int particle) const { return this->Particles[particle].location.element < 0; }
+  /// Blocks.size() for a corner in an element of another rank.
   std::size_t blockOf(int particle) const
   {
-    return this->BlockOfElements[this->Particles[particle].location.element];
+    return this->isForeign(particle)
+      ? this->Blocks.size()
+      : this->BlockOfElements[this->Particles[particle].location.element];
+  }
+  int firstForeign() const
+  {
+    return static_cast<int>(this->Particles.size() - this->Some.mesh.foreign.size());
   }
   int vertexOf(int particle) const { return this->Some.mesh.vertices[particle]; }
   void collectVertices();
   void addCellsOf(std::size_t block, const std::vector<int>& cells, BlockRows& result);
-  std::int64_t countUnused(std::size_t block) const;
 
   const InputBlocks& Blocks;
   const ElementMesh& Mesh;
@@ -50,7 +57,7 @@ private:
   const Buffer<Particle>& Particles;
   Interruptible& Work;
   std::vector<std::size_t> BlockOfElements;
-  /// Particles in the order of their elements.
+  /// Particles in the order of their elements, corners of other ranks last.
   std::vector<int> Order;
   /// For each vertex, what all of its particles that are used make together.
   std::vector<WorldVector> Normals;
@@ -74,8 +81,13 @@ Sharing::Sharing(const InputBlocks& blocks, const ElementMesh& mesh, const Isova
     this->BlockOfElements.push_back(blocks.locate(element.cell).block);
   }
   this->Order = sortedBy(
-    this->Particles, mesh.elements.size(),
-    [](const Particle& particle) { return particle.location.element; }, std::ref(work));
+    this->Particles, mesh.elements.size() + 1,
+    [&](const Particle& particle)
+    {
+      const int element = particle.location.element;
+      return element < 0 ? mesh.elements.size() : static_cast<std::size_t>(element);
+    },
+    std::ref(work));
 }
 
 void Sharing::addParticles(std::vector<BlockRows>& result) const
@@ -124,7 +136,6 @@ void Sharing::addMesh(std::vector<BlockRows>& result)
   {
     this->Work.ask();
     result[b].nodesPerCell = mesh.nodesPerCell;
-    result[b].unusedParticles += this->countUnused(b);
     this->addCellsOf(b, cellsOfBlocks[b], result[b]);
   }
 }
@@ -169,6 +180,10 @@ void Sharing::addCellsOf(std::size_t block, const std::vector<int>& cells, Block
         row.particle = &this->Particles[corner]; // the same place, seen from this block
         continue;
       }
+      if (this->isForeign(vertex))
+      {
+        row.home = &this->Some.mesh.foreign[vertex - this->firstForeign()];
+      }
       row.standIn = &this->Particles[corner];
       row.rowOfStandIn = this->RowOf[this->vertexOf(corner)];
     }
@@ -181,16 +196,6 @@ void Sharing::addCellsOf(std::size_t block, const std::vector<int>& cells, Block
     result.cells.push_back(this->Mesh.elements[element].cell - firstCell);
   }
   forNodes([&](int, int vertex) { this->RowOf[vertex] = this->StandIn[vertex] = none; });
-}
-
-std::int64_t Sharing::countUnused(std::size_t block) const
-{
-  std::int64_t count = 0;
-  for (std::size_t p = 0; p < this->Particles.size(); ++p)
-  {
-    count += !this->IsUsed[p] && this->blockOf(static_cast<int>(p)) == block ? 1 : 0;
-  }
-  return count;
 }
 
 } // namespace

@@ -113,13 +113,13 @@ BlockReport reportOf(const std::vector<IsovalueParticles>& isovalues, const Cell
 
 /// Sums the reports of all isovalues' meshes.
 MeshReport meshReportOf(
-  const std::vector<IsovalueParticles>& isovalues, const BlockRows& rows, double unitOfLength)
+  const std::vector<IsovalueParticles>& isovalues, double unitOfLength)
 {
   MeshReport sum;
-  sum.unusedParticles = rows.unusedParticles;
   for (const IsovalueParticles& some : isovalues)
   {
     sum.openLoops += some.mesh.openLoops;
+    sum.unusedParticles += some.mesh.unusedParticles;
     sum.openLength += unitOfLength * some.mesh.openLength;
     sum.straightNodes += some.mesh.straightNodes;
     sum.components += some.mesh.components;
@@ -158,6 +158,7 @@ public:
   }
 
   void pack(const std::vector<IsovalueParticles>& isovalues);
+  ForeignCorners foreignCorners() const;
 
 private:
   void addPoints();
@@ -216,6 +217,21 @@ void Packer::pack(const std::vector<IsovalueParticles>& isovalues)
   this->addCellArrays();
   this->addReport(isovalues);
   this->addMeshReport(isovalues);
+}
+
+ForeignCorners Packer::foreignCorners() const
+{
+  ForeignCorners result;
+  result.arrays = this->Evaluated;
+  for (std::size_t r = 0; r < this->Rows.size(); ++r)
+  {
+    const ParticleRow& row = this->Rows[r];
+    if (row.home)
+    {
+      result.corners.push_back({ static_cast<std::ptrdiff_t>(r), *row.home, row.location().u });
+    }
+  }
+  return result;
 }
 
 /// Lets fillRows() call write(row number, row) for every row.
@@ -501,7 +517,7 @@ void Packer::addReport(const std::vector<IsovalueParticles>& isovalues)
 void Packer::addMeshReport(const std::vector<IsovalueParticles>& isovalues)
 {
   vtkFieldData* target = this->Output->GetFieldData();
-  const MeshReport report = meshReportOf(isovalues, this->Content, this->Elements.units.length);
+  const MeshReport report = meshReportOf(isovalues, this->Elements.units.length);
   for (const MeshReportArray& row : meshReportArrays())
   {
     target->RemoveArray(row.name);
@@ -539,16 +555,20 @@ std::vector<std::string> replacedArrays(const std::vector<InputBlock>& blocks)
   return { names.begin(), names.end() };
 }
 
-void packParticles(const InputBlocks& blocks, const GridElements& elements,
+std::vector<ForeignCorners> packParticles(const InputBlocks& blocks, const GridElements& elements,
   const std::vector<IsovalueParticles>& isovalues, bool withDiagnostics, Interruptible& work)
 {
   std::vector<BlockRows> rows = shareOutToBlocks(blocks, elements.mesh, isovalues, work);
+  std::vector<ForeignCorners> foreign;
   for (std::size_t b = 0; b < blocks.size(); ++b)
   {
     work.raiseFraction(static_cast<double>(b) / static_cast<double>(blocks.size()));
     work.ask();
-    Packer(blocks, b, elements, std::move(rows[b]), withDiagnostics, work).pack(isovalues);
+    Packer packer(blocks, b, elements, std::move(rows[b]), withDiagnostics, work);
+    packer.pack(isovalues);
+    foreign.push_back(packer.foreignCorners());
   }
+  return foreign;
 }
 
 } // namespace hop

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "Output/ForeignCorners.h"
 #include "Output/OutputRows.h"
 
 #include <string>
@@ -14,8 +15,9 @@ namespace hop
 /// names and meaning of the arrays.
 /// \param elements coefficients and neighbours are not needed
 /// \param withDiagnostics whether to write all arrays of Output/OutputArrays.h, the report included
+/// \return for each block the rows whose corners are at home on other ranks, see askForForeignCorners()
 /// \throw Interrupted if work's monitor asks for an early end; the outputs are unfinished then
-void packParticles(const InputBlocks& blocks, const GridElements& elements,
+std::vector<ForeignCorners> packParticles(const InputBlocks& blocks, const GridElements& elements,
   const std::vector<IsovalueParticles>& isovalues, bool withDiagnostics, Interruptible& work);
 
 /// Names the arrays of the input that packParticles() does not pass on because the output has an array of its own with

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "Conversion/GridElements.h"
-#include "Surface/Particles.h"
+#include "Surface/ParticleMesh.h"
 
 #include "vtkUnstructuredGrid.h"
 
@@ -20,8 +20,10 @@ struct ParticleRow
   WorldVector normal;
   /// Of the surface around it, in the unit of the run.
   double area = 0.0;
-  /// For a corner of a mesh that lies in another block: a corner of the same triangle in this block, and its row.
+  /// For a corner of a mesh that lies in another block, or on another rank: a corner of the same triangle in this block, and its row.
   const Particle* standIn = nullptr;
+  /// Where such a corner is at home if that is on another rank; nullptr otherwise.
+  const ElementHome* home = nullptr;
   std::ptrdiff_t rowOfStandIn = -1;
 
   const Location& location() const { return this->particle->location; }
@@ -69,7 +71,7 @@ public:
   /// VTK's type of the particle's own cell.
   int cellTypeOf(const ParticleRow& row) const
   {
-    if (!row.standIn)
+    if (!row.standIn || row.home)
     {
       return this->Grid->GetCellType(this->cellOf(row));
     }

@@ -67,6 +67,11 @@ public:
     while (begin < end)
     {
       const int element = this->elementOf(begin);
+      if (element < 0)
+      {
+        ++begin; // another rank's
+        continue;
+      }
       this->convert(element);
       for (; begin < end && this->elementOf(begin) == element; begin = this->BatchEnd)
       {
@@ -190,7 +195,7 @@ private:
   JetBatch Jets;
 };
 
-/// Rows in blocks that lack an array get the value of their stand-ins.
+/// Rows on other ranks, and those in blocks that lack an array, get the value of their stand-ins.
 void copyFromStandIns(const InputBlocks& blocks, const GridElements& elements,
   const std::vector<EvaluatedArray>& arrays, const std::vector<ParticleRow>& rows)
 {
@@ -200,12 +205,14 @@ void copyFromStandIns(const InputBlocks& blocks, const GridElements& elements,
     {
       continue;
     }
-    const Element& element = elements.mesh.elements[rows[r].location().element];
-    vtkUnstructuredGrid* grid = blocks[blocks.locate(element.cell).block].grid;
+    const int element = rows[r].location().element;
+    vtkUnstructuredGrid* grid = element < 0
+      ? nullptr
+      : blocks[blocks.locate(elements.mesh.elements[element].cell).block].grid.Get();
     for (const EvaluatedArray& array : arrays)
     {
       const std::ptrdiff_t width = array.source->GetNumberOfComponents();
-      if (!continuationOf(array.source, grid))
+      if (!grid || !continuationOf(array.source, grid))
       {
         std::copy_n(array.target + rows[r].rowOfStandIn * width, width,
           array.target + static_cast<std::ptrdiff_t>(r) * width);

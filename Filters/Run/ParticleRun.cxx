@@ -149,13 +149,20 @@ bool GroupRun::run(const Work& work, std::vector<std::int64_t>& counts)
     return false;
   }
   this->All = {};
+  std::vector<ForeignCorners> foreign;
   this->attempt(
     [&]()
     {
       const Work packing = work.part(ProgressAt::Distributed, 1.0);
       Interruptible loops(packing.monitor, packing.parallelFor);
-      packParticles(this->Blocks, *elements, particles, this->Properties.passesDiagnostics, loops);
+      foreign = packParticles(
+        this->Blocks, *elements, particles, this->Properties.passesDiagnostics, loops);
     });
+  if (this->Properties.outputType != OutputType::Particles)
+  {
+    askForForeignCorners(
+      this->Ranks, this->Blocks, *elements, foreign, this->IsSound, work.parallelFor);
+  }
   for (std::size_t i = 0; i < particles.size(); ++i)
   {
     counts[i] += static_cast<std::int64_t>(particles[i].distribution.particles.size());
@@ -271,6 +278,11 @@ bool GroupRun::bringHome(
     Distribution& distribution = particles[i].distribution;
     HomeParticles home = hop::bringHome(this->Ranks, this->workerOf(i), distribution,
       this->IsSound, this->All, this->Sizes, parallelFor);
+    if (home.isComplete)
+    {
+      home.isComplete = bringMeshHome(this->Ranks, this->workerOf(i), distribution, this->IsSound,
+        this->All, particles[i].mesh, home.distribution);
+    }
     distribution = std::move(home.distribution);
     isComplete = isComplete && home.isComplete;
     this->attempt(

@@ -92,6 +92,7 @@ void addMesh(const Isosurface& surface, OutputType type, int order, IsovaluePart
     triangles = std::move(mesh.triangles);
     some.mesh.openLoops = mesh.openLoops;
     some.mesh.openLength = mesh.openLength;
+    some.mesh.unusedParticles = mesh.unusedParticles;
     some.mesh.nodesPerCell = 3;
     some.mesh.vertices = verticesOf(distribution);
     Interruptible loops(monitor, parallelFor);

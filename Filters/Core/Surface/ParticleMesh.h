@@ -1,0 +1,53 @@
+#pragma once
+
+#include "Elements/GatheredMesh.h"
+#include "Surface/Particles.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace hop
+{
+
+/// What is known of a mesh as a whole.
+struct MeshNumbers
+{
+  /// Corners of a cell, and the nodes of a curved one; 0: there is no mesh, and each particle is a cell.
+  int nodesPerCell = 0;
+  /// Boundary loops that are no boundary curves of the surface, and their length, in the unit of the run.
+  std::int64_t openLoops = 0;
+  double openLength = 0.0;
+  /// Particles that no cell uses.
+  std::int64_t unusedParticles = 0;
+  /// Nodes of curved cells that are not on the surface.
+  std::int64_t straightNodes = 0;
+  /// Connected parts of the mesh, and those that are not proven to be as the surface is, with the components of the
+  /// surface that the mesh lacks.
+  std::int64_t components = 0;
+  std::int64_t unprovenComponents = 0;
+  /// Whether the mesh is proven to have the topology of the surface.
+  bool isProven = true;
+};
+
+/// Cells between the particles of one isovalue.
+struct ParticleMesh : MeshNumbers
+{
+  /// nodesPerCell indices into the particles a cell, the corners first.
+  std::vector<int> nodes;
+  /// For each particle the first particle in the same place: itself, but for creases.
+  std::vector<int> vertices;
+  /// Where the last particles came from, if they are corners in elements of other ranks; in no element here.
+  std::vector<ElementHome> foreign;
+};
+
+/// Brings a mesh home: each cell to the rank of its first node, which also gets copies of the cell's other nodes. Every
+/// rank calls it, after bringHome(). A rank that is alone keeps its mesh.
+/// \param whole on the worker, the distribution that bringHome() has brought home
+/// \param mesh on the worker, the mesh of `whole`; receives this rank's
+/// \param isDone whether this rank can take part
+/// \param home this rank's particles; receives the copies behind them, whose elements are -1
+/// \return whether every rank has its part; the same on all ranks
+bool bringMeshHome(Exchange& exchange, int worker, const Distribution& whole, bool isDone,
+  const GatheredMesh& all, ParticleMesh& mesh, Distribution& home);
+
+} // namespace hop
