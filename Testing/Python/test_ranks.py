@@ -20,6 +20,7 @@ SCRIPT = """
 import json, sys
 import numpy as np
 from paraview import servermanager, simple
+from paraview.vtk.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkIdList
 from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet, vtkUnstructuredGrid
 try:
@@ -178,6 +179,9 @@ cases = {
     "warm": lambda: warm(scattered(grid)),
     "halves": lambda: run(filter_of(halves(grid))),
     "two results": lambda: run(filter_of(two_results(scattered(grid)))),
+    "triangles": lambda: run(filter_of(scattered(grid), OutputType="Triangles")),
+    "curved triangles": lambda: run(filter_of(scattered(grid), OutputType="Curved Triangles", Order=3)),
+    "triangles of halves": lambda: run(filter_of(halves(grid), OutputType="Triangles")),
     "aborted": lambda: run(filter_of(scattered(grid)), abort_on=ranks - 1),
     "too many": lambda: run(filter_of(scattered(grid), NumberOfParticles=2 * 10**9)),
     "too coarse": lambda: run(filter_of(scattered(grid), Spacing=2.0, AngularDensity=0)),
@@ -189,12 +193,16 @@ said = {}
 for name, case in cases.items():
     messages.clear()
     output = case()
-    leaves = [output] if output.IsA("vtkPolyData") else [output.GetBlock(i) for i in range(output.GetNumberOfBlocks())]
+    leaves = [output] if output.IsA("vtkPointSet") else [output.GetBlock(i) for i in range(output.GetNumberOfBlocks())]
     for i, leaf in enumerate(leaves):
         rows = {"points": support.points_of(leaf)} if leaf else {}
         for array in support.array_list(leaf.GetPointData()) if leaf and leaf.GetNumberOfPoints() else []:
             if array not in ("Cell_Id", "vtkOriginalCellIds"):  # they are numbers on the rank
                 rows[array] = support.array_of(leaf, array)
+        if "triangles" in name and rows and leaf.GetNumberOfCells():
+            cells = leaf.GetCells() if leaf.IsA("vtkUnstructuredGrid") else leaf.GetPolys()
+            ids = vtk_to_numpy(cells.GetConnectivityArray())
+            rows["nodes"] = ids.reshape(cells.GetNumberOfCells(), -1)
         np.savez(f"{folder}/{name}-{i}-{rank}.npz", **rows)
     said[name] = list(messages)
 with open(f"{folder}/{rank}.json", "w") as file:
@@ -245,6 +253,19 @@ class Run:
             for part in parts])
         return table[np.lexsort(table.T)]
 
+    def cells(self, case, block=0):
+        """Of all ranks together: one row a cell of a mesh, with the places and all arrays of its nodes, sorted."""
+        tables = []
+        for rank in range(self.ranks):
+            part = dict(np.load(self.folder / f"{case}-{block}-{rank}.npz"))
+            nodes = part.pop("nodes", None)
+            if nodes is not None:
+                points = np.hstack([np.reshape(part[name], (len(part["points"]), -1)).astype(float)
+                                    for name in sorted(part)])
+                tables.append(points[nodes].reshape(len(nodes), -1))
+        table = np.vstack(tables)
+        return table[np.lexsort(table.T)]
+
     def messages(self, case):
         """Of all ranks."""
         return [text for said in self.said for text in said[case]]
@@ -269,6 +290,16 @@ def test_ranks_have_the_particles_of_one_rank(runs, case, ranks):
 def test_it_does_not_matter_how_cells_lie(runs, case):
     for ranks in RANKS:
         assert np.array_equal(runs[ranks].particles(case), runs[1].particles("scattered"))
+
+
+@pytest.mark.parametrize("case", ["triangles", "curved triangles", "triangles of halves"])
+@pytest.mark.parametrize("ranks", RANKS[1:])
+def test_meshes_are_closed_over_ranks(runs, case, ranks):
+    # Each cell once, with the exact values of all arrays at corners in cells of other ranks.
+    for block in range(2 if "halves" in case else 1):
+        expected = runs[1].cells(case, block)
+        assert len(expected) > 200
+        assert np.array_equal(runs[ranks].cells(case, block), expected)
 
 
 @pytest.mark.parametrize("ranks", RANKS)
