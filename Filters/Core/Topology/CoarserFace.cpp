@@ -13,6 +13,24 @@ namespace
 /// curved faces approximate each other badly.
 constexpr double largestGap = 0.02;
 
+/// Where corners of refined elements are in the larger element.
+struct Refinement
+{
+  /// Parts of the larger element's side: halves, three times in turn.
+  static constexpr double Parts = 8.0;
+  /// How far places may be from where they should be, reference units. Curved elements approximate a geometry on their
+  /// own, so that their faces miss each other. Larger: faces that do not fit count as refined; smaller: curved ones do not.
+  static constexpr double Rounding = 1e-2;
+};
+
+/// A place with the coordinates of refined corners where it is near these.
+glm::dvec3 snapped(const glm::dvec3& u)
+{
+  const glm::dvec3 corner = glm::round(Refinement::Parts * u) / Refinement::Parts;
+  return glm::mix(
+    u, corner, glm::lessThanEqual(glm::abs(u - corner), glm::dvec3(Refinement::Rounding)));
+}
+
 WorldPoint positionAt(const ElementMesh& mesh, const Location& location)
 {
   return { glm::dvec3(evaluateGradient(mesh.form(location.element), location.u).value) };
@@ -36,6 +54,20 @@ std::optional<LocatedPlace> locateBehind(
 }
 
 } // namespace
+
+void CoarserFace::setMap(
+  const std::array<glm::dvec3, 4>& here, const std::array<glm::dvec3, 4>& there)
+{
+  const auto frame = [](const std::array<glm::dvec3, 4>& places)
+  {
+    const glm::dvec3 across = places[1] - places[0], up = places[2] - places[0];
+    return glm::dmat3(across, up, glm::cross(across, up));
+  };
+  glm::dmat3 image = frame(there);
+  image[2] = glm::dvec3(0.0); // no place is off the face
+  this->slope = image * glm::inverse(frame(here));
+  this->origin = there[0] - this->slope * here[0];
+}
 
 ReferencePoint placeOnFace(Domain domain, const Face& face, double s, double t)
 {
@@ -76,8 +108,6 @@ std::optional<CoarserFace> findCoarserFace(
 {
   // Distance of the places from the sides of the face: nearer to corners, what is beside the face may be found.
   constexpr double inset = 0.1;
-  // How far a fourth place may be from where the map takes it, reference units: some digits of files.
-  constexpr double rounding = 1e-4;
   const Face& what = mesh.face(element, face);
   const Domain domain = mesh.elements[element].domain;
   const double far = what.cornerCount == 3 ? 1.0 - 2.0 * inset : 1.0 - inset;
@@ -100,18 +130,19 @@ std::optional<CoarserFace> findCoarserFace(
     here[n] = u.xyz;
     there[n] = place->location.u.xyz;
   }
-  const auto frame = [](const std::array<glm::dvec3, 4>& places)
+  coarser.setMap(here, there);
+  if (glm::distance(coarser({ here[3] }).u.xyz, there[3]) > Refinement::Rounding)
   {
-    const glm::dvec3 across = places[1] - places[0], up = places[2] - places[0];
-    return glm::dmat3(across, up, glm::cross(across, up));
-  };
-  glm::dmat3 image = frame(there);
-  image[2] = glm::dvec3(0.0); // no place is off the face
-  coarser.slope = image * glm::inverse(frame(here));
-  coarser.origin = there[0] - coarser.slope * here[0];
-  return glm::distance(coarser({ here[3] }).u.xyz, there[3]) <= rounding
-    ? std::optional<CoarserFace>(coarser)
-    : std::nullopt;
+    return std::nullopt;
+  }
+  const auto& corners = facts(domain).corners;
+  for (int n = 0; n < 3; ++n)
+  {
+    here[n] = corners[what.corners[n < 2 ? n : what.cornerCount - 1]].xyz;
+    there[n] = snapped(coarser({ here[n] }).u.xyz);
+  }
+  coarser.setMap(here, there);
+  return coarser;
 }
 
 } // namespace hop

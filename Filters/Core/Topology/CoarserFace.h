@@ -18,6 +18,9 @@ struct CoarserFace
     return { this->element, { this->origin + this->slope * u.xyz } };
   }
 
+  /// Sets the map by three places of the face, the first ones, and where these are in the larger element.
+  void setMap(const std::array<glm::dvec3, 4>& here, const std::array<glm::dvec3, 4>& there);
+
   glm::dvec3 origin{ 0.0 };
   glm::dmat3 slope{ 0.0 };
 };

@@ -57,12 +57,12 @@ int crossedEdges(const Leaf& leaf, int face)
 LeafPart::LeafPart(int size, int axis, const glm::ivec3& lower)
   : Key(0)
 {
-  int level = 0;
+  std::uint64_t level = 0;
   while (size << level < LeafGrid::Size)
   {
     ++level;
   }
-  this->Key = static_cast<std::uint64_t>(4 * level + axis);
+  this->Key = 4 * level + static_cast<std::uint64_t>(axis);
   for (int a = 0; a < 3; ++a)
   {
     this->Key = this->Key << coordinateBits | static_cast<std::uint64_t>(lower[a]);

@@ -83,6 +83,7 @@ int curvesOf(std::uint8_t signs)
   static const std::vector<int> table = []
   {
     std::vector<int> counts;
+    counts.reserve(256);
     for (int s = 0; s < 256; ++s)
     {
       counts.push_back(countCurves(static_cast<std::uint8_t>(s)));

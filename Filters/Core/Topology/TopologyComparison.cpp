@@ -97,14 +97,17 @@ public:
     , Triangles(triangles)
     , Joined(vertexCount)
     , ComponentOfVertex(vertexCount, -1)
+    , IsUsed(vertexCount, 0)
   {
     for (const std::array<int, 3>& triangle : triangles)
     {
+      this->IsUsed[triangle[0]] = this->IsUsed[triangle[1]] = this->IsUsed[triangle[2]] = 1;
       this->Joined.unite(triangle[0], triangle[1]);
       this->Joined.unite(triangle[0], triangle[2]);
     }
   }
 
+  /// -1: a vertex without triangle.
   const std::vector<int>& componentOfVertex() const { return this->ComponentOfVertex; }
 
   std::vector<ComponentComparison> count(const std::vector<Fan>& fans)
@@ -113,6 +116,10 @@ public:
     std::vector<std::int64_t> doubledEdges; // 3 F + B, where B edges have one triangle
     for (int vertex = 0; vertex < this->VertexCount; ++vertex)
     {
+      if (!this->IsUsed[vertex])
+      {
+        continue;
+      }
       const int root = this->Joined.root(vertex);
       if (root == vertex)
       {
@@ -151,8 +158,10 @@ private:
     }
     for (int vertex = 0; vertex < this->VertexCount; ++vertex)
     {
-      components[this->ComponentOfVertex[vertex]].boundaryLoops +=
-        fans[vertex].next >= 0 && loops.root(vertex) == vertex;
+      if (fans[vertex].next >= 0 && loops.root(vertex) == vertex)
+      {
+        components[this->ComponentOfVertex[vertex]].boundaryLoops += 1;
+      }
     }
   }
 
@@ -160,6 +169,7 @@ private:
   const std::vector<std::array<int, 3>>& Triangles;
   DisjointSets Joined;
   std::vector<int> ComponentOfVertex;
+  std::vector<char> IsUsed;
 };
 
 /// Finds the component of the surface on which all vertices of each component of the mesh lie.
@@ -177,6 +187,10 @@ std::vector<int> findCounterparts(const std::vector<int>& surfaceComponents,
   }
   for (std::size_t vertex = 0; vertex < surfaceComponents.size(); ++vertex)
   {
+    if (componentOfVertex[vertex] < 0)
+    {
+      continue;
+    }
     ComponentComparison& component = components[componentOfVertex[vertex]];
     if (component.component != surfaceComponents[vertex])
     {

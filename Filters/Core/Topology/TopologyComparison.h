@@ -29,14 +29,14 @@ struct TopologyComparison
 {
   /// One entry a component of the mesh, by first vertices.
   std::vector<ComponentComparison> meshComponents;
-  /// Components of the surface on which the mesh has no vertex.
+  /// Components of the surface on which the mesh has no triangle.
   std::int64_t missingComponents = 0;
   /// Whether all components of the mesh are proven, and no component of the surface is missing or may be.
   bool proven = false;
 };
 
 /// Compares a triangle mesh with the surface.
-/// \param vertices points of the surface; those without triangle are components of their own
+/// \param vertices points of the surface; those without triangle are no part of the mesh
 /// \param triangles indices of vertices, wound alike
 TopologyComparison compareTopology(const SurfaceTopology& topology,
   const Buffer<Particle>& vertices, const std::vector<std::array<int, 3>>& triangles,
