@@ -27,6 +27,9 @@ struct Hole
   /// the surface towards it ends. Larger: the surface's end is covered where it has no particles; smaller: strongly bent
   /// surface stays open.
   static constexpr double Beside = 0.5;
+  /// Cosine between normals up to which a border does not belong to the sheet of a particle. Larger: particles in holes
+  /// at sharp rims stay alone; smaller: borders on the other side of a thin body count.
+  static constexpr double OtherSheet = -0.5;
   /// Times that a triangulation is sought without what was wrong with the last one.
   static constexpr int Attempts = 24;
 };
@@ -162,7 +165,8 @@ private:
     glm::dvec2 before = plane.flat(this->at(loop.back()));
     for (const int corner : loop)
     {
-      if (corner == particle || glm::dot(this->normalOf(corner), middle.normal.xyz) <= 0.0)
+      if (corner == particle ||
+        glm::dot(this->normalOf(corner), middle.normal.xyz) <= Hole::OtherSheet)
       {
         return false;
       }

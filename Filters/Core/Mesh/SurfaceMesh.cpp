@@ -1,6 +1,7 @@
 #include "Mesh/SurfaceMesh.h"
 
 #include "Mesh/HoleFilling.h"
+#include "Mesh/LooseParticles.h"
 #include "Mesh/ManifoldVertices.h"
 #include "Mesh/ParticleStars.h"
 #include "Support/Interruptible.h"
@@ -66,6 +67,7 @@ SurfaceMesh meshSurface(const Isosurface& surface, Distribution& distribution,
     fillHoles(surface, neighbors, edges, distribution, fans, parallel);
     dropExtraFans(distribution, edges, fans, parallel);
   }
+  joinLooseParticles(neighbors, edges, fans);
   SurfaceMesh mesh;
   mesh.triangles = fans.triangles(parallel);
   countOpen(distribution, edges, fans, mesh, parallel);
