@@ -143,15 +143,16 @@ void measure(const Options& options, const Case& which, const std::filesystem::p
     }).cpu;
   const hop::testing::MeshMeasures m = hop::testing::measureMesh(distribution, mesh.triangles);
   std::printf(
-    "| %s %s | %zu | %zu | %lld | %zu | %lld+%lld | %lld in %lld, %.2g | %lld | %lld | %lld | "
+    "| %s %s | %zu | %zu | %lld | %zu | %lld+%lld+%lld | %lld in %lld, %.2g | %lld | %lld | %lld | "
     "%.1f %.1f %.1f | %.6g %.6g | %.2f %.2f |\n",
     which.file.substr(0, 32).c_str(), which.array.c_str(), before,
     distribution.particles.size() - before, static_cast<long long>(undersampled),
-    mesh.triangles.size(), static_cast<long long>(m.badEdges + m.turnedTriangles),
-    static_cast<long long>(m.badVertices), static_cast<long long>(m.holeEdges),
-    static_cast<long long>(mesh.openLoops), mesh.openLength / parameters.sizing.spacing,
-    static_cast<long long>(mesh.unusedParticles), static_cast<long long>(m.eulerCharacteristic),
-    static_cast<long long>(m.components), m.medianMinAngle, m.lowMinAngle, m.worstMinAngle, m.area,
+    mesh.triangles.size(), static_cast<long long>(m.badEdges),
+    static_cast<long long>(m.turnedTriangles), static_cast<long long>(m.badVertices),
+    static_cast<long long>(m.holeEdges), static_cast<long long>(mesh.openLoops),
+    mesh.openLength / parameters.sizing.spacing, static_cast<long long>(mesh.unusedParticles),
+    static_cast<long long>(m.eulerCharacteristic), static_cast<long long>(m.components),
+    m.medianMinAngle, m.lowMinAngle, m.worstMinAngle, m.area,
     std::accumulate(areas.begin(), areas.end(), 0.0), 1e6 * time / count, 1e6 * areaTime / count);
   std::fflush(stdout);
   if (!options.surface.empty())
@@ -216,7 +217,8 @@ int main(int argc, char* argv[])
   const Options options = parse(argc, argv);
   vtkObject::GlobalWarningDisplayOff(); // some files hold cells that are told as doubtful
   std::printf(
-    "| file | particles | added | undersampled | triangles | bad edges + vertices | holes, length "
+    "| file | particles | added | undersampled | triangles | bad edges + turned + bad vertices | "
+    "holes, length "
     "/ spacing | unused | V - E + F | "
     "components | angles | areas | us |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const Case& which :

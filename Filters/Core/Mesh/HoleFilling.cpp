@@ -27,6 +27,9 @@ struct Hole
   /// the surface towards it ends. Larger: the surface's end is covered where it has no particles; smaller: strongly bent
   /// surface stays open.
   static constexpr double Beside = 0.5;
+  /// Cosine between normals up to which a border does not belong to the sheet of a particle. Larger: particles in holes
+  /// at sharp rims stay alone; smaller: borders on the other side of a thin body count.
+  static constexpr double OtherSheet = -0.5;
   /// Times that a triangulation is sought without what was wrong with the last one.
   static constexpr int Attempts = 24;
 };
@@ -162,7 +165,8 @@ private:
     glm::dvec2 before = plane.flat(this->at(loop.back()));
     for (const int corner : loop)
     {
-      if (corner == particle || glm::dot(this->normalOf(corner), middle.normal.xyz) <= 0.0)
+      if (corner == particle ||
+        glm::dot(this->normalOf(corner), middle.normal.xyz) <= Hole::OtherSheet)
       {
         return false;
       }
@@ -178,6 +182,10 @@ private:
   std::optional<std::size_t> holeAround(int particle) const
   {
     std::optional<std::size_t> found;
+    if (static_cast<std::size_t>(particle) >= this->Neighbors.seen.size())
+    {
+      return found; // it was added to fill a hole
+    }
     for (const int* j = this->Neighbors.seen.begin(particle);
          j != this->Neighbors.seen.end(particle); ++j)
     {
@@ -228,38 +236,88 @@ private:
       !this->Edges.joins(a, b);
   }
 
-  /// Joins a loop inside of a hole to the hole's border by an edge that the border passes in both directions, the
-  /// shortest one: the border then runs around the loop as well.
-  void join(std::vector<int>& border, const std::vector<int>& loop) const
+  /// Whether the side of a loop that is to be filled lies, at one of its corners, towards a place.
+  bool opensTowards(const std::vector<int>& loop, std::size_t corner, const glm::dvec3& place) const
   {
-    double least = std::numeric_limits<double>::infinity();
+    const std::size_t count = loop.size();
+    const int before = loop[(corner + count - 1) % count];
+    const int after = loop[(corner + 1) % count];
+    if (before == after)
+    {
+      return true;
+    }
+    const Particle& middle = this->Particles[loop[corner]];
+    const TangentPlane plane(middle.position.xyz, glm::vec3(middle.normal.xyz), middle.spacing);
+    const glm::dvec2 first = plane.flat(this->at(after));
+    return turnFrom(first, plane.flat(place)) < turnFrom(first, plane.flat(this->at(before)));
+  }
+
+  /// The shortest edge from a hole's border to a loop inside of the hole.
+  struct Bridge
+  {
+    double length = std::numeric_limits<double>::infinity();
     std::size_t here = 0, there = 0;
+  };
+
+  Bridge shortestBridge(const std::vector<int>& border, const std::vector<int>& loop) const
+  {
+    Bridge bridge;
     for (std::size_t i = 0; i < border.size(); ++i)
     {
       for (std::size_t j = 0; j < loop.size(); ++j)
       {
-        const double distance = glm::distance(this->at(border[i]), this->at(loop[j]));
-        if (distance < least && this->mayJoin(border[i], loop[j]))
+        const glm::dvec3& a = this->at(border[i]);
+        const glm::dvec3& b = this->at(loop[j]);
+        const double distance = glm::distance(a, b);
+        if (distance < bridge.length && this->mayJoin(border[i], loop[j]) &&
+          this->opensTowards(border, i, b) && this->opensTowards(loop, j, a))
         {
-          least = distance;
-          here = i;
-          there = j;
+          bridge = { distance, i, j };
         }
       }
     }
-    if (!std::isfinite(least))
-    {
-      return;
-    }
-    std::vector<int> detour(loop.begin() + static_cast<std::ptrdiff_t>(there), loop.end());
-    detour.insert(detour.end(), loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(there));
+    return bridge;
+  }
+
+  /// Lets the border run along a bridge, around a loop, and back.
+  static void cross(const Bridge& bridge, const std::vector<int>& loop, std::vector<int>& border)
+  {
+    const auto start = loop.begin() + static_cast<std::ptrdiff_t>(bridge.there);
+    std::vector<int> detour(start, loop.end());
+    detour.insert(detour.end(), loop.begin(), start);
     if (loop.size() > 1)
     {
-      detour.push_back(loop[there]);
+      detour.push_back(*start);
     }
-    detour.push_back(border[here]);
+    detour.push_back(border[bridge.here]);
     border.insert(
-      border.begin() + static_cast<std::ptrdiff_t>(here) + 1, detour.begin(), detour.end());
+      border.begin() + static_cast<std::ptrdiff_t>(bridge.here) + 1, detour.begin(), detour.end());
+  }
+
+  /// Joins loops inside of a hole to the hole's border, always the nearest one: the edges of a minimum spanning tree do
+  /// not cross, and are edges of the Delaunay triangulation.
+  void join(std::vector<int>& border, std::vector<std::vector<int>> loops) const
+  {
+    while (!loops.empty())
+    {
+      Bridge best;
+      std::size_t nearest = 0;
+      for (std::size_t n = 0; n < loops.size(); ++n)
+      {
+        const Bridge bridge = this->shortestBridge(border, loops[n]);
+        if (bridge.length < best.length)
+        {
+          best = bridge;
+          nearest = n;
+        }
+      }
+      if (!std::isfinite(best.length))
+      {
+        return;
+      }
+      cross(best, loops[nearest], border);
+      loops.erase(loops.begin() + static_cast<std::ptrdiff_t>(nearest));
+    }
   }
 
   /// The cost of a triangle: the harmonic index, least for an equilateral one. Among all triangulations of points in a
@@ -390,10 +448,7 @@ private:
   bool fill(std::size_t hole)
   {
     std::vector<int> border = this->Loops[hole].particles;
-    for (const std::vector<int>& loop : this->Loose[hole])
-    {
-      this->join(border, loop);
-    }
+    this->join(border, this->Loose[hole]);
     this->Rejected.clear();
     for (int attempt = 0; attempt < Hole::Attempts; ++attempt)
     {
@@ -404,7 +459,7 @@ private:
       }
       if (const auto added = this->addParticle(triangles))
       {
-        this->join(border, { *added });
+        this->join(border, { { *added } });
       }
       else if (this->accept(triangles))
       {

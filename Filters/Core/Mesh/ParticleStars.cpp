@@ -45,16 +45,20 @@ public:
   /// \pre all neighbours are between them
   void fill(int start, int end)
   {
-    if (!this->turn(1.0, start, end))
+    const std::size_t before = this->Fan.size();
+    const int reached = this->turn(1.0, start, end);
+    if (reached != end || this->Fan.size() == before)
     {
-      this->turn(-1.0, end, start);
+      // From the other side of the gap, and no farther than to where the first turn ended.
+      this->turn(-1.0, end, reached);
     }
   }
 
 private:
   /// Adds triangle after triangle, until the end is reached or there is none.
   /// \param sense 1: counterclockwise, -1: clockwise
-  bool turn(double sense, int start, int end)
+  /// \return the last neighbour that was reached
+  int turn(double sense, int start, int end)
   {
     int at = start;
     // Rounding must not make it run in circles.
@@ -63,18 +67,18 @@ private:
       const int next = this->nextTo(at, sense, end);
       if (next < 0)
       {
-        return false;
+        break;
       }
       const int from = this->Neighbors[at].index;
       const int to = this->Neighbors[next].index;
       this->Fan.push_back(sense > 0.0 ? LinkEdge{ from, to } : LinkEdge{ to, from });
+      at = next;
       if (next == end)
       {
-        return true;
+        break;
       }
-      at = next;
     }
-    return true;
+    return at;
   }
 
   /// The neighbour whose circle with the particle and the neighbour `at` is empty on this side: it sees the edge under

@@ -1,6 +1,8 @@
 #include "Mesh/SurfaceMesh.h"
 
 #include "Mesh/HoleFilling.h"
+#include "Mesh/LooseParticles.h"
+#include "Mesh/ManifoldVertices.h"
 #include "Mesh/ParticleStars.h"
 #include "Support/Interruptible.h"
 
@@ -31,6 +33,23 @@ void countOpen(const Distribution& distribution, const ConstrainedEdges& edges,
   }
 }
 
+/// \return whether triangles were removed
+bool dropExtraFans(const Distribution& distribution, const ConstrainedEdges& edges,
+  TriangleFans& fans, const ParallelFor& parallelFor)
+{
+  std::vector<int> vertices;
+  for (const OpenLoop& loop : findOpenLoops(distribution.particles, edges, fans, parallelFor))
+  {
+    vertices.insert(vertices.end(), loop.particles.begin(), loop.particles.end());
+  }
+  // The surface may touch itself at its end.
+  for (const auto& segment : distribution.edges.segments)
+  {
+    vertices.insert(vertices.end(), segment.begin(), segment.end());
+  }
+  return keepOneFan(vertices, fans);
+}
+
 } // namespace
 
 SurfaceMesh meshSurface(const Isosurface& surface, Distribution& distribution,
@@ -42,6 +61,13 @@ SurfaceMesh meshSurface(const Isosurface& surface, Distribution& distribution,
   const ParticleNeighbors neighbors(distribution.particles, parallel);
   TriangleFans fans = agreedTriangles(neighbors, edges, parallel);
   fillHoles(surface, neighbors, edges, distribution, fans, parallel);
+  // Holes that touched in a vertex have become one, which may be filled.
+  if (dropExtraFans(distribution, edges, fans, parallel))
+  {
+    fillHoles(surface, neighbors, edges, distribution, fans, parallel);
+    dropExtraFans(distribution, edges, fans, parallel);
+  }
+  joinLooseParticles(neighbors, edges, fans);
   SurfaceMesh mesh;
   mesh.triangles = fans.triangles(parallel);
   countOpen(distribution, edges, fans, mesh, parallel);

@@ -147,20 +147,20 @@ bool TangentView::isHidden(const FlatNeighbor& neighbor) const
       });
 }
 
-/// From each edge that begins at the particle to the next one counterclockwise that ends there.
+/// From each edge that begins at the particle to the next edge counterclockwise: one that ends there, unless the edges
+/// contradict each other. Where none begins, from the edges that end.
 void TangentView::makeSectors()
 {
-  this->Sectors.clear();
-  Span<int> after = this->Edges.after(this->Middle);
-  Span<int> before = this->Edges.before(this->Middle);
-  after = after.empty() ? before : after;
-  before = before.empty() ? after : before;
-  for (const int first : after)
+  const Span<int> after = this->Edges.after(this->Middle);
+  const Span<int> before = this->Edges.before(this->Middle);
+  std::vector<int> all(after.begin(), after.end());
+  all.insert(all.end(), before.begin(), before.end());
+  for (const int first : after.empty() ? before : after)
   {
     const FlatNeighbor start = this->flat(first);
     FlatNeighbor end = start;
     double width = fullTurn;
-    for (const int last : before)
+    for (const int last : all)
     {
       const FlatNeighbor other = this->flat(last);
       const double turn = last == first ? fullTurn : turnFrom(start.place, other.place);

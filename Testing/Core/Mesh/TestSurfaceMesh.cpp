@@ -5,6 +5,7 @@
 #include "AnalyticFields.h"
 #include "Fast/FastDistribution.h"
 #include "MeshMeasures.h"
+#include "Support/Interruptible.h"
 #include "TestMeshes.h"
 #include "ThreadedFor.h"
 
@@ -99,6 +100,67 @@ TEST(SurfaceMesh, KeepsTwoSpheresApart)
   const MeshMeasures measures = measureMesh(meshed.distribution, meshed.mesh.triangles);
   EXPECT_EQ(measures.eulerCharacteristic, 4);
   EXPECT_EQ(measures.components, 2);
+}
+
+/// The mesh ends where the surface does, and nowhere else.
+void expectBorders(const Meshed& meshed, std::int64_t loops, std::int64_t eulerCharacteristic)
+{
+  const MeshMeasures measures = measureMesh(meshed.distribution, meshed.mesh.triangles);
+  EXPECT_EQ(measures.badEdges, 0);
+  EXPECT_EQ(measures.badVertices, 0);
+  EXPECT_EQ(measures.turnedTriangles, 0);
+  EXPECT_EQ(measures.holeEdges, 0);
+  EXPECT_EQ(measures.unusedParticles, 0);
+  EXPECT_EQ(measures.openLoops, loops);
+  EXPECT_EQ(measures.eulerCharacteristic, eulerCharacteristic);
+  EXPECT_EQ(meshed.mesh.openLoops, 0);
+}
+
+TEST(SurfaceMesh, EndsAtTheEndOfTheDomain)
+{
+  // A tube has two borders, a sphere that the cube cuts has six, a slanted plane one, with corners.
+  expectBorders(meshOf(cylinder(0.5).field, 4, 0.06), 2, 0);
+  expectBorders(meshOf(sphere({ 0, 0, 0 }, 1.2).field, 4, 0.06), 6, -4);
+  expectBorders(
+    meshOf(plane(glm::normalize(glm::dvec3(1.0, 0.3, 0.05)), 0.1).field, 2, 0.06), 1, 1);
+}
+
+TEST(SurfaceMesh, ClosesThinBodies)
+{
+  // A plate a tenth of a spacing thick at its rim, where the spacing follows the curvature.
+  const Field plate = [](const glm::dvec3& x)
+  { return 1.0 - (x.x * x.x + x.y * x.y) / 0.49 - x.z * x.z / 0.0025; };
+  const Meshed meshed = meshOf(plate, 4, 0.05, 10.0);
+  const MeshMeasures measures = measureMesh(meshed.distribution, meshed.mesh.triangles);
+  EXPECT_EQ(measures.badEdges, 0);
+  EXPECT_EQ(measures.openEdges, 0);
+  EXPECT_EQ(measures.eulerCharacteristic, 2);
+  EXPECT_EQ(measures.unusedParticles, 0);
+}
+
+TEST(SurfaceMesh, IsAManifoldWhateverTheParticlesAre)
+{
+  // Spacings far too large for the surface: what there is has to be sound, and what is open is told.
+  for (const double spacing : { 0.15, 0.2, 0.3, 0.45, 0.7 })
+  {
+    const Meshed meshed = meshOf(torus(0.5, 0.1).field, 6, spacing);
+    const MeshMeasures measures = measureMesh(meshed.distribution, meshed.mesh.triangles);
+    EXPECT_EQ(measures.badEdges, 0);
+    EXPECT_EQ(measures.badVertices, 0);
+    EXPECT_EQ(measures.turnedTriangles, 0);
+    EXPECT_EQ(measures.unusedParticles, meshed.mesh.unusedParticles);
+    EXPECT_EQ(measures.openEdges > 0, meshed.mesh.openLoops > 0);
+    EXPECT_EQ(meshed.mesh.openLength > 0.0, meshed.mesh.openLoops > 0);
+  }
+}
+
+TEST(SurfaceMesh, EndsEarlyWhereTheMonitorAsks)
+{
+  Meshed meshed = meshOf(sphere({ 0, 0, 0 }, 0.6).field, 4, 0.1);
+  const Isosurface surface{ &meshed.elements, 0.0, 1e-9 };
+  const Monitor stop{ [](double) { return false; } };
+  EXPECT_THROW(meshSurface(surface, meshed.distribution, stop, {}), Interrupted);
+  EXPECT_THROW(particleAreas(meshed.distribution, stop, {}), Interrupted);
 }
 
 TEST(SurfaceMesh, IsTheSameForAnyNumberOfThreads)

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "Mesh/TriangleFans.h"
+
+#include <vector>
+
+namespace hop
+{
+
+/// Makes a mesh a manifold with boundary where only vertices keep it from being one: of several fans of triangles that
+/// touch in a vertex, the largest stays, and of two alike the one with the least particle.
+/// \param vertices where there may be several fans: those at open edges
+/// \return whether triangles were removed
+bool keepOneFan(const std::vector<int>& vertices, TriangleFans& fans);
+
+} // namespace hop

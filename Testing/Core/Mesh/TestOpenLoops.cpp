@@ -1,0 +1,83 @@
+#include "Mesh/OpenLoops.h"
+
+#include "FanCases.h"
+#include "FlatSheet.h"
+
+#include <gtest/gtest.h>
+
+namespace hop::testing
+{
+namespace
+{
+
+/// Particles in a plane.
+Buffer<Particle> particlesAt(const std::vector<glm::dvec2>& places)
+{
+  Buffer<Particle> particles;
+  for (const glm::dvec2& place : places)
+  {
+    Particle p;
+    p.position = { glm::dvec3(place, 0.0) };
+    p.normal = { { 0, 0, 1 } };
+    p.spacing = 1.0;
+    particles.push_back(p);
+  }
+  return particles;
+}
+
+const ConstrainedEdges none{ Distribution() };
+
+TEST(OpenLoops, RunClockwiseAroundPieces)
+{
+  const Buffer<Particle> particles = particlesAt({ { 0, 0 }, { 1, 0 }, { 0, 1 }, { 1, 1 } });
+  const TriangleFans fans = fansOf(4, { { 0, 1, 2 }, { 1, 3, 2 } });
+  const std::vector<OpenLoop> loops = findOpenLoops(particles, none, fans, {});
+  ASSERT_EQ(loops.size(), 1u);
+  EXPECT_EQ(loops[0].particles, (std::vector<int>{ 0, 2, 3, 1 }));
+  EXPECT_TRUE(loops[0].isClosed);
+  EXPECT_EQ(loops[0].edgeCount(), 4u);
+}
+
+TEST(OpenLoops, KeepToOneHoleWhereTwoTouch)
+{
+  // Two triangular holes that meet in the particle 0, (0, 1, 2) and (0, 3, 4), in a mesh that goes on between them.
+  const Buffer<Particle> particles = particlesAt(
+    { { 0, 0 }, { 1, -0.4 }, { 1, 0.4 }, { -1, 0.4 }, { -1, -0.4 }, { 0, 2 }, { 0, -2 } });
+  const TriangleFans fans = fansOf(7,
+    { { 0, 2, 5 }, { 0, 5, 3 }, { 0, 4, 6 }, { 0, 6, 1 }, { 1, 5, 2 }, { 3, 5, 6 }, { 3, 6, 4 },
+      { 1, 6, 5 } });
+  const std::vector<OpenLoop> loops = findOpenLoops(particles, none, fans, {});
+  ASSERT_EQ(loops.size(), 2u);
+  EXPECT_EQ(loops[0].particles.size(), 3u);
+  EXPECT_EQ(loops[1].particles.size(), 3u);
+}
+
+TEST(OpenLoops, AreNotAtTheEndOfTheSurface)
+{
+  FlatSheet sheet({ { { 0, 0 }, { 0.1, 0 }, { 0, 0.1 } } }, 0.1);
+  ASSERT_EQ(sheet.distribution.particles.size(), 3u);
+  const ConstrainedEdges edges(sheet.distribution);
+  EXPECT_TRUE(
+    findOpenLoops(sheet.distribution.particles, edges, fansOf(3, { { 0, 1, 2 } }), {}).empty());
+  // Without the triangle the surface is open inside its border.
+  const std::vector<OpenLoop> loops =
+    findOpenLoops(sheet.distribution.particles, edges, fansOf(3, {}), {});
+  ASSERT_EQ(loops.size(), 1u);
+  EXPECT_EQ(loops[0].particles, (std::vector<int>{ 0, 1, 2 }));
+}
+
+TEST(OpenLoops, MayBeChains)
+{
+  FlatSheet sheet({ { { 0, 0 }, { 0.1, 0 }, { 0, 0.1 } } }, 0.1);
+  sheet.distribution.edges.segments.pop_back();
+  const ConstrainedEdges edges(sheet.distribution);
+  const std::vector<OpenLoop> loops =
+    findOpenLoops(sheet.distribution.particles, edges, fansOf(3, {}), {});
+  ASSERT_EQ(loops.size(), 1u);
+  EXPECT_FALSE(loops[0].isClosed);
+  EXPECT_EQ(loops[0].particles, (std::vector<int>{ 0, 1, 2 }));
+  EXPECT_EQ(loops[0].edgeCount(), 2u);
+}
+
+} // namespace
+} // namespace hop::testing
