@@ -12,8 +12,7 @@
  * with CURVED_TRIANGLES it is vtkUnstructuredGrid of VTK_LAGRANGE_TRIANGLE cells with further points on the surface.
  * Particles in one place on the two sides of a crease are one point there, with the mean normal. A triangle belongs to
  * the block of its first corner; corners in other blocks are copied. Cell arrays are those of the cell in which the first
- * corner lies, and `Cell_Id`. What a mesh lacks stands in its field data: `MeshOpenLoops`, `MeshOpenLength`,
- * `MeshUnusedParticles`, `MeshStraightNodes`.
+ * corner lies, and `Cell_Id`. What a mesh lacks stands in its field data, under names that begin with Mesh.
  *
  * The blocks of a composite are one mesh: particles of neighbouring blocks see each other, and each goes to the block
  * of the cell in which it ends. Blocks that have a cell in common, as several results on one grid do, are kept apart.

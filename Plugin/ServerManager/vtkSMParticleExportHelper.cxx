@@ -59,7 +59,7 @@ void vtkSMParticleExportHelper::PostInitializeProxy(
       tellPython();
       vtkWarningMacro(
         "The exported scene has the particles of Surface Splats as points. For a surface "
-        "in it show triangles: Tessellate and Contour on the grid.");
+        "in it show the filter with Output Type Triangles.");
     }
     return;
   }
@@ -67,7 +67,8 @@ void vtkSMParticleExportHelper::PostInitializeProxy(
   if (input && hop::isParticles(hop::dataOf(input)))
   {
     vtkWarningMacro(
-      "An STL file holds triangles, and particles have none: it will be empty. Write a PLY "
-      "or VTP file, which hold points with normals, or Tessellate and Contour the grid.");
+      "An STL file holds triangles, and particles have none: it will be empty. Choose "
+      "Output Type Triangles in the filter, or write a PLY or VTP file, which hold points with "
+      "normals.");
   }
 }
