@@ -63,6 +63,22 @@ struct BoxDiagonal
 /// itself takes time and memory.
 constexpr double estimateSpacingPerExtent = 0.001;
 
+/// Relative error of a given number up to which spacings are scaled: boxes and boundary curves then are as a spacing
+/// asks for that is off by half of it. Chosen by experiment. Larger: they suit the particles less; smaller: the surface
+/// is isolated more often.
+constexpr double nearlyTheNumber = 0.1;
+
+/// The proxies that guess the spacing which goes with a given number, before the surface is isolated for it. Chosen by
+/// experiment.
+struct RoughProxies
+{
+  /// More: a better guess, for more time.
+  static constexpr int Count = 2;
+  /// Width of the boxes of the second one, for the spacing that the one before has guessed, in units of the usual
+  /// width. Smaller: areas are more exact, and take more time.
+  static constexpr double BoxesPerSpacing = 2.5;
+};
+
 /// Particles on boundary curves.
 struct OnBoundary
 {
@@ -161,6 +177,7 @@ private:
   void prepareSurface();
   double targetCount() const;
   void matchSpacing(std::int64_t count);
+  double guessSpacing(double count);
   void keepOnBoundary(std::size_t most);
   void traceBoundaryCurves();
   void dropNearBoundaryCurves(double nearest);
@@ -288,20 +305,46 @@ double FastSystem::targetCount() const
     OnBoundary::Count * static_cast<double>(this->BoundaryPatches.size());
 }
 
-/// Finds the spacing that goes with a given number of particles.
+/// Finds the spacing that goes with a given number of particles: first on a rough proxy, then on the surface itself. What
+/// is missing to the number then is settled by scaling all spacings.
 void FastSystem::matchSpacing(std::int64_t count)
 {
-  const double firstSpacing = this->Parameters.firstSpacing > 0.0
-    ? this->Parameters.firstSpacing
-    : meshExtent(this->Mesh) * SpacingSearch::FirstSpacingPerDiagonal;
-  findSpacing(count, firstSpacing,
+  const auto given = static_cast<double>(count);
+  const double first = this->Parameters.firstSpacing > 0.0 ? this->Parameters.firstSpacing
+                                                           : this->guessSpacing(given);
+  findSpacing(
+    count, first,
     [this](double spacing)
     {
       this->Sizing.spacing = spacing;
       this->prepareSurface();
       return this->targetCount();
-    });
+    },
+    nearlyTheNumber);
+  const double onBoundary = this->targetCount() - this->Proxy->particleCount();
+  const double error = this->targetCount() / given - 1.0;
+  if (std::abs(error) > SpacingSearch::Tolerance && std::abs(error) < nearlyTheNumber &&
+    onBoundary < given)
+  {
+    const double factor = std::sqrt(this->Proxy->particleCount() / (given - onBoundary));
+    this->Proxy->scaleSpacings(factor);
+    this->Sizing.spacing *= factor;
+  }
   this->keepOnBoundary(static_cast<std::size_t>(count));
+}
+
+/// About the spacing that goes with a number of particles, by proxies whose boxes are wide.
+double FastSystem::guessSpacing(double count)
+{
+  double spacing = meshExtent(this->Mesh) * SpacingSearch::FirstSpacingPerDiagonal;
+  double boxes = spacing;
+  for (int n = 0; n < RoughProxies::Count; ++n)
+  {
+    this->Sizing.spacing = spacing;
+    spacing = this->proxyOfBoxesAt(boxes, ProgressAt::Estimated).spacingFor(count);
+    boxes = RoughProxies::BoxesPerSpacing * spacing;
+  }
+  return spacing;
 }
 
 /// Thins out the particles on boundary curves where they are more than a given number: their corners stay at any
