@@ -35,6 +35,8 @@ struct BoxDiagonal
   /// More than in a hexahedron, as wedges and tetrahedra fill less of their bounds.
   static constexpr double Wedge = 7.0;
   static constexpr double Tetrahedron = 7.5;
+  /// For drafts, in all elements. Larger: holes.
+  static constexpr double Draft = 12.0;
   /// Where the gradient of the field vanishes nearby (SurfaceBox::risesWeakly), so that one sample tells less.
   static constexpr double Weak = 3.0;
   /// Where the surface is thinner than a spacing: each box gets a particle of its own.
@@ -63,20 +65,20 @@ struct BoxDiagonal
 /// itself takes time and memory.
 constexpr double estimateSpacingPerExtent = 0.001;
 
-/// Relative error of a given number up to which spacings are scaled: boxes and boundary curves then are as a spacing
-/// asks for that is off by half of it. Chosen by experiment. Larger: they suit the particles less; smaller: the surface
-/// is isolated more often.
-constexpr double nearlyTheNumber = 0.1;
+/// Relative error of a given number up to which all spacings are scaled instead of isolating the surface anew: the boxes
+/// are those of a spacing that is off by half of the error, and the angular density is off by as much. Chosen by
+/// experiment. Larger: it is farther off; smaller: the surface is isolated more often.
+constexpr double nearlyTheNumber = 0.3;
 
-/// The proxies that guess the spacing which goes with a given number, before the surface is isolated for it. Chosen by
-/// experiment.
-struct RoughProxies
+/// The proxy that guesses the spacing which goes with a given number, before the surface is isolated for it. Chosen by
+/// experiment; they change what the guess costs, and how near it comes.
+struct RoughProxy
 {
-  /// More: a better guess, for more time.
-  static constexpr int Count = 2;
-  /// Width of the boxes of the second one, for the spacing that the one before has guessed, in units of the usual
-  /// width. Smaller: areas are more exact, and take more time.
-  static constexpr double BoxesPerSpacing = 2.5;
+  /// Area that the surface is taken to have before anything is known of it, in units of the squared diagonal of the
+  /// mesh: a plane across it has about half of that.
+  static constexpr double Area = 0.4;
+  /// Width of its boxes in units of the usual one. Smaller: areas are more exact, and take more time.
+  static constexpr double Width = 2.5;
 };
 
 /// Particles on boundary curves.
@@ -218,7 +220,8 @@ bool FastSystem::isFineEnough(const SurfaceBox& box, const SizingFunction& sizin
 {
   const int element = box.middle.element;
   const Domain domain = this->Mesh.elements[element].domain;
-  const double perSpacing = BoxDiagonal::of(domain);
+  const double perSpacing =
+    this->Parameters.quality == Quality::Draft ? BoxDiagonal::Draft : BoxDiagonal::of(domain);
   const double largest = perSpacing * sizing.spacing;
   const double smallest =
     (box.mayBeThin ? sizing.spacing : largest) / (1.0 + sizing.angularDensity);
@@ -329,22 +332,18 @@ void FastSystem::matchSpacing(std::int64_t count)
     const double factor = std::sqrt(this->Proxy->particleCount() / (given - onBoundary));
     this->Proxy->scaleSpacings(factor);
     this->Sizing.spacing *= factor;
+    this->traceBoundaryCurves();
+    this->Evaluations += this->Curves.evaluations;
   }
   this->keepOnBoundary(static_cast<std::size_t>(count));
 }
 
-/// About the spacing that goes with a number of particles, by proxies whose boxes are wide.
+/// About the spacing that goes with a number of particles, by a proxy whose boxes are wide.
 double FastSystem::guessSpacing(double count)
 {
-  double spacing = meshExtent(this->Mesh) * SpacingSearch::FirstSpacingPerDiagonal;
-  double boxes = spacing;
-  for (int n = 0; n < RoughProxies::Count; ++n)
-  {
-    this->Sizing.spacing = spacing;
-    spacing = this->proxyOfBoxesAt(boxes, ProgressAt::Estimated).spacingFor(count);
-    boxes = RoughProxies::BoxesPerSpacing * spacing;
-  }
-  return spacing;
+  this->Sizing.spacing = meshExtent(this->Mesh) * std::sqrt(RoughProxy::Area / count);
+  return this->proxyOfBoxesAt(RoughProxy::Width * this->Sizing.spacing, ProgressAt::Estimated)
+    .spacingFor(count);
 }
 
 /// Thins out the particles on boundary curves where they are more than a given number: their corners stay at any
@@ -556,7 +555,10 @@ void FastSystem::make()
   {
     this->makeSeeds(std::llround(count));
     this->relaxInRounds();
-    repairPacking(*this->Moving, this->Parallel);
+    if (this->Parameters.quality != Quality::Draft)
+    {
+      repairPacking(*this->Moving, this->Parallel);
+    }
     // Beside another sheet the last particle of a small component may have been deleted as one too many.
     this->coverBoxes();
     if (this->countIsGiven())

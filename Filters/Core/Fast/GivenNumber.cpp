@@ -23,7 +23,7 @@ struct Exchange
   static constexpr double Distance = 2.0;
   /// Distance up to which the nearest neighbour of a particle or a seed is looked for, in units of the spacing: gaps that
   /// are wider count as equally wide. Larger: more time; smaller: worse places are used.
-  static constexpr double Clearance = 1.25;
+  static constexpr double Clearance = 1.0;
   /// Number of seeds of which the ones with most room are added: so many in all, and so many more for each particle
   /// asked for. More of them find the middles of gaps more exactly, and take longer.
   static constexpr std::int64_t LeastSeeds = 64;
