@@ -76,12 +76,12 @@ def stepped(reader, chosen):
 def continued(reader, before, after, repetitions):
     runs = []
     for _ in range(repetitions):
-        proxy = make(reader, Isosurfaces=before)
+        proxy = make(reader, WarmStart=1, Isosurfaces=before)
         proxy.UpdatePipeline()
         proxy.Isosurfaces = after
         runs.append(spent(proxy))
         simple.Delete(proxy)
-    proxy = make(reader, Isosurfaces=before, PassDiagnostics=1)
+    proxy = make(reader, WarmStart=1, Isosurfaces=before, PassDiagnostics=1)
     proxy.UpdatePipeline()
     proxy.Isosurfaces = after
     result = least(runs) | counted(proxy)

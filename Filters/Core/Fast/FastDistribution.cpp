@@ -36,7 +36,7 @@ struct BoxDiagonal
   static constexpr double Wedge = 7.0;
   static constexpr double Tetrahedron = 7.5;
   /// For drafts, in all elements. Larger: holes.
-  static constexpr double Draft = 12.0;
+  static constexpr double Draft = 9.0;
   /// Where the gradient of the field vanishes nearby (SurfaceBox::risesWeakly), so that one sample tells less.
   static constexpr double Weak = 3.0;
   /// Where the surface is thinner than a spacing: each box gets a particle of its own.
@@ -64,6 +64,10 @@ struct BoxDiagonal
 /// larger. Chosen by experiment. Larger: a cheaper estimate that tells curvature less exactly; smaller: the estimate
 /// itself takes time and memory.
 constexpr double estimateSpacingPerExtent = 0.001;
+
+/// Least distance between particles of drafts, in units of their spacing; see MinimumSeparation. Pairs are many in one
+/// round without a repair. Chosen by experiment. Larger: holes where particles were dropped; smaller: pairs that crowd.
+constexpr double draftSeparation = 0.4;
 
 /// Relative error of a given number up to which all spacings are scaled instead of isolating the surface anew: the boxes
 /// are those of a spacing that is off by half of the error, and the angular density is off by as much. Chosen by
@@ -517,7 +521,9 @@ void FastSystem::finish()
   report.particlesRejected += std::count(kept.begin(), kept.end(), 0);
   if (!this->countIsGiven())
   {
-    kept = thinOut(this->Moving->patches(), kept, MinimumSeparation, this->Parallel);
+    const bool isDraft = this->Parameters.quality == Quality::Draft;
+    kept = thinOut(this->Moving->patches(), kept, isDraft ? draftSeparation : MinimumSeparation,
+      this->Parallel);
   }
   Buffer<Particle>& particles = this->Result.particles;
   particles = std::move(finished.particles);
