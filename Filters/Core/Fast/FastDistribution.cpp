@@ -317,8 +317,8 @@ double FastSystem::targetCount() const
 void FastSystem::matchSpacing(std::int64_t count)
 {
   const auto given = static_cast<double>(count);
-  const double first = this->Parameters.firstSpacing > 0.0 ? this->Parameters.firstSpacing
-                                                           : this->guessSpacing(given);
+  const double first =
+    this->Parameters.firstSpacing > 0.0 ? this->Parameters.firstSpacing : this->guessSpacing(given);
   findSpacing(
     count, first,
     [this](double spacing)
@@ -522,8 +522,8 @@ void FastSystem::finish()
   if (!this->countIsGiven())
   {
     const bool isDraft = this->Parameters.quality == Quality::Draft;
-    kept = thinOut(this->Moving->patches(), kept, isDraft ? draftSeparation : MinimumSeparation,
-      this->Parallel);
+    kept = thinOut(
+      this->Moving->patches(), kept, isDraft ? draftSeparation : MinimumSeparation, this->Parallel);
   }
   Buffer<Particle>& particles = this->Result.particles;
   particles = std::move(finished.particles);

@@ -42,7 +42,8 @@ public:
   /// Spacing that a particle wants.
   float at(const glm::dvec3& position, float curvatureMagnitude) const
   {
-    return this->limited(position, static_cast<float>(this->Scale * this->Sizing.at(curvatureMagnitude)));
+    return this->limited(
+      position, static_cast<float>(this->Scale * this->Sizing.at(curvatureMagnitude)));
   }
 
   /// The smaller one of a spacing and of what the places around a position allow.

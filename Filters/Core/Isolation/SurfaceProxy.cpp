@@ -162,7 +162,7 @@ double SurfaceProxy::spacingFor(double count) const
   // more steps change the spacing by less than the samples know it.
   constexpr int steps = 20;
   SizingFunction sizing = this->sizing();
-  for (int n = 0; n < steps && this->particleCount() > 0.0; ++n)
+  for (int n = 0; n<steps&& this->particleCount()> 0.0; ++n)
   {
     double counted = 0.0;
     for (std::size_t b = 0; b < this->Boxes.size(); ++b)

@@ -55,7 +55,8 @@ public:
     }
     ++this->Tries;
     const double ratio = counted / this->Given;
-    this->Over = this->Tries == MostTries || !(ratio > 0.0) || std::abs(ratio - 1.0) < this->LargestError ||
+    this->Over = this->Tries == MostTries || !(ratio > 0.0) ||
+      std::abs(ratio - 1.0) < this->LargestError ||
       (this->HasGrown && ratio > Stagnant * this->Ratio);
     this->HasGrown = std::sqrt(ratio) >= Growth;
     this->Ratio = ratio;

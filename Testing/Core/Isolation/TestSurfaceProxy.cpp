@@ -97,8 +97,8 @@ TEST(SurfaceProxy, KnowsTheSpacingForANumber)
     const ElementMesh mesh = curvedMesh(Domain::Hexahedron);
     const auto at = [&](double s)
     {
-      return SurfaceProxy({ &mesh, 0.0, 1e-9 }, { s, density },
-        findSurfaceBoxes(mesh, 0.0, 5.0 * spacing, {}), {});
+      return SurfaceProxy(
+        { &mesh, 0.0, 1e-9 }, { s, density }, findSurfaceBoxes(mesh, 0.0, 5.0 * spacing, {}), {});
     };
     const SurfaceProxy proxy = at(spacing);
     const double wanted = 0.3 * proxy.particleCount();
@@ -111,8 +111,8 @@ TEST(SurfaceProxy, KnowsTheSpacingForANumber)
 TEST(SurfaceProxy, ScaledSpacingsGiveOtherNumbers)
 {
   const ElementMesh mesh = curvedMesh(Domain::Wedge);
-  SurfaceProxy proxy({ &mesh, 0.0, 1e-9 }, { spacing, 10.0 },
-    findSurfaceBoxes(mesh, 0.0, 5.0 * spacing, {}), {});
+  SurfaceProxy proxy(
+    { &mesh, 0.0, 1e-9 }, { spacing, 10.0 }, findSurfaceBoxes(mesh, 0.0, 5.0 * spacing, {}), {});
   const double count = proxy.particleCount();
   const Patch before = proxy.samples()[0].patch;
   const float spacingBefore = proxy.spacingAt(before.position, before.curvatureMagnitude());
