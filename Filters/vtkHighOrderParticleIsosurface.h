@@ -210,8 +210,9 @@ public:
   /**
    * Whether particles of the previous run go on where only an isovalue or the data changed, from one time step to the
    * next or while an isovalue is moved: they stay where they can, and particles are added where they leave the surface
-   * uncovered. The surface is found and covered as in a run from scratch. Off: the output depends on the input and the
-   * properties only, not on previous runs. With method FAST. Default on.
+   * uncovered. The surface is found and covered as in a run from scratch, and a run takes a little longer than that: what
+   * is won is that particles of films do not flicker. Off: the output depends on the input and the properties only, not on
+   * previous runs. With method FAST. Default off.
    */
   vtkSetMacro(WarmStart, bool);
   vtkGetMacro(WarmStart, bool);
@@ -325,7 +326,7 @@ private:
   int Quality = STANDARD;
   int Seed = 1;
   vtkIdType NumberOfParticles = 0;
-  bool WarmStart = true;
+  bool WarmStart = false;
   bool PassDiagnostics = false;
   int OutputType = PARTICLES;
   int Order = 2;

@@ -11,6 +11,8 @@
 //     spacing=   world units
 //     method=    fast, classic, contour, tessellate (then Contour), sampled (pieces^3 linear cells an element,
 //                then vtkContour3DLinearGrid), or spacing: only the search; default fast
+//     number=    NumberOfParticles (default 0: the spacing decides)
+//     quality=   of fast: draft, standard, high (default standard)
 //     error=     of tessellate: chord and field error, as fractions of the bounding diagonal and of the
 //                field's range (default 1e-3)
 //     pieces=    of sampled, along each edge (default 4)
@@ -68,7 +70,8 @@ struct Request
 {
   std::string gridName, array = "f", method = "fast";
   double isovalue = 0.0, density = 0.0, particles = 0.0, spacing = 0.0, error = 1e-3;
-  int repetitions = 3, pieces = 4;
+  int repetitions = 3, pieces = 4, number = 0;
+  hop::Quality quality = hop::Quality::Standard;
   vtkSmartPointer<vtkUnstructuredGrid> grid;
 };
 
@@ -81,6 +84,8 @@ vtkSmartPointer<vtkHighOrderParticleIsosurface> makeFilter(const Request& reques
   filter->SetValue(0, request.isovalue);
   filter->SetSpacing(request.spacing);
   filter->SetAngularDensity(request.density);
+  filter->SetNumberOfParticles(request.number);
+  filter->SetQuality(static_cast<int>(request.quality));
   filter->SetMethod(request.method == "classic" ? vtkHighOrderParticleIsosurface::CLASSIC
                                                 : vtkHighOrderParticleIsosurface::FAST);
   return filter;
@@ -127,6 +132,8 @@ hop::DistributionParameters parametersOf(const Request& request)
 {
   hop::DistributionParameters parameters;
   parameters.sizing = { request.spacing, request.density };
+  parameters.quality = request.quality;
+  parameters.particleCount = request.number;
   return parameters;
 }
 
@@ -251,11 +258,13 @@ void expectEqual(vtkIdType a, vtkIdType b, const char* message)
 
 void measureParticles(const Request& request, Record& record)
 {
-  const auto filter = makeFilter(request);
   const double before = presentMegabytes();
   vtkIdType count = -1;
+  vtkSmartPointer<vtkHighOrderParticleIsosurface> filter;
   const auto work = [&]
   {
+    // A filter that has run before keeps its output, or goes on from it.
+    filter = makeFilter(request);
     const vtkIdType previous = count;
     count = runFilter(filter);
     expectEqual(previous < 0 ? count : previous, count, "runs of the filter differ");
@@ -428,6 +437,13 @@ void measureSampled(const Request& request, Record& record)
   addErrors(request, points, record);
 }
 
+hop::Quality qualityOf(const std::string& name)
+{
+  return name == "draft" ? hop::Quality::Draft
+    : name == "high"     ? hop::Quality::High
+                         : hop::Quality::Standard;
+}
+
 Request parse(int argc, char* argv[])
 {
   Request request;
@@ -439,6 +455,8 @@ Request parse(int argc, char* argv[])
     { "density", [&](const std::string& v) { request.density = std::stod(v); } },
     { "particles", [&](const std::string& v) { request.particles = std::stod(v); } },
     { "spacing", [&](const std::string& v) { request.spacing = std::stod(v); } },
+    { "number", [&](const std::string& v) { request.number = std::stoi(v); } },
+    { "quality", [&](const std::string& v) { request.quality = qualityOf(v); } },
     { "error", [&](const std::string& v) { request.error = std::stod(v); } },
     { "pieces", [&](const std::string& v) { request.pieces = std::stoi(v); } },
     { "repetitions", [&](const std::string& v) { request.repetitions = std::stoi(v); } },

@@ -115,7 +115,7 @@ EDITS = {
     "Quality": ("Quality", "ComboBox", "activated", "High"),
     "Tolerance": ("Tolerance", "DoubleLineEdit0", "set_string", "1e-06"),  # no slider
     "Node Spacing": ("NodeSpacing", "ComboBox", "activated", "Gauss-Lobatto-Legendre"),
-    "Warm Start": ("WarmStart", "CheckBox", "set_boolean", "false"),
+    "Warm Start": ("WarmStart", "CheckBox", "set_boolean", "true"),
     "Method": ("Method", "ComboBox", "activated", "Classic"),
     "Seed": ("Seed", "LineEdit0", "set_string", "7"),
     "Number Of Particles": ("NumberOfParticles", "LineEdit0", "set_string", "400"),
@@ -124,7 +124,7 @@ EDITS = {
 # As the state file has them.
 EDITED = {
     "SelectInputScalars": ["", "", "", "0", "velocity"], "Component": ["1"], "Spacing": ["0.25"], "AngularDensity": ["3"],
-    "Quality": ["2"], "Tolerance": ["0.000001"], "NodeSpacing": ["1"], "WarmStart": ["0"], "Method": ["0"], "Seed": ["7"],
+    "Quality": ["2"], "Tolerance": ["0.000001"], "NodeSpacing": ["1"], "WarmStart": ["1"], "Method": ["0"], "Seed": ["7"],
     "NumberOfParticles": ["400"], "PassDiagnostics": ["1"],
 }
 

@@ -39,7 +39,7 @@ def expect_as_good(particles, scratch):
 
 
 def test_an_isovalue_is_followed(hexahedron):
-    surface, messages = make_filter(hexahedron, "u", 0.2, Spacing=SPACING)
+    surface, messages = make_filter(hexahedron, "u", 0.2, Spacing=SPACING, WarmStart=True)
     before, shares = None, []
     for isovalue in (0.2, 0.21, 0.23, 0.26, 0.24, 0.2):
         surface.Isosurfaces = [isovalue]
@@ -61,7 +61,7 @@ def test_time_steps_are_followed(data):
     series.UpdatePipelineInformation()
     between = simple.TemporalInterpolator(Input=series)
     first, second = series.TimestepValues[:2]
-    surface, messages = make_filter(between, "rho", 0.3, Spacing=0.06)
+    surface, messages = make_filter(between, "rho", 0.3, Spacing=0.06, WarmStart=True)
     for share in (0.0, 0.02, 0.04):
         surface.UpdatePipeline(first + share * (second - first))
         particles = surface.GetClientSideObject().GetOutputDataObject(0)
@@ -75,7 +75,7 @@ def test_time_steps_are_followed(data):
 def test_a_surface_that_has_gone_far_is_begun_anew(data):
     series = simple.PVDReader(FileName=data("mfem_dg_advection.pvd"))
     series.UpdatePipelineInformation()
-    surface, messages = make_filter(series, "rho", 0.3, Spacing=0.06)
+    surface, messages = make_filter(series, "rho", 0.3, Spacing=0.06, WarmStart=True)
     for time, step in zip(series.TimestepValues, (0, 2, 4)):
         surface.UpdatePipeline(time)
         particles = surface.GetClientSideObject().GetOutputDataObject(0)
@@ -85,7 +85,7 @@ def test_a_surface_that_has_gone_far_is_begun_anew(data):
 
 
 def test_what_did_not_change_gives_the_same_again(hexahedron):
-    surface, _ = make_filter(hexahedron, "u", 0.2, Spacing=SPACING)
+    surface, _ = make_filter(hexahedron, "u", 0.2, Spacing=SPACING, WarmStart=True)
     first = contents(output_of(surface))
     surface.GetClientSideObject().Modified()
     surface.GetClientSideObject().Update()
@@ -117,7 +117,7 @@ def test_what_is_computed_once_is_kept(timed_file):
     """Show() asks for the animation's time, and the reader reads the same data again."""
     reader = read(timed_file)
     readings, progress = [], []
-    surface, messages = make_filter(reader, "u", 0.2, Spacing=SPACING)
+    surface, messages = make_filter(reader, "u", 0.2, Spacing=SPACING, WarmStart=True)
     surface.UpdatePipeline()
     for isovalue in (0.2, 0.21):  # the second surface goes on from the first one
         surface.Isosurfaces = [isovalue]
@@ -167,7 +167,7 @@ def test_what_changed_is_computed_again(hexahedron, change):
     text = named(vtkStringArray(), "text")
     text.InsertNextValue("once")
     grid.GetFieldData().AddArray(text)
-    surface, _ = make_filter(grid, "u", 0.2, Spacing=2 * SPACING)
+    surface, _ = make_filter(grid, "u", 0.2, Spacing=2 * SPACING, WarmStart=True)
     algorithm = surface.GetClientSideObject()
 
     def computed():
@@ -190,7 +190,7 @@ def test_every_property_is_heeded(hexahedron, name, value):
     grid = output_of(hexahedron).NewInstance()
     grid.DeepCopy(output_of(hexahedron))
     add_point_array(grid, "v", 2 * array_of(grid, "u"))
-    surface, _ = make_filter(grid, "u", 0.2, Spacing=2 * SPACING)
+    surface, _ = make_filter(grid, "u", 0.2, Spacing=2 * SPACING, WarmStart=True)
     first = output_of(surface).GetPoints()
     setattr(surface, name, value)
     assert output_of(surface).GetPoints() is not first
@@ -206,7 +206,7 @@ def test_switched_off_the_output_depends_on_the_input_only(hexahedron):
 
 
 def test_several_isovalues_go_on_each_by_itself(hexahedron):
-    surface, messages = make_filter(hexahedron, "u", [0.2, 0.4], Spacing=SPACING)
+    surface, messages = make_filter(hexahedron, "u", [0.2, 0.4], Spacing=SPACING, WarmStart=True)
     output_of(surface)
     surface.Isosurfaces = [0.21, 0.4]
     particles = output_of(surface)
@@ -219,7 +219,7 @@ def test_several_isovalues_go_on_each_by_itself(hexahedron):
 
 
 def test_a_fixed_number_is_kept(hexahedron):
-    surface, messages = make_filter(hexahedron, "u", 0.2, NumberOfParticles=1500)
+    surface, messages = make_filter(hexahedron, "u", 0.2, NumberOfParticles=1500, WarmStart=True)
     for isovalue in (0.2, 0.22, 0.25):
         surface.Isosurfaces = [isovalue]
         assert output_of(surface).GetNumberOfPoints() == 1500
@@ -227,7 +227,7 @@ def test_a_fixed_number_is_kept(hexahedron):
 
 
 def test_another_method_starts_anew(hexahedron):
-    surface, _ = make_filter(hexahedron, "u", 0.2, Spacing=2 * SPACING)
+    surface, _ = make_filter(hexahedron, "u", 0.2, Spacing=2 * SPACING, WarmStart=True)
     first = contents(output_of(surface))
     surface.Method = "Classic"
     surface.Isosurfaces = [0.21]

@@ -36,6 +36,8 @@ struct BoxDiagonal
   /// More than in a hexahedron, as wedges and tetrahedra fill less of their bounds.
   static constexpr double Wedge = 7.0;
   static constexpr double Tetrahedron = 7.5;
+  /// For drafts, in all elements. Larger: holes.
+  static constexpr double Draft = 9.0;
   /// Where the gradient of the field vanishes nearby (SurfaceBox::risesWeakly), so that one sample tells less.
   static constexpr double Weak = 3.0;
   /// Where the surface is thinner than a spacing: each box gets a particle of its own.
@@ -63,6 +65,26 @@ struct BoxDiagonal
 /// larger. Chosen by experiment. Larger: a cheaper estimate that tells curvature less exactly; smaller: the estimate
 /// itself takes time and memory.
 constexpr double estimateSpacingPerExtent = 0.001;
+
+/// Least distance between particles of drafts, in units of their spacing; see MinimumSeparation. Pairs are many in one
+/// round without a repair. Chosen by experiment. Larger: holes where particles were dropped; smaller: pairs that crowd.
+constexpr double draftSeparation = 0.4;
+
+/// Relative error of a given number up to which all spacings are scaled instead of isolating the surface anew: the boxes
+/// are those of a spacing that is off by half of the error, and the angular density is off by as much. Chosen by
+/// experiment. Larger: it is farther off; smaller: the surface is isolated more often.
+constexpr double nearlyTheNumber = 0.3;
+
+/// The proxy that guesses the spacing which goes with a given number, before the surface is isolated for it. Chosen by
+/// experiment; they change what the guess costs, and how near it comes.
+struct RoughProxy
+{
+  /// Area that the surface is taken to have before anything is known of it, in units of the squared diagonal of the
+  /// mesh: a plane across it has about half of that.
+  static constexpr double Area = 0.4;
+  /// Width of its boxes in units of the usual one. Smaller: areas are more exact, and take more time.
+  static constexpr double Width = 2.5;
+};
 
 /// Particles on boundary curves.
 struct OnBoundary
@@ -162,6 +184,7 @@ private:
   void prepareSurface();
   double targetCount() const;
   void matchSpacing(std::int64_t count);
+  double guessSpacing(double count);
   void keepOnBoundary(std::size_t most);
   void traceBoundaryCurves();
   void dropNearBoundaryCurves(double nearest);
@@ -202,7 +225,8 @@ bool FastSystem::isFineEnough(const SurfaceBox& box, const SizingFunction& sizin
 {
   const int element = box.middle.element;
   const Domain domain = this->Mesh.elements[element].domain;
-  const double perSpacing = BoxDiagonal::of(domain);
+  const double perSpacing =
+    this->Parameters.quality == Quality::Draft ? BoxDiagonal::Draft : BoxDiagonal::of(domain);
   const double largest = perSpacing * sizing.spacing;
   const double smallest =
     (box.mayBeThin ? sizing.spacing : largest) / (1.0 + sizing.angularDensity);
@@ -289,17 +313,39 @@ double FastSystem::targetCount() const
     OnBoundary::Count * static_cast<double>(this->BoundaryPatches.size());
 }
 
-/// Finds the spacing that goes with a given number of particles.
+/// Finds the spacing that goes with a given number of particles: first on a rough proxy, then on the surface itself. What
+/// is missing to the number then is settled by scaling all spacings.
 void FastSystem::matchSpacing(std::int64_t count)
 {
-  findSpacing(count, meshExtent(this->Mesh) * SpacingSearch::FirstSpacingPerDiagonal,
+  const auto given = static_cast<double>(count);
+  findSpacing(count, this->guessSpacing(given),
     [this](double spacing)
     {
       this->Sizing.spacing = spacing;
       this->prepareSurface();
       return this->targetCount();
-    });
+    },
+    nearlyTheNumber);
+  const double onBoundary = this->targetCount() - this->Proxy->particleCount();
+  const double error = this->targetCount() / given - 1.0;
+  if (std::abs(error) > SpacingSearch::Tolerance && std::abs(error) < nearlyTheNumber &&
+    onBoundary < given)
+  {
+    const double factor = std::sqrt(this->Proxy->particleCount() / (given - onBoundary));
+    this->Proxy->scaleSpacings(factor);
+    this->Sizing.spacing *= factor;
+    this->traceBoundaryCurves();
+    this->Evaluations += this->Curves.evaluations;
+  }
   this->keepOnBoundary(static_cast<std::size_t>(count));
+}
+
+/// About the spacing that goes with a number of particles, by a proxy whose boxes are wide.
+double FastSystem::guessSpacing(double count)
+{
+  this->Sizing.spacing = meshExtent(this->Mesh) * std::sqrt(RoughProxy::Area / count);
+  return this->proxyOfBoxesAt(RoughProxy::Width * this->Sizing.spacing, ProgressAt::Estimated)
+    .spacingFor(count);
 }
 
 /// Thins out the particles on boundary curves where they are more than a given number: their corners stay at any
@@ -477,7 +523,9 @@ void FastSystem::finish()
   report.particlesRejected += std::count(kept.begin(), kept.end(), 0);
   if (!this->countIsGiven())
   {
-    kept = thinOut(this->Moving->patches(), kept, MinimumSeparation, this->Parallel);
+    const bool isDraft = this->Parameters.quality == Quality::Draft;
+    kept = thinOut(
+      this->Moving->patches(), kept, isDraft ? draftSeparation : MinimumSeparation, this->Parallel);
   }
   Buffer<Particle>& particles = this->Result.particles;
   particles = std::move(finished.particles);
@@ -520,7 +568,10 @@ void FastSystem::make()
   {
     this->makeSeeds(std::llround(count));
     this->relaxInRounds();
-    repairPacking(*this->Moving, this->Parallel);
+    if (this->Parameters.quality != Quality::Draft)
+    {
+      repairPacking(*this->Moving, this->Parallel);
+    }
     // Beside another sheet the last particle of a small component may have been deleted as one too many.
     this->coverBoxes();
     if (this->countIsGiven())

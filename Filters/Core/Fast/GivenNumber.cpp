@@ -21,10 +21,13 @@ struct Exchange
   /// Least distance between particles that are added or removed at once, in units of the spacing, as long as there are
   /// enough such places. Smaller: two may go into the same gap; larger: worse places are used.
   static constexpr double Distance = 2.0;
+  /// Distance up to which the nearest neighbour of a particle or a seed is looked for, in units of the spacing: gaps that
+  /// are wider count as equally wide. Larger: more time; smaller: worse places are used.
+  static constexpr double Clearance = 1.0;
   /// Number of seeds of which the ones with most room are added: so many in all, and so many more for each particle
   /// asked for. More of them find the middles of gaps more exactly, and take longer.
   static constexpr std::int64_t LeastSeeds = 64;
-  static constexpr std::int64_t SeedsPerParticle = 2;
+  static constexpr std::int64_t SeedsPerParticle = 1;
 };
 
 /// Indices of values, sorted; equal values keep their order.
@@ -87,7 +90,7 @@ Buffer<Patch> NumberMatcher::removeCrowded(std::int64_t count)
 {
   const Buffer<Patch>& patches = this->Moving.patches();
   const std::vector<int> order = indicesBy(
-    clearances(patches, this->Moving.count(), patches, Exchange::Distance, this->Parallel),
+    clearances(patches, this->Moving.count(), patches, Exchange::Clearance, this->Parallel),
     std::less<>());
   std::vector<char> kept(this->Moving.count(), 1);
   for (const int i : selectSeparated(patches, order, count, Exchange::Distance, this->Parallel))
@@ -104,7 +107,7 @@ Buffer<Patch> NumberMatcher::addInGaps(std::int64_t count)
   seeds.draw(Exchange::LeastSeeds + Exchange::SeedsPerParticle * this->Parameters.particleCount,
     this->Parameters.seed);
   const std::vector<double> room = clearances(
-    seeds.patches(), seeds.count(), this->Moving.patches(), Exchange::Distance, this->Parallel);
+    seeds.patches(), seeds.count(), this->Moving.patches(), Exchange::Clearance, this->Parallel);
   const std::vector<int> order = indicesBy(room, std::greater<>());
   std::vector<char> chosen(seeds.count(), 0);
   for (const int s :
@@ -123,6 +126,10 @@ Buffer<Patch> NumberMatcher::matchNumber()
 {
   const std::int64_t missing =
     this->Parameters.particleCount - static_cast<std::int64_t>(this->Moving.size());
+  if (missing == 0)
+  {
+    return {};
+  }
   return missing > 0 ? this->addInGaps(missing) : this->removeCrowded(-missing);
 }
 

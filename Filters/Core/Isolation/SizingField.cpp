@@ -96,7 +96,9 @@ void SizingField::limitGradation(std::size_t first, const ParallelFor& parallelF
 
 float SizingField::limited(const glm::dvec3& position, float spacing) const
 {
-  return this->Grid ? this->Grid->withGradation(position, spacing, GradationSlope) : spacing;
+  const auto scale = static_cast<float>(this->Scale);
+  return this->Grid ? scale * this->Grid->withGradation(position, spacing / scale, GradationSlope)
+                    : spacing;
 }
 
 std::vector<char> markRepresentatives(Span<glm::dvec3> positions, Span<float> spacings)

@@ -36,20 +36,28 @@ public:
   /// \param parallelFor is asked for an early end now and then
   void add(const std::vector<Limit>& limits, const ParallelFor& parallelFor);
 
+  /// Multiplies all spacings by a factor, and the slope of the gradation with them.
+  void scale(double factor) { this->Scale *= factor; }
+
   /// Spacing that a particle wants.
   float at(const glm::dvec3& position, float curvatureMagnitude) const
   {
-    return this->limited(position, static_cast<float>(this->Sizing.at(curvatureMagnitude)));
+    return this->limited(
+      position, static_cast<float>(this->Scale * this->Sizing.at(curvatureMagnitude)));
   }
 
   /// The smaller one of a spacing and of what the places around a position allow.
   float limited(const glm::dvec3& position, float spacing) const;
 
   /// Spacing of a place, in the order in which places were added.
-  float spacingOf(std::size_t place) const { return this->Spacings[place]; }
+  float spacingOf(std::size_t place) const
+  {
+    return static_cast<float>(this->Scale * this->Spacings[place]);
+  }
 
   std::size_t placeCount() const { return this->Spacings.size(); }
 
+  /// Before spacings were scaled.
   const SizingFunction& sizing() const { return this->Sizing; }
 
   /// Growth of the spacing per length at most. In the measurement that chose it, fields without this limit left
@@ -61,6 +69,7 @@ private:
   void limitGradation(std::size_t first, const ParallelFor& parallelFor);
 
   SizingFunction Sizing;
+  double Scale = 1.0;
   std::vector<glm::dvec3> Positions;
   std::vector<float> Spacings;
   /// For looking up the places around a position; nullptr until places were added.

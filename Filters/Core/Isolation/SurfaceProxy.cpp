@@ -141,6 +141,41 @@ SurfaceProxy::SurfaceProxy(const Isosurface& surface, const SizingFunction& sizi
   this->sumWeights(parallelFor);
 }
 
+void SurfaceProxy::scaleSpacings(double factor)
+{
+  this->Field.scale(factor);
+  this->SmallestSpacing *= factor;
+  for (Sample& sample : this->Samples)
+  {
+    sample.patch.spacing *= static_cast<float>(factor);
+  }
+  for (double& sum : this->Sums)
+  {
+    sum /= factor * factor;
+  }
+}
+
+double SurfaceProxy::spacingFor(double count) const
+{
+  // Each step multiplies the spacing by the square root of counted and wanted number. That is exact where the surface
+  // is flat, and too little where it bends, so that the steps approach the spacing from one side. Chosen by experiment:
+  // more steps change the spacing by less than the samples know it.
+  constexpr int steps = 20;
+  SizingFunction sizing = this->sizing();
+  for (int n = 0; n<steps&& this->particleCount()> 0.0; ++n)
+  {
+    double counted = 0.0;
+    for (std::size_t b = 0; b < this->Boxes.size(); ++b)
+    {
+      const double bend = this->Samples[b].patch.curvatureMagnitude();
+      const double ratio = this->sizing().at(bend) / sizing.at(bend);
+      counted += this->Samples[b].found ? ratio * ratio * this->particleCountOfBox(b) : 0.0;
+    }
+    sizing.spacing *= std::sqrt(counted / count);
+  }
+  return sizing.spacing;
+}
+
 const SurfaceProxy::Sample* SurfaceProxy::nearestSample(
   const glm::dvec3& position, int element) const
 {

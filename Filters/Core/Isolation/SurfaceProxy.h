@@ -34,6 +34,16 @@ public:
   SurfaceProxy(const Isosurface& surface, const SizingFunction& sizing,
     std::vector<SurfaceBox> boxes, const ParallelFor& parallelFor);
 
+  /// Multiplies all spacings by a factor near 1, so that the boxes still have the right size; particleCount() falls by
+  /// its square. No evaluation is made.
+  void scaleSpacings(double factor);
+
+  /// The spacing s of the sizing function at which the surface takes about so many particles: each box's share of
+  /// particleCount() goes with the inverse square of the sizing function at its sample. Creases and gradation, which
+  /// lower spacings further, are taken to lower all of them in the same ratio as now.
+  /// \param count > 0
+  double spacingFor(double count) const;
+
   /// Limits the spacings at some places and, by gradation, around them.
   void limitSpacings(const std::vector<SizingField::Limit>& limits, const ParallelFor& parallelFor);
 
@@ -79,6 +89,7 @@ public:
     return this->Field.at(position, curvatureMagnitude);
   }
 
+  /// Before spacings were scaled.
   const SizingFunction& sizing() const { return this->Field.sizing(); }
 
   /// Number of samples and limits that limit the spacings around them; zero if all samples want the same spacing and

@@ -31,9 +31,11 @@ public:
 
   /// \param given number of particles, > 0
   /// \param firstSpacing of the first try, world units, > 0
-  SpacingSearch(std::int64_t given, double firstSpacing)
+  /// \param tolerance relative error of the number at which the search ends
+  SpacingSearch(std::int64_t given, double firstSpacing, double tolerance = Tolerance)
     : Given(static_cast<double>(given))
     , Spacing(firstSpacing)
+    , LargestError(tolerance)
   {
   }
 
@@ -53,7 +55,8 @@ public:
     }
     ++this->Tries;
     const double ratio = counted / this->Given;
-    this->Over = this->Tries == MostTries || !(ratio > 0.0) || std::abs(ratio - 1.0) < Tolerance ||
+    this->Over = this->Tries == MostTries || !(ratio > 0.0) ||
+      std::abs(ratio - 1.0) < this->LargestError ||
       (this->HasGrown && ratio > Stagnant * this->Ratio);
     this->HasGrown = std::sqrt(ratio) >= Growth;
     this->Ratio = ratio;
@@ -63,6 +66,7 @@ public:
 private:
   double Given;
   double Spacing;
+  double LargestError;
   int Tries = 0;
   bool Over = false;
   /// Whether spacing() is larger than the one before by Growth or more.
@@ -75,9 +79,10 @@ private:
 /// \param countAt called as countAt(spacing), at most SpacingSearch::MostTries times, last with the spacing that is
 ///   returned
 template <class Count>
-double findSpacing(std::int64_t given, double firstSpacing, const Count& countAt)
+double findSpacing(std::int64_t given, double firstSpacing, const Count& countAt,
+  double tolerance = SpacingSearch::Tolerance)
 {
-  SpacingSearch search(given, firstSpacing);
+  SpacingSearch search(given, firstSpacing, tolerance);
   while (!search.isOver())
   {
     search.update(countAt(search.spacing()));

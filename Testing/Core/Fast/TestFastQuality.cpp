@@ -152,6 +152,25 @@ TEST_P(FastQuality, IsAsPromised)
   EXPECT_LE(coverageRadius(result.particles, probesOf(mesh, smallest)), 0.80);
 }
 
+TEST_P(FastQuality, OfDraftsLeavesNoHoles)
+{
+  const auto& [which, domain] = this->GetParam();
+  const ElementMesh mesh = bentMesh(which, domain);
+  DistributionParameters parameters;
+  parameters.sizing = which.sizing;
+  parameters.quality = Quality::Draft;
+  const Distribution result = distributeFast({ &mesh, 0.0, tolerance }, parameters, {}, {});
+  double smallest = which.sizing.spacing;
+  for (const Particle& p : result.particles)
+  {
+    ASSERT_LE(p.residual, tolerance);
+    smallest = std::min(smallest, p.spacing);
+  }
+  EXPECT_NEAR(static_cast<double>(result.particles.size()) / hexagonalCountOf(which), 1.0, 0.09);
+  // As far as splats reach.
+  EXPECT_LE(coverageRadius(result.particles, probesOf(mesh, smallest)), 0.928);
+}
+
 class FastQualityOnNeedle : public ::testing::TestWithParam<double>
 {
 };

@@ -89,6 +89,40 @@ TEST_P(Proxy, LocatesPlacesNearSamplesOnly)
   EXPECT_GE(located, static_cast<int>(proxy.samples().size()) / 2);
 }
 
+TEST(SurfaceProxy, KnowsTheSpacingForANumber)
+{
+  // The number goes with 1/s^2 on a sphere, or less where curvature decides: D s/(2 pi) is a fifth here.
+  for (const double density : { 0.0, 10.0 })
+  {
+    const ElementMesh mesh = curvedMesh(Domain::Hexahedron);
+    const auto at = [&](double s)
+    {
+      return SurfaceProxy(
+        { &mesh, 0.0, 1e-9 }, { s, density }, findSurfaceBoxes(mesh, 0.0, 5.0 * spacing, {}), {});
+    };
+    const SurfaceProxy proxy = at(spacing);
+    const double wanted = 0.3 * proxy.particleCount();
+    const double found = proxy.spacingFor(wanted);
+    EXPECT_NEAR(at(found).particleCount() / wanted, 1.0, 0.02) << "density " << density;
+    EXPECT_GT(found, 1.5 * spacing);
+  }
+}
+
+TEST(SurfaceProxy, ScaledSpacingsGiveOtherNumbers)
+{
+  const ElementMesh mesh = curvedMesh(Domain::Wedge);
+  SurfaceProxy proxy(
+    { &mesh, 0.0, 1e-9 }, { spacing, 10.0 }, findSurfaceBoxes(mesh, 0.0, 5.0 * spacing, {}), {});
+  const double count = proxy.particleCount();
+  const Patch before = proxy.samples()[0].patch;
+  const float spacingBefore = proxy.spacingAt(before.position, before.curvatureMagnitude());
+  proxy.scaleSpacings(1.1);
+  EXPECT_NEAR(proxy.particleCount(), count / 1.21, 1e-9 * count);
+  EXPECT_FLOAT_EQ(proxy.samples()[0].patch.spacing, 1.1f * before.spacing);
+  EXPECT_NEAR(proxy.spacingAt(before.position, before.curvatureMagnitude()), 1.1f * spacingBefore,
+    1e-5f * spacingBefore);
+}
+
 TEST(SurfaceProxy, FeelsASmallSpacingHoweverLargeTheSpacingsAroundIt)
 {
   MeshRecipe recipe;
