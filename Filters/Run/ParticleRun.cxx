@@ -115,6 +115,7 @@ private:
     std::vector<std::int64_t>& counts) const;
   void reviewSpacing(const GridElements& elements, const RunOrigin& origin,
     const Distribution& distribution, const Work& work) const;
+  SizingFunction sizingAt(double spacing) const;
   RunOrigin makeOrigin() const;
   Distribution distribute(const GridElements& elements, const RunOrigin& origin, std::size_t number,
     const RankShare& share, const Work& work) const;
@@ -195,7 +196,7 @@ SurfaceCount GroupRun::countWanted(
   }
   const std::vector<double> ofElements =
     particlesPerElement({ &elements.mesh, elements.fieldIsovalue(isovalue), this->Scale.tolerance },
-      { spacing, this->Properties.angularDensity }, work.monitor, work.parallelFor);
+      this->sizingAt(spacing), work.monitor, work.parallelFor);
   SurfaceCount wanted;
   for (std::size_t e = 0; e < ofElements.size(); ++e)
   {
@@ -243,13 +244,12 @@ void GroupRun::reviewSpacing(const GridElements& elements, const RunOrigin& orig
   }
   const std::int64_t number = this->Properties.numberOfParticles;
   const Work rest = work.part(ProgressAt::Distributed, ProgressAt::Distributed);
-  const SizingFunction sizing{ number > 0 ? 0.0 : this->Scale.spacing,
-    this->Properties.angularDensity };
+  const SizingFunction sizing = this->sizingAt(number > 0 ? 0.0 : this->Scale.spacing);
   const auto countAt = [&](double spacing)
   {
     const std::vector<double> counts = particlesPerElement(
       { &elements.mesh, elements.fieldIsovalue(origin.isovalue), this->Scale.tolerance },
-      { spacing, this->Properties.angularDensity }, rest.monitor, rest.parallelFor);
+      this->sizingAt(spacing), rest.monitor, rest.parallelFor);
     return std::accumulate(counts.begin(), counts.end(), 0.0);
   };
   const SpacingAdvice advice = adviseSpacing(distribution, sizing, this->Scale.unit, countAt);
@@ -258,13 +258,22 @@ void GroupRun::reviewSpacing(const GridElements& elements, const RunOrigin& orig
     elements.mesh.elements[worst].cell, origin.isovalue, number) });
 }
 
+/// The sizing function with a spacing on flat surfaces, in units of the run. Nothing closer than the tolerance is told
+/// apart, so that no smallest spacing is below it.
+SizingFunction GroupRun::sizingAt(double spacing) const
+{
+  const double smallest = this->Properties.smallestSpacing;
+  return { spacing, this->Properties.angularDensity,
+    smallest > 0.0 ? std::max(smallest / this->Scale.unit, this->Scale.tolerance) : 0.0 };
+}
+
 /// What the group's isosurfaces are made of, but for the isovalue.
 RunOrigin GroupRun::makeOrigin() const
 {
   RunOrigin origin = originOf(this->Blocks);
   origin.nodeSpacing = this->Properties.nodeSpacing;
   origin.unit = this->Scale.unit;
-  origin.parameters.sizing = { this->Scale.spacing, this->Properties.angularDensity };
+  origin.parameters.sizing = this->sizingAt(this->Scale.spacing);
   origin.parameters.quality = this->Properties.quality;
   origin.parameters.seed = this->Properties.seed;
   origin.parameters.particleCount = this->Properties.numberOfParticles;
