@@ -167,7 +167,20 @@ TEST(ClassicRelaxation, StepLengthsGrowAndShrinkByTen)
   pair.particles.movers[1].lambda = 0.1;
   sweep(pair);
   EXPECT_DOUBLE_EQ(pair.particles.movers[0].lambda, 0.01);
-  EXPECT_DOUBLE_EQ(pair.particles.movers[1].lambda, ClassicParticle::LargestLambda);
+  EXPECT_DOUBLE_EQ(pair.particles.movers[1].lambda, 1.0);
+}
+
+/// The step is 0.48 lambda h: with 200 and 20 it is longer than h, with 2 it is taken.
+TEST(ClassicRelaxation, StepsLongerThanASpacingAreRejectedAndNotShortened)
+{
+  ClassicLattice pair = pairAt(0.6);
+  pair.particles.movers[0].lambda = 200.0;
+  const ClassicParticle before = pair.particles.movers[0];
+  sweep(pair);
+  const ClassicParticle& after = pair.particles.movers[0];
+  EXPECT_DOUBLE_EQ(after.lambda, 2.0) << "it grows after a first try only";
+  EXPECT_LT(distance(before, after), 0.99 * spacing);
+  EXPECT_GT(distance(before, after), 0.9 * spacing);
 }
 
 TEST(ClassicRelaxation, SheetsTurnedAwayDoNotSeeEachOther)

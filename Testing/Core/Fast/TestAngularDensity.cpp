@@ -15,15 +15,21 @@ namespace
 
 constexpr double radius = 0.02;
 
-/// Along the z axis through the cube [-1,1]^3.
-Distribution onTube(const SizingFunction& sizing)
+/// A surface in the cube [-1,1]^3.
+Distribution distribute(const KnownSurface& surface, const SizingFunction& sizing)
 {
   MeshRecipe recipe;
-  recipe.field = cylinder(radius).field;
+  recipe.field = surface.field;
   const ElementMesh mesh = makeMesh(recipe);
   DistributionParameters parameters;
   parameters.sizing = sizing;
   return distributeFast({ &mesh, 0.0, 1e-10 }, parameters, {}, {});
+}
+
+/// Along the z axis.
+Distribution onTube(const SizingFunction& sizing)
+{
+  return distribute(cylinder(radius), sizing);
 }
 
 /// The number of particles around that their number on the middle half of the tube tells: with N particles on an area
@@ -40,14 +46,14 @@ double countAround(const Distribution& distribution)
 }
 
 /// By s/R.
-class AngularDensityOnTube : public ::testing::TestWithParam<double>
+class AngularDensityOfThinSurfaces : public ::testing::TestWithParam<double>
 {
 };
 
 INSTANTIATE_TEST_SUITE_P(
-  Fast, AngularDensityOnTube, ::testing::Values(1.0, 2.0, 5.0, 10.0, 20.0, 40.0));
+  Fast, AngularDensityOfThinSurfaces, ::testing::Values(1.0, 2.0, 5.0, 10.0, 20.0, 40.0));
 
-TEST_P(AngularDensityOnTube, IsTheNumberOfParticlesAround)
+TEST_P(AngularDensityOfThinSurfaces, IsTheNumberOfParticlesAround)
 {
   const double spacing = this->GetParam() * radius;
   for (const double density : { 6.0, 10.0, 15.0 })
@@ -59,13 +65,27 @@ TEST_P(AngularDensityOnTube, IsTheNumberOfParticlesAround)
   }
 }
 
-TEST_P(AngularDensityOnTube, IsToldWhereFewerThanSixStandAround)
+TEST_P(AngularDensityOfThinSurfaces, IsToldWhereFewerThanSixStandAround)
 {
   const double spacing = this->GetParam() * radius;
   const Distribution result = onTube({ spacing, 2.0 });
   const auto count = static_cast<std::int64_t>(result.particles.size());
   ASSERT_GT(count, 0);
   EXPECT_EQ(result.report.particlesUndersampled, 2.0 + 2.0 * Pi * radius / spacing < 6.0 ? count : 0);
+}
+
+/// Also off the corners of the elements' boxes, where other numbers of boxes hold the sphere.
+TEST_P(AngularDensityOfThinSurfaces, GivesASmallComponentSixParticlesAndMore)
+{
+  for (const glm::dvec3& center : { glm::dvec3(0.0), glm::dvec3(0.31, 0.27, -0.43) })
+  {
+    for (const double density : { 6.0, 10.0 })
+    {
+      const Distribution result =
+        distribute(sphere(center, radius), { this->GetParam() * radius, density });
+      EXPECT_GE(result.particles.size(), 6u) << density;
+    }
+  }
 }
 
 TEST(AngularDensity, EndsAtTheSmallestSpacing)

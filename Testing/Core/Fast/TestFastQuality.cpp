@@ -160,7 +160,7 @@ INSTANTIATE_TEST_SUITE_P(FastDistribution, FastQualityOnNeedle, ::testing::Value
 
 TEST_P(FastQualityOnNeedle, IsCoveredAlthoughThinnerThanSpacings)
 {
-  const ElementMesh mesh = teardropMesh();
+  const ElementMesh mesh = needleMesh();
   DistributionParameters parameters;
   parameters.sizing = { 0.04, this->GetParam() };
   const auto isCloserThanParticles = [&](const SurfaceBox& box)
