@@ -8,7 +8,7 @@ case "${1:-}" in -h | --help) sed -n 2,4p "${BASH_SOURCE[0]}" && exit ;; esac
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$project/build
 [ "${HOP_WITH_PARAVIEW:-ON}" = ON ] || build=$project/build-vtk
-bash "$project/Utilities/setup.sh" -DBUILD_TESTING=ON -DWARNINGS_AS_ERRORS=ON
+bash "$project/Utilities/setup.sh" -DBUILD_TESTING=ON -DBUILD_BENCHMARKS=ON -DWARNINGS_AS_ERRORS=ON
 
 status=0
 ctest --test-dir "$build" --output-on-failure --no-tests=error --parallel "$(nproc)" "$@" || status=$?
