@@ -254,11 +254,13 @@ void expectEqual(vtkIdType a, vtkIdType b, const char* message)
 
 void measureParticles(const Request& request, Record& record)
 {
-  const auto filter = makeFilter(request);
+  vtkSmartPointer<vtkHighOrderParticleIsosurface> filter;
   const double before = presentMegabytes();
   vtkIdType count = -1;
   const auto work = [&]
   {
+    // A filter that has run keeps its output.
+    filter = makeFilter(request);
     const vtkIdType previous = count;
     count = runFilter(filter);
     expectEqual(previous < 0 ? count : previous, count, "runs of the filter differ");
@@ -321,6 +323,7 @@ void addErrors(const Request& request, vtkPolyData* points, Record& record)
   const double accuracy = 1e-9 * request.grid->GetLength();
   std::vector<double> errors;
   double afterNewton = 0.0;
+  int notProjected = 0;
   for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
   {
     glm::dvec3 x;
@@ -341,9 +344,15 @@ void addErrors(const Request& request, vtkPolyData* points, Record& record)
       {
         errors.push_back(std::abs(at.point.value) / length(at.point.gradient));
         hop::Evaluated on;
-        const bool isOn = walker.project(at.location, request.spacing, on);
-        afterNewton = std::max(afterNewton,
-          isOn ? std::abs(on.point.value) / length(on.point.gradient) : errors.back());
+        if (walker.project(at.location, request.spacing, on))
+        {
+          afterNewton =
+            std::max(afterNewton, std::abs(on.point.value) / length(on.point.gradient));
+        }
+        else
+        {
+          ++notProjected;
+        }
         break;
       }
     }
@@ -357,6 +366,7 @@ void addErrors(const Request& request, vtkPolyData* points, Record& record)
   record.add("residual_per_diagonal",
     errors.empty() ? 0.0 : *std::max_element(errors.begin(), errors.end()) / diagonal);
   record.add("residual_after_newton_per_diagonal", afterNewton / diagonal);
+  record.add("not_projected", notProjected);
 }
 
 /// Contour as it comes, normals included, after Tessellate if asked for.

@@ -20,8 +20,8 @@ struct ClassicParticle
   /// Keeps lambda finite at particles that hardly feel a force: the paper has no bound, as steps beyond h are rejected
   /// and cost no evaluation. Larger: more such rejections; smaller: small forces move particles less.
   static constexpr double LargestLambda = 2e3;
-  /// With the energy not falling even so, the particle stays where it is. Chosen by experiment: a ten-thousandth of h
-  /// a unit of force.
+  /// The step length of a particle whose energy no try has lowered: it stays where it is. Chosen by experiment: a
+  /// ten-thousandth of h a unit of force.
   static constexpr double SmallestLambda = 1e-4;
 
   Evaluated at;

@@ -15,6 +15,10 @@ constexpr std::size_t particlesAtOnce = 1024;
 /// stop early; smaller: steps shorter than the projection's tolerance are tried.
 constexpr double leastForce = 1e-6;
 
+/// Length of a step, in units of h, below which only a first try is made. Chosen by experiment. Larger: particles that
+/// hardly feel a force move less; smaller: more tries at particles that are at rest.
+constexpr double shortestStep = 1e-4;
+
 /// Factors of the step length lambda after a first try that lowers the energy, and after a try that does not. From the
 /// paper.
 struct LambdaFactor
@@ -70,10 +74,14 @@ void relax(ClassicParticles& particles, std::size_t i)
   {
     return;
   }
-  for (double lambda = start.lambda; lambda >= ClassicParticle::SmallestLambda;
-       lambda *= LambdaFactor::Shrink)
+  for (double lambda = start.lambda;; lambda *= LambdaFactor::Shrink)
   {
-    WorldVector step = (lambda * h * h) * tangential;
+    const bool isFirstTry = lambda == start.lambda;
+    const WorldVector step = (lambda * h * h) * tangential;
+    if (!isFirstTry && length(step) < shortestStep * h)
+    {
+      break;
+    }
     ClassicParticle trial = start;
     if (length(step) > h || !particles.displace(start, step, h, trial))
     {
@@ -83,7 +91,6 @@ void relax(ClassicParticles& particles, std::size_t i)
     if (energy < here.energy)
     {
       trial.energy = energy;
-      const bool isFirstTry = lambda == start.lambda;
       trial.lambda = isFirstTry
         ? std::min(ClassicParticle::LargestLambda, LambdaFactor::Grow * lambda)
         : lambda;
