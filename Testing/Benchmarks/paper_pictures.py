@@ -37,13 +37,13 @@ def pictures(path, array, isovalue, density, spacing):
     view.UseColorPaletteForBackground = 0
     view.Background = [1, 1, 1]
     display = simple.Show(particles, view)
-    simple.ColorBy(display, None)
+    display.ColorArrayName = ["POINTS", ""]
     display.AmbientColor = display.DiffuseColor = [0.18, 0.43, 0.71]
     display.SetRepresentationType("Points")
     display.PointSize = 2
     view.CameraPosition, view.CameraViewUp = [-1, -1.8, 1.1], [0, 0, 1]
     simple.ResetCamera(view)
-    view.GetActiveCamera().Zoom(1.4)
+    view.GetActiveCamera().Zoom(1.1)
     points = grab(view)
     display.SetRepresentationType("Surface Splats")
     splats = grab(view)
