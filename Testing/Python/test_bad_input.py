@@ -350,12 +350,12 @@ def test_an_absurdly_small_spacing_is_refused_at_once(good, spacing):
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("spacing", [50.0, 1e30, 1e300])
 def test_a_spacing_larger_than_the_surface_leaves_a_few_particles(good, spacing, method):
-    # By the default angular density some ten stand around at a spacing that is clamped to that of the bounds.
+    # By the default angular density some ten stand around, down to the smallest spacing.
     for density, most in ((10, 100), (0, 12)):
         particles, messages = support.run(good, "F", 1.0, Spacing=spacing, Method=method, AngularDensity=density)
         assert messages.errors == []
         assert 1 <= particles.GetNumberOfPoints() <= most
-    assert_clean(particles)
+        assert_clean(particles)
 
 
 def test_too_many_particles_are_refused(good):
