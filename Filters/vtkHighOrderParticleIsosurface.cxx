@@ -251,7 +251,8 @@ std::uint64_t vtkHighOrderParticleIsosurface::HashOfRequest(vtkDataObject* input
   hop::ByteHash hash;
   const double* values = this->ContourValues->GetValues();
   hash.add(values, sizeof(double) * this->ContourValues->GetNumberOfContours());
-  for (const double number : { this->Spacing, this->AngularDensity, this->SmallestSpacing, this->Tolerance })
+  for (const double number :
+    { this->Spacing, this->AngularDensity, this->SmallestSpacing, this->Tolerance })
   {
     hash.add(number);
   }
@@ -335,8 +336,8 @@ bool vtkHighOrderParticleIsosurface::Accepts(const hop::GatheredBlocks& gathered
   hop::UserMessages messages = this->CheckIsovalues(gathered);
   if (messages.empty())
   {
-    messages = hop::checkParameters(
-      properties.isovalues, this->Spacing, this->SmallestSpacing, this->AngularDensity, this->Tolerance);
+    messages = hop::checkParameters(properties.isovalues, this->Spacing, this->SmallestSpacing,
+      this->AngularDensity, this->Tolerance);
   }
   if (messages.empty())
   {

@@ -346,8 +346,7 @@ void addErrors(const Request& request, vtkPolyData* points, Record& record)
         hop::Evaluated on;
         if (walker.project(at.location, request.spacing, on))
         {
-          afterNewton =
-            std::max(afterNewton, std::abs(on.point.value) / length(on.point.gradient));
+          afterNewton = std::max(afterNewton, std::abs(on.point.value) / length(on.point.gradient));
         }
         else
         {

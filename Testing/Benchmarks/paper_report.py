@@ -40,7 +40,7 @@ PAPER_EVALUATIONS = (555, 859)
 PIECES = (2, 4, 8, 16)
 MOST_SAMPLED_CELLS = 3_000_000
 # Classic and Tessellate take minutes on more.
-MOST_FOR_CLASSIC = 3_500
+MOST_FOR_CLASSIC = 9_000
 MOST_CELLS_TO_TESSELLATE = 8
 
 
@@ -76,7 +76,8 @@ def measure_case(program, limit, name, case):
 
 
 def cell(result, key, form):
-    value = result.get(key)
+    is_error = "residual" in key and not result["particles"]
+    value = None if is_error else result.get(key)
     return "" if value is None else form.format(value)
 
 
@@ -103,23 +104,24 @@ def table(results):
     return lines
 
 
+GROUPS = {"Fast": "o#1f77b4", "Classic": "s#ff7f0e", "Contour": "x#2ca02c", "Tessellate": "+#9467bd", "sampled": ".#d62728"}
+
+
 def plot_errors(results, path):
-    """Largest error against processor time, a panel a case."""
+    """Largest error against processor time, a panel a case; what finds no surface has no error."""
     names = [name for name, *_ in CASES if name in ("teardrop, ρ = 7, finer", "quartic, ρ = 0", "octic, ρ = 7",
                                                     "one hexahedron of order 8")]
     figure, axes = plt.subplots(1, len(names), figsize=(12, 3.2), sharey=True)
     for axis, name in zip(axes, names):
-        of_case = [r for r in results if r["case"] == name and "over_limit" not in r]
-        groups = {"Fast": "o", "Classic": "s", "Contour": "x", "Tessellate": "+", "sampled": "."}
-        for group, marker in groups.items():
+        of_case = [r for r in results if r["case"] == name and r.get("particles")]
+        for group, style in GROUPS.items():
             chosen = [r for r in of_case if r["method"].startswith(group)]
-            if chosen:
-                axis.loglog([r["seconds_1_cpu"] for r in chosen],
-                            [max(r["residual_per_diagonal"], 1e-17) for r in chosen], marker + "-", label=group)
+            axis.loglog([r["seconds_1_cpu"] for r in chosen], [r["residual_per_diagonal"] for r in chosen],
+                        style[0] + "-", color=style[1:], label=group)
         axis.set_title(name)
         axis.set_xlabel("processor time, s")
     axes[0].set_ylabel("largest error / diagonal")
-    axes[-1].legend(fontsize=7)
+    axes[0].legend(fontsize=7, loc="center left")
     figure.tight_layout()
     figure.savefig(path, dpi=75)
 
@@ -140,7 +142,7 @@ def plot_evaluations(results, path):
     figure.savefig(path, dpi=75)
 
 
-def newest(folder):
+def newest():
     """The commit and the machine, for the head of the report."""
     commit = subprocess.run(["git", "-C", str(HERE), "log", "-1", "--format=%h, %cs"], capture_output=True, text=True)
     lines = Path("/proc/cpuinfo").read_text().splitlines()
@@ -151,7 +153,8 @@ def newest(folder):
 def write_report(results, folder, limit):
     lines = [
         "# The paper's cases, measured", "",
-        f"By `bash Utilities/paper.sh`. {newest(folder)} Times are processor seconds of one thread, one run, from the",
+        f"By `bash Utilities/paper.sh`. {newest()}", "",
+        "Times are processor seconds of one thread, one run, from the",
         "VTK grid to the VTK polydata. *sampled k³* cuts each element that can hold surface into k³ linear cells and",
         "contours these (marching cells): it is the peer at a chosen accuracy; *after Newton* is its largest error once",
         "its points are put onto the surface by Newton's method, in time that is not counted, without those that Newton's",

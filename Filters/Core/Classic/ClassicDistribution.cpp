@@ -160,7 +160,9 @@ void ClassicSystem::relaxLevel(int maximumRounds, bool fixedNumber)
   for (int round = 0; round < maximumRounds; ++round)
   {
     const bool steady = this->sweepUntilSteady(fixedNumber);
-    if (fixedNumber ? steady : !splitAndDelete(this->Particles, this->RandomNumbers, this->Parameters.classic))
+    if (fixedNumber
+        ? steady
+        : !splitAndDelete(this->Particles, this->RandomNumbers, this->Parameters.classic))
     {
       if (fixedNumber || balanced)
       {

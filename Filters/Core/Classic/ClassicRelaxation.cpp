@@ -91,9 +91,8 @@ void relax(ClassicParticles& particles, std::size_t i)
     if (energy < here.energy)
     {
       trial.energy = energy;
-      trial.lambda = isFirstTry
-        ? std::min(ClassicParticle::LargestLambda, LambdaFactor::Grow * lambda)
-        : lambda;
+      trial.lambda =
+        isFirstTry ? std::min(ClassicParticle::LargestLambda, LambdaFactor::Grow * lambda) : lambda;
       particles.movers[i] = trial;
       return;
     }

@@ -96,8 +96,8 @@ bool splitAndDelete(
     const ClassicParticle& m = movers[i];
     const double bias = random.uniform() * (m.energy - m.ideal) / m.ideal;
     fates[i] = bias < parameters.splitBelow ? Fate::Split
-      : bias > parameters.deleteAbove      ? Fate::Delete
-                                             : Fate::Stay;
+      : bias > parameters.deleteAbove       ? Fate::Delete
+                                            : Fate::Stay;
     changes += fates[i] != Fate::Stay;
     if (overlapsEarlier(particles, i))
     {

@@ -266,8 +266,8 @@ bool FastSystem::estimateCount()
 void FastSystem::prepareSurface()
 {
   this->Surface.jumpTolerances = nullptr;
-  this->Proxy = std::make_unique<SurfaceProxy>(
-    this->proxyOfBoxesAt(this->Sizing, ProgressAt::Isolated));
+  this->Proxy =
+    std::make_unique<SurfaceProxy>(this->proxyOfBoxesAt(this->Sizing, ProgressAt::Isolated));
   this->Work.ask();
   this->Jumps = findFaceJumps(this->Surface, *this->Proxy, this->Parallel);
   std::int64_t cost = this->Jumps.evaluations;

@@ -32,9 +32,8 @@ struct SizingFunction
   /// The bound of h.
   double smallest() const
   {
-    return this->smallestSpacing > 0.0
-      ? std::min(this->spacing, this->smallestSpacing)
-      : this->spacing / (1.0 + this->angularDensity * MostTurns);
+    return this->smallestSpacing > 0.0 ? std::min(this->spacing, this->smallestSpacing)
+                                       : this->spacing / (1.0 + this->angularDensity * MostTurns);
   }
 
   /// h for a curvature magnitude D, world units. D s / 2 pi are the turns that the surface takes over a length s.

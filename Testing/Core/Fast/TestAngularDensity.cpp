@@ -71,7 +71,8 @@ TEST_P(AngularDensityOfThinSurfaces, IsToldWhereFewerThanSixStandAround)
   const Distribution result = onTube({ spacing, 2.0 });
   const auto count = static_cast<std::int64_t>(result.particles.size());
   ASSERT_GT(count, 0);
-  EXPECT_EQ(result.report.particlesUndersampled, 2.0 + 2.0 * Pi * radius / spacing < 6.0 ? count : 0);
+  EXPECT_EQ(
+    result.report.particlesUndersampled, 2.0 + 2.0 * Pi * radius / spacing < 6.0 ? count : 0);
 }
 
 /// Also off the corners of the elements' boxes, where other numbers of boxes hold the sphere.
@@ -92,7 +93,8 @@ TEST(AngularDensity, EndsAtTheSmallestSpacing)
 {
   constexpr double spacing = 20.0 * radius, smallest = 1.5 * radius;
   const Distribution result = onTube({ spacing, 10.0, smallest });
-  EXPECT_NEAR(countAround(result), 2.0 * Pi * radius / smallest, 0.15 * 2.0 * Pi * radius / smallest);
+  EXPECT_NEAR(
+    countAround(result), 2.0 * Pi * radius / smallest, 0.15 * 2.0 * Pi * radius / smallest);
   for (const Particle& p : result.particles)
   {
     EXPECT_GE(p.spacing, 0.999 * smallest);
