@@ -330,7 +330,7 @@ def test_a_spacing_that_is_no_number(good, spacing):
     assert_one_error(messages, "Spacing is NaN or infinite", "0 for the automatic")
 
 
-@pytest.mark.parametrize("property", ["AngularDensity", "Tolerance"])
+@pytest.mark.parametrize("property", ["AngularDensity", "SmallestSpacing", "Tolerance"])
 def test_a_property_that_is_no_number(good, property):
     particles, messages = support.run(good, "F", 1.0, **{property: float("nan")})
     assert_empty(particles)
