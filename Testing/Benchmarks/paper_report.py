@@ -154,13 +154,12 @@ def write_report(results, folder, limit):
     lines = [
         "# The paper's cases, measured", "",
         f"By `bash Utilities/paper.sh`. {newest()}", "",
-        "Times are processor seconds of one thread, one run, from the",
-        "VTK grid to the VTK polydata. *sampled k³* cuts each element that can hold surface into k³ linear cells and",
-        "contours these (marching cells): it is the peer at a chosen accuracy; *after Newton* is its largest error once",
-        "its points are put onto the surface by Newton's method, in time that is not counted, without those that Newton's",
-        "method did not bring there within one spacing. Measurements that take",
-        f"more than {limit} s of processor time, all repetitions and checks included, are given up. *Classic* is tried",
-        f"up to {MOST_FOR_CLASSIC:,} particles, Tessellate on the teardrop. Each case is in",
+        "Times are processor seconds of one thread, one run, from the VTK grid to the VTK polydata. *sampled k³* cuts",
+        "each element that can hold surface into k³ linear cells and contours these (marching cells): it is the peer at a",
+        "chosen accuracy. *after Newton* is its largest error once its points are put onto the surface by Newton's method,",
+        "in time that is not counted, without those that did not get there within one spacing. Measurements that take",
+        f"more than {limit} s of processor time, all checks included, are given up. *Classic* is tried up to",
+        f"{MOST_FOR_CLASSIC:,} particles, Tessellate on the teardrop. The cases are in",
         "`Testing/Benchmarks/BenchmarkGrids.h`.", "",
         "[What of the paper is where, and what differs](paper.md).", "",
         "![Largest error against time](ERRORS)", "", "![Evaluations a particle](EVALUATIONS)", "",
@@ -171,7 +170,8 @@ def write_report(results, folder, limit):
             lines += [f"## {name[0].upper()}{name[1:]}", "",
                       f"{of_case[0]['cells']:,.0f} cells, spacing {of_case[0]['spacing']:.4g}."
                       + (f" The paper: {paper}." if paper else ""), "", *table(of_case), ""]
-    lines += ["## Pictures", "", "Left: particles as points. Right: the same as splats.", "", "![All cases](PICTURES)", ""]
+    lines += ["## Pictures", "", "Each twice, particles as points and as splats: the quartic at ρ = 0 and 7; at ρ = 15, and the teardrop; the",
+              "tangle cube and the octic; the vortex street.", "", "![All cases](PICTURES)", ""]
     text = "\n".join(lines)
     for word, name in (("ERRORS", "errors"), ("EVALUATIONS", "evaluations"), ("PICTURES", "cases")):
         text = text.replace(f"({word})", f"(pictures/results_{name}.png)")
