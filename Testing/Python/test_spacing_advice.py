@@ -55,6 +55,19 @@ def test_the_advice_works_and_takes_what_it_says(name, isovalue, spacing, densit
     assert after.GetNumberOfPoints() == pytest.approx(promised, rel=0.3)
 
 
+@pytest.mark.parametrize("method", ["Fast", "Classic"])
+def test_a_thin_tube_has_the_particles_of_equation_6_or_a_warning(method):
+    grid, radius, spacing = field("tube"), 0.02, 0.8
+    particles, warning = run(grid, radius**2, Spacing=spacing, AngularDensity=10, Method=method)
+    assert warning == ""
+    h = spacing / (1 + 10 * spacing / (2 * np.pi * radius))
+    wanted = 2 * 2 * np.pi * radius * 2 / (np.sqrt(3) * h**2)
+    assert particles.GetNumberOfPoints() == pytest.approx(wanted, rel=0.15)
+    for density in (0, 4):
+        _, warning = run(grid, radius**2, Spacing=spacing, AngularDensity=density, Method=method)
+        assert "(100%)" in warning
+
+
 def test_a_given_number_is_advised_as_a_number():
     grid = field("tube")
     _, warning = run(grid, 0.0004, NumberOfParticles=120, AngularDensity=0)
