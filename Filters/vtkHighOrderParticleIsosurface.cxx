@@ -258,7 +258,8 @@ std::uint64_t vtkHighOrderParticleIsosurface::HashOfRequest(vtkDataObject* input
   hop::ByteHash hash;
   const double* values = this->ContourValues->GetValues();
   hash.add(values, sizeof(double) * this->ContourValues->GetNumberOfContours());
-  for (const double number : { this->Spacing, this->AngularDensity, this->Tolerance })
+  for (const double number :
+    { this->Spacing, this->AngularDensity, this->SmallestSpacing, this->Tolerance })
   {
     hash.add(number);
   }
@@ -312,6 +313,7 @@ hop::RunProperties vtkHighOrderParticleIsosurface::PropertiesOfRun()
   hop::RunProperties properties;
   properties.isovalues = this->FindIsovalues();
   properties.angularDensity = this->AngularDensity;
+  properties.smallestSpacing = this->SmallestSpacing;
   properties.nodeSpacing = this->NodeSpacing == UNIFORM ? hop::NodeSpacing::Uniform
                                                         : hop::NodeSpacing::GaussLobattoLegendre;
   properties.quality = static_cast<hop::Quality>(this->Quality);
@@ -344,8 +346,8 @@ bool vtkHighOrderParticleIsosurface::Accepts(const hop::GatheredBlocks& gathered
   hop::UserMessages messages = this->CheckIsovalues(gathered);
   if (messages.empty())
   {
-    messages = hop::checkParameters(
-      properties.isovalues, this->Spacing, this->AngularDensity, this->Tolerance);
+    messages = hop::checkParameters(properties.isovalues, this->Spacing, this->SmallestSpacing,
+      this->AngularDensity, this->Tolerance);
   }
   if (messages.empty())
   {
@@ -376,6 +378,7 @@ void vtkHighOrderParticleIsosurface::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Spacing: " << this->Spacing << "\n";
   os << indent << "AngularDensity: " << this->AngularDensity << "\n";
+  os << indent << "SmallestSpacing: " << this->SmallestSpacing << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "Component: " << this->Component << "\n";
   os << indent << "NodeSpacing: " << this->NodeSpacing << "\n";

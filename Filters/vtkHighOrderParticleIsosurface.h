@@ -116,11 +116,20 @@ public:
   ///@{
   /**
    * How much denser particles stand where the surface bends (rho of the paper's eq. 6): the spacing s becomes
-   * s / (1 + rho D s / 2 pi), with the curvature magnitude D, but at least s / (1 + rho). The value is about the number
-   * of particles around a thin tube, without unit. 0 spreads them evenly. Range 0 to 100, default 10.
+   * s / (1 + rho D s / 2 pi), with the curvature magnitude D, but at least SmallestSpacing. The value is about the
+   * number of particles around a thin tube, without unit. 0 spreads them evenly. Range 0 to 100, default 10.
    */
   vtkSetClampMacro(AngularDensity, double, 0.0, 100.0);
   vtkGetMacro(AngularDensity, double);
+  ///@}
+
+  ///@{
+  /**
+   * Distance of neighbouring particles below which AngularDensity brings them nowhere, world units. Values <= 0 stand
+   * for s / (1 + 8 rho), which follows tubes down to a radius of s / 50. Default 0.
+   */
+  vtkSetMacro(SmallestSpacing, double);
+  vtkGetMacro(SmallestSpacing, double);
   ///@}
 
   ///@{
@@ -319,6 +328,7 @@ private:
   vtkNew<vtkContourValues> ContourValues;
   double Spacing = 0.0;
   double AngularDensity = 10.0;
+  double SmallestSpacing = 0.0;
   double Tolerance = 1e-10;
   int Component = VTK_INT_MAX;
   int NodeSpacing = UNIFORM;

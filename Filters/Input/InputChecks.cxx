@@ -203,18 +203,19 @@ UserMessages checkIsovalues(const std::vector<double>& isovalues, const Gathered
   return { { UserMessage::Warning, "There are no particles, as no isovalue is given; " + advice } };
 }
 
-UserMessages checkParameters(
-  const std::vector<double>& isovalues, double spacing, double angularDensity, double tolerance)
+UserMessages checkParameters(const std::vector<double>& isovalues, double spacing,
+  double smallestSpacing, double angularDensity, double tolerance)
 {
   if (!std::all_of(
         isovalues.begin(), isovalues.end(), [](double value) { return std::isfinite(value); }))
   {
     return { { UserMessage::Error, "An isovalue is NaN or infinite; give finite ones." } };
   }
-  if (!std::isfinite(spacing))
+  if (!std::isfinite(spacing) || !std::isfinite(smallestSpacing))
   {
+    const std::string name = std::isfinite(spacing) ? "SmallestSpacing" : "Spacing";
     return { { UserMessage::Error,
-      "Spacing is NaN or infinite; give a length, or 0 for the automatic one." } };
+      name + " is NaN or infinite; give a length, or 0 for the automatic one." } };
   }
   if (std::isnan(angularDensity) || std::isnan(tolerance))
   {

@@ -15,8 +15,8 @@ namespace hop
 UserMessages checkIsovalues(const std::vector<double>& isovalues, const GatheredBlocks& gathered);
 
 /// What is wrong with the filter's properties, whatever the input; empty if nothing is.
-UserMessages checkParameters(
-  const std::vector<double>& isovalues, double spacing, double angularDensity, double tolerance);
+UserMessages checkParameters(const std::vector<double>& isovalues, double spacing,
+  double smallestSpacing, double angularDensity, double tolerance);
 
 /// What is wrong with the size of the whole grid; empty if nothing is.
 /// \param diagonal of the grid's bounds, world units

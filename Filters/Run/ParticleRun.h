@@ -23,6 +23,8 @@ struct RunProperties
   /// Finite, each once.
   std::vector<double> isovalues;
   double angularDensity = 0.0;
+  /// World units; 0 for the automatic one.
+  double smallestSpacing = 0.0;
   NodeSpacing nodeSpacing = NodeSpacing::Uniform;
   Quality quality = Quality::Standard;
   std::uint64_t seed = 1;

@@ -20,7 +20,8 @@ constexpr double largestChangeOfSpacing = 0.1;
 
 bool sameRequest(const DistributionParameters& a, const DistributionParameters& b)
 {
-  return a.sizing.angularDensity == b.sizing.angularDensity && a.quality == b.quality &&
+  return a.sizing.angularDensity == b.sizing.angularDensity &&
+    a.sizing.smallestSpacing == b.sizing.smallestSpacing && a.quality == b.quality &&
     a.seed == b.seed && a.particleCount == b.particleCount;
 }
 

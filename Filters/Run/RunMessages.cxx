@@ -57,6 +57,10 @@ std::string describeAdvice(
     text << "Choose a Spacing of " << advice.spacing << ", which takes about " << advice.count
          << " particles.";
   }
+  else if (advice.isBounded)
+  {
+    text << "SmallestSpacing keeps them apart; choose a smaller one, or 0.";
+  }
   else if (advice.isSingular)
   {
     text << "The place is singular: the gradient of the field vanishes on the surface, or nearly "

@@ -70,11 +70,10 @@ double undersampledShare(const Buffer<Particle>& particles, const SizingFunction
   double undersampled = 0.0;
   for (const Particle& particle : particles)
   {
-    const double bending = particle.curvature.magnitude;
-    const double spacing = sizing.at(bending);
+    const double spacing = sizing.at(particle.curvature.magnitude);
     const double count = (particle.spacing / spacing) * (particle.spacing / spacing);
     all += count;
-    undersampled += bending * spacing > Particle::LargestCurvatureTimesSpacing ? count : 0.0;
+    undersampled += particle.wouldBeUndersampled(spacing) ? count : 0.0;
   }
   return undersampled / all;
 }
@@ -111,6 +110,7 @@ SpacingAdvice adviseSpacing(const Distribution& distribution, SizingFunction siz
       break;
     }
   }
+  advice.isBounded = sizing.smallestSpacing > 0.0 && advice.spacing == 0.0;
   return advice;
 }
 

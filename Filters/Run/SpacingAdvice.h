@@ -22,6 +22,8 @@ struct SpacingAdvice
   std::size_t worst = 0;
   /// Whether the gradient of the field vanishes on the surface, or nearly so.
   bool isSingular = false;
+  /// Whether no spacing is advised, and a smallest spacing is given.
+  bool isBounded = false;
 
   /// Largest number of particles that is advised, in units of the number there is. Larger: runs that a user would not
   /// wait for; smaller: no advice where there could be one.

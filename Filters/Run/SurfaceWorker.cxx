@@ -7,6 +7,7 @@
 #include "Run/RunMessages.h"
 #include "Run/SpacingAdvice.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace hop
@@ -55,6 +56,15 @@ void SurfaceWorker::distribute(
   }
 }
 
+/// The sizing function with a spacing on flat surfaces, in units of the run. Nothing closer than the tolerance is told
+/// apart, so that no smallest spacing is below it.
+SizingFunction SurfaceWorker::sizingAt(double spacing) const
+{
+  const double smallest = this->Properties.smallestSpacing;
+  return { spacing, this->Properties.angularDensity,
+    smallest > 0.0 ? std::max(smallest / this->Scale.unit, this->Scale.tolerance) : 0.0 };
+}
+
 /// What an isosurface is made of.
 RunOrigin SurfaceWorker::makeOrigin(double isovalue) const
 {
@@ -62,7 +72,7 @@ RunOrigin SurfaceWorker::makeOrigin(double isovalue) const
   origin.isovalue = isovalue;
   origin.nodeSpacing = this->Properties.nodeSpacing;
   origin.unit = this->Scale.unit;
-  origin.parameters.sizing = { this->Scale.spacing, this->Properties.angularDensity };
+  origin.parameters.sizing = this->sizingAt(this->Scale.spacing);
   origin.parameters.quality = this->Properties.quality;
   origin.parameters.seed = this->Properties.seed;
   origin.parameters.particleCount = this->Properties.numberOfParticles;
@@ -86,16 +96,15 @@ void SurfaceWorker::reviewSpacing(double isovalue, double fieldIsovalue,
   const Distribution& distribution, const Work& work) const
 {
   const std::int64_t number = this->Properties.numberOfParticles;
-  const double density = this->Properties.angularDensity;
   const auto countAt = [&](double spacing)
   {
     const std::vector<double> counts =
       particlesPerElement({ &this->Mesh, fieldIsovalue, this->Scale.tolerance },
-        { spacing, density }, work.monitor, work.parallelFor);
+        this->sizingAt(spacing), work.monitor, work.parallelFor);
     return std::accumulate(counts.begin(), counts.end(), 0.0);
   };
   const SpacingAdvice advice = adviseSpacing(
-    distribution, { number > 0 ? 0.0 : this->Scale.spacing, density }, this->Scale.unit, countAt);
+    distribution, this->sizingAt(number > 0 ? 0.0 : this->Scale.spacing), this->Scale.unit, countAt);
   const int worst = distribution.particles[advice.worst].location.element;
   this->Caller.tell({ reviewUndersampled(this->Blocks, distribution, advice,
     this->Mesh.elements[worst].cell, isovalue, number) });

@@ -31,6 +31,7 @@ public:
     double fieldIsovalue, std::size_t number, const Work& work, IsovalueParticles& some) const;
 
 private:
+  SizingFunction sizingAt(double spacing) const;
   RunOrigin makeOrigin(double isovalue) const;
   void review(double isovalue, double fieldIsovalue, const Distribution& distribution,
     const Work& work) const;

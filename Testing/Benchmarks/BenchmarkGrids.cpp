@@ -95,6 +95,15 @@ MeshRecipe bentCubes(Domain domain, int degree, int cells, const Field& field)
   return recipe;
 }
 
+ElementMesh inOneHexahedron(const KnownSurface& surface)
+{
+  MeshRecipe recipe;
+  recipe.degrees = { surface.degree, surface.degree, surface.degree };
+  recipe.cells = 1;
+  recipe.field = surface.field;
+  return makeMesh(recipe);
+}
+
 vtkSmartPointer<vtkUnstructuredGrid> readFile(const std::string& name)
 {
   if (!std::filesystem::is_regular_file(name))
@@ -125,9 +134,27 @@ vtkSmartPointer<vtkUnstructuredGrid> benchmarkGrid(const std::string& name)
       return gridOf(makeMesh(bentCubes(domain, 4, 4, torus(0.5, 0.22).field)), CellKind::Lagrange);
     }
   }
-  if (name == "teardrop")
+  const std::pair<const char*, ElementMesh (*)()> splines[] = { { "teardrop", teardropMesh },
+    { "needle", needleMesh } };
+  for (const auto& [spline, make] : splines)
   {
-    return gridOf(teardropMesh(), CellKind::Bezier);
+    if (name == spline)
+    {
+      return gridOf(make(), CellKind::Bezier);
+    }
+  }
+  const std::pair<const char*, KnownSurface (*)()> algebraic[] = { { "quartic", quartic },
+    { "tangle", tangleCube }, { "octic", octic } };
+  for (const auto& [surface, make] : algebraic)
+  {
+    if (name == surface)
+    {
+      return gridOf(inOneHexahedron(make()), CellKind::Lagrange);
+    }
+  }
+  if (name == "vortex_street")
+  {
+    return gridOf(vortexStreetMesh(), CellKind::Lagrange);
   }
   if (name == "gyroid")
   {

@@ -14,8 +14,9 @@ namespace hop::testing
 ///  - sphere_DOMAIN, torus_DOMAIN: in 4^3 bent cubes of Lagrange hexahedra, tetrahedra or wedges
 ///    (DOMAIN = hexahedra, tetrahedra, wedges) of degree 4, that hold a sphere of radius 0.6 and a
 ///    torus of radii 0.5 and 0.22;
-///  - teardrop: x^5/2 + x^4/2 = y^2 + z^2 for -1.05 <= x <= 0.1 in reference space, with its cusp at 0,
-///    under a quadratic B-spline map of 2^3 spans, each one Bezier hexahedron of degree 5;
+///  - teardrop, needle: teardropMesh() and needleMesh() of TestMeshes.h, as Bezier hexahedra;
+///  - quartic, tangle, octic: the surfaces of AnalyticFields.h, each in one straight Lagrange hexahedron of its degree;
+///  - vortex_street: vortexStreetMesh() of TestMeshes.h, Lagrange hexahedra and wedges of degree 3;
 ///  - gyroid: one period in 16^3 bent Lagrange hexahedra of degree 3; it ends at the cube's faces.
 /// \return nullptr if there is no such thing
 vtkSmartPointer<vtkUnstructuredGrid> benchmarkGrid(const std::string& name);

@@ -10,7 +10,9 @@
 //     particles= number wanted: the spacing that gives it is searched first; or
 //     spacing=   world units
 //     method=    fast, classic, contour, tessellate (then Contour), sampled (pieces^3 linear cells an element,
-//                then vtkContour3DLinearGrid), or spacing: only the search; default fast
+//                then vtkContour3DLinearGrid), write (the grid, into the file `out`), or spacing: only the search;
+//                default fast
+//     out=       of write: a .vtu file
 //     number=    NumberOfParticles (default 0: the spacing decides)
 //     quality=   of fast: draft, standard, high (default standard)
 //     error=     of tessellate: chord and field error, as fractions of the bounding diagonal and of the
@@ -41,6 +43,7 @@
 #include <vtkSMPTools.h>
 #include <vtkTessellatorFilter.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridWriter.h>
 
 #include <algorithm>
 #include <cmath>
@@ -68,7 +71,7 @@ constexpr double probesPerSpacing = 2.0;
 
 struct Request
 {
-  std::string gridName, array = "f", method = "fast";
+  std::string gridName, array = "f", method = "fast", out;
   double isovalue = 0.0, density = 0.0, particles = 0.0, spacing = 0.0, error = 1e-3;
   int repetitions = 3, pieces = 4, number = 0;
   hop::Quality quality = hop::Quality::Standard;
@@ -326,6 +329,8 @@ void addErrors(const Request& request, vtkPolyData* points, Record& record)
   hop::SurfaceWalker walker(stages.surface);
   const double accuracy = 1e-9 * request.grid->GetLength();
   std::vector<double> errors;
+  double afterNewton = 0.0;
+  int notProjected = 0;
   for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
   {
     glm::dvec3 x;
@@ -345,6 +350,15 @@ void addErrors(const Request& request, vtkPolyData* points, Record& record)
       if (walkTo(x, walker, accuracy, at))
       {
         errors.push_back(std::abs(at.point.value) / length(at.point.gradient));
+        hop::Evaluated on;
+        if (walker.project(at.location, request.spacing, on))
+        {
+          afterNewton = std::max(afterNewton, std::abs(on.point.value) / length(on.point.gradient));
+        }
+        else
+        {
+          ++notProjected;
+        }
         break;
       }
     }
@@ -357,6 +371,8 @@ void addErrors(const Request& request, vtkPolyData* points, Record& record)
     std::accumulate(errors.begin(), errors.end(), 0.0) / count / diagonal);
   record.add("residual_per_diagonal",
     errors.empty() ? 0.0 : *std::max_element(errors.begin(), errors.end()) / diagonal);
+  record.add("residual_after_newton_per_diagonal", afterNewton / diagonal);
+  record.add("not_projected", notProjected);
 }
 
 /// Contour as it comes, normals included, after Tessellate if asked for.
@@ -404,6 +420,7 @@ void measureStock(const Request& request, Record& record)
   record.add("peak_megabytes", peakMegabytes());
   record.add("megabytes_before", before);
   record.add("particles", static_cast<double>(count));
+  record.add("triangles", static_cast<double>(contour->GetOutput()->GetNumberOfPolys()));
   addErrors(request, contour->GetOutput(), record);
 }
 
@@ -432,6 +449,9 @@ void measureSampled(const Request& request, Record& record)
   record.add("peak_megabytes", peakMegabytes());
   record.add("megabytes_before", before);
   record.add("pieces", request.pieces);
+  record.add("triangles",
+    static_cast<double>(
+      vtkPolyData::SafeDownCast(contour->GetOutputDataObject(0))->GetNumberOfPolys()));
   auto* points = vtkPolyData::SafeDownCast(contour->GetOutputDataObject(0));
   record.add("particles", static_cast<double>(points->GetNumberOfPoints()));
   addErrors(request, points, record);
@@ -451,6 +471,7 @@ Request parse(int argc, char* argv[])
     { "grid", [&](const std::string& v) { request.gridName = v; } },
     { "array", [&](const std::string& v) { request.array = v; } },
     { "method", [&](const std::string& v) { request.method = v; } },
+    { "out", [&](const std::string& v) { request.out = v; } },
     { "isovalue", [&](const std::string& v) { request.isovalue = std::stod(v); } },
     { "density", [&](const std::string& v) { request.density = std::stod(v); } },
     { "particles", [&](const std::string& v) { request.particles = std::stod(v); } },
@@ -503,6 +524,13 @@ int main(int argc, char* argv[])
     else if (request.method == "sampled")
     {
       measureSampled(request, record);
+    }
+    else if (request.method == "write")
+    {
+      const vtkNew<vtkXMLUnstructuredGridWriter> writer;
+      writer->SetInputData(request.grid);
+      writer->SetFileName(request.out.c_str());
+      writer->Write();
     }
     else if (request.method != "spacing")
     {

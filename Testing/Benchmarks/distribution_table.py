@@ -27,7 +27,7 @@ CASES = (
     *({"grid": f"sphere_{domain}", "particles": 10_000} for domain in DOMAINS),
     *({"grid": f"torus_{domain}", "particles": 10_000} for domain in DOMAINS),
     *({"grid": f"torus_{domain}", "particles": 10_000, "density": 15} for domain in DOMAINS),
-    *({"grid": "teardrop", "particles": n, "density": 7} for n in (1_280, 3_232, 8_647)),
+    *({"grid": "needle", "particles": n, "density": 7} for n in (1_280, 3_232, 8_647)),
     *({**ORDER_8, "particles": n} for n in (500, 6_800)),
     *({**PYFR, "particles": n} for n in (5_000, 13_000, 28_000, 59_000)),
     {**SIBLING, "particles": 43_000},

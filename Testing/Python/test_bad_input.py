@@ -330,7 +330,7 @@ def test_a_spacing_that_is_no_number(good, spacing):
     assert_one_error(messages, "Spacing is NaN or infinite", "0 for the automatic")
 
 
-@pytest.mark.parametrize("property", ["AngularDensity", "Tolerance"])
+@pytest.mark.parametrize("property", ["AngularDensity", "SmallestSpacing", "Tolerance"])
 def test_a_property_that_is_no_number(good, property):
     particles, messages = support.run(good, "F", 1.0, **{property: float("nan")})
     assert_empty(particles)
@@ -350,10 +350,12 @@ def test_an_absurdly_small_spacing_is_refused_at_once(good, spacing):
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("spacing", [50.0, 1e30, 1e300])
 def test_a_spacing_larger_than_the_surface_leaves_a_few_particles(good, spacing, method):
-    particles, messages = support.run(good, "F", 1.0, Spacing=spacing, Method=method)
-    assert messages.errors == []
-    assert 1 <= particles.GetNumberOfPoints() <= 12
-    assert_clean(particles)
+    # By the default angular density some ten stand around, down to the smallest spacing.
+    for density, most in ((10, 100), (0, 12)):
+        particles, messages = support.run(good, "F", 1.0, Spacing=spacing, Method=method, AngularDensity=density)
+        assert messages.errors == []
+        assert 1 <= particles.GetNumberOfPoints() <= most
+        assert_clean(particles)
 
 
 def test_too_many_particles_are_refused(good):

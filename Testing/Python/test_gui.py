@@ -113,6 +113,7 @@ EDITS = {
     "Spacing": ("Spacing", "DoubleRangeWidget/DoubleLineEdit", "set_string", "0.25"),
     "Angular Density": ("AngularDensity", "DoubleRangeWidget/DoubleLineEdit", "set_string", "3"),
     "Quality": ("Quality", "ComboBox", "activated", "High"),
+    "Smallest Spacing": ("SmallestSpacing", "DoubleLineEdit0", "set_string", "0.125"),
     "Tolerance": ("Tolerance", "DoubleLineEdit0", "set_string", "1e-06"),  # no slider
     "Node Spacing": ("NodeSpacing", "ComboBox", "activated", "Gauss-Lobatto-Legendre"),
     "Warm Start": ("WarmStart", "CheckBox", "set_boolean", "true"),
@@ -124,6 +125,7 @@ EDITS = {
 # As the state file has them.
 EDITED = {
     "SelectInputScalars": ["", "", "", "0", "velocity"], "Component": ["1"], "Spacing": ["0.25"], "AngularDensity": ["3"],
+    "SmallestSpacing": ["0.125"],
     "Quality": ["2"], "Tolerance": ["0.000001"], "NodeSpacing": ["1"], "WarmStart": ["1"], "Method": ["0"], "Seed": ["7"],
     "NumberOfParticles": ["400"], "PassDiagnostics": ["1"],
 }

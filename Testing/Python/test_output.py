@@ -305,6 +305,20 @@ def test_number_of_particles_is_kept_exactly(data, number):
     assert support.nearest_neighbors(particles).min() > 0.45
 
 
+@pytest.mark.parametrize("method", ["Fast", "Classic"])
+def test_smallest_spacing_bounds_what_angular_density_does(data, method):
+    reader = support.read(data("mfem_hex1_p8.vtu"))
+    given = {"Spacing": 0.08, "AngularDensity": 15, "Method": method}
+    free = support.run_quietly(reader, "u", 0.2, **given)
+    smallest = 1.3 * support.array_of(free, "Radius").min()
+    bounded = support.run_quietly(reader, "u", 0.2, SmallestSpacing=float(smallest), **given)
+    np.testing.assert_allclose(support.array_of(bounded, "Radius").min(), smallest, rtol=1e-5)
+    assert bounded.GetNumberOfPoints() < free.GetNumberOfPoints()
+    # One below what is wanted anywhere bounds nothing.
+    unbounded = support.run_quietly(reader, "u", 0.2, SmallestSpacing=1e-300, **given)
+    np.testing.assert_array_equal(support.points_of(unbounded), support.points_of(free))
+
+
 def test_angular_density_makes_particles_denser_where_the_surface_bends(data):
     reader = support.read(data("mfem_hex1_p8.vtu"))
     even = support.run_quietly(reader, "u", 0.2, Spacing=0.08, AngularDensity=0)

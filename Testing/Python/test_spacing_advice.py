@@ -35,12 +35,12 @@ def run(grid, isovalue, **properties):
 
 
 @pytest.mark.parametrize("name, isovalue, spacing, density", [
-    ("tube", 0.0004, 0.1, 0),
+    ("tube", 0.0004, 0.055, 0),
     ("tube", 0.0004, 0.05, 0),
     ("torus", 0.0, 0.08, 0),
-    ("needles", 0.0, 0.1, 0),
+    ("needles", 0.0, 0.09, 0),
     ("sheet and tube", 0.0, 0.05, 0),
-    ("sheet and tube", 0.0, 0.1, 1),
+    ("sheet and tube", 0.0, 0.1, 3),
 ])
 def test_the_advice_works_and_takes_what_it_says(name, isovalue, spacing, density):
     grid = field(name)
@@ -55,12 +55,25 @@ def test_the_advice_works_and_takes_what_it_says(name, isovalue, spacing, densit
     assert after.GetNumberOfPoints() == pytest.approx(promised, rel=0.3)
 
 
+@pytest.mark.parametrize("method", ["Fast", "Classic"])
+def test_a_thin_tube_has_the_particles_of_equation_6_or_a_warning(method):
+    grid, radius, spacing = field("tube"), 0.02, 0.8
+    particles, warning = run(grid, radius**2, Spacing=spacing, AngularDensity=10, Method=method)
+    assert warning == ""
+    h = spacing / (1 + 10 * spacing / (2 * np.pi * radius))
+    wanted = 2 * 2 * np.pi * radius * 2 / (np.sqrt(3) * h**2)
+    assert particles.GetNumberOfPoints() == pytest.approx(wanted, rel=0.15)
+    for density in (0, 4):
+        _, warning = run(grid, radius**2, Spacing=spacing, AngularDensity=density, Method=method)
+        assert "(100%)" in warning
+
+
 def test_a_given_number_is_advised_as_a_number():
     grid = field("tube")
-    _, warning = run(grid, 0.0004, NumberOfParticles=60, AngularDensity=0)
+    _, warning = run(grid, 0.0004, NumberOfParticles=120, AngularDensity=0)
     advice = re.search(r"Choose a NumberOfParticles of (\d+)\.", warning)
     assert advice, warning
-    assert 60 < int(advice[1]) <= 600
+    assert 120 < int(advice[1]) <= 1200
     after, warning = run(grid, 0.0004, NumberOfParticles=int(advice[1]), AngularDensity=0)
     assert warning == ""
 
@@ -89,6 +102,6 @@ def test_sheets_that_cross_are_called_singular():
 
 
 def test_hundredths_are_not_worth_a_warning():
-    particles, warning = run(field("saddles"), 0.0001, Spacing=0.044, AngularDensity=0)
+    particles, warning = run(field("saddles"), 0.0001, Spacing=0.0325, AngularDensity=0)
     assert 0.01 < support.reported(particles, "ParticlesUndersampled") / particles.GetNumberOfPoints() < 0.02
     assert warning == ""

@@ -78,6 +78,46 @@ KnownSurface bothOf(const KnownSurface& a, const KnownSurface& b)
   return both;
 }
 
+KnownSurface quartic()
+{
+  constexpr double radius = 0.7;
+  KnownSurface surface;
+  surface.degree = 4;
+  surface.field = [](const glm::dvec3& x)
+  {
+    const glm::dvec3 squares = x * x;
+    return std::pow(radius, 4) - glm::dot(squares, squares);
+  };
+  return surface;
+}
+
+KnownSurface tangleCube()
+{
+  KnownSurface surface;
+  surface.degree = 4;
+  surface.field = [](const glm::dvec3& x)
+  {
+    const glm::dvec3 squares = 9.0 * x * x;
+    return -glm::dot(squares, squares - 5.0) - 11.8;
+  };
+  return surface;
+}
+
+KnownSurface octic()
+{
+  KnownSurface surface;
+  surface.degree = 8;
+  surface.field = [](const glm::dvec3& x)
+  {
+    // T_8 = 2 T_4^2 - 1, and T_4 = 2 T_2^2 - 1.
+    const glm::dvec3 t2 = 2.0 * x * x - 1.0;
+    const glm::dvec3 t4 = 2.0 * t2 * t2 - 1.0;
+    const glm::dvec3 t8 = 2.0 * t4 * t4 - 1.0;
+    return -2.5 - (t8.x + t8.y + t8.z);
+  };
+  return surface;
+}
+
 Field gyroid(double periods)
 {
   return [scale = Pi * periods](const glm::dvec3& x)

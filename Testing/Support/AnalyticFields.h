@@ -39,6 +39,14 @@ KnownSurface plane(const glm::dvec3& normal, double offset);
 /// Positive inside either of two surfaces that do not meet. Without normal and curvature.
 KnownSurface bothOf(const KnownSurface& a, const KnownSurface& b);
 
+/// The paper's algebraic surfaces, scaled to the cube [-1,1]^3; without area, normal and curvature.
+///  - a rounded cube, x^4 + y^4 + z^4 = 0.7^4;
+///  - the tangle cube, x^4 - 5 x^2 + y^4 - 5 y^2 + z^4 - 5 z^2 + 11.8 = 0 for |x|, |y|, |z| <= 3;
+///  - the octic T_8(x) + T_8(y) + T_8(z) = -2.5 of Chebyshev polynomials: 64 blobs.
+KnownSurface quartic();
+KnownSurface tangleCube();
+KnownSurface octic();
+
 /// sin x cos y + sin y cos z + sin z cos x, scaled to `periods` over [-1,1]: no polynomial.
 Field gyroid(double periods);
 

@@ -1,7 +1,9 @@
 #include "TestMeshes.h"
 
+#include "AnalyticFields.h"
 #include "Elements/NodalBasis.h"
 #include "Surface/ActiveFaces.h"
+#include "Surface/Energy.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,9 +51,8 @@ glm::dvec3 quadraticSplines(double t)
 
 /// The map of a 4^3 net of control points over the two spans of [-1,1] a side; the net is the regular
 /// one, which gives the identity, with its points moved.
-glm::dvec3 splineMap(const glm::dvec3& x)
+glm::dvec3 splineMap(const Map& moved, const glm::dvec3& x)
 {
-  const Map moved = wavyMap(0.25);
   glm::ivec3 span;
   glm::dmat3 weights;
   for (int axis = 0; axis < 3; ++axis)
@@ -67,6 +68,49 @@ glm::dvec3 splineMap(const glm::dvec3& x)
     sum += weights[0][local.x] * weights[1][local.y] * weights[2][local.z] * moved(control);
   }
   return sum;
+}
+
+/// The net of the teardrop: longer along x, and thinner from slice to slice.
+glm::dvec3 taperedNet(const glm::dvec3& control)
+{
+  constexpr double stretch = 1.5;
+  constexpr double thickness[] = { 1.0, 1.0, 0.4, 0.02 };
+  const double factor = thickness[std::lround(control.x + 1.5)];
+  return { stretch * control.x, factor * control.y, factor * control.z };
+}
+
+/// 2 x 2 x 2 elements under a quadratic B-spline map. The field is a polynomial of the straight cube; the map bends what
+/// it is drawn in.
+ElementMesh splineMesh(int degree, const Map& net, const Field& fieldOfCube)
+{
+  MeshRecipe recipe;
+  recipe.degrees = { degree, degree, degree };
+  recipe.field = fieldOfCube;
+  const ElementMesh straight = makeMesh(recipe);
+  recipe.map = [&](const glm::dvec3& x) { return splineMap(net, x); };
+  ElementMesh bent = makeMesh(recipe);
+  for (std::size_t c = 0; c < bent.coefficients.size(); ++c)
+  {
+    bent.coefficients[c].w = straight.coefficients[c].w;
+  }
+  return bent;
+}
+
+/// Pressure of a vortex street in the wake of a cylinder of radius 0.5.
+double vortexStreetPressure(const glm::dvec3& x)
+{
+  constexpr double gap = 1.8, offset = 0.5, core = 0.6, waver = 0.15;
+  constexpr int vortices = 7;
+  double pressure = 0.3 * std::exp(-0.5 * (glm::dot(x, x) - x.z * x.z));
+  for (int n = 0; n < vortices; ++n)
+  {
+    const double side = n % 2 == 0 ? 1.0 : -1.0;
+    const double dx = x.x - 1.2 - gap * n + waver * std::sin(2.0 * x.z + n);
+    const double dy = x.y - side * (offset + waver * std::cos(2.0 * x.z));
+    const double width = core + 0.05 * n;
+    pressure -= std::exp(-(dx * dx + dy * dy) / (width * width));
+  }
+  return pressure;
 }
 
 } // namespace
@@ -181,24 +225,52 @@ ElementMesh referenceMesh(Domain domain, int degree, const Field& field)
   return mesh;
 }
 
+ElementMesh needleMesh()
+{
+  return splineMesh(5, wavyMap(0.25),
+    [](const glm::dvec3& t)
+    {
+      const double x = 0.575 * t.x - 0.475, y = 0.5 * t.y, z = 0.5 * t.z;
+      return 0.5 * x * x * x * x * (x + 1.0) - y * y - z * z;
+    });
+}
+
 ElementMesh teardropMesh()
 {
-  // The field is a polynomial of the straight cube, the map bends what it is drawn in.
+  constexpr double radius = 0.8;
+  return splineMesh(2, taperedNet, sphere({ 0, 0, 0 }, radius).field);
+}
+
+ElementMesh vortexStreetMesh()
+{
+  constexpr int sectors = 30, rings = 28, outerRings = 2, layers = 6;
+  constexpr double innerRadius = 0.5, growth = 1.105, layerHeight = 0.5;
   MeshRecipe recipe;
-  recipe.degrees = { 5, 5, 5 };
-  recipe.field = [](const glm::dvec3& t)
+  recipe.degrees = { 3, 3, 3 };
+  // The straight cube counts rings, sectors and layers; the sector without outer rings looks upstream.
+  recipe.map = [](const glm::dvec3& n)
   {
-    const double x = 0.575 * t.x - 0.475, y = 0.5 * t.y, z = 0.5 * t.z;
-    return 0.5 * x * x * x * x * (x + 1.0) - y * y - z * z;
+    const double angle = 2.0 * Pi * (n.y + 0.5) / sectors - Pi;
+    const double radius = innerRadius * std::pow(growth, n.x);
+    return glm::dvec3(radius * std::cos(angle), radius * std::sin(angle), layerHeight * n.z);
   };
-  const ElementMesh straight = makeMesh(recipe);
-  recipe.map = splineMap;
-  ElementMesh bent = makeMesh(recipe);
-  for (std::size_t c = 0; c < bent.coefficients.size(); ++c)
+  recipe.field = vortexStreetPressure;
+  ElementMesh mesh;
+  for (int layer = 0; layer < layers; ++layer)
   {
-    bent.coefficients[c].w = straight.coefficients[c].w;
+    for (int ring = 0; ring < rings + outerRings; ++ring)
+    {
+      const bool isOuter = ring >= rings;
+      recipe.domain = isOuter ? Domain::Wedge : Domain::Hexahedron;
+      for (int sector = 0; sector < sectors - (isOuter ? 1 : 0); ++sector)
+      {
+        const glm::dvec3 lower(ring, sector, layer);
+        appendBox(mesh, recipe, lower, lower + 1.0);
+      }
+    }
   }
-  return bent;
+  findFaceNeighbors(mesh, 1e-9);
+  return mesh;
 }
 
 Map wavyMap(double amount)

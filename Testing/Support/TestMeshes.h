@@ -46,9 +46,19 @@ void appendBox(
 /// the right half 2 x 2 boxes of the recipe `right`. Face neighbours are found.
 ElementMesh hangingMesh(const MeshRecipe& left, const MeshRecipe& right);
 
-/// The paper's teardrop, x^4 (x + 1) / 2 = y^2 + z^2, in a box of 2 x 2 x 2 elements that a quadratic B-spline
-/// map bends. It ends in a needle, whose thickness vanishes at x = 0.
+/// The surface x^4 (x + 1) / 2 = y^2 + z^2 in a box of 2 x 2 x 2 elements that a quadratic B-spline map bends. It ends
+/// in a needle, whose thickness vanishes at x = 0.
+ElementMesh needleMesh();
+
+/// The paper's teardrop: a sphere in reference space, which a quadratic B-spline map of 2 x 2 x 2 spans carries to a
+/// body that tapers to one end. The paper gives no control points; these are our own.
 ElementMesh teardropMesh();
+
+/// A mesh as large as the paper's flow around a cylinder: 5,040 hexahedra and 696 wedges of degree 3. Thirty sectors
+/// and 28 rings of hexahedra, six layers, around a cylinder along the z axis; two outer rings of wedges, but for one
+/// sector. The field is the pressure of a vortex street: low in the middle of vortices of alternating sides, at x > 0,
+/// which waver along z.
+ElementMesh vortexStreetMesh();
 
 /// A smooth bend of the cube, invertible, that moves points by up to `amount`.
 Map wavyMap(double amount);

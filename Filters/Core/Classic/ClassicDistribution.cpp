@@ -17,15 +17,9 @@ namespace hop
 namespace
 {
 
-/// When the system has settled, and when neighbours are looked up. From the paper.
-struct Steady
-{
-  /// Relative change of the whole energy over SweepsPerList sweeps; the paper has it from one sweep to the next.
-  /// Larger: particles stop before they stand evenly; smaller: many more sweeps.
-  static constexpr double Change = 0.0015;
-  /// Sweeps with the same lists of neighbours. More: particles leave the lists' range in the meantime.
-  static constexpr int SweepsPerList = 5;
-};
+/// Sweeps with the same lists of neighbours, from the paper, after which the energy is compared with that before them;
+/// the paper compares one sweep with the next. More: particles leave the lists' range in the meantime.
+constexpr int sweepsPerList = 5;
 
 /// Largest numbers of repetitions, where the paper names none. Chosen by experiment. A run that uses up the rounds of
 /// its last level is reported as not converged.
@@ -136,7 +130,7 @@ bool ClassicSystem::sweepUntilSteady(bool fixedNumber)
   bool steady = false;
   for (int n = 0; n < Largest::Sweeps && !steady; ++n)
   {
-    if (n % Steady::SweepsPerList == 0)
+    if (n % sweepsPerList == 0)
     {
       if (fixedNumber && n > 0)
       {
@@ -149,9 +143,9 @@ bool ClassicSystem::sweepUntilSteady(bool fixedNumber)
     this->Work.ask();
     const double energy = sweepOnce(this->Particles, this->Parallel);
     ++this->Report.iterations;
-    if ((n + 1) % Steady::SweepsPerList == 0)
+    if ((n + 1) % sweepsPerList == 0)
     {
-      steady = std::abs(energy - last) <= Steady::Change * energy;
+      steady = std::abs(energy - last) <= this->Parameters.classic.steadyChange * energy;
       last = energy;
     }
   }
@@ -166,7 +160,9 @@ void ClassicSystem::relaxLevel(int maximumRounds, bool fixedNumber)
   for (int round = 0; round < maximumRounds; ++round)
   {
     const bool steady = this->sweepUntilSteady(fixedNumber);
-    if (fixedNumber ? steady : !splitAndDelete(this->Particles, this->RandomNumbers))
+    if (fixedNumber
+        ? steady
+        : !splitAndDelete(this->Particles, this->RandomNumbers, this->Parameters.classic))
     {
       if (fixedNumber || balanced)
       {

@@ -10,8 +10,8 @@ namespace hop
 /// The distribution of Meyer, Nelson, Kirby and Whitaker (IEEE TVCG 13(5), 2007), sections 3 and 4, with its misprints
 /// corrected (see Energy.h):
 ///  - particles repel each other with the cotangent energy where their normals are less than 90 degrees apart; they
-///    move in the tangent plane, one after the other (Gauss-Seidel), no farther than h, each with a step length lambda
-///    of its own, which grows when its energy falls and shrinks otherwise;
+///    move in the tangent plane, one after the other (Gauss-Seidel), each with a step length lambda of its own, which
+///    grows where the first try lowers the energy and shrinks with each try that does not or is longer than h;
 ///  - after each step Newton's method puts the particle back on the surface;
 ///  - when the whole energy changes by less than 0.15% over five sweeps (the paper says from one to the next, which
 ///    leaves close pairs), a biased coin splits particles with little energy and deletes particles with much, until

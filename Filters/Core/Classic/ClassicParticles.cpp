@@ -16,21 +16,9 @@ namespace
 /// Chosen by experiment. Larger: longer lists; smaller: neighbours that come near are overlooked for some sweeps.
 constexpr double listSlack = 1.25;
 
-/// Distance from the surface, in units of the smallest spacing, to which particles are projected while they move,
-/// unless the tolerance asked for is larger. Chosen by experiment. Larger: energies feel the distance from the surface;
-/// smaller: more Newton steps.
-constexpr double movingTolerance = 1e-4;
-
 /// Factor of a box's diagonal within which Newton's method has to find the surface from the box's middle. Chosen by
 /// experiment. Larger: seeds of other components; smaller: the line between two corners is searched more often.
 constexpr double seedTravelPerBox = 2.0;
-
-Isosurface whileMoving(Isosurface surface, const SizingFunction& sizing)
-{
-  surface.tolerance =
-    std::max(surface.tolerance, movingTolerance * sizing.spacing / (1.0 + sizing.angularDensity));
-  return surface;
-}
 
 /// Energy of the neighbours that hexagonal packing can have around a particle on a number of boundary faces: 6 inside,
 /// 4 on a face, 2 on an edge, 1 in a corner.
@@ -52,7 +40,7 @@ ClassicParticles::ClassicParticles(
   const Isosurface& surface, const SizingFunction& sizingFunction, ParallelFor parallelFor)
   : sizing(sizingFunction)
   , Parallel(std::move(parallelFor))
-  , Surface(whileMoving(surface, sizingFunction))
+  , Surface(surface)
   , Walker(this->Surface)
 {
 }
@@ -179,12 +167,6 @@ double ClassicParticles::scaledDistance(const ClassicParticle& a, const ClassicP
 {
   return length(a.position() - b.position()) /
     this->sizing.range(0.5 * (a.curvature + b.curvature));
-}
-
-double ClassicParticles::curvatureAt(const ClassicParticle& mover)
-{
-  const Evaluated at = this->Walker.evaluateCurved(mover.at.location);
-  return curvature(at.point.gradient, at.hessian).magnitude;
 }
 
 } // namespace hop

@@ -15,12 +15,13 @@ namespace hop
 struct ClassicParticle
 {
   /// Step lengths lambda in units of h^2; the paper divides and multiplies them by ten. In hexagonal packing the second
-  /// derivative of the energy along the surface is about 4.5/h^2, so that a Newton step has lambda = 0.22. A larger
-  /// LargestLambda overshoots; a smaller one takes more sweeps.
+  /// derivative of the energy along the surface is about 4.5/h^2, so that a Newton step has lambda = 0.22.
   static constexpr double InitialLambda = 0.2;
-  static constexpr double LargestLambda = 0.2;
-  /// With the energy not falling even so, the particle stays where it is. Chosen by experiment: a ten-thousandth of h
-  /// a unit of force.
+  /// Keeps lambda finite at particles that hardly feel a force: the paper has no bound, as steps beyond h are rejected
+  /// and cost no evaluation. Larger: more such rejections; smaller: small forces move particles less.
+  static constexpr double LargestLambda = 2e3;
+  /// The step length of a particle whose energy no try has lowered: it stays where it is. Chosen by experiment: a
+  /// ten-thousandth of h a unit of force.
   static constexpr double SmallestLambda = 1e-4;
 
   Evaluated at;
@@ -35,7 +36,7 @@ struct ClassicParticle
   const WorldPoint& position() const { return this->at.point.map.position; }
 };
 
-/// The particles of the paper's scheme. While they move they stay near the surface.
+/// The particles of the paper's scheme. While they move they stay on the surface.
 class ClassicParticles
 {
 public:
@@ -68,9 +69,6 @@ public:
 
   /// r of eq. (6).
   double scaledDistance(const ClassicParticle& a, const ClassicParticle& b) const;
-
-  /// Curvature magnitude, whether or not the spacing follows it.
-  double curvatureAt(const ClassicParticle& mover);
 
   std::int64_t evaluations() const { return this->SeedCost + this->Walker.evaluations(); }
   /// Number of particles given up because they could not be put on the surface.

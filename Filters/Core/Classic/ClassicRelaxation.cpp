@@ -15,7 +15,12 @@ constexpr std::size_t particlesAtOnce = 1024;
 /// stop early; smaller: steps shorter than the projection's tolerance are tried.
 constexpr double leastForce = 1e-6;
 
-/// Factors of the step length lambda after a step that lowers the energy and one that does not. From the paper.
+/// Length of a step, in units of h, below which only a first try is made. Chosen by experiment. Larger: particles that
+/// hardly feel a force move less; smaller: more tries at particles that are at rest.
+constexpr double shortestStep = 1e-4;
+
+/// Factors of the step length lambda after a first try that lowers the energy, and after a try that does not. From the
+/// paper.
 struct LambdaFactor
 {
   static constexpr double Grow = 10.0;
@@ -57,7 +62,7 @@ EnergyAndForce interact(
   return sum;
 }
 
-/// Moves particle i by the first of ever shorter steps that lowers its energy.
+/// Moves particle i by the first of ever shorter steps that lowers its energy. Steps longer than h are not tried.
 void relax(ClassicParticles& particles, std::size_t i)
 {
   const ClassicParticle start = particles.movers[i];
@@ -69,13 +74,16 @@ void relax(ClassicParticles& particles, std::size_t i)
   {
     return;
   }
-  for (double lambda = start.lambda; lambda >= ClassicParticle::SmallestLambda;
-       lambda *= LambdaFactor::Shrink)
+  for (double lambda = start.lambda;; lambda *= LambdaFactor::Shrink)
   {
-    WorldVector step = (lambda * h * h) * tangential;
-    step = std::min(1.0, h / length(step)) * step;
+    const bool isFirstTry = lambda == start.lambda;
+    const WorldVector step = (lambda * h * h) * tangential;
+    if (!isFirstTry && length(step) < shortestStep * h)
+    {
+      break;
+    }
     ClassicParticle trial = start;
-    if (!particles.displace(start, step, h, trial))
+    if (length(step) > h || !particles.displace(start, step, h, trial))
     {
       continue;
     }
@@ -83,7 +91,8 @@ void relax(ClassicParticles& particles, std::size_t i)
     if (energy < here.energy)
     {
       trial.energy = energy;
-      trial.lambda = std::min(ClassicParticle::LargestLambda, LambdaFactor::Grow * lambda);
+      trial.lambda =
+        isFirstTry ? std::min(ClassicParticle::LargestLambda, LambdaFactor::Grow * lambda) : lambda;
       particles.movers[i] = trial;
       return;
     }

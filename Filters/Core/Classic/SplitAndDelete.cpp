@@ -11,23 +11,6 @@ namespace hop
 namespace
 {
 
-/// The paper's biased coin. A particle's bias is U (E - E_ideal)/E_ideal, U uniform in [0, 1).
-struct BiasedCoin
-{
-  /// Bias below which a particle is split. Nearer to zero: more are split, also in an even packing.
-  static constexpr double SplitBelow = -0.35;
-  /// Bias above which a particle is deleted. Nearer to zero: more are deleted.
-  static constexpr double DeleteAbove = 0.75;
-  /// The system has settled when fewer than this share of the particles change. Larger: it settles sooner, and less
-  /// evenly.
-  static constexpr double SettledShare = 0.01;
-};
-
-/// Curvature magnitude times spacing beyond which neighbours cannot pack hexagonally. Particles there come and go for
-/// ever, and do not keep the system from having settled. Chosen by experiment. Larger: some systems never settle;
-/// smaller: they settle with defects where they bend.
-constexpr double largestBend = 1.0;
-
 /// Scaled distance r at which particles overlap: nothing will part them any more, as in a corner of the domain. Chosen
 /// by experiment. Larger: pairs are deleted that would part; smaller: doubled particles remain.
 constexpr double overlapDistance = 0.1;
@@ -58,12 +41,6 @@ enum class Fate : char
   Split,
   Delete
 };
-
-bool bendsTooFar(ClassicParticles& particles, const ClassicParticle& mover)
-{
-  const double curvature = particles.curvatureAt(mover);
-  return curvature * particles.sizing.at(curvature) > largestBend;
-}
 
 /// Whether particle i overlaps one of lower index.
 bool overlapsEarlier(const ClassicParticles& particles, std::size_t i)
@@ -107,7 +84,8 @@ void apply(const std::vector<Fate>& fates, ClassicParticles& particles, Random& 
 
 } // namespace
 
-bool splitAndDelete(ClassicParticles& particles, Random& random)
+bool splitAndDelete(
+  ClassicParticles& particles, Random& random, const ClassicParameters& parameters)
 {
   const std::vector<ClassicParticle>& movers = particles.movers;
   std::vector<Fate> fates(movers.size(), Fate::Stay);
@@ -117,17 +95,17 @@ bool splitAndDelete(ClassicParticles& particles, Random& random)
   {
     const ClassicParticle& m = movers[i];
     const double bias = random.uniform() * (m.energy - m.ideal) / m.ideal;
-    fates[i] = bias < BiasedCoin::SplitBelow ? Fate::Split
-      : bias > BiasedCoin::DeleteAbove       ? Fate::Delete
-                                             : Fate::Stay;
-    changes += fates[i] != Fate::Stay && !bendsTooFar(particles, m);
+    fates[i] = bias < parameters.splitBelow ? Fate::Split
+      : bias > parameters.deleteAbove       ? Fate::Delete
+                                            : Fate::Stay;
+    changes += fates[i] != Fate::Stay;
     if (overlapsEarlier(particles, i))
     {
       fates[i] = Fate::Delete;
       overlaps = true;
     }
   }
-  if (!overlaps && changes < BiasedCoin::SettledShare * static_cast<double>(movers.size()))
+  if (!overlaps && changes < parameters.settledShare * static_cast<double>(movers.size()))
   {
     return false;
   }

@@ -2,6 +2,7 @@
 
 #include "Classic/ClassicParticles.h"
 #include "Support/Random.h"
+#include "Surface/DistributionParameters.h"
 
 namespace hop
 {
@@ -10,7 +11,8 @@ namespace hop
 /// particles always.
 /// Derivation: Documentation/algorithm.md, section Classic distribution.
 /// \return whether so many changed that the system has to settle again; if not, none did
-bool splitAndDelete(ClassicParticles& particles, Random& random);
+bool splitAndDelete(
+  ClassicParticles& particles, Random& random, const ClassicParameters& parameters = {});
 
 /// Share by which the spacing has to fall so that the mean energy becomes the ideal one, to first order; negative where
 /// it has to rise. In hexagonal packing dE/ds = -6 E'(beta) beta / s.

@@ -178,7 +178,7 @@ private:
     this->Work.ask();
   }
   bool isFineEnough(const SurfaceBox& box, const SizingFunction& sizing);
-  SurfaceProxy proxyOfBoxesAt(double spacing, double shareOfRun);
+  SurfaceProxy proxyOfBoxesAt(const SizingFunction& sizing, double shareOfRun);
   bool tooMany(double count);
   bool estimateCount();
   void prepareSurface();
@@ -228,8 +228,7 @@ bool FastSystem::isFineEnough(const SurfaceBox& box, const SizingFunction& sizin
   const double perSpacing =
     this->Parameters.quality == Quality::Draft ? BoxDiagonal::Draft : BoxDiagonal::of(domain);
   const double largest = perSpacing * sizing.spacing;
-  const double smallest =
-    (box.mayBeThin ? sizing.spacing : largest) / (1.0 + sizing.angularDensity);
+  const double smallest = (box.mayBeThin ? 1.0 : perSpacing) * sizing.smallest();
   if (box.size > largest || box.size <= smallest ||
     (sizing.angularDensity == 0.0 && !box.mayBeThin))
   {
@@ -253,11 +252,10 @@ bool FastSystem::isFineEnough(const SurfaceBox& box, const SizingFunction& sizin
   return box.size <= perOwnSpacing * spacing;
 }
 
-/// \param spacing decides how fine the boxes are; the proxy's spacings follow the sizing function
+/// \param sizing decides how fine the boxes are; the proxy's spacings follow the sizing function that is asked for
 /// \param shareOfRun fraction of the run that is over when the surface is found
-SurfaceProxy FastSystem::proxyOfBoxesAt(double spacing, double shareOfRun)
+SurfaceProxy FastSystem::proxyOfBoxesAt(const SizingFunction& sizing, double shareOfRun)
 {
-  const SizingFunction sizing{ spacing, this->Sizing.angularDensity };
   const auto isFineEnough = [&](const SurfaceBox& box) { return this->isFineEnough(box, sizing); };
   const auto found = [&](double share) { this->Work.raiseFraction(shareOfRun * share); };
   SurfaceProxy proxy(this->Surface, this->Sizing,
@@ -282,8 +280,9 @@ bool FastSystem::estimateCount()
   {
     return !this->tooMany(static_cast<double>(this->Parameters.particleCount));
   }
-  const double coarse = meshExtent(this->Mesh) * estimateSpacingPerExtent;
-  return coarse <= this->Sizing.spacing ||
+  const SizingFunction coarse{ meshExtent(this->Mesh) * estimateSpacingPerExtent,
+    this->Sizing.angularDensity };
+  return coarse.smallest() <= this->Sizing.smallest() ||
     !this->tooMany(this->proxyOfBoxesAt(coarse, ProgressAt::Estimated).particleCount());
 }
 
@@ -292,8 +291,8 @@ bool FastSystem::estimateCount()
 void FastSystem::prepareSurface()
 {
   this->Surface.jumpTolerances = nullptr;
-  this->Proxy = std::make_unique<SurfaceProxy>(
-    this->proxyOfBoxesAt(this->Sizing.spacing, ProgressAt::Isolated));
+  this->Proxy =
+    std::make_unique<SurfaceProxy>(this->proxyOfBoxesAt(this->Sizing, ProgressAt::Isolated));
   this->Work.ask();
   this->Jumps = findFaceJumps(this->Surface, *this->Proxy, this->Parallel);
   std::int64_t cost = this->Jumps.evaluations;

@@ -23,12 +23,30 @@ enum class Quality
   High
 };
 
+/// The paper's constants for Classic.
+struct ClassicParameters
+{
+  /// The biased coin: U (E - E_ideal)/E_ideal, U uniform in [0, 1), below which a particle is split. Nearer to zero:
+  /// more are split, also in an even packing.
+  double splitBelow = -0.35;
+  /// And above which it is deleted. Nearer to zero: more are deleted.
+  double deleteAbove = 0.75;
+  /// The system has settled when fewer than this share of the particles change. Larger: it settles sooner, and less
+  /// evenly.
+  double settledShare = 0.01;
+  /// Relative change of the whole energy at which the system is steady. Larger: particles stop before they stand
+  /// evenly; smaller: many more sweeps.
+  double steadyChange = 0.0015;
+};
+
 /// What a distribution is asked for.
 struct DistributionParameters
 {
   SizingFunction sizing;
   /// Fast only.
   Quality quality = Quality::Standard;
+  /// Classic only.
+  ClassicParameters classic;
   /// Seed of random choices; the same seed, the same particles.
   std::uint64_t seed = 1;
   /// 0: as many particles as the spacing asks for. Otherwise this many, and the spacing follows.

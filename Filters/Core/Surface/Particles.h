@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Support/Buffer.h"
+#include "Surface/Energy.h"
 #include "Surface/SurfaceEdges.h"
 #include "Surface/SurfaceWalker.h"
 
@@ -79,13 +80,15 @@ struct Particle
   /// surface smaller than the spacing.
   double radiusPerSpacing = 1.0;
 
-  /// Largest D h that particles can follow: that of six particles on a sphere, an octahedron with h = sqrt(2) r and
-  /// D = sqrt(2)/r. Larger: undersampled places stay unnoticed; smaller: the user is warned of places that look right.
-  static constexpr double LargestCurvatureTimesSpacing = 2.0;
-  bool isUndersampled() const
+  /// Fewest particles that have to stand around a tube for it to look round. Smaller: undersampled places stay
+  /// unnoticed; larger: the user is warned of places that look right.
+  static constexpr double FewestAround = 6.0;
+  /// Whether fewer stand, at a spacing, around the tube that bends as the surface does where it bends most.
+  bool wouldBeUndersampled(double atSpacing) const
   {
-    return this->curvature.magnitude * this->spacing > LargestCurvatureTimesSpacing;
+    return this->curvature.largest() * atSpacing * FewestAround > 2.0 * Pi;
   }
+  bool isUndersampled() const { return this->wouldBeUndersampled(this->spacing); }
 };
 
 /// The particle of a place on the surface: without clip planes, jump and shrinking.

@@ -20,12 +20,27 @@ struct SizingFunction
   /// rho: how much denser particles stand where the surface bends; 0 = evenly everywhere.
   double angularDensity = 0.0;
 
-  /// h for a curvature magnitude D, world units. D s / 2 pi, the fraction of a full circle that one spacing covers, is
-  /// bounded by one (the paper has no bound), so that h >= s / (1 + rho) whatever the curvature.
+  /// Smallest h, world units, the optional bound of the paper's section 3.3; 0: s / (1 + rho MostTurns).
+  double smallestSpacing = 0.0;
+
+  /// Turns that the surface takes over a length s up to which the spacing follows it where no smallest spacing is
+  /// given. Larger: where sheets cross, and where the gradient vanishes, particles become more in proportion to it;
+  /// smaller: fewer than rho particles stand around tubes thinner than s / (2 pi MostTurns). Eight turns are a tube with
+  /// a radius of s/50. Chosen by experiment: of the solvers' files, none has over 2% more particles without any bound.
+  static constexpr double MostTurns = 8.0;
+
+  /// The bound of h.
+  double smallest() const
+  {
+    return this->smallestSpacing > 0.0 ? std::min(this->spacing, this->smallestSpacing)
+                                       : this->spacing / (1.0 + this->angularDensity * MostTurns);
+  }
+
+  /// h for a curvature magnitude D, world units. D s / 2 pi are the turns that the surface takes over a length s.
   double at(double curvatureMagnitude) const
   {
-    const double share = std::min(1.0, curvatureMagnitude * this->spacing / (2.0 * Pi));
-    return this->spacing / (1.0 + this->angularDensity * share);
+    const double turns = curvatureMagnitude * this->spacing / (2.0 * Pi);
+    return std::max(this->smallest(), this->spacing / (1.0 + this->angularDensity * turns));
   }
 
   /// 1/alpha, the distance at which two particles of mean curvature magnitude D cease to see each other: r = 1.

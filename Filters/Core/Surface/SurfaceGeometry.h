@@ -2,6 +2,9 @@
 
 #include "Elements/ElementMesh.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace hop
 {
 
@@ -47,6 +50,13 @@ struct Curvature
   double magnitude = 0.0;
   /// The shape operator dn/dx of the normal n = -grad F/|grad F|, symmetric: how the normal turns along the surface.
   glm::dmat3 shape{ 0.0 };
+
+  /// The larger one of |k1| and |k2|.
+  double largest() const
+  {
+    const double gap = std::max(0.0, this->mean * this->mean - this->gauss);
+    return std::abs(this->mean) + std::sqrt(gap);
+  }
 };
 
 /// \param jet with first derivatives at least

@@ -53,6 +53,18 @@ TEST(SplitAndDelete, CoinSplitsBelowAndDeletesAboveThePapersThresholds)
   }
 }
 
+TEST(SplitAndDelete, ThresholdsOfTheCoinCanBeChosen)
+{
+  ClassicParameters parameters;
+  parameters.splitBelow = -0.1;
+  Random random(1);
+  ClassicLattice loose = withEnergies(0.66);
+  EXPECT_TRUE(splitAndDelete(loose.particles, random, parameters));
+  parameters.settledShare = 1.1;
+  loose = withEnergies(0.66);
+  EXPECT_FALSE(splitAndDelete(loose.particles, random, parameters));
+}
+
 TEST(SplitAndDelete, ChildrenStandHalfASpacingFromTheirParents)
 {
   ClassicLattice lattice = withEnergies(0.0);

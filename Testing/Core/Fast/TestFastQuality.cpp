@@ -179,7 +179,7 @@ INSTANTIATE_TEST_SUITE_P(FastDistribution, FastQualityOnNeedle, ::testing::Value
 
 TEST_P(FastQualityOnNeedle, IsCoveredAlthoughThinnerThanSpacings)
 {
-  const ElementMesh mesh = teardropMesh();
+  const ElementMesh mesh = needleMesh();
   DistributionParameters parameters;
   parameters.sizing = { 0.04, this->GetParam() };
   const auto isCloserThanParticles = [&](const SurfaceBox& box)
@@ -194,10 +194,10 @@ TEST_P(FastQualityOnNeedle, IsCoveredAlthoughThinnerThanSpacings)
   for (parameters.seed = 1; parameters.seed <= 5; ++parameters.seed)
   {
     const Distribution result = distributeFast({ &mesh, 0.0, tolerance }, parameters, {}, {});
-    // Where particles stand around the needle one by one, 0.80 and 0.035 cannot be had.
+    // The needle bends less and less around as it thickens, so that spacings vary: 0.80 and 0.035 cannot be had.
     const Evenness evenness = measureEvenness(result.particles);
     EXPECT_GE(evenness.minSpacing, 0.5);
-    EXPECT_LE(evenness.variation, 0.075);
+    EXPECT_LE(evenness.variation, 0.09);
     coverages.push_back(coverageRadius(result.particles, probes));
   }
   // With some seeds it is covered less well.

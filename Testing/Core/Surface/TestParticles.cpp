@@ -56,17 +56,24 @@ TEST(Particle, ResidualIsTheDistanceToTheSurfaceToFirstOrder)
   }
 }
 
-TEST(Particle, IsUndersampledWhereTheSurfaceBendsFasterThanItsSpacing)
+TEST(Particle, IsUndersampledWhereFewerThanSixStandAround)
 {
-  // Six particles on a sphere of radius r: D = sqrt(2)/r, h = sqrt(2) r.
   for (const double radius : { 1e-3, 1.0, 1e3 })
   {
-    Particle particle;
-    particle.curvature.magnitude = std::sqrt(2.0) / radius;
-    particle.spacing = 0.99 * std::sqrt(2.0) * radius;
-    EXPECT_FALSE(particle.isUndersampled());
-    particle.spacing = 1.01 * std::sqrt(2.0) * radius;
-    EXPECT_TRUE(particle.isUndersampled());
+    Curvature tube, sphere, saddle;
+    tube.mean = -0.5 / radius;
+    sphere.mean = 1.0 / radius;
+    sphere.gauss = 1.0 / (radius * radius);
+    saddle.gauss = -1.0 / (radius * radius);
+    for (const Curvature& curvature : { tube, sphere, saddle })
+    {
+      Particle particle;
+      particle.curvature = curvature;
+      particle.spacing = 2.0 * Pi * radius / 6.01;
+      EXPECT_FALSE(particle.isUndersampled());
+      particle.spacing = 2.0 * Pi * radius / 5.99;
+      EXPECT_TRUE(particle.isUndersampled());
+    }
   }
 }
 

@@ -11,8 +11,8 @@ namespace
 
 const std::vector<double> spacings{ 1e-3, 0.05, 0.5, 20.0 };
 const std::vector<double> densities{ 0.0, 1.0, 7.0, 15.0 };
-/// D s / 2 pi, up to the bound and beyond it.
-const std::vector<double> shares{ 0.0, 0.01, 0.2, 0.5, 0.99, 1.0, 3.0, 1e6 };
+/// D s / 2 pi, up to the automatic bound and beyond it.
+const std::vector<double> shares{ 0.0, 0.01, 0.2, 0.5, 0.99, 1.0, 7.9, 8.0, 30.0, 1e6 };
 
 /// The curvature magnitude for which one spacing covers a share of a full circle.
 double curvatureOf(double share, double spacing)
@@ -39,7 +39,7 @@ TEST(SizingFunction, IsTheCorrectedEquationSix)
     for (const double rho : densities)
     {
       const SizingFunction sizing{ s, rho };
-      for (const double share : { 0.0, 0.01, 0.2, 0.5, 0.99 })
+      for (const double share : { 0.0, 0.01, 0.2, 0.5, 0.99, 4.0, 7.99 })
       {
         const double D = curvatureOf(share, s);
         const double alpha = beta * (1.0 + rho * D * s / (2.0 * Pi)) / s;
@@ -57,7 +57,10 @@ TEST(SizingFunction, KnownValues)
   EXPECT_DOUBLE_EQ(sizing.at(0.0), 0.5);
   EXPECT_DOUBLE_EQ(sizing.at(Pi), 0.5 / (1.0 + 7.0 / 4.0)) << "a quarter of a circle a spacing";
   EXPECT_DOUBLE_EQ(sizing.at(2.0 * Pi / 0.5), 0.5 / 8.0) << "a full circle";
-  EXPECT_DOUBLE_EQ(sizing.at(1e9), 0.5 / 8.0) << "no more than a full circle";
+  EXPECT_DOUBLE_EQ(sizing.at(1e9), 0.5 / 57.0) << "no more than eight circles";
+  EXPECT_DOUBLE_EQ((SizingFunction{ 0.5, 7.0, 0.1 }).at(1e9), 0.1) << "the smallest spacing";
+  EXPECT_DOUBLE_EQ((SizingFunction{ 0.5, 7.0, 0.1 }).at(0.0), 0.5);
+  EXPECT_DOUBLE_EQ((SizingFunction{ 0.5, 7.0, 3.0 }).at(0.0), 0.5) << "which is no larger than s";
 }
 
 TEST(SizingFunction, StaysBetweenItsBounds)
@@ -70,7 +73,7 @@ TEST(SizingFunction, StaysBetweenItsBounds)
       for (const double share : shares)
       {
         const double h = sizing.at(curvatureOf(share, s));
-        EXPECT_GE(h, s / (1.0 + rho) * (1.0 - 1e-12));
+        EXPECT_GE(h, s / (1.0 + 8.0 * rho) * (1.0 - 1e-12));
         EXPECT_LE(h, s);
       }
     }
@@ -88,7 +91,7 @@ TEST(SizingFunction, FallsWithCurvatureUntilTheBound)
       {
         const double before = sizing.at(curvatureOf(shares[i - 1], s));
         const double after = sizing.at(curvatureOf(shares[i], s));
-        if (shares[i] <= 1.0)
+        if (shares[i] <= 8.0)
         {
           EXPECT_LT(after, before) << shares[i];
         }
@@ -107,7 +110,7 @@ TEST(SizingFunction, GrowsWithTheSpacingAtAnyCurvatureBelowTheBound)
   {
     for (const double curvature : { 0.0, 0.1, 2.0, 50.0 })
     {
-      const double largest = curvature > 0.0 ? 2.0 * Pi / curvature : 10.0;
+      const double largest = curvature > 0.0 ? 16.0 * Pi / curvature : 10.0;
       double before = 0.0;
       for (double s = 0.05 * largest; s <= largest; s += 0.05 * largest)
       {

@@ -13,6 +13,7 @@ Particle bentParticle(double curvatureMagnitude, double spacing)
 {
   Particle particle;
   particle.curvature.magnitude = curvatureMagnitude;
+  particle.curvature.mean = 0.5 * curvatureMagnitude; // a tube
   particle.spacing = spacing;
   return particle;
 }
@@ -25,7 +26,7 @@ Distribution evenlyBent(std::size_t count, double curvatureMagnitude, double spa
   return distribution;
 }
 
-/// Curvature times spacing is 5 here, and particles follow 2 at most.
+/// Curvature times spacing is 5 here, and particles follow 2 pi/6 at most.
 const Distribution sphere = evenlyBent(100, 10.0, 0.5);
 
 double twice(double)
@@ -42,7 +43,7 @@ TEST(SpacingAdvice, WarnsAboveTwoOfAHundred)
   EXPECT_TRUE(hasTooManyUndersampled(distribution));
 }
 
-/// Halved areas from 0.5 on, to two digits: 0.35 and 0.25 leave curvature times spacing above 2, 0.18 does not.
+/// Halved areas from 0.5 on, to two digits: 0.125 leaves curvature times spacing above 2 pi/6, 0.088 does not.
 TEST(SpacingAdvice, IsTheLargestSpacingTriedThatFollowsTheSurface)
 {
   double asked = 0.0;
@@ -53,8 +54,8 @@ TEST(SpacingAdvice, IsTheLargestSpacingTriedThatFollowsTheSurface)
       asked = spacing;
       return 771.6;
     });
-  EXPECT_DOUBLE_EQ(advice.spacing, 0.18);
-  EXPECT_DOUBLE_EQ(asked, 0.18);
+  EXPECT_DOUBLE_EQ(advice.spacing, 0.088);
+  EXPECT_DOUBLE_EQ(asked, 0.088);
   EXPECT_EQ(advice.count, 772);
   EXPECT_FALSE(advice.isSingular);
 }
@@ -69,15 +70,15 @@ TEST(SpacingAdvice, IsRoundedInWorldUnits)
       asked = spacing;
       return 200.0;
     });
-  EXPECT_DOUBLE_EQ(advice.spacing, 0.35);
-  EXPECT_DOUBLE_EQ(asked, 0.175) << "in the unit of the run";
+  EXPECT_DOUBLE_EQ(advice.spacing, 0.18);
+  EXPECT_DOUBLE_EQ(asked, 0.09) << "in the unit of the run";
   EXPECT_EQ(advice.unit, 2.0);
 }
 
 TEST(SpacingAdvice, TakesTenTimesTheParticlesAtMost)
 {
   const auto times = [](double factor) { return [factor](double) { return factor * 100.0; }; };
-  EXPECT_DOUBLE_EQ(adviseSpacing(sphere, { 0.5, 0.0 }, 1.0, times(10.0)).spacing, 0.18);
+  EXPECT_DOUBLE_EQ(adviseSpacing(sphere, { 0.5, 0.0 }, 1.0, times(10.0)).spacing, 0.088);
   const SpacingAdvice none = adviseSpacing(sphere, { 0.5, 0.0 }, 1.0, times(10.1));
   EXPECT_EQ(none.spacing, 0.0);
   EXPECT_EQ(none.count, 0);
@@ -102,7 +103,7 @@ TEST(SpacingAdvice, BeginsAtTheLargestSpacingWhereANumberWasGiven)
 {
   Distribution distribution = evenlyBent(100, 10.0, 0.6);
   distribution.particles[0] = bentParticle(10.0, 0.1);
-  EXPECT_DOUBLE_EQ(adviseSpacing(distribution, { 0.0, 0.0 }, 1.0, twice).spacing, 0.15);
+  EXPECT_DOUBLE_EQ(adviseSpacing(distribution, { 0.0, 0.0 }, 1.0, twice).spacing, 0.075);
 }
 
 /// Sixteen times closer is not close enough: curvature times spacing is 2.2 there.
