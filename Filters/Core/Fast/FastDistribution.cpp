@@ -343,8 +343,9 @@ void FastSystem::matchSpacing(std::int64_t count)
 double FastSystem::guessSpacing(double count)
 {
   this->Sizing.spacing = meshExtent(this->Mesh) * std::sqrt(RoughProxy::Area / count);
-  return this->proxyOfBoxesAt(RoughProxy::Width * this->Sizing.spacing, ProgressAt::Estimated)
-    .spacingFor(count);
+  SizingFunction wide = this->Sizing;
+  wide.spacing *= RoughProxy::Width;
+  return this->proxyOfBoxesAt(wide, ProgressAt::Estimated).spacingFor(count);
 }
 
 /// Thins out the particles on boundary curves where they are more than a given number: their corners stay at any
