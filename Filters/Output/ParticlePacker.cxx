@@ -108,6 +108,20 @@ void hide(vtkAbstractArray* array)
   array->GetInformation()->Set(vtkAbstractArray::GUI_HIDE(), 1);
 }
 
+/// Whether all values of each component are the same.
+bool isConstant(vtkDataArray* array)
+{
+  for (int c = 0; c < array->GetNumberOfComponents(); ++c)
+  {
+    const double* range = array->GetRange(c);
+    if (range[0] < range[1])
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 /// Writes the particles of one block.
 class Packer
 {
@@ -373,6 +387,11 @@ void Packer::addCellArrays()
   {
     this->Work.ask();
     this->copyCellData(cellIds, begin, std::min(this->rowCount(), begin + rowsAtOnce));
+  }
+  // ParaView colours by the active scalars at first: constant ones would be one colour of a legend.
+  if (target->GetScalars() && isConstant(target->GetScalars()))
+  {
+    target->SetActiveScalars(nullptr);
   }
 }
 
