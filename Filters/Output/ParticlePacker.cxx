@@ -135,6 +135,20 @@ void hide(vtkAbstractArray* array)
   array->GetInformation()->Set(vtkAbstractArray::GUI_HIDE(), 1);
 }
 
+/// Whether all values of each component are the same.
+bool isConstant(vtkDataArray* array)
+{
+  for (int c = 0; c < array->GetNumberOfComponents(); ++c)
+  {
+    const double* range = array->GetRange(c);
+    if (range[0] < range[1])
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 /// Writes the output of one block.
 class Packer
 {
@@ -471,6 +485,11 @@ void Packer::addCellArrays()
     ids->SetNumberOfValues(count);
     std::copy_n(cellIds, count, ids->GetPointer(0));
     target->AddArray(ids);
+  }
+  // ParaView colours by the active scalars at first: constant ones would be one colour of a legend.
+  if (target->GetScalars() && isConstant(target->GetScalars()))
+  {
+    target->SetActiveScalars(nullptr);
   }
 }
 

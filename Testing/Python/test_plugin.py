@@ -7,6 +7,7 @@ import cells
 import numpy as np
 import pytest
 from paraview import servermanager, simple
+from paraview.vtk.util.numpy_support import numpy_to_vtk
 from support import (
     READABLE,
     add_point_array,
@@ -254,6 +255,23 @@ def test_one_isosurface_is_not_coloured_by_its_constant_isovalue():
     assert display.ColorArrayName[1] == ""
     _, display = shown([0.1, 0.2])
     assert display.ColorArrayName[:] == ["POINTS", "u"]
+
+
+@pytest.mark.parametrize("several", [False, True])
+def test_active_cell_scalars_colour_the_surface_unless_they_are_constant(several):
+    """Solvers write the number of a material for each cell, most often 1 everywhere."""
+    grid = cells.straight_grid("LAGRANGE_HEXAHEDRON", 2, 3)
+    add_point_array(grid, "u", points_of(grid)[:, 0])
+    numbers = np.arange(grid.GetNumberOfCells()) if several else np.ones(grid.GetNumberOfCells())
+    material = numpy_to_vtk(numbers.astype(float), deep=1)
+    material.SetName("material")
+    grid.GetCellData().SetScalars(material)
+    isovalue = points_of(grid)[:, 0].max() * 0.4
+    proxy = simple.HighOrderParticleIsosurface(
+        Input=source_of(grid), ContourBy=["POINTS", "u"], Isosurfaces=[isovalue])
+    display = simple.Show(proxy, simple.CreateView("RenderView"))
+    assert output_of(proxy).GetNumberOfPoints() > 100
+    assert display.ColorArrayName[1] == ("material" if several else "")
 
 
 def quantiles_by_area(particles, name, shares):
