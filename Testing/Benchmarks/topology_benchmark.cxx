@@ -85,18 +85,6 @@ void measure(vtkUnstructuredGrid* grid, vtkDataArray* array, double isovalue)
     topology.unresolvedCells.size(), comparison.meshComponents.size(), same,
     static_cast<long long>(comparison.missingComponents), comparison.proven ? "proven" : "      ",
     1e6 * seconds / count, 1e6 * distributed / count, 1e6 * meshed / count);
-  if (std::getenv("TOPOLOGY_DETAILS"))
-  {
-    for (const hop::ComponentComparison& c : comparison.meshComponents)
-    {
-      const bool known = c.component >= 0;
-      const hop::SurfaceComponent none;
-      const hop::SurfaceComponent& s = known ? topology.components[c.component] : none;
-      std::printf("    mesh %lld %lld manifold %d vertex %d: component %d: %lld %lld proven %d\n",
-        (long long)c.eulerCharacteristic, (long long)c.boundaryLoops, c.isManifold, c.vertex,
-        c.component, (long long)s.eulerCharacteristic, (long long)s.boundaryLoops, s.proven);
-    }
-  }
   std::fflush(stdout);
 }
 

@@ -19,7 +19,8 @@ struct Refinement
   /// Parts of the larger element's side: halves, three times in turn.
   static constexpr double Parts = 8.0;
   /// How far places may be from where they should be, reference units. Curved elements approximate a geometry on their
-  /// own, so that their faces miss each other. Larger: faces that do not fit count as refined; smaller: curved ones do not.
+  /// own, so that their faces miss each other. Larger: faces that do not fit count as refined; smaller: curved ones do
+  /// not.
   static constexpr double Rounding = 1e-2;
 };
 

@@ -24,8 +24,8 @@ struct FileCase
 {
   std::string file, array;
   double isovalue = 0.0;
-  /// Components of the surface, their Euler characteristics and boundary loops in sum; -1 components: the field jumps, or
-  /// is singular, so that there is no proof.
+  /// Components of the surface, their Euler characteristics and boundary loops in sum; -1 components: the field jumps,
+  /// or is singular, so that there is no proof.
   int components = 0;
   int eulerCharacteristic = 0;
   int boundaryLoops = 0;
