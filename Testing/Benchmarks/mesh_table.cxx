@@ -7,7 +7,8 @@
 // (default 1); the angular density is D (default 10, the filter's). Columns: holes are edges with one triangle that are
 // no edges of the surface, in loops; V - E + F is the Euler characteristic; angles are the median and the 1% quantile
 // (without triangles at edges of the surface) of the triangles' smallest angles, degrees; areas are those of the mesh
-// and of all particles; microseconds of processor time a particle are for the mesh and for the areas, one thread.
+// and of all particles; microseconds of processor time a particle are for the mesh and for the areas, one thread;
+// bytes a particle are the most memory that the mesh took beyond what was there before (Linux).
 
 #include "Conversion/GridElements.h"
 #include "Fast/FastDistribution.h"
@@ -31,6 +32,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <malloc.h>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -137,14 +139,18 @@ void measure(const Options& options, const Case& which, const std::filesystem::p
   const double areaTime =
     hop::testing::fastest(1, 1, [&]() { areas = hop::particleAreas(distribution, {}, {}); }).cpu;
   const std::size_t before = distribution.particles.size();
+  ::malloc_trim(0); // what the distribution has freed is no memory of the mesh
+  std::ofstream("/proc/self/clear_refs") << "5"; // the peak begins anew
+  const double megabytes = hop::testing::presentMegabytes();
   const double time = hop::testing::fastest(1, 1,
     [&]() {
       mesh = hop::meshSurface(surface, distribution, {}, {});
     }).cpu;
+  const double bytes = 1e6 * (hop::testing::peakMegabytes() - megabytes) / count;
   const hop::testing::MeshMeasures m = hop::testing::measureMesh(distribution, mesh.triangles);
   std::printf(
     "| %s %s | %zu | %zu | %lld | %zu | %lld+%lld+%lld | %lld in %lld, %.2g | %lld | %lld | %lld | "
-    "%.1f %.1f %.1f | %.6g %.6g | %.2f %.2f |\n",
+    "%.1f %.1f %.1f | %.6g %.6g | %.2f %.2f | %.0f |\n",
     which.file.substr(0, 32).c_str(), which.array.c_str(), before,
     distribution.particles.size() - before, static_cast<long long>(undersampled),
     mesh.triangles.size(), static_cast<long long>(m.badEdges),
@@ -153,7 +159,8 @@ void measure(const Options& options, const Case& which, const std::filesystem::p
     mesh.openLength / parameters.sizing.spacing, static_cast<long long>(mesh.unusedParticles),
     static_cast<long long>(m.eulerCharacteristic), static_cast<long long>(m.components),
     m.medianMinAngle, m.lowMinAngle, m.worstMinAngle, m.area,
-    std::accumulate(areas.begin(), areas.end(), 0.0), 1e6 * time / count, 1e6 * areaTime / count);
+    std::accumulate(areas.begin(), areas.end(), 0.0), 1e6 * time / count, 1e6 * areaTime / count,
+    bytes);
   std::fflush(stdout);
   if (!options.surface.empty())
   {
@@ -220,7 +227,8 @@ int main(int argc, char* argv[])
     "| file | particles | added | undersampled | triangles | bad edges + turned + bad vertices | "
     "holes, length "
     "/ spacing | unused | V - E + F | "
-    "components | angles | areas | us |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+    "components | angles | areas | us | bytes "
+    "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const Case& which :
     options.single.file.empty() ? cases : std::vector<Case>{ options.single })
   {
