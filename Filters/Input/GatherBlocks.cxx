@@ -62,8 +62,8 @@ GatheredBlocks gatherLeaves(vtkDataObjectTree* input, int kind, vtkDataObjectTre
       leaf.TakeReference(vtkDataObjectTypes::NewDataObject(kind));
       auto* particles = vtkPointSet::SafeDownCast(leaf);
       output->SetDataSet(node, leaf);
-      result.blocks.push_back({ grid, nullptr, particles, name, 0,
-        static_cast<int>(node->GetCurrentFlatIndex()) });
+      result.blocks.push_back(
+        { grid, nullptr, particles, name, 0, static_cast<int>(node->GetCurrentFlatIndex()) });
     }
     else
     {

@@ -7,7 +7,6 @@
 #include <array>
 #include <cstring>
 #include <exception>
-#include <exception>
 #include <map>
 #include <string>
 
@@ -87,8 +86,7 @@ void ask(const ForeignCorners& mine, const std::vector<std::size_t>& corners, Le
 class Answerer
 {
 public:
-  Answerer(
-    const InputBlocks& blocks, const GridElements& elements, const ParallelFor& parallelFor)
+  Answerer(const InputBlocks& blocks, const GridElements& elements, const ParallelFor& parallelFor)
     : Blocks(blocks)
     , Elements(elements)
     , Parallel(parallelFor)
@@ -154,8 +152,7 @@ private:
     }
     for (const auto& [block, indices] : ofBlocks)
     {
-      vtkDataArray* source =
-        this->Blocks[block].grid->GetPointData()->GetArray(array.name.c_str());
+      vtkDataArray* source = this->Blocks[block].grid->GetPointData()->GetArray(array.name.c_str());
       if (!source || source->GetNumberOfComponents() != array.components)
       {
         continue;
@@ -175,8 +172,8 @@ private:
       for (std::size_t i = 0; i < indices.size(); ++i)
       {
         isThere[indices[i]] = 1;
-        std::copy_n(&found[i * array.components], array.components,
-          &values[indices[i] * array.components]);
+        std::copy_n(
+          &found[i * array.components], array.components, &values[indices[i] * array.components]);
       }
     }
   }

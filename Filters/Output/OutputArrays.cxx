@@ -259,7 +259,8 @@ std::vector<MeshReportArray> makeMeshReportArrays()
       "in the plane of the corners; of all blocks together.",
       [](const MeshReport& report) { return report.straightNodes; } },
     { "TopologyProven",
-      "1 if it is proven that the mesh has the components, Euler characteristics and boundary curves "
+      "1 if it is proven that the mesh has the components, Euler characteristics and boundary "
+      "curves "
       "of the surface, 0 if not; of all blocks together.",
       [](const MeshReport& report) { return std::int64_t(report.isProven); } },
     { "MeshComponents", "Connected parts of the mesh, of all blocks together.",

@@ -112,8 +112,7 @@ BlockReport reportOf(const std::vector<IsovalueParticles>& isovalues, const Cell
 }
 
 /// Sums the reports of all isovalues' meshes.
-MeshReport meshReportOf(
-  const std::vector<IsovalueParticles>& isovalues, double unitOfLength)
+MeshReport meshReportOf(const std::vector<IsovalueParticles>& isovalues, double unitOfLength)
 {
   MeshReport sum;
   for (const IsovalueParticles& some : isovalues)

@@ -269,15 +269,14 @@ std::vector<IsovalueParticles> GroupRun::distribute(const GridElements& elements
 
 /// \param particles of the isovalues that this rank is the worker of; receives this rank's of all isovalues
 /// \return false, on all ranks, where one of them has failed
-bool GroupRun::bringHome(
-  std::vector<IsovalueParticles>& particles, const ParallelFor& parallelFor)
+bool GroupRun::bringHome(std::vector<IsovalueParticles>& particles, const ParallelFor& parallelFor)
 {
   bool isComplete = true;
   for (std::size_t i = 0; i < particles.size(); ++i)
   {
     Distribution& distribution = particles[i].distribution;
-    HomeParticles home = hop::bringHome(this->Ranks, this->workerOf(i), distribution,
-      this->IsSound, this->All, this->Sizes, parallelFor);
+    HomeParticles home = hop::bringHome(this->Ranks, this->workerOf(i), distribution, this->IsSound,
+      this->All, this->Sizes, parallelFor);
     if (home.isComplete)
     {
       home.isComplete = bringMeshHome(this->Ranks, this->workerOf(i), distribution, this->IsSound,
@@ -325,7 +324,8 @@ RunResult ParticleRun::run(const InputBlocks& mine) const
   const InputBlocks blocks = mine.withComponent(agreeOnComponent(*exchange, mine, messages));
   this->Caller.tell(messages);
   std::vector<std::set<int>> groups;
-  result.isComplete = allAgree(*exchange, messages.empty()) && this->findGroups(*exchange, blocks, groups);
+  result.isComplete =
+    allAgree(*exchange, messages.empty()) && this->findGroups(*exchange, blocks, groups);
   for (std::size_t g = 0; g < groups.size(); ++g)
   {
     const double share = 1.0 / static_cast<double>(groups.size());
@@ -335,8 +335,8 @@ RunResult ParticleRun::run(const InputBlocks& mine) const
       [&](const ParallelFor& parallelFor)
       {
         const Work whole{ { this->Caller.report }, parallelFor };
-        GroupRun group(*exchange, members, g, this->Properties, this->Scale, this->Caller,
-          this->Previous);
+        GroupRun group(
+          *exchange, members, g, this->Properties, this->Scale, this->Caller, this->Previous);
         if (!group.run(whole.part(begin, begin + share), result.counts))
         {
           empty(members);

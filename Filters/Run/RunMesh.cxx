@@ -99,8 +99,8 @@ void addMesh(const Isosurface& surface, OutputType type, int order, IsovaluePart
     prove(surface, distribution.particles, triangles, some.mesh, std::ref(loops));
   }
   const std::vector<double> areas = particleAreas(distribution, monitor, parallelFor);
-  forAll(parallelFor, areas.size(),
-    [&](std::size_t p) { distribution.particles[p].area = areas[p]; });
+  forAll(
+    parallelFor, areas.size(), [&](std::size_t p) { distribution.particles[p].area = areas[p]; });
   if (type == OutputType::CurvedTriangles)
   {
     Interruptible loops(monitor, parallelFor);

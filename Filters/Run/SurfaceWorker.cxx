@@ -80,11 +80,11 @@ RunOrigin SurfaceWorker::makeOrigin(double isovalue) const
   return origin;
 }
 
-void SurfaceWorker::review(double isovalue, double fieldIsovalue, const Distribution& distribution,
-  const Work& work) const
+void SurfaceWorker::review(
+  double isovalue, double fieldIsovalue, const Distribution& distribution, const Work& work) const
 {
-  this->Caller.tell(reviewDistribution(
-    this->Blocks, distribution, isovalue, this->Properties.numberOfParticles));
+  this->Caller.tell(
+    reviewDistribution(this->Blocks, distribution, isovalue, this->Properties.numberOfParticles));
   if (!distribution.report.aborted && hasTooManyUndersampled(distribution))
   {
     this->reviewSpacing(isovalue, fieldIsovalue, distribution, work);
@@ -92,8 +92,8 @@ void SurfaceWorker::review(double isovalue, double fieldIsovalue, const Distribu
 }
 
 /// Tells of places where the surface bends faster than the particles can follow, and what it takes to follow it.
-void SurfaceWorker::reviewSpacing(double isovalue, double fieldIsovalue,
-  const Distribution& distribution, const Work& work) const
+void SurfaceWorker::reviewSpacing(
+  double isovalue, double fieldIsovalue, const Distribution& distribution, const Work& work) const
 {
   const std::int64_t number = this->Properties.numberOfParticles;
   const auto countAt = [&](double spacing)
@@ -103,11 +103,11 @@ void SurfaceWorker::reviewSpacing(double isovalue, double fieldIsovalue,
         this->sizingAt(spacing), work.monitor, work.parallelFor);
     return std::accumulate(counts.begin(), counts.end(), 0.0);
   };
-  const SpacingAdvice advice = adviseSpacing(
-    distribution, this->sizingAt(number > 0 ? 0.0 : this->Scale.spacing), this->Scale.unit, countAt);
+  const SpacingAdvice advice = adviseSpacing(distribution,
+    this->sizingAt(number > 0 ? 0.0 : this->Scale.spacing), this->Scale.unit, countAt);
   const int worst = distribution.particles[advice.worst].location.element;
-  this->Caller.tell({ reviewUndersampled(this->Blocks, distribution, advice,
-    this->Mesh.elements[worst].cell, isovalue, number) });
+  this->Caller.tell({ reviewUndersampled(
+    this->Blocks, distribution, advice, this->Mesh.elements[worst].cell, isovalue, number) });
 }
 
 } // namespace hop

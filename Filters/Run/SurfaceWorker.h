@@ -1,8 +1,8 @@
 #pragma once
 
 #include "Elements/ElementMesh.h"
-#include "Run/ParticleRun.h"
 #include "Output/OutputRows.h"
+#include "Run/ParticleRun.h"
 #include "Run/RankBlocks.h"
 #include "Run/Work.h"
 

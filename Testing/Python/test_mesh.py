@@ -103,6 +103,27 @@ def test_triangles_are_closed_oriented_and_on_the_surface(grid):
     assert support.reported(mesh, "MeshOpenLength") == 0.0
 
 
+@pytest.mark.parametrize("file, array, value, components", [
+    ("mfem_hex1_p8.vtu", "u", 0.2, 1),
+    ("mfem_amr_hanging_hex_p3.vtu", "u", 0.01, 1),
+    ("ngsolve_cylinder_ns_tet_p3.vtu", "pressure", 0.507, 2),
+])
+def test_topology_is_proven(data, plugin, file, array, value, components):
+    mesh = support.run_quietly(support.read(data(file)), array, value, OutputType="Triangles")
+    assert support.reported(mesh, "TopologyProven") == 1
+    assert support.reported(mesh, "MeshComponents") == components
+    assert support.reported(mesh, "ComponentsUnproven") == 0
+
+
+def test_topology_of_a_field_with_jumps_is_not_proven(data, plugin):
+    grid = support.read(data("mfem_dg_advection_0.vtu"))
+    mesh = support.make_filter(grid, "rho", 0.293, OutputType="Triangles")[0]
+    mesh.UpdatePipeline()
+    report = support.output_of(mesh)
+    assert support.reported(report, "TopologyProven") == 0
+    assert support.reported(report, "ComponentsUnproven") > 0
+
+
 def test_triangles_have_the_cell_arrays_of_their_first_corner(grid):
     mesh = mesh_of(grid, "Triangles")
     cells = array_of(mesh, "Cell_Id")[corners_of(mesh)[:, 0]]

@@ -317,7 +317,8 @@ double FastSystem::targetCount() const
 void FastSystem::matchSpacing(std::int64_t count)
 {
   const auto given = static_cast<double>(count);
-  findSpacing(count, this->guessSpacing(given),
+  findSpacing(
+    count, this->guessSpacing(given),
     [this](double spacing)
     {
       this->Sizing.spacing = spacing;
