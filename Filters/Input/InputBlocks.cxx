@@ -19,11 +19,13 @@ namespace hop
 namespace
 {
 
-/// A mark for each point that a cell of this rank has; empty where no cell is a ghost: then all points count.
+/// A mark for each point that a cell of this rank has; empty where no cell is a ghost: then all points count. So it is
+/// with marks that are too few, which are ignored later.
 std::vector<char> pointsOfOwnCells(vtkUnstructuredGrid* grid)
 {
   vtkUnsignedCharArray* ghosts = grid->GetCellGhostArray();
-  const vtkIdType cells = ghosts ? grid->GetNumberOfCells() : 0;
+  const bool areAll = ghosts && ghosts->GetNumberOfTuples() >= grid->GetNumberOfCells();
+  const vtkIdType cells = areAll ? grid->GetNumberOfCells() : 0;
   vtkIdType first = 0;
   while (first < cells && !isGhostCell(ghosts, first))
   {

@@ -35,7 +35,7 @@ def colors_of(source):
 def test_few_colors_are_offered(particles):
     entries = colors_of(particles)
     assert {"u", "velocity", "Mean_Curvature", "Gauss_Curvature", "Isovalue"} <= set(entries)
-    assert len(entries) <= 10
+    assert len(entries) <= 11
     assert not (TECHNICAL | set(REPORT) | {RENDERERS, "Jump"}) & set(entries)
 
 
@@ -53,7 +53,7 @@ def test_the_text_at_the_mouse_has_few_lines(particles):
     fields = output.GetFieldData()
     of_fields = [n for n in support.array_list(fields) if fields.GetAbstractArray(n).GetNumberOfTuples() == 1]
     assert of_fields == []
-    assert len(support.array_list(output.GetPointData())) <= 11
+    assert len(support.array_list(output.GetPointData())) <= 12
 
 
 def test_the_spreadsheet_does_not_show_the_renderers_numbers(particles):
