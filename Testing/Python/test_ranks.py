@@ -20,12 +20,8 @@ SCRIPT = """
 import json, sys
 import numpy as np
 from paraview import servermanager, simple
-from vtkmodules.vtkCommonCore import vtkIdList
-from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet, vtkUnstructuredGrid
-try:
-    from vtkmodules.vtkFiltersCore import vtkExtractCells
-except ImportError:  # VTK 9.1
-    from vtkmodules.vtkFiltersExtraction import vtkExtractCells
+from paraview.vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes, vtkMultiBlockDataSet, vtkUnstructuredGrid
 from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader, vtkXMLUnstructuredGridReader
 
 plugin, folder, tests, *files = sys.argv[1:]
@@ -48,15 +44,24 @@ def whole(path):
 
 
 def cells_of(grid, ids):
-    if len(ids) == 0:
-        return vtkUnstructuredGrid()
-    extract, list_of_ids = vtkExtractCells(), vtkIdList()
-    for i in ids:
-        list_of_ids.InsertNextId(int(i))
-    extract.SetInputData(grid)
-    extract.SetCellList(list_of_ids)
-    extract.Update()
-    return extract.GetOutput()
+    # With all arrays; each cell has nodes of its own.
+    cells, nodes = [], []
+    for id in ids:
+        cell = grid.GetCell(int(id))
+        count = cell.GetNumberOfPoints()
+        cells.append((cell.GetCellType(), range(len(nodes), len(nodes) + count)))
+        nodes += [cell.GetPointId(n) for n in range(count)]
+    part = support.grid_of_cells(support.points_of(grid)[nodes], cells)
+    for source, target, rows in ((grid.GetPointData(), part.GetPointData(), nodes),
+                                 (grid.GetCellData(), part.GetCellData(), ids)):
+        for name in support.array_list(source):
+            array = numpy_to_vtk(vtk_to_numpy(source.GetArray(name))[np.asarray(rows, int)], deep=True)
+            array.SetName(name)
+            target.AddArray(array)
+    if grid.GetPointData().GetRationalWeights():
+        part.GetPointData().SetActiveAttribute("RationalWeights", vtkDataSetAttributes.RATIONALWEIGHTS)
+        part.GetCellData().SetActiveAttribute("HigherOrderDegrees", vtkDataSetAttributes.HIGHERORDERDEGREES)
+    return part
 
 
 def scattered(grid):
@@ -75,9 +80,8 @@ def on_last_rank(grid):
 def with_ghosts(grid, change=lambda part, ghost: None):
     # All cells on every rank; those of other ranks are ghosts.
     owner = random.integers(0, ranks, grid.GetNumberOfCells())
-    part = vtkUnstructuredGrid()
     own, others = np.flatnonzero(owner == rank), np.flatnonzero(owner != rank)
-    part.DeepCopy(support.cells_of(grid, [*own, *others]))
+    part = cells_of(grid, [*own, *others])
     ghost = np.repeat([0, 1], [len(own), len(others)])
     support.add_cell_array(part, "vtkGhostType", ghost.astype(np.uint8))
     change(part, ghost)
