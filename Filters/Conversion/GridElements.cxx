@@ -69,9 +69,9 @@ private:
 void Builder::build(const std::vector<JudgedCells>& judged)
 {
   this->makeElements(judged);
-  std::vector<JacobianSign> signs = convertCells(this->Blocks, this->Result.bases,
-    { this->Isovalues, this->Result.origin }, this->Result.units, this->Result.mesh,
-    this->Parallel);
+  std::vector<JacobianSign> signs =
+    convertCells(this->Blocks, this->Result.bases, { this->Isovalues, this->Result.origin },
+      this->Result.units, this->Result.mesh, this->Parallel);
   this->dropMisordered(signs);
   this->dropCollapsed(signs);
 }

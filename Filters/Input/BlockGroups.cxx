@@ -261,7 +261,9 @@ std::vector<std::set<int>> groupsWithoutSharedCells(
     const auto isFree = [&](const std::set<int>& group)
     {
       return std::none_of(group.begin(), group.end(),
-        [&](int member) { return sharing.count({ member, number }) > 0; });
+        [&](int member) {
+          return sharing.count({ member, number }) > 0;
+        });
     };
     auto group = std::find_if(groups.begin(), groups.end(), isFree);
     if (group == groups.end())

@@ -59,8 +59,8 @@ GatheredBlocks gatherLeaves(vtkDataObjectTree* input, vtkDataObjectTree* output)
     {
       const vtkNew<vtkPolyData> particles;
       output->SetDataSet(node, particles);
-      result.blocks.push_back({ grid, nullptr, particles, name, 0,
-        static_cast<int>(node->GetCurrentFlatIndex()) });
+      result.blocks.push_back(
+        { grid, nullptr, particles, name, 0, static_cast<int>(node->GetCurrentFlatIndex()) });
     }
     else
     {

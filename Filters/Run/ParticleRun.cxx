@@ -311,7 +311,8 @@ RunResult ParticleRun::run(const InputBlocks& mine) const
   const InputBlocks blocks = mine.withComponent(agreeOnComponent(*exchange, mine, messages));
   this->Caller.tell(messages);
   std::vector<std::set<int>> groups;
-  result.isComplete = allAgree(*exchange, messages.empty()) && this->findGroups(*exchange, blocks, groups);
+  result.isComplete =
+    allAgree(*exchange, messages.empty()) && this->findGroups(*exchange, blocks, groups);
   for (std::size_t g = 0; g < groups.size(); ++g)
   {
     const double share = 1.0 / static_cast<double>(groups.size());
@@ -321,8 +322,8 @@ RunResult ParticleRun::run(const InputBlocks& mine) const
       [&](const ParallelFor& parallelFor)
       {
         const Work whole{ { this->Caller.report }, parallelFor };
-        GroupRun group(*exchange, members, g, this->Properties, this->Scale, this->Caller,
-          this->Previous);
+        GroupRun group(
+          *exchange, members, g, this->Properties, this->Scale, this->Caller, this->Previous);
         if (!group.run(whole.part(begin, begin + share), result.counts))
         {
           empty(members);

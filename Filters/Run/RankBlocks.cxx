@@ -45,8 +45,7 @@ int agreeOnComponent(Exchange& exchange, const InputBlocks& mine, UserMessages& 
   constexpr int nothing = InputBlocks::Magnitude - 1;
   int agreed = nothing;
   bool isSame = true;
-  for (const int component :
-    gatherFromAll(exchange, mine.size() > 0 ? mine.component() : nothing))
+  for (const int component : gatherFromAll(exchange, mine.size() > 0 ? mine.component() : nothing))
   {
     isSame = isSame && (component == nothing || agreed == nothing || component == agreed);
     agreed = agreed == nothing ? component : agreed;
@@ -59,8 +58,8 @@ int agreeOnComponent(Exchange& exchange, const InputBlocks& mine, UserMessages& 
   return !isSame || agreed == nothing ? mine.component() : agreed;
 }
 
-std::vector<std::set<int>> agreeOnGroups(Exchange& exchange, const InputBlocks& mine,
-  const std::set<std::pair<int, int>>& sharing)
+std::vector<std::set<int>> agreeOnGroups(
+  Exchange& exchange, const InputBlocks& mine, const std::set<std::pair<int, int>>& sharing)
 {
   vtkMultiProcessStream stream;
   stream << static_cast<int>(mine.size());

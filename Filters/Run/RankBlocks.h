@@ -21,8 +21,8 @@ int agreeOnComponent(Exchange& exchange, const InputBlocks& mine, UserMessages& 
 /// The numbers of all ranks' blocks in groups that can be contoured as one mesh each, see Input/BlockGroups.h. Every
 /// rank calls it.
 /// \param sharing pairs of this rank's blocks that share cells
-std::vector<std::set<int>> agreeOnGroups(Exchange& exchange, const InputBlocks& mine,
-  const std::set<std::pair<int, int>>& sharing);
+std::vector<std::set<int>> agreeOnGroups(
+  Exchange& exchange, const InputBlocks& mine, const std::set<std::pair<int, int>>& sharing);
 
 /// What every rank knows of the blocks of all ranks. Their cells are numbered through: first the cells of rank 0, then
 /// the cells of rank 1, and so on; on each rank as in InputBlocks.

@@ -62,8 +62,7 @@ public:
     for (std::size_t received = 0; received < size; received += LargestMessage)
     {
       const std::size_t length = std::min(LargestMessage, size - received);
-      unsigned char* to =
-        bytes ? static_cast<unsigned char*>(bytes) + received : unwanted.data();
+      unsigned char* to = bytes ? static_cast<unsigned char*>(bytes) + received : unwanted.data();
       this->Controller->Receive(to, static_cast<vtkIdType>(length), from, Tag);
     }
   }

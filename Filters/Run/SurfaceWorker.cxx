@@ -59,11 +59,11 @@ RunOrigin SurfaceWorker::makeOrigin(double isovalue) const
   return origin;
 }
 
-void SurfaceWorker::review(double isovalue, double fieldIsovalue, const Distribution& distribution,
-  const Work& work) const
+void SurfaceWorker::review(
+  double isovalue, double fieldIsovalue, const Distribution& distribution, const Work& work) const
 {
-  this->Caller.tell(reviewDistribution(
-    this->Blocks, distribution, isovalue, this->Properties.numberOfParticles));
+  this->Caller.tell(
+    reviewDistribution(this->Blocks, distribution, isovalue, this->Properties.numberOfParticles));
   if (!distribution.report.aborted && hasTooManyUndersampled(distribution))
   {
     this->reviewSpacing(isovalue, fieldIsovalue, distribution, work);
@@ -71,8 +71,8 @@ void SurfaceWorker::review(double isovalue, double fieldIsovalue, const Distribu
 }
 
 /// Tells of places where the surface bends faster than the particles can follow, and what it takes to follow it.
-void SurfaceWorker::reviewSpacing(double isovalue, double fieldIsovalue,
-  const Distribution& distribution, const Work& work) const
+void SurfaceWorker::reviewSpacing(
+  double isovalue, double fieldIsovalue, const Distribution& distribution, const Work& work) const
 {
   const std::int64_t number = this->Properties.numberOfParticles;
   const double density = this->Properties.angularDensity;
@@ -86,8 +86,8 @@ void SurfaceWorker::reviewSpacing(double isovalue, double fieldIsovalue,
   const SpacingAdvice advice = adviseSpacing(
     distribution, { number > 0 ? 0.0 : this->Scale.spacing, density }, this->Scale.unit, countAt);
   const int worst = distribution.particles[advice.worst].location.element;
-  this->Caller.tell({ reviewUndersampled(this->Blocks, distribution, advice,
-    this->Mesh.elements[worst].cell, isovalue, number) });
+  this->Caller.tell({ reviewUndersampled(
+    this->Blocks, distribution, advice, this->Mesh.elements[worst].cell, isovalue, number) });
 }
 
 } // namespace hop

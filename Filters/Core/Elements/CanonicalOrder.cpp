@@ -96,7 +96,10 @@ std::vector<int> canonicalOrder(
   askCaller(parallelFor);
   std::stable_sort(keyed.begin(), keyed.end(),
     [&](const Keyed& a, const Keyed& b)
-    { return a.key != b.key ? a.key < b.key : comesBefore(mesh.form(a.element), mesh.form(b.element)); });
+    {
+      return a.key != b.key ? a.key < b.key
+                            : comesBefore(mesh.form(a.element), mesh.form(b.element));
+    });
   std::vector<int> order;
   order.reserve(keyed.size());
   for (const Keyed& some : keyed)

@@ -49,8 +49,8 @@ void takeMesh(Exchange& exchange, const ElementMesh& mine, const std::vector<Mes
   take(exchange, mine.coefficients, all.mesh.coefficients.data() + before.coefficients,
     size.coefficients, from);
   // Where any rank has weights there is room for a weight of every coefficient.
-  take(exchange, mine.weights, all.mesh.weights.data() + (size.weights > 0 ? before.coefficients : 0),
-    size.weights, from);
+  take(exchange, mine.weights,
+    all.mesh.weights.data() + (size.weights > 0 ? before.coefficients : 0), size.weights, from);
   for (std::int64_t e = 0; e < size.elements; ++e)
   {
     elements[e].firstCoefficient += static_cast<std::size_t>(before.coefficients);
@@ -107,8 +107,7 @@ void gatherMesh(Exchange& exchange, int worker, ElementMesh& mine,
   }
 }
 
-void orderCanonically(
-  GatheredMesh& all, const MeshCube& cube, const ParallelFor& parallelFor)
+void orderCanonically(GatheredMesh& all, const MeshCube& cube, const ParallelFor& parallelFor)
 {
   const std::vector<int> order = canonicalOrder(all.mesh, cube, parallelFor);
   std::vector<Element> elements(order.size());

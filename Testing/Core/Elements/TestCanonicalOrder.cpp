@@ -71,7 +71,8 @@ TEST_P(CanonicalOrder, DoesNotDependOnWhichOtherElementsThereAre)
   ElementMesh mesh = boxes(this->GetParam());
   const auto isKept = [](std::int64_t cell) { return cell % 3 == 0; };
   std::vector<std::int64_t> expected = cellsInOrder(mesh);
-  expected.erase(std::remove_if(expected.begin(), expected.end(), std::not_fn(isKept)), expected.end());
+  expected.erase(
+    std::remove_if(expected.begin(), expected.end(), std::not_fn(isKept)), expected.end());
   const auto end = std::remove_if(mesh.elements.begin(), mesh.elements.end(),
     [&](const Element& element) { return !isKept(element.cell); });
   mesh.elements.erase(end, mesh.elements.end());

@@ -33,8 +33,8 @@ ElementMesh wholeMesh(Domain domain)
   return makeMesh(recipe);
 }
 
-using Method = Distribution (*)(const Isosurface&, const DistributionParameters&, const Monitor&,
-  const ParallelFor&);
+using Method = Distribution (*)(
+  const Isosurface&, const DistributionParameters&, const Monitor&, const ParallelFor&);
 
 Distribution distribute(const GatheredMesh& all, Method method)
 {
@@ -162,7 +162,8 @@ TEST(ParticlesHome, BringsTheReportAndEachRanksOwnCells)
       EXPECT_EQ(home.distribution.report.evaluations, 12);
       EXPECT_EQ(home.distribution.report.boxesUndecided, 5);
       EXPECT_EQ(home.distribution.report.undecidedCells,
-        exchange.rank() == 0 ? std::vector<std::int64_t>{ 3 } : (std::vector<std::int64_t>{ 0, 9 }));
+        exchange.rank() == 0 ? std::vector<std::int64_t>{ 3 }
+                             : (std::vector<std::int64_t>{ 0, 9 }));
     });
 }
 

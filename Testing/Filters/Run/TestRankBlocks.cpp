@@ -49,8 +49,9 @@ InputBlocks blocksOfRank(int rank)
     case 0:
       return { { blockOf(1, "block 1 'wing'", { 3.0, 4.0 }) }, 0 };
     case 2:
-      return { { blockOf(1, "block 1 'wing'", { 1.0, 2.0, 2.5 }), blockOf(4, "", { 7.0, 8.0, 9.0 }) },
-        0 };
+      return {
+        { blockOf(1, "block 1 'wing'", { 1.0, 2.0, 2.5 }), blockOf(4, "", { 7.0, 8.0, 9.0 }) }, 0
+      };
     default:
       return { {}, 0 };
   }
