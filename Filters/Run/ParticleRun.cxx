@@ -249,7 +249,7 @@ std::vector<IsovalueParticles> GroupRun::distribute(const GridElements& elements
     {
       Interruptible loops(work.monitor, work.parallelFor);
       loops.raiseFraction(ProgressAt::Converted);
-      orderCanonically(this->All, this->Scale.cube, std::ref(loops));
+      orderCanonically(this->All, std::ref(loops));
       joinElements(this->All.mesh, std::ref(loops));
       const SurfaceWorker worker(this->All.mesh, this->AllBlocks, this->Properties, this->Scale,
         this->Caller, this->Previous);

@@ -83,8 +83,6 @@ RunScale findScale(const std::vector<InputBlock>& blocks, double spacing, double
       ? std::clamp(spacing / scale.unit, SpacingPerSide::Least, SpacingPerSide::Largest * side)
       : SpacingPerSide::Automatic * side;
     scale.diagonal = diagonalOf(box, scale.unit);
-    const double* lower = box.GetMinPoint();
-    scale.cube = { glm::dvec3(lower[0], lower[1], lower[2]) / scale.unit, side };
     scale.tolerance = std::max(tolerance * scale.diagonal,
       leastToleranceInRoundings * std::numeric_limits<double>::epsilon() * farthestOf(box) /
         scale.unit);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "Elements/CanonicalOrder.h"
 #include "Input/InputBlocks.h"
 
 #include <vector>
@@ -17,8 +16,6 @@ struct RunScale
   double tolerance = 0.0;
   /// Diagonal of the bounds.
   double diagonal = 0.0;
-  /// Around the bounds.
-  MeshCube cube;
 };
 
 /// Every rank has to call this: the bounds are those of all ranks.

@@ -121,13 +121,15 @@ EDITS = {
     "Seed": ("Seed", "LineEdit0", "set_string", "7"),
     "Number Of Particles": ("NumberOfParticles", "LineEdit0", "set_string", "400"),
     "Pass Diagnostics": ("PassDiagnostics", "CheckBox", "set_boolean", "true"),
+    "Output Type": ("OutputType", "ComboBox", "activated", "Curved Triangles"),
+    "Order": ("Order", "IntRangeWidget/LineEdit", "set_string", "3"),
 }
 # As the state file has them.
 EDITED = {
     "SelectInputScalars": ["", "", "", "0", "velocity"], "Component": ["1"], "Spacing": ["0.25"], "AngularDensity": ["3"],
     "SmallestSpacing": ["0.125"],
     "Quality": ["2"], "Tolerance": ["0.000001"], "NodeSpacing": ["1"], "WarmStart": ["1"], "Method": ["0"], "Seed": ["7"],
-    "NumberOfParticles": ["400"], "PassDiagnostics": ["1"],
+    "NumberOfParticles": ["400"], "PassDiagnostics": ["1"], "OutputType": ["2"], "Order": ["3"],
 }
 
 
@@ -411,7 +413,11 @@ def test_what_cuts_particles_hides_them(plugin, particle_file, screen, tmp_path)
         process.kill()
     write_png(Path(os.environ["HOP_BUILD"]) / "Testing" / "gui_clip.png", window)
     assert process.returncode == 0, said
-    surface = (window[:, :, 0] < 70) & (window[:, :, 2] > window[:, :, 0] + 40)  # blue: one isovalue, one colour
+    red, green, blue = (window[:, :, c].astype(int) for c in range(3))
+    # Grey: the background is blue, and the plane red. The outline is one pixel wide.
+    grey = (np.abs(red - green) < 10) & (np.abs(green - blue) < 15)
+    surface = np.zeros_like(grey)
+    surface[1:-1, 1:-1] = (grey[1:-1, 1:-1] & grey[:-2, 1:-1] & grey[2:, 1:-1] & grey[1:-1, :-2] & grey[1:-1, 2:])
     middle = WIDTH // 4 + 3 * WIDTH // 8  # of the view, as of the particles
     view = slice(HEIGHT // 4, -50)
     assert surface[view, WIDTH // 4 : middle].sum() > 10000, "the half that is left"

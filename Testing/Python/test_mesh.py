@@ -1,8 +1,5 @@
 """Triangles and curved triangles: closed, on the surface, and at home in ParaView's other filters and files."""
 
-import os
-import subprocess
-
 import numpy as np
 import pytest
 import support
@@ -254,35 +251,6 @@ def test_blocks_have_their_parts_of_one_mesh(grid, kind):
     # Where the other block has no such array, the value of a point of the same triangle does.
     shift = np.abs(array_of(leaves[1], "only here") - points_of(leaves[1])[:, 0])
     assert shift.max() < 2 * SPACING and (shift < 1e-9).mean() > 0.5
-
-
-RANKS_SCRIPT = """
-import sys
-from paraview import servermanager, simple
-plugin, tests = sys.argv[1:]
-sys.path.append(tests)
-simple.LoadPlugin(plugin, remote=False, ns=vars(simple))
-import test_mesh, support
-rank = servermanager.vtkProcessModule.GetProcessModule().GetPartitionId()
-grid = test_mesh.sphere_grid()
-half = grid.GetNumberOfCells() // 2
-piece = test_mesh.part_of(grid, range(rank * half, (rank + 1) * half))
-for kind in test_mesh.KINDS:
-    mesh = test_mesh.mesh_of(piece, kind)
-    assert mesh.GetNumberOfCells() > 100
-    if kind != "Particles":
-        points = support.points_of(mesh)[test_mesh.corners_of(mesh)]
-        assert points[..., 2].max() <= 2 + 1e-9 if rank == 0 else points[..., 2].min() >= 2 - 1e-9
-print("rank", rank, "is done")
-"""
-
-
-def test_each_of_two_ranks_has_the_mesh_of_its_part(plugin, tmp_path):
-    script = tmp_path / "ranks.py"
-    script.write_text(RANKS_SCRIPT)
-    command = ["mpirun", "-np", "2", "--oversubscribe", "pvbatch", "--sym", str(script), str(plugin), os.path.dirname(__file__)]
-    run = subprocess.run(command, env=support.environment_of_ranks(), capture_output=True, text=True, timeout=300)
-    assert run.returncode == 0 and run.stdout.count("is done") == 2, run.stdout + run.stderr
 
 
 # ParaView's display, filters and files

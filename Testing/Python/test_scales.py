@@ -85,7 +85,7 @@ def in_other_units(grid, name, length, value):
 
 # By how many lengths an array of the output is multiplied where the input's coordinates are multiplied by a length.
 LENGTHS = {
-    "Radius": 1, "Mean_Curvature": -1, "Gauss_Curvature": -2, "Shape_Operator": -1, "Residual": 1,
+    "Radius": 1, "Area": 2, "Mean_Curvature": -1, "Gauss_Curvature": -2, "Shape_Operator": -1, "Residual": 1,
     "Clip_Distance": 1, "Clip_Curvature": -1,
     "Original_Placement": np.array(3 * [1] + 3 * [0]), "Cell_Borders": np.array(4 * [1, 1, 1, -1]),
 }  # fmt: skip

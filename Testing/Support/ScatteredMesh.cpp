@@ -38,7 +38,7 @@ GatheredMesh gatheredAt(Exchange& exchange, int worker, ElementMesh& mine)
   const std::vector<MeshSize> sizes = gatherFromAll(exchange, sizeOf(mine, CellsOfRank));
   GatheredMesh all = exchange.rank() == worker ? roomFor(sizes) : GatheredMesh();
   gatherMesh(exchange, worker, mine, sizes, all);
-  orderCanonically(all, { glm::dvec3(-1.2), 2.4 }, {});
+  orderCanonically(all, {});
   joinElements(all.mesh);
   return all;
 }

@@ -1,7 +1,6 @@
 #include "Elements/CanonicalOrder.h"
 
 #include <algorithm>
-#include <cstdint>
 
 namespace hop
 {
@@ -9,13 +8,15 @@ namespace hop
 namespace
 {
 
-/// Bits of a coordinate in a Morton key: three coordinates fill 63 of 64 bits.
-constexpr int bitsPerAxis = 21;
+/// The direction along which elements are swept. No simple ratios: centroids of regular meshes have different places along
+/// it. Chosen by experiment, see canonicalOrder().
+const glm::dvec3 sweep(0.3183098861837907, 0.7071067811865476, 1.0);
 
 /// An element on its way to its place.
 struct Keyed
 {
-  std::uint64_t key = 0;
+  /// Place of the centroid along the sweep.
+  double place = 0.0;
   int element = 0;
 };
 
@@ -33,30 +34,7 @@ glm::dvec3 centroidOf(const BernsteinForm& form)
   return sum / static_cast<double>(count);
 }
 
-/// The lowest 21 bits with two zeros between each.
-std::uint64_t spread(std::uint64_t bits)
-{
-  std::uint64_t result = 0;
-  for (int b = 0; b < bitsPerAxis; ++b)
-  {
-    result |= ((bits >> b) & 1U) << (3 * b);
-  }
-  return result;
-}
-
-/// \param x from 0 to 1 in every coordinate
-std::uint64_t mortonKey(const glm::dvec3& x)
-{
-  constexpr double largest = (1 << bitsPerAxis) - 1;
-  std::uint64_t key = 0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    key |= spread(static_cast<std::uint64_t>(largest * std::clamp(x[axis], 0.0, 1.0))) << axis;
-  }
-  return key;
-}
-
-/// Which of two elements with one key comes first.
+/// Which of two elements in one place comes first.
 bool comesBefore(const BernsteinForm& a, const BernsteinForm& b)
 {
   if (a.domain != b.domain || a.degrees != b.degrees)
@@ -83,22 +61,21 @@ bool comesBefore(const BernsteinForm& a, const BernsteinForm& b)
 
 } // namespace
 
-std::vector<int> canonicalOrder(
-  const ElementMesh& mesh, const MeshCube& cube, const ParallelFor& parallelFor)
+std::vector<int> canonicalOrder(const ElementMesh& mesh, const ParallelFor& parallelFor)
 {
   std::vector<Keyed> keyed(mesh.elements.size());
   forAll(parallelFor, keyed.size(),
     [&](std::size_t e)
     {
       const int element = static_cast<int>(e);
-      keyed[e] = { mortonKey((centroidOf(mesh.form(element)) - cube.lower) / cube.side), element };
+      keyed[e] = { glm::dot(centroidOf(mesh.form(element)), sweep), element };
     });
   askCaller(parallelFor);
   std::stable_sort(keyed.begin(), keyed.end(),
     [&](const Keyed& a, const Keyed& b)
     {
-      return a.key != b.key ? a.key < b.key
-                            : comesBefore(mesh.form(a.element), mesh.form(b.element));
+      return a.place != b.place ? a.place < b.place
+                                : comesBefore(mesh.form(a.element), mesh.form(b.element));
     });
   std::vector<int> order;
   order.reserve(keyed.size());

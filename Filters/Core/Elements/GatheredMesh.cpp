@@ -107,9 +107,9 @@ void gatherMesh(Exchange& exchange, int worker, ElementMesh& mine,
   }
 }
 
-void orderCanonically(GatheredMesh& all, const MeshCube& cube, const ParallelFor& parallelFor)
+void orderCanonically(GatheredMesh& all, const ParallelFor& parallelFor)
 {
-  const std::vector<int> order = canonicalOrder(all.mesh, cube, parallelFor);
+  const std::vector<int> order = canonicalOrder(all.mesh, parallelFor);
   std::vector<Element> elements(order.size());
   std::vector<ElementHome> homes(order.size());
   forAll(parallelFor, order.size(),

@@ -58,6 +58,6 @@ void gatherMesh(Exchange& exchange, int worker, ElementMesh& mine,
   const std::vector<MeshSize>& sizes, GatheredMesh& all);
 
 /// Puts gathered elements into their canonical order.
-void orderCanonically(GatheredMesh& all, const MeshCube& cube, const ParallelFor& parallelFor);
+void orderCanonically(GatheredMesh& all, const ParallelFor& parallelFor);
 
 } // namespace hop

@@ -45,7 +45,7 @@ Show(particles, right).SetRepresentationType("Surface Splats")
 for view, surface in [(left, contour), (right, particles)]:
     view.OrientationAxesVisibility = 0
     shown = GetDisplayProperties(surface, view)
-    ColorBy(shown, None)
+    shown.ColorArrayName = ["POINTS", ""]
     shown.AmbientColor = shown.DiffuseColor = [0.85, 0.65, 0.35]
     Show(cell, view).SetRepresentationType("Outline")
     view.CameraPosition = [-0.8, -1.1, 0.6]
