@@ -56,5 +56,7 @@ def test_no_particle_is_missing(beam, offset):
     # Places all over the surface, finer than particles.
     a, b = np.meshgrid(np.linspace(0, LENGTH, 241), np.linspace(-0.5, 0.5, 31))
     places = bend(np.stack([a.ravel(), offset / slope(a.ravel()), b.ravel()], axis=1), is_bent)
-    assert distances_to(particles, places).max() < 0.85 * spacing, "no hole"
+    # Splats reach 0.928 spacings. Which of two particles in one face stays is a matter of chance: over twelve seeds the
+    # largest distance is 0.66 to 0.93 in flat tetrahedra, less in the other cells.
+    assert distances_to(particles, places).max() < 0.928 * spacing, "no hole"
     assert nearest_neighbors(particles).min() > 0.6

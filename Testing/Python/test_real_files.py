@@ -41,7 +41,8 @@ class Case:
 
 
 CASES = [
-    Case("mfem_cylinder_hex_prism_p3.vtu", "pressure", -0.5, jumps=True),
+    # Some 200 particles: pairs across small jumps decide. Over ten seeds the least hundredth is 0.66 to 0.85 spacings.
+    Case("mfem_cylinder_hex_prism_p3.vtu", "pressure", -0.5, jumps=True, nearest_of_most=0.65, slivers=0.005),
     Case("mfem_cylinder_hex_prism_p3.vtu", "phi", 2.0),
     Case("mfem_hex1_p8.vtu", "u", 0.2),
     Case("mfem_torus_wedge_p4.vtu", "f", 0.3, nearest=0.5),
