@@ -173,8 +173,8 @@ public:
 private:
   std::vector<std::vector<BoundaryHint>> findHints(const ParallelFor& parallelFor) const;
   void follow(const BoundaryHint& hint, const ParallelFor& parallelFor);
-  void sample(BoundaryTrace trace);
-  void sampleStretch(Span<BoundaryVertex> vertices, bool withEnd);
+  void sample(BoundaryTrace trace, const ParallelFor& parallelFor);
+  void sampleStretch(Span<BoundaryVertex> vertices, bool withEnd, const ParallelFor& parallelFor);
   double spacingAt(const BoundaryPoint& point);
   ReferencePoint between(const BoundaryPoint& from, const BoundaryPoint& to, double t) const;
   void finish(const ParallelFor& parallelFor);
@@ -250,11 +250,11 @@ void BoundarySampler::follow(const BoundaryHint& hint, const ParallelFor& parall
   {
     return;
   }
-  this->sample(this->Tracer.trace(*start, Tracing::Chord * nearby, parallelFor));
+  this->sample(this->Tracer.trace(*start, Tracing::Chord * nearby, parallelFor), parallelFor);
 }
 
 /// Cuts a boundary curve at its corners, and samples stretch by stretch.
-void BoundarySampler::sample(BoundaryTrace trace)
+void BoundarySampler::sample(BoundaryTrace trace, const ParallelFor& parallelFor)
 {
   std::vector<BoundaryVertex>& vertices = trace.vertices;
   const std::size_t firstPlace = this->Places.size();
@@ -274,7 +274,7 @@ void BoundarySampler::sample(BoundaryTrace trace)
       ++last;
     }
     const bool end = last + 1 == vertices.size();
-    this->sampleStretch({ &vertices[first], last + 1 - first }, end && !trace.closed);
+    this->sampleStretch({ &vertices[first], last + 1 - first }, end && !trace.closed, parallelFor);
     first = last;
   }
   this->Ranges.push_back({ firstPlace, this->Places.size() - firstPlace, trace.closed });
@@ -303,8 +303,11 @@ ReferencePoint BoundarySampler::between(
 /// Places particles along a stretch without corners, at equal distances in units of the spacing wanted there, the first
 /// one on the first vertex.
 /// \param withEnd also one on the last vertex
-void BoundarySampler::sampleStretch(Span<BoundaryVertex> vertices, bool withEnd)
+void BoundarySampler::sampleStretch(
+  Span<BoundaryVertex> vertices, bool withEnd, const ParallelFor& parallelFor)
 {
+  // Places between two questions whether to end early: fewer cost more calls, more delay an abort. Chosen by experiment.
+  constexpr std::int64_t placesAtOnce = 4096;
   std::vector<double> sums{ 0.0 };
   double spacing = 0.0;
   for (std::size_t v = 1; v < vertices.size(); ++v)
@@ -317,6 +320,10 @@ void BoundarySampler::sampleStretch(Span<BoundaryVertex> vertices, bool withEnd)
   std::size_t v = 1;
   for (std::int64_t n = 0; n < count + withEnd; ++n)
   {
+    if (n % placesAtOnce == placesAtOnce - 1)
+    {
+      askCaller(parallelFor);
+    }
     const double wanted = sums.back() * static_cast<double>(n) / static_cast<double>(count);
     while (v + 1 < vertices.size() && sums[v] < wanted)
     {

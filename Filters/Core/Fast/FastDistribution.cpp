@@ -84,6 +84,10 @@ struct RoughProxy
   static constexpr double Area = 0.4;
   /// Width of its boxes in units of the usual one. Smaller: areas are more exact, and take more time.
   static constexpr double Width = 2.5;
+  /// Least spacing, as a share of the diagonals of all boxes in a row over the number of particles: surfaces of no area,
+  /// in flat cells, have boundary curves all the same. Chosen so that it does not matter elsewhere: a surface through n
+  /// boxes of the size w with N > n particles has spacings of about w sqrt(n/N), above w n/N.
+  static constexpr double LengthShare = 0.1;
 };
 
 /// Particles on boundary curves.
@@ -326,12 +330,15 @@ void FastSystem::matchSpacing(std::int64_t count)
       return this->targetCount();
     },
     nearlyTheNumber);
-  const double onBoundary = this->targetCount() - this->Proxy->particleCount();
+  const double inside = this->Proxy->particleCount();
+  const double onBoundary = this->targetCount() - inside;
   const double error = this->targetCount() / given - 1.0;
-  if (std::abs(error) > SpacingSearch::Tolerance && std::abs(error) < nearlyTheNumber &&
-    onBoundary < given)
+  if (std::abs(error) > SpacingSearch::Tolerance && std::abs(error) < nearlyTheNumber)
   {
-    const double factor = std::sqrt(this->Proxy->particleCount() / (given - onBoundary));
+    // Spacings f times as large take inside/f^2 + onBoundary/f particles: the positive root of given f^2 - onBoundary f -
+    // inside. It is near 1, as both numbers together are near the one that is given.
+    const double factor =
+      (onBoundary + std::sqrt(onBoundary * onBoundary + 4.0 * given * inside)) / (2.0 * given);
     this->Proxy->scaleSpacings(factor);
     this->Sizing.spacing *= factor;
     this->traceBoundaryCurves();
@@ -346,7 +353,13 @@ double FastSystem::guessSpacing(double count)
   this->Sizing.spacing = meshExtent(this->Mesh) * std::sqrt(RoughProxy::Area / count);
   SizingFunction wide = this->Sizing;
   wide.spacing *= RoughProxy::Width;
-  return this->proxyOfBoxesAt(wide, ProgressAt::Estimated).spacingFor(count);
+  const SurfaceProxy proxy = this->proxyOfBoxesAt(wide, ProgressAt::Estimated);
+  double length = 0.0;
+  for (const SurfaceBox& box : proxy.boxes())
+  {
+    length += box.size;
+  }
+  return std::max(proxy.spacingFor(count), RoughProxy::LengthShare * length / count);
 }
 
 /// Thins out the particles on boundary curves where they are more than a given number: their corners stay at any
