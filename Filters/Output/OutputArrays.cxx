@@ -248,27 +248,27 @@ std::vector<MeshReportArray> makeMeshReportArrays()
   return {
     { "MeshOpenLoops",
       "Holes of the mesh that are no boundary curves of the surface, of all blocks together.",
-      [](const MeshReport& report) { return report.openLoops; } },
+      [](const MeshNumbers& report) { return report.openLoops; } },
     { "MeshOpenLength", "Length of the edges around these holes, world units.",
-      [](const MeshReport& report) { return report.openLength; } },
+      [](const MeshNumbers& report) { return report.openLength; } },
     { "MeshUnusedParticles",
       "Particles that are corners of no triangle, and not in the output; of all blocks together.",
-      [](const MeshReport& report) { return report.unusedParticles; } },
+      [](const MeshNumbers& report) { return report.unusedParticles; } },
     { "MeshStraightNodes",
       "Nodes of curved triangles that were not found on the surface, and stay on straight edges or "
       "in the plane of the corners; of all blocks together.",
-      [](const MeshReport& report) { return report.straightNodes; } },
+      [](const MeshNumbers& report) { return report.straightNodes; } },
     { "TopologyProven",
       "1 if it is proven that the mesh has the components, Euler characteristics and boundary "
       "curves "
       "of the surface, 0 if not; of all blocks together.",
-      [](const MeshReport& report) { return std::int64_t(report.isProven); } },
+      [](const MeshNumbers& report) { return std::int64_t(report.isProven); } },
     { "MeshComponents", "Connected parts of the mesh, of all blocks together.",
-      [](const MeshReport& report) { return report.components; } },
+      [](const MeshNumbers& report) { return report.components; } },
     { "ComponentsUnproven",
       "Parts of the mesh for which there is no such proof, and components of the surface that it "
       "lacks; of all blocks together.",
-      [](const MeshReport& report) { return report.unprovenComponents; } },
+      [](const MeshNumbers& report) { return report.unprovenComponents; } },
   };
 }
 

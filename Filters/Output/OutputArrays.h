@@ -68,26 +68,13 @@ struct ReportArray
   std::vector<vtkIdType> (*values)(const BlockReport& report);
 };
 
-/// What became of a mesh; sums over all isovalues.
-struct MeshReport
-{
-  std::int64_t openLoops = 0;
-  /// World units.
-  double openLength = 0.0;
-  std::int64_t unusedParticles = 0;
-  std::int64_t straightNodes = 0;
-  std::int64_t components = 0;
-  std::int64_t unprovenComponents = 0;
-  bool isProven = true;
-};
-
-/// A field-data array of meshes: one number.
+/// A field-data array of meshes: one number, of sums over all isovalues, lengths in world units.
 struct MeshReportArray
 {
   const char* name;
   /// For users.
   const char* meaning;
-  std::variant<std::int64_t (*)(const MeshReport&), double (*)(const MeshReport&)> value;
+  std::variant<std::int64_t (*)(const MeshNumbers&), double (*)(const MeshNumbers&)> value;
 };
 
 /// In the order of the output.

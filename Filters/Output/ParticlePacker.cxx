@@ -112,9 +112,9 @@ BlockReport reportOf(const std::vector<IsovalueParticles>& isovalues, const Cell
 }
 
 /// Sums the reports of all isovalues' meshes.
-MeshReport meshReportOf(const std::vector<IsovalueParticles>& isovalues, double unitOfLength)
+MeshNumbers meshReportOf(const std::vector<IsovalueParticles>& isovalues, double unitOfLength)
 {
-  MeshReport sum;
+  MeshNumbers sum;
   for (const IsovalueParticles& some : isovalues)
   {
     sum.openLoops += some.mesh.openLoops;
@@ -535,7 +535,7 @@ void Packer::addReport(const std::vector<IsovalueParticles>& isovalues)
 void Packer::addMeshReport(const std::vector<IsovalueParticles>& isovalues)
 {
   vtkFieldData* target = this->Output->GetFieldData();
-  const MeshReport report = meshReportOf(isovalues, this->Elements.units.length);
+  const MeshNumbers report = meshReportOf(isovalues, this->Elements.units.length);
   for (const MeshReportArray& row : meshReportArrays())
   {
     target->RemoveArray(row.name);
