@@ -214,7 +214,11 @@ UserMessages reviewMesh(const IsovalueParticles& some, double unit)
     text << mesh.straightNodes
          << " nodes of curved triangles were not found on the surface and stay on straight edges. ";
   }
-  if (mesh.openLoops == 0 && mesh.straightNodes == 0)
+  if (mesh.unusedParticles > 0)
+  {
+    text << mesh.unusedParticles << " particles are corners of no triangle, and left out. ";
+  }
+  if (mesh.openLoops == 0 && mesh.straightNodes == 0 && mesh.unusedParticles == 0)
   {
     return {};
   }

@@ -121,6 +121,12 @@ def test_topology_of_a_field_with_jumps_is_not_proven(data, plugin):
     assert support.reported(report, "ComponentsUnproven") > 0
 
 
+def test_particles_without_a_triangle_are_told(grid):
+    mesh, messages = support.run(grid, "u", -RADIUS**2, OutputType="Triangles", NumberOfParticles=1)
+    assert mesh.GetNumberOfPoints() == 0 and support.reported(mesh, "MeshUnusedParticles") == 1
+    assert any("1 particles are corners of no triangle" in text for text in messages.warnings)
+
+
 def test_triangles_have_the_cell_arrays_of_their_first_corner(grid):
     mesh = mesh_of(grid, "Triangles")
     cells = array_of(mesh, "Cell_Id")[corners_of(mesh)[:, 0]]

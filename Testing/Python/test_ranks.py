@@ -17,14 +17,14 @@ NUMBER = 1000
 # Every rank runs this script, and writes case by case what it has: the particles' places and arrays, and what the
 # filter said.
 SCRIPT = """
-import json, sys
+import json, os, sys
 import numpy as np
 from paraview import servermanager, simple
 from paraview.vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes, vtkMultiBlockDataSet, vtkUnstructuredGrid
 from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader, vtkXMLUnstructuredGridReader
 
-plugin, folder, tests, *files = sys.argv[1:]
+plugin, folder, tests, part, *files = sys.argv[1:]
 shell, jumps, hanging, rational = files
 simple.LoadPlugin(plugin, remote=False, ns=globals())
 sys.path.append(tests)
@@ -159,9 +159,25 @@ def warm(grid):
     return run(surface)
 
 
+def nodes_of_cells(grid):
+    # Coordinates and values; + 0.0 makes zeros of negative ones.
+    nodes = np.column_stack([support.points_of(grid), support.array_of(grid, "u")]) + 0.0
+    return [nodes[[grid.GetCell(c).GetPointId(n) for n in range(grid.GetCell(c).GetNumberOfPoints())]].tobytes()
+            for c in range(grid.GetNumberOfCells())]
+
+
 def redistributed():
     reader = simple.XMLPartitionedUnstructuredGridReader(FileName=[shell])
-    return simple.RedistributeDataSet(Input=reader)
+    proxy = simple.RedistributeDataSet(Input=reader)
+    proxy.UpdatePipeline()
+    made = proxy.GetClientSideObject().GetOutputDataObject(0)
+    parts = [made] if made.IsA("vtkUnstructuredGrid") else [made.GetPartition(i) for i in range(made.GetNumberOfPartitions())]
+    known = set(nodes_of_cells(grid))
+    # ParaView 5.11's filter sometimes crashes, or gives cells other nodes.
+    if not all(nodes in known for part in parts if part for nodes in nodes_of_cells(part)):
+        print("RedistributeDataSet has spoilt cells", flush=True)
+        os._exit(3)
+    return proxy
 
 
 grid = whole(shell)
@@ -194,6 +210,8 @@ if ranks > 1:
 
 said = {}
 for name, case in cases.items():
+    if (name == "redistributed") != (part == "redistributed"):
+        continue
     messages.clear()
     output = case()
     leaves = [output] if output.IsA("vtkPointSet") else [output.GetBlock(i) for i in range(output.GetNumberOfBlocks())]
@@ -208,7 +226,7 @@ for name, case in cases.items():
             rows["nodes"] = ids.reshape(cells.GetNumberOfCells(), -1)
         np.savez(f"{folder}/{name}-{i}-{rank}.npz", **rows)
     said[name] = list(messages)
-with open(f"{folder}/{rank}.json", "w") as file:
+with open(f"{folder}/{part}-{rank}.json", "w") as file:
     json.dump(said, file)
 """
 
@@ -233,11 +251,26 @@ class Run:
         script = folder / "script.py"
         script.write_text(SCRIPT.replace("NUMBER", str(NUMBER)).replace("VALUES", str(VALUES)))
         command = ["mpirun", "-np", str(ranks), "--oversubscribe", shutil.which("pvbatch"), "--sym", str(script)]
-        done = subprocess.run(
-            [*command, str(plugin), str(folder), str(Path(__file__).parent), *files],
-            env=support.environment_of_ranks(), capture_output=True, text=True, timeout=600)
+
+        def run(part):
+            return subprocess.run(
+                [*command, str(plugin), str(folder), str(Path(__file__).parent), part, *files],
+                env=support.environment_of_ranks(), capture_output=True, text=True, timeout=600)
+
+        done = run("most")
         assert done.returncode == 0, done.stdout + done.stderr
-        self.said = [json.loads((folder / f"{rank}.json").read_text()) for rank in range(ranks)]
+        # A fault of ParaView's filter is no fault of ours: once more, and at last without it.
+        for _ in range(3):
+            done = run("redistributed")
+            is_fault_of_paraview = "has spoilt cells" in done.stdout or "libvtkFiltersParallelDIY2" in done.stderr
+            self.is_redistributed = done.returncode == 0
+            assert self.is_redistributed or is_fault_of_paraview, done.stdout + done.stderr
+            if self.is_redistributed:
+                break
+        parts = ["most", "redistributed"] if self.is_redistributed else ["most"]
+        self.said = [{case: texts for part in parts
+                      for case, texts in json.loads((folder / f"{part}-{rank}.json").read_text()).items()}
+                     for rank in range(ranks)]
 
     def counts(self, case, block=0):
         """How many particles each rank has."""
@@ -281,6 +314,8 @@ CASES = ["in pieces", "scattered", "on one rank", "with ghosts", "with wrong gho
 @pytest.mark.parametrize("case", CASES)
 @pytest.mark.parametrize("ranks", RANKS[1:])
 def test_ranks_have_the_particles_of_one_rank(runs, case, ranks):
+    if case == "redistributed" and not (runs[1].is_redistributed and runs[ranks].is_redistributed):
+        pytest.skip("ParaView's RedistributeDataSet failed three times")
     for block in range(2 if case in ("halves", "two results") else 1):
         expected = runs[1].particles(case, block)
         assert len(expected) > 200
