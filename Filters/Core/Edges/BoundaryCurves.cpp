@@ -462,17 +462,18 @@ bool BoundarySampler::isTooNear(std::size_t i, std::size_t j) const
 }
 
 /// Whether two particles that look away from each other have the surface between them, as on a strip, or are the two
-/// sides of one sharp corner. At a jump they are the sides of a slit, whose sheets may reach over each other.
+/// sides of one sharp corner. Of two elements that jump they are the sides of a slit, whose sheets may reach over each
+/// other.
 bool areAcrossSurface(const BoundaryParticle& a, const BoundaryParticle& b)
 {
   const WorldVector step = b.particle.position - a.particle.position;
   const double h = a.patch.spacing;
-  if (a.particle.location.element == b.particle.location.element &&
-    length(step) < Nearness::OnePlace * h)
+  const bool inOneElement = a.particle.location.element == b.particle.location.element;
+  if (inOneElement && length(step) < Nearness::OnePlace * h)
   {
     return true;
   }
-  const bool isJump = a.particle.jump != 0.0 && b.particle.jump != 0.0;
+  const bool isJump = !inOneElement && a.particle.jump != 0.0 && b.particle.jump != 0.0;
   return !isJump && dot(step, a.side.outward) < -Nearness::LeastStrip * h &&
     dot(step, b.side.outward) > Nearness::LeastStrip * h;
 }
@@ -507,11 +508,14 @@ void BoundarySampler::thinOut(const ParallelFor& parallelFor)
   {
     if (!kept[i])
     {
+      bool isOnStrip = false;
       visitEarlier(i,
         [&](std::size_t j)
         {
-          const bool isSlit = kept[j] && lookAtEachOther(particles[i].side, particles[j].side) &&
-            !areAcrossSurface(particles[i], particles[j]);
+          const bool isOpposite = kept[j] && lookAtEachOther(particles[i].side, particles[j].side);
+          const bool isAcross = isOpposite && areAcrossSurface(particles[i], particles[j]);
+          const bool isSlit = isOpposite && !isAcross;
+          isOnStrip = isOnStrip || isAcross;
           closesSlit[j] = closesSlit[j] || isSlit;
           closesSlit[i] = closesSlit[i] || isSlit;
           const auto distanceTo = [&](std::size_t k)
@@ -519,7 +523,7 @@ void BoundarySampler::thinOut(const ParallelFor& parallelFor)
           const bool isNearest = standIns[i] < 0 || distanceTo(j) < distanceTo(standIns[i]);
           standIns[i] = kept[j] && isNearest ? static_cast<int>(j) : standIns[i];
         });
-      if (particles[i].particle.jump == 0.0 && !closesSlit[i])
+      if ((particles[i].particle.jump == 0.0 || isOnStrip) && !closesSlit[i])
       {
         this->Result.thinned.push_back(particles[i]);
       }

@@ -512,7 +512,8 @@ TEST(ClipPlanes, OfBothFacesCutParticlesInCorners)
 }
 
 /// A strip of the plane z = 0.1 between two walls. Lengths are in spacings; the second width is that at the other end.
-Distribution distributeOnStrip(double width, double otherWidth)
+/// \param isAtJumps whether there are elements beside it, in which the field is another and has no surface
+Distribution distributeOnStrip(double width, double otherWidth, bool isAtJumps)
 {
   MeshRecipe recipe;
   recipe.map = [=](const glm::dvec3& x)
@@ -520,6 +521,12 @@ Distribution distributeOnStrip(double width, double otherWidth)
   recipe.field = [](const glm::dvec3& x) { return x.z - 0.1; };
   ElementMesh mesh;
   appendBox(mesh, recipe, { -1, 0, -1 }, { 1, 1, 1 });
+  if (isAtJumps)
+  {
+    recipe.field = [](const glm::dvec3& x) { return x.z - 3.0; };
+    appendBox(mesh, recipe, { -1, -1, -1 }, { 1, 0, 1 });
+    appendBox(mesh, recipe, { -1, 1, -1 }, { 1, 2, 1 });
+  }
   findFaceNeighbors(mesh, 1e-9);
   DistributionParameters parameters;
   parameters.sizing = { spacing, 0.0 };
@@ -538,33 +545,41 @@ bool cutsOff(const Particle& particle, const glm::dvec3& place)
     });
 }
 
-/// Places beside a strip, all around, are cut off from the splats that reach there; the strip itself is covered.
+/// Whether a strip is cut off from the splats that reach beside it, all around, and covered itself.
+void expectStrip(const Distribution& result, const glm::dvec2& width)
+{
+  const auto isCovered = [&](double x, double y)
+  {
+    const glm::dvec3 place(x, spacing * y, 0.1);
+    return std::any_of(result.particles.begin(), result.particles.end(),
+      [&](const Particle& p) {
+        return glm::distance(p.position.xyz, place) < splatReach() * spacing && !cutsOff(p, place);
+      });
+  };
+  for (double x = -1.005; x <= 1.01; x += 0.2 * spacing)
+  {
+    const double end = glm::mix(width.x, width.y, 0.5 + 0.5 * x);
+    const bool isInside = std::abs(x) < 1.0;
+    for (const double share : { 0.01, 0.3, 0.7, 0.99 })
+    {
+      EXPECT_EQ(isCovered(x, share * end), isInside) << width.x << " at " << x << " " << share;
+    }
+    EXPECT_FALSE(isCovered(x, -0.02)) << width.x << " at " << x;
+    EXPECT_FALSE(isCovered(x, end + 0.02)) << width.x << " at " << x;
+  }
+}
+
+/// At the end of the domain, and in an element between two in which the field jumps.
 TEST(ClipPlanes, OfBothSidesCutParticlesOnStrips)
 {
   const std::vector<glm::dvec2> widths{ { 0.05, 0.05 }, { 0.3, 0.3 }, { 0.55, 0.55 }, { 0.8, 0.8 },
     { 1.5, 1.5 }, { 3.0, 3.0 }, { 0.1, 1.2 } };
-  for (const glm::dvec2& width : widths)
+  for (const bool isAtJumps : { false, true })
   {
-    const Distribution result = distributeOnStrip(width.x, width.y);
-    const auto isCovered = [&](double x, double y)
+    for (const glm::dvec2& width : widths)
     {
-      const glm::dvec3 place(x, spacing * y, 0.1);
-      return std::any_of(result.particles.begin(), result.particles.end(),
-        [&](const Particle& p) {
-          return glm::distance(p.position.xyz, place) < splatReach() * spacing &&
-            !cutsOff(p, place);
-        });
-    };
-    for (double x = -1.005; x <= 1.01; x += 0.2 * spacing)
-    {
-      const double end = glm::mix(width.x, width.y, 0.5 + 0.5 * x);
-      const bool isInside = std::abs(x) < 1.0;
-      for (const double share : { 0.01, 0.3, 0.7, 0.99 })
-      {
-        EXPECT_EQ(isCovered(x, share * end), isInside) << width.x << " at " << x << " " << share;
-      }
-      EXPECT_FALSE(isCovered(x, -0.02)) << width.x << " at " << x;
-      EXPECT_FALSE(isCovered(x, end + 0.02)) << width.x << " at " << x;
+      SCOPED_TRACE(isAtJumps ? "at jumps" : "at the end of the domain");
+      expectStrip(distributeOnStrip(width.x, width.y, isAtJumps), width);
     }
   }
 }
