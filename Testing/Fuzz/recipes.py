@@ -33,7 +33,7 @@ def random_recipe(seed):
     if field in ("noise", "steps", "spike") and order:
         # To isolate the surface of higher degrees takes longer than the limit; a magnitude has twice the degree.
         order = min(order, 3 if components > 1 else 6)
-    recipe = {
+    return {
         "seed": seed,
         "cell": cell,
         "order": order,
@@ -56,10 +56,6 @@ def random_recipe(seed):
         "changes": [random_change(dice, pick, seldom) for _ in range(seldom(int(dice.integers(1, 4)), 0, 0.4))],
         "file": seldom({"cut": seldom(float(dice.random()), 1), "flips": int(dice.integers(0, 6))}, None),
     }
-    if recipe["flat"] != 1:
-        # Classic takes minutes where the surface is singular all over: Documentation/reliability.md.
-        recipe["properties"]["Method"] = FAST
-    return recipe
 
 
 def random_properties(dice, pick, seldom):

@@ -21,8 +21,8 @@ namespace
 /// the paper compares one sweep with the next. More: particles leave the lists' range in the meantime.
 constexpr int sweepsPerList = 5;
 
-/// Largest numbers of repetitions, where the paper names none. Chosen by experiment. A run that uses up the rounds of
-/// its last level is reported as not converged.
+/// Largest numbers of repetitions, where the paper names none. Chosen by experiment. A run that uses up the rounds or
+/// the evaluations of its last level is reported as not converged.
 struct Largest
 {
   /// Sweeps until the energy is steady.
@@ -30,6 +30,10 @@ struct Largest
   /// Rounds of split and delete at the last level, and at coarser ones, which need not be perfect.
   static constexpr int Rounds = 40;
   static constexpr int CoarseRounds = 8;
+  /// Evaluations a particle at one level: six times as many as the paper's largest figure for a whole run. Where the
+  /// surface is singular all over, as in flattened cells, most steps end where Newton's method fails, and changes never
+  /// end. Larger: runs there take longer; smaller: other runs may end before they have settled.
+  static constexpr double Evaluations = 5000.0;
   /// Exchanges of overlapping particles for others where a number is given.
   static constexpr int Exchanges = 4;
 };
@@ -77,7 +81,13 @@ private:
   bool tooMany(int levels);
   bool makeLevels(const std::vector<ClassicParticle>& seeds);
   void exchange();
-  bool sweepUntilSteady(bool fixedNumber);
+  /// Whether a level that began with so many evaluations has had its share of them.
+  bool isSpent(std::int64_t evaluationsBefore) const
+  {
+    return static_cast<double>(this->Particles.evaluations() - evaluationsBefore) >
+      Largest::Evaluations * static_cast<double>(this->Particles.movers.size());
+  }
+  bool sweepUntilSteady(bool fixedNumber, std::int64_t evaluationsBefore);
   void relaxLevel(int maximumRounds, bool fixedNumber);
   Distribution finish();
   bool toTolerance(const ClassicParticle& mover, SurfaceWalker& walker, Particle& particle) const;
@@ -123,12 +133,13 @@ std::vector<ClassicParticle> ClassicSystem::makeSeeds()
 
 /// Sweeps until the energy is steady. With a fixed number of particles the spacing changes meanwhile, so that their
 /// mean energy becomes the ideal one.
+/// \param evaluationsBefore the level
 /// \return whether the energy is steady
-bool ClassicSystem::sweepUntilSteady(bool fixedNumber)
+bool ClassicSystem::sweepUntilSteady(bool fixedNumber, std::int64_t evaluationsBefore)
 {
   double last = 0.0;
   bool steady = false;
-  for (int n = 0; n < Largest::Sweeps && !steady; ++n)
+  for (int n = 0; n < Largest::Sweeps && !steady && !this->isSpent(evaluationsBefore); ++n)
   {
     if (n % sweepsPerList == 0)
     {
@@ -157,9 +168,10 @@ void ClassicSystem::relaxLevel(int maximumRounds, bool fixedNumber)
 {
   this->Report.converged = true;
   bool balanced = false;
-  for (int round = 0; round < maximumRounds; ++round)
+  const std::int64_t before = this->Particles.evaluations();
+  for (int round = 0; round < maximumRounds && !this->isSpent(before); ++round)
   {
-    const bool steady = this->sweepUntilSteady(fixedNumber);
+    const bool steady = this->sweepUntilSteady(fixedNumber, before);
     if (fixedNumber
         ? steady
         : !splitAndDelete(this->Particles, this->RandomNumbers, this->Parameters.classic))

@@ -244,6 +244,8 @@ bool SurfaceWalker::project(
 {
   Evaluated at = this->evaluate(start);
   double travel = 0.0;
+  double nearest = std::numeric_limits<double>::infinity();
+  int stepsInVain = 0;
   bool alongFace = keepFace;
   for (int step = 0; step < MaximumNewtonSteps; ++step)
   {
@@ -256,6 +258,13 @@ bool SurfaceWalker::project(
     {
       result = at;
       return true;
+    }
+    const double distance = std::abs(at.point.value) / slope;
+    stepsInVain = distance <= 0.5 * nearest ? 0 : stepsInVain + 1;
+    nearest = stepsInVain == 0 ? distance : nearest;
+    if (stepsInVain > MaximumStepsInVain)
+    {
+      return false;
     }
     const WorldVector motion = this->newtonStep(at, alongFace);
     travel += length(motion);

@@ -171,6 +171,10 @@ public:
   /// Newton's method converges in some five steps; where it takes more than these it is given up. Smaller: particles on
   /// strongly curved fields are rejected.
   static constexpr int MaximumNewtonSteps = 25;
+  /// Steps in a row of Newton's method that do not halve the distance from the surface, at most: near a simple zero the
+  /// distance is squared in each, near a double one halved. Larger: where the method fails, in flattened cells for
+  /// instance, it takes longer to be given up; smaller: particles are rejected from where the first steps overshoot.
+  static constexpr int MaximumStepsInVain = 5;
 
 private:
   WorldVector newtonStep(const Evaluated& at, bool& alongFace);
