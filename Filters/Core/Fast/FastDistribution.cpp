@@ -336,12 +336,53 @@ void FastSystem::makeSeeds(std::int64_t count)
     this->startMoving();
     this->Moving->draw(count, this->Parameters.seed);
     this->keepIn(this->Part.widened(this->overlap(SlabOverlap::Reach)));
-    this->TargetInSlab = static_cast<double>(this->Moving->count()) -
-      OnBoundary::Count * static_cast<double>(this->BoundaryPatches.size());
     this->Moving->approach();
+    this->fixOuterSeeds();
   }
   this->dropNearBoundaryCurves(OnBoundary::SeedDistance);
-  this->coverBoxes(this->Part.widened(this->overlap(SlabOverlap::Reach)));
+  this->coverBoxes(this->Part.widened(this->overlap(SlabOverlap::Reach - SlabOverlap::Guard)));
+}
+
+/// In a slab, lets the outermost seeds stay where they are: beyond them is nothing into which the others may spread.
+void FastSystem::fixOuterSeeds()
+{
+  const Slab inner = this->Part.widened(this->overlap(SlabOverlap::Reach - SlabOverlap::Guard));
+  if (inner.isEverything())
+  {
+    return;
+  }
+  Buffer<Patch> fixed = this->BoundaryPatches;
+  for (std::size_t i = 0; i < this->Moving->count(); ++i)
+  {
+    const Patch& patch = this->Moving->patches()[i];
+    if (!inner.holds(patch.position))
+    {
+      fixed.push_back(patch);
+      fixed.back().fixed = true;
+    }
+  }
+  this->keepIn(inner);
+  const double atEnd = this->overlap(SlabOverlap::Strip);
+  this->TargetInSlab = this->seedsLeftFor(inner);
+  this->TargetInStrip =
+    this->seedsLeftFor({ this->Part.direction, this->Part.end - atEnd, this->Part.end + atEnd });
+  std::unique_ptr<MovingParticles> seeds = std::move(this->Moving);
+  this->Moving = std::make_unique<MovingParticles>(
+    this->Surface, *this->Proxy, std::move(fixed), this->Parallel);
+  this->Moving->append(*seeds);
+}
+
+/// Number of particles that are to move in a slab: the seeds there, without what counts for particles on boundary
+/// curves.
+double FastSystem::seedsLeftFor(const Slab& slab) const
+{
+  const auto isThere = [&](const Patch& patch) { return slab.holds(patch.position); };
+  const auto begin = this->Moving->patches().begin();
+  const auto end = begin + static_cast<std::ptrdiff_t>(this->Moving->count());
+  return static_cast<double>(std::count_if(begin, end, isThere)) -
+    OnBoundary::Count *
+    static_cast<double>(
+      std::count_if(this->BoundaryPatches.begin(), this->BoundaryPatches.end(), isThere));
 }
 
 /// Drops the particles outside of a slab.
@@ -446,14 +487,9 @@ Balance FastSystem::balanceOf(bool isLast) const
   // previous run as many as they are, though.
   else if (this->Sizing.angularDensity == 0.0 || this->IsWarm)
   {
-    if (this->Part.isEverything())
-    {
-      balance.missing = this->targetCount() - size;
-    }
-    else if (this->TargetInSlab)
-    {
-      balance.missing = *this->TargetInSlab - static_cast<double>(this->Moving->count());
-    }
+    balance.missing = this->Part.isEverything()
+      ? this->targetCount() - size
+      : this->TargetInSlab - static_cast<double>(this->Moving->count());
   }
   return balance;
 }

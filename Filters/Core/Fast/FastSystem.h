@@ -11,7 +11,6 @@
 #include <atomic>
 #include <functional>
 #include <memory>
-#include <optional>
 
 namespace hop
 {
@@ -74,6 +73,8 @@ protected:
   double overlap(double spacings) const { return spacings * this->Parameters.sizing.spacing; }
   void keepIn(const Slab& slab);
   void keepCurvesIn(const Slab& slab);
+  void fixOuterSeeds();
+  double seedsLeftFor(const Slab& slab) const;
   void dropOthers();
   std::vector<SurfaceBox> undecidedBoxes();
   bool countIsGiven() const { return this->Parameters.particleCount > 0; }
@@ -98,8 +99,9 @@ protected:
   /// Patches of the particles on these curves.
   Buffer<Patch> BoundaryPatches;
   std::unique_ptr<MovingParticles> Moving;
-  /// In a slab, the number of particles that are to move; nothing where their energies have to tell.
-  std::optional<double> TargetInSlab;
+  /// In a slab, and in the strip at its end, the number of particles that are to move.
+  double TargetInSlab = 0.0;
+  double TargetInStrip = 0.0;
   /// In a slab, marks the particles that move whose worker this is. The others are at home in other slabs.
   std::vector<char> IsOwn;
   /// Whether particles of the previous run go on.

@@ -169,7 +169,7 @@ void SlabDistribution::System::relaxStrip(const Slab& strip)
   this->Moving->add(inside.anchors, inside.patches);
   this->Moving->keep(thinOut(this->Moving->patches(),
     std::vector<char>(this->Moving->count(), 1), MinimumSeparation, this->Parallel));
-  this->TargetInSlab.reset();
+  this->TargetInSlab = this->TargetInStrip;
   this->relaxInRounds();
   if (this->Parameters.quality != Quality::Draft)
   {

@@ -23,10 +23,13 @@ struct SlabOverlap
   /// How far beyond the strip particles are seen that stay where they are: more than the sqrt(3) over which particles
   /// interact, and the 1.86 over which splats overlap, and a step. Larger: more is sent.
   static constexpr double Sight = 3.0;
-  /// How far beyond a plane a worker distributes particles that it drops later. The last ones stand at an edge where
-  /// there is none, which they would leave. Gradation reaches 1/0.3 spacings. Larger: more is done twice; smaller: the
-  /// edge is noticed in the strip.
+  /// How far beyond a plane a worker distributes particles that it drops later. Gradation reaches 1/0.3 spacings. Larger:
+  /// more is done twice; smaller: the strip notices that nothing is beyond.
   static constexpr double Reach = 10.0;
+  /// Width of the outermost part in which seeds stay where they are, more than the sqrt(3) over which particles
+  /// interact: without them particles spread into the void, and were half a percent too few. Larger: their disorder is
+  /// noticed in the strip.
+  static constexpr double Guard = 2.0;
   /// Largest distance from a plane, world units over spacing, at which a particle on a boundary curve stands for the
   /// place where the curve passes the plane. It belongs to the slab before the plane. More than the error of such places,
   /// and less than half a spacing, so that no other particle is taken for it.
