@@ -157,11 +157,12 @@ class BoundarySampler
 {
 public:
   BoundarySampler(const Isosurface& surface, const FaceJumps& jumps, const SurfaceProxy& proxy,
-    const SizingFunction& sizing)
+    const SizingFunction& sizing, const Slab& slab)
     : Surface(surface)
     , Jumps(jumps)
     , Proxy(proxy)
     , Sizing(sizing)
+    , Part(slab)
     , Samples(*surface.mesh, proxy)
     , Tracer(roughly(surface, proxy.smallestSpacing()), BoundaryTracer::Points::Rough)
     , Walker(surface.endingWhereItMay())
@@ -173,6 +174,9 @@ public:
 private:
   std::vector<std::vector<BoundaryHint>> findHints(const ParallelFor& parallelFor) const;
   void follow(const BoundaryHint& hint, const ParallelFor& parallelFor);
+  void cutAtPlane(double plane, BoundaryTrace& trace);
+  std::optional<BoundaryPoint> passageBetween(
+    const BoundaryPoint& from, const BoundaryPoint& to, double plane);
   void sample(BoundaryTrace trace, const ParallelFor& parallelFor);
   void sampleStretch(Span<BoundaryVertex> vertices, bool withEnd, const ParallelFor& parallelFor);
   double spacingAt(const BoundaryPoint& point);
@@ -187,6 +191,7 @@ private:
   const FaceJumps& Jumps;
   const SurfaceProxy& Proxy;
   SizingFunction Sizing;
+  Slab Part;
   SampleComparison Samples;
   BoundaryTracer Tracer;
   SurfaceWalker Walker;
@@ -253,9 +258,87 @@ void BoundarySampler::follow(const BoundaryHint& hint, const ParallelFor& parall
   this->sample(this->Tracer.trace(*start, Tracing::Chord * nearby, parallelFor), parallelFor);
 }
 
+/// Where a chord of a boundary curve passes a plane of the slab.
+std::optional<BoundaryPoint> BoundarySampler::passageBetween(
+  const BoundaryPoint& from, const BoundaryPoint& to, double plane)
+{
+  // The curve departs from the chord by a tenth of it at most, so that each step leaves a hundredth of the error.
+  constexpr int steps = 3;
+  const auto placeOf = [&](const BoundaryPoint& point)
+  { return this->Part.placeOf(point.at.point.map.position.xyz); };
+  const double length = placeOf(to) - placeOf(from);
+  double t = (plane - placeOf(from)) / length;
+  std::optional<BoundaryPoint> point;
+  for (int n = 0; n < steps; ++n)
+  {
+    const bool isInOneElement = from.at.location.element == to.at.location.element;
+    const WorldVector chord = to.at.point.map.position - from.at.point.map.position;
+    const Location place = isInOneElement
+      ? Location{ from.at.location.element, this->between(from, to, t) }
+      : this->Walker.move(from.at, t * chord);
+    const int face = place.element == from.at.location.element ? from.face : -1;
+    point = this->Tracer.project(place, face, Tracing::LongestWay * this->spacingAt(from));
+    if (!point)
+    {
+      break;
+    }
+    t = std::clamp(t + (plane - placeOf(*point)) / length, 0.0, 1.0);
+  }
+  return point;
+}
+
+/// Makes a corner where a boundary curve passes a plane of the slab, unless another one is near, which then serves as
+/// well: the stretches on both sides of the plane are sampled by two workers, each of which knows one of them to its end.
+void BoundarySampler::cutAtPlane(double plane, BoundaryTrace& trace)
+{
+  std::vector<BoundaryVertex>& vertices = trace.vertices;
+  const std::size_t count = vertices.size();
+  const auto isCorner = [&](std::size_t v)
+  { return vertices[v].corner || (!trace.closed && (v == 0 || v + 1 == count)); };
+  std::vector<glm::dvec3> corners;
+  for (std::size_t v = 0; v < count; ++v)
+  {
+    if (isCorner(v))
+    {
+      corners.push_back(vertices[v].position());
+    }
+  }
+  std::vector<BoundaryVertex> cut;
+  for (std::size_t v = 0; v < count; ++v)
+  {
+    cut.push_back(vertices[v]);
+    const BoundaryVertex& next = vertices[(v + 1) % count];
+    const double before = this->Part.placeOf(vertices[v].position()) - plane;
+    const double after = this->Part.placeOf(next.position()) - plane;
+    if ((v + 1 == count && !trace.closed) || (before <= 0.0) == (after <= 0.0))
+    {
+      continue;
+    }
+    const auto point = this->passageBetween(vertices[v].leaving, next.arriving, plane);
+    const auto isNear = [&](const glm::dvec3& corner)
+    {
+      return glm::distance(corner, point->at.point.map.position.xyz) <
+        Nearness::OnOneSheet * this->spacingAt(*point);
+    };
+    if (point && std::none_of(corners.begin(), corners.end(), isNear))
+    {
+      corners.push_back(point->at.point.map.position.xyz);
+      cut.push_back({ *point, *point, true });
+    }
+  }
+  vertices = std::move(cut);
+}
+
 /// Cuts a boundary curve at its corners, and samples stretch by stretch.
 void BoundarySampler::sample(BoundaryTrace trace, const ParallelFor& parallelFor)
 {
+  for (const double plane : { this->Part.begin, this->Part.end })
+  {
+    if (std::isfinite(plane))
+    {
+      this->cutAtPlane(plane, trace);
+    }
+  }
   std::vector<BoundaryVertex>& vertices = trace.vertices;
   const std::size_t firstPlace = this->Places.size();
   if (trace.closed)
@@ -597,9 +680,10 @@ BoundaryCurves BoundarySampler::run(const ParallelFor& parallelFor)
 } // namespace
 
 BoundaryCurves findBoundaryCurves(const Isosurface& surface, const FaceJumps& jumps,
-  const SurfaceProxy& proxy, const SizingFunction& sizing, const ParallelFor& parallelFor)
+  const SurfaceProxy& proxy, const SizingFunction& sizing, const ParallelFor& parallelFor,
+  const Slab& slab)
 {
-  return BoundarySampler(surface, jumps, proxy, sizing).run(parallelFor);
+  return BoundarySampler(surface, jumps, proxy, sizing, slab).run(parallelFor);
 }
 
 } // namespace hop

@@ -2,6 +2,7 @@
 
 #include "Edges/FaceJumps.h"
 #include "Isolation/SurfaceProxy.h"
+#include "Support/Slab.h"
 #include "Surface/Particles.h"
 
 namespace hop
@@ -58,7 +59,10 @@ struct BoundaryCurves
 /// corners, and between corners evenly at the spacing that the surface wants. Where two curves run side by side (on the
 /// two sides of a jump hardly wider than the largest that the surface passes), only one keeps its particles.
 /// \param surface with the jump tolerances of `jumps`
+/// \param slab where a curve passes one of its planes a particle stands, unless a corner is near: the worker on the
+///   other side of the plane has one there, too
 BoundaryCurves findBoundaryCurves(const Isosurface& surface, const FaceJumps& jumps,
-  const SurfaceProxy& proxy, const SizingFunction& sizing, const ParallelFor& parallelFor);
+  const SurfaceProxy& proxy, const SizingFunction& sizing, const ParallelFor& parallelFor,
+  const Slab& slab = {});
 
 } // namespace hop

@@ -86,4 +86,9 @@ std::vector<int> canonicalOrder(const ElementMesh& mesh, const ParallelFor& para
   return order;
 }
 
+glm::dvec3 sweepDirection()
+{
+  return glm::normalize(sweep);
+}
+
 } // namespace hop

@@ -19,4 +19,7 @@ namespace hop
 /// \return indices of elements; elements that are equal to the last bit keep their order
 std::vector<int> canonicalOrder(const ElementMesh& mesh, const ParallelFor& parallelFor = {});
 
+/// The direction of the sweep, of unit length.
+glm::dvec3 sweepDirection();
+
 } // namespace hop

@@ -107,6 +107,49 @@ void gatherMesh(Exchange& exchange, int worker, ElementMesh& mine,
   }
 }
 
+void gatherElements(Exchange& exchange, int worker, ElementMesh& part,
+  const std::vector<int>& chosen, const std::vector<MeshSize>& sizes, GatheredMesh& all)
+{
+  gatherMesh(exchange, worker, part, sizes, all);
+  if (exchange.rank() != worker)
+  {
+    sendArray(exchange, chosen.data(), chosen.size(), worker);
+    return;
+  }
+  std::vector<int> numbers(all.homes.size());
+  for (int from = 0; from < exchange.size(); ++from)
+  {
+    take(exchange, chosen, numbers.data() + sumOf(sizes, from).elements, sizes[from].elements, from);
+  }
+  for (std::size_t e = 0; e < numbers.size(); ++e)
+  {
+    all.homes[e].element = numbers[e];
+  }
+}
+
+ElementMesh pickElements(const ElementMesh& mesh, const std::vector<int>& chosen)
+{
+  ElementMesh picked;
+  for (const int e : chosen)
+  {
+    const BernsteinForm form = mesh.form(e);
+    const auto count =
+      static_cast<std::ptrdiff_t>(coefficientCount(form.domain, form.degrees));
+    Element element = mesh.elements[e];
+    element.firstCoefficient = picked.coefficients.size();
+    picked.elements.push_back(element);
+    picked.coefficients.insert(
+      picked.coefficients.end(), form.coefficients, form.coefficients + count);
+    if (!mesh.weights.empty())
+    {
+      const auto first =
+        mesh.weights.begin() + static_cast<std::ptrdiff_t>(mesh.elements[e].firstCoefficient);
+      picked.weights.insert(picked.weights.end(), first, first + count);
+    }
+  }
+  return picked;
+}
+
 void orderCanonically(GatheredMesh& all, const ParallelFor& parallelFor)
 {
   const std::vector<int> order = canonicalOrder(all.mesh, parallelFor);

@@ -57,6 +57,16 @@ GatheredMesh roomFor(const std::vector<MeshSize>& sizes);
 void gatherMesh(Exchange& exchange, int worker, ElementMesh& mine,
   const std::vector<MeshSize>& sizes, GatheredMesh& all);
 
+/// The same of some of every rank's elements.
+/// \param part the chosen elements of this rank (pickElements()); it may be emptied
+/// \param chosen their indices in this rank's mesh
+/// \param sizes of all ranks' parts, with the cells of their whole meshes
+void gatherElements(Exchange& exchange, int worker, ElementMesh& part,
+  const std::vector<int>& chosen, const std::vector<MeshSize>& sizes, GatheredMesh& all);
+
+/// Some elements of a mesh, as a mesh without neighbours.
+ElementMesh pickElements(const ElementMesh& mesh, const std::vector<int>& chosen);
+
 /// Puts gathered elements into their canonical order.
 void orderCanonically(GatheredMesh& all, const ParallelFor& parallelFor);
 

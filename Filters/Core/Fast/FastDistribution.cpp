@@ -1,25 +1,21 @@
 #include "Fast/FastDistribution.h"
 
-#include "Edges/BoundaryCurves.h"
 #include "Edges/ClipPlanes.h"
 #include "Edges/CreaseSpacings.h"
 #include "Edges/CurveSegments.h"
 #include "Edges/SmallComponents.h"
+#include "Fast/FastSystem.h"
 #include "Fast/FinishParticles.h"
 #include "Fast/GivenNumber.h"
-#include "Fast/MovingParticles.h"
 #include "Fast/PackingRepair.h"
 #include "Fast/PatchDistances.h"
-#include "Isolation/SurfaceProxy.h"
+#include "Fast/SlabDistribution.h"
 #include "Isolation/UndecidedBoxes.h"
-#include "Support/Interruptible.h"
 #include "Support/KeepMarked.h"
 #include "Surface/SpacingSearch.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 namespace hop
@@ -146,82 +142,7 @@ std::vector<int> sweepsOfRounds(Quality quality, bool isWarm)
   return isWarm ? std::vector<int>{ 12, 22 } : std::vector<int>{ 7, 13 };
 }
 
-/// A part of the run, between two values of its progress.
-struct Section
-{
-  double begin = 0.0, end = 0.0;
-
-  double at(double share) const { return this->begin + share * (this->end - this->begin); }
-};
-
-class FastSystem
-{
-public:
-  FastSystem(const Isosurface& surface, const DistributionParameters& parameters,
-    const Monitor& monitor, const ParallelFor& parallelFor)
-    : Surface(surface)
-    , Mesh(*surface.mesh)
-    , Parameters(parameters)
-    , Sizing(parameters.sizing)
-    , Work(monitor, parallelFor)
-    , Parallel(std::ref(this->Work))
-    , Locator(this->Mesh, surface.isovalue, this->Parallel)
-  {
-    this->Surface.locator = &this->Locator;
-  }
-
-  Distribution run();
-  std::vector<double> countsOfElements();
-
-private:
-  void make();
-  /// Reports how far the work is; may throw Interrupted.
-  void reach(double fraction)
-  {
-    this->Work.raiseFraction(fraction);
-    this->Work.ask();
-  }
-  bool isFineEnough(const SurfaceBox& box, const SizingFunction& sizing);
-  SurfaceProxy proxyOfBoxesAt(const SizingFunction& sizing, double shareOfRun);
-  bool tooMany(double count);
-  bool estimateCount();
-  void prepareSurface();
-  double targetCount() const;
-  void matchSpacing(std::int64_t count);
-  double guessSpacing(double count);
-  void keepOnBoundary(std::size_t most);
-  void traceBoundaryCurves();
-  void dropNearBoundaryCurves(double nearest);
-  void startMoving();
-  void addSamples(const std::vector<int>& boxes);
-  void makeSeeds(std::int64_t count);
-  void continueFrom(const std::vector<Location>& places);
-  void addSeedsBetween(std::int64_t count);
-  bool countIsGiven() const { return this->Parameters.particleCount > 0; }
-  void coverBoxes();
-  void relaxInRounds();
-  void relaxOnce(int sweeps, bool isLast, const Section& section);
-  Balance balanceOf(bool isLast) const;
-  void finish();
-
-  Isosurface Surface;
-  const ElementMesh& Mesh;
-  DistributionParameters Parameters;
-  SizingFunction Sizing;
-  Interruptible Work;
-  ParallelFor Parallel;
-  FaceLocator Locator;
-  std::unique_ptr<SurfaceProxy> Proxy;
-  FaceJumps Jumps;
-  BoundaryCurves Curves;
-  /// Patches of the particles on these curves.
-  Buffer<Patch> BoundaryPatches;
-  std::unique_ptr<MovingParticles> Moving;
-  /// Whether particles of the previous run go on.
-  bool IsWarm = false;
-  std::atomic<std::int64_t> Evaluations{ 0 };
-  Distribution Result;
-};
+} // namespace
 
 /// Whether one sample tells enough about the surface in a box. It tells less where the gradient of the field vanishes
 /// nearby; where the surface is thinner than a spacing every box gets a particle of its own.
@@ -414,10 +335,67 @@ void FastSystem::makeSeeds(std::int64_t count)
   {
     this->startMoving();
     this->Moving->draw(count, this->Parameters.seed);
+    this->keepIn(this->Part.widened(this->overlap(SlabOverlap::Reach)));
     this->Moving->approach();
+    this->fixOuterSeeds();
   }
   this->dropNearBoundaryCurves(OnBoundary::SeedDistance);
-  this->coverBoxes();
+  this->coverBoxes(this->Part.widened(this->overlap(SlabOverlap::Reach - SlabOverlap::Guard)));
+}
+
+/// In a slab, lets the outermost seeds stay where they are: beyond them is nothing into which the others may spread.
+void FastSystem::fixOuterSeeds()
+{
+  const Slab inner = this->Part.widened(this->overlap(SlabOverlap::Reach - SlabOverlap::Guard));
+  if (inner.isEverything())
+  {
+    return;
+  }
+  Buffer<Patch> fixed = this->BoundaryPatches;
+  for (std::size_t i = 0; i < this->Moving->count(); ++i)
+  {
+    const Patch& patch = this->Moving->patches()[i];
+    if (!inner.holds(patch.position))
+    {
+      fixed.push_back(patch);
+      fixed.back().fixed = true;
+    }
+  }
+  this->keepIn(inner);
+  const double atEnd = this->overlap(SlabOverlap::Strip);
+  this->TargetInSlab = this->seedsLeftFor(inner);
+  this->TargetInStrip =
+    this->seedsLeftFor({ this->Part.direction, this->Part.end - atEnd, this->Part.end + atEnd });
+  std::unique_ptr<MovingParticles> seeds = std::move(this->Moving);
+  this->Moving = std::make_unique<MovingParticles>(
+    this->Surface, *this->Proxy, std::move(fixed), this->Parallel);
+  this->Moving->append(*seeds);
+}
+
+/// Number of particles that are to move in a slab: the seeds there, without what counts for particles on boundary
+/// curves.
+double FastSystem::seedsLeftFor(const Slab& slab) const
+{
+  const auto isThere = [&](const Patch& patch) { return slab.holds(patch.position); };
+  const auto begin = this->Moving->patches().begin();
+  const auto end = begin + static_cast<std::ptrdiff_t>(this->Moving->count());
+  return static_cast<double>(std::count_if(begin, end, isThere)) -
+    OnBoundary::Count *
+    static_cast<double>(
+      std::count_if(this->BoundaryPatches.begin(), this->BoundaryPatches.end(), isThere));
+}
+
+/// Drops the particles outside of a slab.
+void FastSystem::keepIn(const Slab& slab)
+{
+  if (!slab.isEverything())
+  {
+    std::vector<char> kept(this->Moving->count());
+    std::transform(this->Moving->anchors().begin(), this->Moving->anchors().end(),
+      this->Moving->patches().begin(), kept.begin(),
+      [&](const Anchor&, const Patch& patch) { return slab.holds(patch.position); });
+    this->Moving->keep(kept);
+  }
 }
 
 /// Of `count` seeds all over the surface, adds the ones that are far from all particles.
@@ -460,13 +438,31 @@ void FastSystem::startMoving()
 
 void FastSystem::traceBoundaryCurves()
 {
-  this->Curves =
-    findBoundaryCurves(this->Surface, this->Jumps, *this->Proxy, this->Sizing, this->Parallel);
+  this->Curves = findBoundaryCurves(
+    this->Surface, this->Jumps, *this->Proxy, this->Sizing, this->Parallel, this->Part);
+  this->keepCurvesIn(this->Part.widened(this->overlap(SlabOverlap::Reach)));
   this->BoundaryPatches.clear();
   for (const BoundaryParticle& boundary : this->Curves.particles)
   {
     this->BoundaryPatches.push_back(boundary.patch);
   }
+}
+
+/// Drops what is on boundary curves outside of a slab.
+void FastSystem::keepCurvesIn(const Slab& slab)
+{
+  if (slab.isEverything())
+  {
+    return;
+  }
+  const auto isOutside = [&](const BoundaryParticle& some)
+  { return !slab.holds(some.patch.position); };
+  for (Buffer<BoundaryParticle>* some : { &this->Curves.particles, &this->Curves.thinned })
+  {
+    some->erase(std::remove_if(some->begin(), some->end(), isOutside), some->end());
+  }
+  // Segments are for meshes, which are not made of slabs.
+  this->Curves.segments.clear();
 }
 
 /// Drops particles that are too near to one on a boundary curve: these are sampled first and stay.
@@ -491,7 +487,9 @@ Balance FastSystem::balanceOf(bool isLast) const
   // previous run as many as they are, though.
   else if (this->Sizing.angularDensity == 0.0 || this->IsWarm)
   {
-    balance.missing = this->targetCount() - size;
+    balance.missing = this->Part.isEverything()
+      ? this->targetCount() - size
+      : this->TargetInSlab - static_cast<double>(this->Moving->count());
   }
   return balance;
 }
@@ -518,15 +516,22 @@ void FastSystem::relaxInRounds()
 }
 
 /// Adds a particle in boxes on whose piece of surface no particle stands. One may cover several boxes.
-void FastSystem::coverBoxes()
+/// \param where of the boxes' samples
+void FastSystem::coverBoxes(const Slab& where)
 {
   const auto& samples = this->Proxy->samples();
-  const std::vector<char> uncovered =
-    findUncovered(samples, this->Moving->patches(), this->Parallel);
+  std::vector<char> uncovered = findUncovered(samples, this->Moving->patches(), this->Parallel);
+  if (!where.isEverything())
+  {
+    forAll(this->Parallel, samples.size(),
+      [&](std::size_t b)
+      { uncovered[b] = uncovered[b] && where.holds(samples[b].patch.position); });
+  }
   this->addSamples(chooseUncovered(samples, uncovered, this->Parallel));
 }
 
-/// Takes all particles to the tolerance, and evaluates there what belongs to a finished particle.
+/// Takes all particles to the tolerance, and evaluates there what belongs to a finished particle. In a slab the particles
+/// of other slabs are there as neighbours, and are dropped at last.
 void FastSystem::finish()
 {
   FinishedParticles finished =
@@ -534,7 +539,10 @@ void FastSystem::finish()
   this->Evaluations += finished.evaluations;
   DistributionReport& report = this->Result.report;
   std::vector<char>& kept = finished.converged;
-  report.particlesRejected += std::count(kept.begin(), kept.end(), 0);
+  for (std::size_t i = 0; i < kept.size(); ++i)
+  {
+    report.particlesRejected += !kept[i] && (this->IsOwn.empty() || this->IsOwn[i]);
+  }
   if (!this->countIsGiven())
   {
     const bool isDraft = this->Parameters.quality == Quality::Draft;
@@ -544,6 +552,7 @@ void FastSystem::finish()
   Buffer<Particle>& particles = this->Result.particles;
   particles = std::move(finished.particles);
   particles.resize(closeGaps(particles, particles.size(), kept));
+  this->IsOwn.resize(closeGaps(this->IsOwn, this->IsOwn.size(), kept));
   const ParticleGrid all(particles, this->Curves.particles, this->Parallel);
   markClipPlanes(this->Surface, all, this->Curves.thinned, this->Parallel);
   const int first = static_cast<int>(particles.size());
@@ -555,17 +564,59 @@ void FastSystem::finish()
   {
     particles.push_back(boundary.particle);
   }
+  fitSmallComponents(*this->Proxy, all, particles, this->Parallel);
+  this->dropOthers();
   report.particlesUndersampled = std::count_if(
     particles.begin(), particles.end(), [](const Particle& p) { return p.isUndersampled(); });
-  fitSmallComponents(*this->Proxy, all, particles, this->Parallel);
 }
 
-/// All stages, one after the other.
-void FastSystem::make()
+/// Drops finished particles that are at home in other slabs.
+void FastSystem::dropOthers()
+{
+  if (this->Part.isEverything())
+  {
+    return;
+  }
+  Buffer<Particle>& particles = this->Result.particles;
+  const Slab own = this->Part.shifted(this->overlap(SlabOverlap::OnPlane));
+  std::vector<char> kept = this->IsOwn;
+  for (std::size_t i = kept.size(); i < particles.size(); ++i)
+  {
+    kept.push_back(own.holds(particles[i].position.xyz));
+  }
+  keepMarked(particles, kept);
+}
+
+/// Boxes within the slab that isolation could not decide.
+std::vector<SurfaceBox> FastSystem::undecidedBoxes()
+{
+  std::vector<SurfaceBox> undecided;
+  for (std::size_t b = 0; b < this->Proxy->boxes().size(); ++b)
+  {
+    const SurfaceBox& box = this->Proxy->boxes()[b];
+    const SurfaceProxy::Sample& sample = this->Proxy->samples()[b];
+    const auto position = [&]()
+    {
+      return sample.found
+        ? sample.patch.position
+        : glm::dvec3(
+            evaluateGradient(this->Mesh.form(box.middle.element), box.middle.u).value);
+    };
+    if (!box.certified && this->Part.holds(position()))
+    {
+      undecided.push_back(box);
+    }
+  }
+  return undecided;
+}
+
+/// All stages but the last, one after the other.
+/// \return whether there are particles
+bool FastSystem::relax()
 {
   if (!this->estimateCount())
   {
-    return;
+    return false;
   }
   if (this->countIsGiven())
   {
@@ -575,25 +626,19 @@ void FastSystem::make()
   {
     this->prepareSurface();
   }
-  reportUndecided(this->Surface, this->Proxy->boxes(), this->Result.report);
+  reportUndecided(this->Surface,
+    this->Part.isEverything() ? this->Proxy->boxes() : this->undecidedBoxes(),
+    this->Result.report);
+  this->Result.report.boxes = static_cast<std::int64_t>(this->Proxy->boxes().size());
   this->reach(ProgressAt::Prepared);
   const double count = this->Proxy->particleCount();
-  if (count > 0.0 && !this->tooMany(count))
+  if (count <= 0.0 || this->tooMany(count))
   {
-    this->makeSeeds(std::llround(count));
-    this->relaxInRounds();
-    if (this->Parameters.quality != Quality::Draft)
-    {
-      repairPacking(*this->Moving, this->Parallel);
-    }
-    // Beside another sheet the last particle of a small component may have been deleted as one too many.
-    this->coverBoxes();
-    if (this->countIsGiven())
-    {
-      matchGivenNumber(this->Parameters, this->BoundaryPatches, *this->Moving, this->Parallel);
-    }
-    this->finish();
+    return false;
   }
+  this->makeSeeds(std::llround(count));
+  this->relaxInRounds();
+  return true;
 }
 
 std::vector<double> FastSystem::countsOfElements()
@@ -617,11 +662,26 @@ std::vector<double> FastSystem::countsOfElements()
 
 Distribution FastSystem::run()
 {
-  if (this->Mesh.elements.empty())
+  if (!this->Mesh.elements.empty() && this->relax())
   {
-    return {};
+    if (this->Parameters.quality != Quality::Draft)
+    {
+      repairPacking(*this->Moving, this->Parallel);
+    }
+    // Beside another sheet the last particle of a small component may have been deleted as one too many.
+    this->coverBoxes({});
+    if (this->countIsGiven())
+    {
+      matchGivenNumber(this->Parameters, this->BoundaryPatches, *this->Moving, this->Parallel);
+    }
+    this->finish();
   }
-  this->make();
+  return this->takeResult();
+}
+
+/// The particles, and what they cost.
+Distribution FastSystem::takeResult()
+{
   DistributionReport& report = this->Result.report;
   report.evaluations = this->Evaluations + this->Locator.evaluations();
   if (this->Moving)
@@ -631,8 +691,6 @@ Distribution FastSystem::run()
   }
   return std::move(this->Result);
 }
-
-} // namespace
 
 Distribution distributeFast(const Isosurface& surface, const DistributionParameters& parameters,
   const Monitor& monitor, const ParallelFor& parallelFor)

@@ -1,0 +1,264 @@
+#include "Fast/SlabDistribution.h"
+
+#include "Fast/FastSystem.h"
+#include "Fast/PackingRepair.h"
+#include "Fast/PatchDistances.h"
+#include "Support/KeepMarked.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+namespace hop
+{
+namespace
+{
+
+void append(Buffer<Anchor>& anchors, Buffer<Patch>& patches, const SlabParticles& more)
+{
+  anchors.insert(anchors.end(), more.anchors.begin(), more.anchors.end());
+  patches.insert(patches.end(), more.patches.begin(), more.patches.end());
+}
+
+/// Those of particles on boundary curves that a slab holds.
+Buffer<BoundaryParticle> heldBy(const Slab& slab, const Buffer<BoundaryParticle>& particles)
+{
+  Buffer<BoundaryParticle> held;
+  std::copy_if(particles.begin(), particles.end(), std::back_inserter(held),
+    [&](const BoundaryParticle& some) { return slab.holds(some.patch.position); });
+  return held;
+}
+
+} // namespace
+
+class SlabDistribution::System : public FastSystem
+{
+public:
+  using FastSystem::FastSystem;
+
+  std::string relaxAlone();
+  SlabParticles particlesIn(double from, double to) const;
+  SlabParticles firstParticles() const;
+  SlabParticles lastParticles() const;
+  void settleEnd(const SlabParticles& next);
+  Distribution finishAmong(const SlabParticles& before);
+
+private:
+  /// The part of space between two places.
+  Slab between(double from, double to) const { return { this->Part.direction, from, to }; }
+  void replaceCurves(const Slab& where, const SlabParticles& by);
+  void relaxStrip(const Slab& strip);
+  void arrangeCanonically(const SlabParticles& before);
+
+  /// Particles of the next slab, which stay.
+  SlabParticles Next;
+};
+
+std::string SlabDistribution::System::relaxAlone()
+{
+  const bool exist = !this->Mesh.elements.empty() && this->relax();
+  if (exist && this->Parameters.quality != Quality::Draft)
+  {
+    repairPacking(*this->Moving, this->Parallel);
+  }
+  else if (!exist && this->Proxy)
+  {
+    this->startMoving();
+  }
+  return this->Result.report.error;
+}
+
+/// Particles between two places, without those on boundary curves that belong to the slab before `from`.
+SlabParticles SlabDistribution::System::particlesIn(double from, double to) const
+{
+  SlabParticles result;
+  const Slab slab = this->between(from, to);
+  for (std::size_t i = 0; this->Moving && i < this->Moving->count(); ++i)
+  {
+    if (slab.holds(this->Moving->patches()[i].position))
+    {
+      result.anchors.push_back(this->Moving->anchors()[i]);
+      result.patches.push_back(this->Moving->patches()[i]);
+    }
+  }
+  return result;
+}
+
+SlabParticles SlabDistribution::System::firstParticles() const
+{
+  const double begin = this->Part.begin;
+  const double end = begin + this->overlap(SlabOverlap::Strip + SlabOverlap::Sight);
+  SlabParticles result = this->particlesIn(begin, end);
+  const Slab onCurves = this->between(begin + this->overlap(SlabOverlap::OnPlane), end);
+  result.onBoundary = heldBy(onCurves, this->Curves.particles);
+  result.thinned = heldBy(onCurves, this->Curves.thinned);
+  return result;
+}
+
+SlabParticles SlabDistribution::System::lastParticles() const
+{
+  constexpr double everything = std::numeric_limits<double>::infinity();
+  const double end = this->Part.end;
+  const double begin = end - this->overlap(SlabOverlap::Strip + SlabOverlap::Sight);
+  // Particles of the strip may have moved out of it. They come behind those that stay.
+  SlabParticles result = this->particlesIn(begin, everything);
+  const Slab onCurves = this->between(begin, end + this->overlap(SlabOverlap::OnPlane));
+  result.onBoundary = heldBy(onCurves, this->Curves.particles);
+  result.thinned = heldBy(onCurves, this->Curves.thinned);
+  return result;
+}
+
+/// Takes another worker's particles on boundary curves instead of one's own, in a part of space.
+void SlabDistribution::System::replaceCurves(const Slab& where, const SlabParticles& by)
+{
+  const auto replace = [&](Buffer<BoundaryParticle>& mine, const Buffer<BoundaryParticle>& others)
+  {
+    mine.erase(std::remove_if(mine.begin(), mine.end(),
+                 [&](const BoundaryParticle& some) { return where.holds(some.patch.position); }),
+      mine.end());
+    mine.insert(mine.end(), others.begin(), others.end());
+  };
+  replace(this->Curves.particles, by.onBoundary);
+  replace(this->Curves.thinned, by.thinned);
+  this->BoundaryPatches.clear();
+  for (const BoundaryParticle& some : this->Curves.particles)
+  {
+    this->BoundaryPatches.push_back(some.patch);
+  }
+}
+
+void SlabDistribution::System::settleEnd(const SlabParticles& next)
+{
+  if (!this->Moving)
+  {
+    return;
+  }
+  constexpr double everything = std::numeric_limits<double>::infinity();
+  const double end = this->Part.end;
+  const double width = this->overlap(SlabOverlap::Strip);
+  const Slab strip = this->between(end - width, end + width);
+  this->replaceCurves(
+    this->between(end + this->overlap(SlabOverlap::OnPlane), everything), next);
+  this->keepIn(this->between(-everything, end));
+  this->Moving->add(next.anchors, next.patches);
+  this->Next = this->particlesIn(strip.end, everything);
+  this->keepIn(this->between(-everything, strip.end));
+  this->relaxStrip(strip);
+}
+
+/// Relaxes the particles of the strip at the slab's end, among others that stay.
+void SlabDistribution::System::relaxStrip(const Slab& strip)
+{
+  const Slab seen = strip.widened(this->overlap(SlabOverlap::Sight));
+  Buffer<Patch> around;
+  SlabParticles before = this->particlesIn(seen.begin, strip.begin);
+  for (const Buffer<Patch>* some : { &before.patches, &this->Next.patches, &this->BoundaryPatches })
+  {
+    std::copy_if(some->begin(), some->end(), std::back_inserter(around),
+      [&](const Patch& patch) { return seen.holds(patch.position); });
+  }
+  for (Patch& patch : around)
+  {
+    patch.fixed = true;
+  }
+  SlabParticles inside = this->particlesIn(strip.begin, strip.end);
+  this->keepIn(this->between(-std::numeric_limits<double>::infinity(), strip.begin));
+  std::unique_ptr<MovingParticles> others = std::move(this->Moving);
+  this->Moving = std::make_unique<MovingParticles>(
+    this->Surface, *this->Proxy, std::move(around), this->Parallel);
+  this->Moving->add(inside.anchors, inside.patches);
+  this->Moving->keep(thinOut(this->Moving->patches(),
+    std::vector<char>(this->Moving->count(), 1), MinimumSeparation, this->Parallel));
+  this->TargetInSlab = this->TargetInStrip;
+  this->relaxInRounds();
+  if (this->Parameters.quality != Quality::Draft)
+  {
+    repairPacking(*this->Moving, this->Parallel);
+  }
+  others->append(*this->Moving);
+  this->Moving = std::move(others);
+}
+
+/// Puts the particles of all workers around into an order on which they agree: which of two that are too near to each
+/// other stays depends on it.
+void SlabDistribution::System::arrangeCanonically(const SlabParticles& before)
+{
+  Buffer<Anchor> anchors = this->Moving->anchors();
+  Buffer<Patch> patches;
+  patches.assign(this->Moving->patches().begin(),
+    this->Moving->patches().begin() + static_cast<std::ptrdiff_t>(this->Moving->count()));
+  const std::size_t own = anchors.size();
+  append(anchors, patches, before);
+  append(anchors, patches, this->Next);
+  std::vector<int> order(anchors.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto key = [&](int i)
+  {
+    const Location& place = anchors[i].place;
+    return std::make_tuple(place.element, place.u.xyz.x, place.u.xyz.y, place.u.xyz.z, i);
+  };
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
+  Buffer<Anchor> sortedAnchors;
+  Buffer<Patch> sortedPatches;
+  for (const int i : order)
+  {
+    sortedAnchors.push_back(anchors[i]);
+    sortedPatches.push_back(patches[i]);
+    this->IsOwn.push_back(static_cast<std::size_t>(i) < own);
+  }
+  this->startMoving();
+  this->Moving->add(sortedAnchors, sortedPatches);
+}
+
+Distribution SlabDistribution::System::finishAmong(const SlabParticles& before)
+{
+  if (this->Moving)
+  {
+    const double width = this->overlap(SlabOverlap::Strip);
+    constexpr double everything = std::numeric_limits<double>::infinity();
+    this->keepIn(this->between(this->Part.begin + width, everything));
+    this->replaceCurves(
+      this->between(-everything, this->Part.begin + this->overlap(SlabOverlap::OnPlane)), before);
+    this->arrangeCanonically(before);
+    this->coverBoxes(this->Part.shifted(width));
+    this->IsOwn.resize(this->Moving->count(), 1);
+    this->finish();
+  }
+  return this->takeResult();
+}
+
+SlabDistribution::SlabDistribution(const Isosurface& surface,
+  const DistributionParameters& parameters, const Slab& slab, const Monitor& monitor,
+  const ParallelFor& parallelFor)
+  : Worker(std::make_unique<System>(surface, parameters, monitor, parallelFor, slab))
+{
+}
+
+SlabDistribution::~SlabDistribution() = default;
+
+std::string SlabDistribution::relax()
+{
+  return this->Worker->relaxAlone();
+}
+
+SlabParticles SlabDistribution::firstParticles() const
+{
+  return this->Worker->firstParticles();
+}
+
+void SlabDistribution::settleEnd(const SlabParticles& next)
+{
+  this->Worker->settleEnd(next);
+}
+
+SlabParticles SlabDistribution::lastParticles() const
+{
+  return this->Worker->lastParticles();
+}
+
+Distribution SlabDistribution::finish(const SlabParticles& before)
+{
+  return this->Worker->finishAmong(before);
+}
+
+} // namespace hop

@@ -1,0 +1,125 @@
+#include "Fast/SlabMeshes.h"
+
+#include "Elements/CornerNumbers.h"
+#include "Elements/SlabElements.h"
+#include "Fast/SlabDistribution.h"
+#include "Fast/SlabWorkers.h"
+
+namespace hop
+{
+namespace
+{
+
+class SlabGathering
+{
+public:
+  SlabGathering(Exchange& exchange, const std::vector<Slab>& slabs, bool isSound)
+    : Ranks(exchange)
+    , Slabs(slabs)
+    , IsSound(isSound)
+  {
+    this->Result.meshes.resize(slabs.size());
+  }
+
+  SlabMeshes run(
+    const ElementMesh& mine, std::int64_t cells, double spacing, const ParallelFor& parallelFor);
+
+private:
+  template <class Use>
+  bool attempt(const Use& use);
+  bool gather(const ElementMesh& mine, std::int64_t cells, const Slab& slab, int worker,
+    GatheredMesh& all, const ParallelFor& parallelFor);
+
+  Exchange& Ranks;
+  const std::vector<Slab>& Slabs;
+  bool IsSound;
+  SlabMeshes Result;
+};
+
+/// Does some work, unless something has failed before.
+/// \return whether it has been done on all ranks
+template <class Use>
+bool SlabGathering::attempt(const Use& use)
+{
+  try
+  {
+    if (this->IsSound)
+    {
+      use();
+    }
+  }
+  catch (...)
+  {
+    this->IsSound = false;
+    this->Result.failure = std::current_exception();
+  }
+  return allAgree(this->Ranks, this->IsSound);
+}
+
+/// Gathers the elements of one slab, so that no rank keeps copies for more than one.
+bool SlabGathering::gather(const ElementMesh& mine, std::int64_t cells, const Slab& slab,
+  int worker, GatheredMesh& all, const ParallelFor& parallelFor)
+{
+  std::vector<int> chosen;
+  ElementMesh part;
+  if (!this->attempt(
+        [&]()
+        {
+          chosen = elementsIn(mine, slab, parallelFor);
+          part = pickElements(mine, chosen);
+        }))
+  {
+    return false;
+  }
+  const std::vector<MeshSize> sizes = gatherFromAll(this->Ranks, sizeOf(part, cells));
+  if (!this->attempt(
+        [&]()
+        {
+          if (this->Ranks.rank() == worker)
+          {
+            all = roomFor(sizes);
+          }
+        }))
+  {
+    return false;
+  }
+  gatherElements(this->Ranks, worker, part, chosen, sizes, all);
+  return true;
+}
+
+SlabMeshes SlabGathering::run(
+  const ElementMesh& mine, std::int64_t cells, double spacing, const ParallelFor& parallelFor)
+{
+  std::vector<GatheredMesh>& meshes = this->Result.meshes;
+  for (std::size_t slab = 0; slab < meshes.size(); ++slab)
+  {
+    if (!this->gather(mine, cells, this->Slabs[slab].widened(SlabOverlap::Reach * spacing),
+          rankOfSlab(slab, meshes.size(), this->Ranks.size()), meshes[slab], parallelFor))
+    {
+      return std::move(this->Result);
+    }
+  }
+  this->Result.isComplete = this->attempt(
+    [&]()
+    {
+      for (GatheredMesh& all : meshes)
+      {
+        if (!all.mesh.elements.empty())
+        {
+          orderCanonically(all, parallelFor);
+          joinElements(all.mesh, parallelFor);
+        }
+      }
+    });
+  return std::move(this->Result);
+}
+
+} // namespace
+
+SlabMeshes gatherSlabs(Exchange& exchange, const ElementMesh& mine, std::int64_t cells,
+  const std::vector<Slab>& slabs, double spacing, bool isSound, const ParallelFor& parallelFor)
+{
+  return SlabGathering(exchange, slabs, isSound).run(mine, cells, spacing, parallelFor);
+}
+
+} // namespace hop
