@@ -234,7 +234,8 @@ void vtkHighOrderParticleIsosurface::Run(vtkDataObject* input, vtkDataObject* ou
   {
     return;
   }
-  const hop::CheckedBlocks checked = this->FindScalars(gathered);
+  const auto quantity = static_cast<hop::Quantity>(this->FindQuantity());
+  const hop::CheckedBlocks checked = hop::checkQuantity(this->FindScalars(gathered), quantity);
   this->Tell(checked.messages);
   this->Tell(hop::reviewArrays(checked.sound));
   bool hasTold = !checked.messages.empty();
@@ -244,7 +245,8 @@ void vtkHighOrderParticleIsosurface::Run(vtkDataObject* input, vtkDataObject* ou
     hasTold = hasTold || !messages.empty();
     this->Tell(messages);
   };
-  const hop::InputBlocks blocks(checked.sound, hop::componentOf(checked.sound, this->Component));
+  const hop::InputBlocks blocks(
+    checked.sound, hop::componentOf(checked.sound, this->Component, quantity), quantity);
   const hop::RunResult result =
     hop::ParticleRun(properties, scale, caller, *this->Previous).run(blocks);
   this->HasFailed = this->HasFailed || !result.isComplete;
@@ -263,7 +265,7 @@ std::uint64_t vtkHighOrderParticleIsosurface::HashOfRequest(vtkDataObject* input
   {
     hash.add(number);
   }
-  for (const vtkIdType number : { vtkIdType(this->Component), vtkIdType(this->NodeSpacing),
+  for (const vtkIdType number : { vtkIdType(this->Component), vtkIdType(this->FindQuantity()), vtkIdType(this->NodeSpacing),
          vtkIdType(this->Method), vtkIdType(this->Quality), vtkIdType(this->Seed),
          this->NumberOfParticles, vtkIdType(this->WarmStart), vtkIdType(this->PassDiagnostics),
          vtkIdType(this->OutputType), vtkIdType(this->Order) })
@@ -381,6 +383,7 @@ void vtkHighOrderParticleIsosurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SmallestSpacing: " << this->SmallestSpacing << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "Component: " << this->Component << "\n";
+  os << indent << "Quantity: " << this->Quantity << "\n";
   os << indent << "NodeSpacing: " << this->NodeSpacing << "\n";
   os << indent << "Method: " << this->Method << "\n";
   os << indent << "Quality: " << this->Quality << "\n";

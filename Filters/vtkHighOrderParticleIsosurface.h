@@ -151,6 +151,27 @@ public:
   vtkGetMacro(Component, int);
   ///@}
 
+  enum QuantityType
+  {
+    VALUE = 0,
+    GRADIENT_MAGNITUDE = 1,
+    DIVERGENCE = 2,
+    VORTICITY_MAGNITUDE = 3,
+    Q_CRITERION = 4
+  };
+
+  ///@{
+  /**
+   * What is contoured: the VALUE (default) of the chosen component, or the magnitude of the vector; or a field made of
+   * the derivatives of the array in world space, taken in each cell: GRADIENT_MAGNITUDE of the component or, of all
+   * components, the square root of the sum of their squares; of vectors of three components DIVERGENCE,
+   * VORTICITY_MAGNITUDE (of the curl) and Q_CRITERION, -tr(grad u grad u)/2, whatever the Component. Derived fields are
+   * exact in cells and jump from cell to cell, so that their isosurfaces have boundary curves between cells.
+   */
+  vtkSetClampMacro(Quantity, int, VALUE, Q_CRITERION);
+  vtkGetMacro(Quantity, int);
+  ///@}
+
   enum NodeSpacingType
   {
     UNIFORM = 0,
@@ -302,11 +323,12 @@ protected:
 
   ///@{
   /**
-   * What is contoured: the isovalues of the scalars, each once, what to say where there are none, the blocks with their
-   * scalars, and a hash of all that the scalars are made of besides the input. Other fields than arrays override them.
+   * What is contoured: the isovalues of the scalars, each once, what to say where there are none, one of QuantityType, the
+   * blocks with their scalars, and a hash of all that the scalars are made of besides the input. Other fields than arrays override them.
    */
   virtual std::vector<double> FindIsovalues();
   virtual std::vector<hop::UserMessage> CheckIsovalues(const hop::GatheredBlocks& gathered);
+  virtual int FindQuantity() { return this->Quantity; }
   virtual hop::CheckedBlocks FindScalars(const hop::GatheredBlocks& gathered);
   virtual void AddField(hop::ByteHash& hash);
   ///@}
@@ -331,6 +353,7 @@ private:
   double SmallestSpacing = 0.0;
   double Tolerance = 1e-10;
   int Component = VTK_INT_MAX;
+  int Quantity = VALUE;
   int NodeSpacing = UNIFORM;
   int Method = FAST;
   int Quality = STANDARD;

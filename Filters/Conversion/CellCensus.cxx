@@ -57,6 +57,12 @@ void CellCensus::count(Verdict verdict, vtkIdType cell, int cellType)
     case Verdict::Level:
       this->level.add(cell);
       break;
+    case Verdict::DegreeTooHigh:
+      this->degreeTooHigh.add(cell);
+      break;
+    case Verdict::Singular:
+      this->singular.add(cell);
+      break;
     case Verdict::Keep:
     case Verdict::Ghost:
       break;
@@ -74,6 +80,8 @@ void CellCensus::add(const CellCensus& others)
   this->notFinite.add(others.notFinite);
   this->badWeights.add(others.badWeights);
   this->level.add(others.level);
+  this->degreeTooHigh.add(others.degreeTooHigh);
+  this->singular.add(others.singular);
   this->collapsed.add(others.collapsed);
   for (const auto& [which, cells] : others.misordered)
   {
@@ -85,7 +93,7 @@ void CellCensus::add(const CellCensus& others)
 vtkIdType CellCensus::skipped() const
 {
   vtkIdType sum = this->brokenConnectivity.count + this->notFinite.count + this->badWeights.count +
-    this->level.count + this->collapsed.count;
+    this->level.count + this->collapsed.count + this->degreeTooHigh.count + this->singular.count;
   for (const auto& [type, cells] : this->unsupported)
   {
     sum += cells.count;
@@ -115,6 +123,11 @@ std::string CellCensus::describe() const
   describeCells(text, this->badWeights, "skipped: RationalWeights that are not positive");
   describeCells(
     text, this->level, "skipped: the field is the isovalue throughout, which is no surface");
+  describeCells(text, this->degreeTooHigh,
+    "skipped: bent cells of a degree at which Quantity is not supported; see the table of degrees in the user guide");
+  describeCells(text, this->singular,
+    "skipped: so distorted that derivatives may be infinite in them: the Jacobian determinant is not proven to "
+    "keep its sign");
   describeCells(text, this->collapsed,
     "skipped: without volume, or smaller than 1e-15 of the bounds of the input");
   for (const auto& [which, cells] : this->misordered)

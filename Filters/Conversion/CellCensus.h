@@ -20,6 +20,9 @@ enum class Verdict : char
   BadWeights,
   Level,
   Unsupported,
+  /// Of a derived field.
+  DegreeTooHigh,
+  Singular,
   /// By vtkGhostType another piece's, hidden, or replaced.
   Ghost
 };
@@ -54,6 +57,10 @@ struct CellCensus
   SkippedCells badWeights;
   /// The field is the same in the whole cell, and one of the isovalues: no surface.
   SkippedCells level;
+  /// The polynomials of a derived field would have a degree above MaximumDegree.
+  SkippedCells degreeTooHigh;
+  /// Cells in which a derived field may be infinite: the Jacobian determinant is not proven to be positive.
+  SkippedCells singular;
   /// The Jacobian determinant is zero everywhere, to rounding, or the cell is tiny beside the bounds: no volume.
   SkippedCells collapsed;
   /// By VTK cell type, and by what makes them sound if that is known (MisorderedCells::remedy): partly inverted cells

@@ -44,7 +44,7 @@ bool readIds(vtkUnstructuredGrid* grid, vtkIdType cell, CellValues& values)
 /// \return whether all values are usable
 bool readField(const InputBlocks& blocks, vtkDataArray* scalars, CellValues& values)
 {
-  const bool all = blocks.isMagnitude();
+  const bool all = blocks.readsAllComponents();
   values.components = all ? scalars->GetNumberOfComponents() : 1;
   values.field.resize(values.count * values.components);
   for (int c = 0; c < values.components; ++c)

@@ -21,7 +21,7 @@ struct CellValues
   const vtkIdType* ids = nullptr;
   /// Holds the ids if the grid stores them in another form.
   vtkNew<vtkIdList> copiedIds;
-  /// Components of the field: one, or all components of a vector whose magnitude is contoured.
+  /// Components of the field: one, or all components of a vector.
   int components = 1;
   /// Nodal values of the field: `components` numbers a node.
   std::vector<double> field;

@@ -173,25 +173,20 @@ JacobianSign convert(const InputBlocks& blocks, const CellBasis& cell, const Fie
   {
     return JacobianSign::NotFinite;
   }
-  const int width = 3 + values.components;
-  const std::vector<double> control = controlRows(
-    cell, nodalRows(blocks[where.block].grid, cell.basis.nodeCount(), values, units.length), width);
-  std::vector<double> weights = controlWeights(cell, values);
-  std::vector<Coefficient> plain = coefficientsOf(control, width);
-  const BernsteinForm form{ cell.basis.domain(), cell.basis.degrees(), plain.data(),
-    element.rational ? weights.data() : nullptr };
-  const JacobianSign sign = jacobianSign(cell, form);
-  if (sign == JacobianSign::NotFinite || isPoint(plain))
+  ControlNet net = controlNet(blocks, where, cell, values, units.length);
+  if (net.sign == JacobianSign::NotFinite || net.sign == JacobianSign::Zero)
   {
-    return sign == JacobianSign::NotFinite ? sign : JacobianSign::Zero;
+    return net.sign;
   }
   Coefficient* coefficients = &mesh.coefficients[element.firstCoefficient];
   if (blocks.isMagnitude())
   {
-    weights = squareField(form.domain, form.degrees, width, control, weights, coefficients);
+    net.weights = squareField(cell.basis.domain(), cell.basis.degrees(), net.width, net.control,
+      net.weights, coefficients);
   }
   else
   {
+    std::vector<Coefficient> plain = coefficientsOf(net.control, net.width);
     if (!element.rational)
     {
       snapToIsovalues(plain, range, units.value, cell.basis.conversionNorm());
@@ -200,12 +195,31 @@ JacobianSign convert(const InputBlocks& blocks, const CellBasis& cell, const Fie
   }
   if (element.rational)
   {
-    std::copy(weights.begin(), weights.end(), &mesh.weights[element.firstCoefficient]);
+    std::copy(net.weights.begin(), net.weights.end(), &mesh.weights[element.firstCoefficient]);
   }
-  return sign;
+  return net.sign;
 }
 
 } // namespace
+
+ControlNet controlNet(const InputBlocks& blocks, const BlockCell& where, const CellBasis& cell,
+  const CellValues& values, double unitOfLength)
+{
+  ControlNet net;
+  net.width = 3 + values.components;
+  net.control = controlRows(cell,
+    nodalRows(blocks[where.block].grid, cell.basis.nodeCount(), values, unitOfLength), net.width);
+  net.weights = controlWeights(cell, values);
+  const std::vector<Coefficient> plain = coefficientsOf(net.control, net.width);
+  net.sign = jacobianSign(cell,
+    { cell.basis.domain(), cell.basis.degrees(), plain.data(),
+      values.weights.empty() ? nullptr : net.weights.data() });
+  if (net.sign != JacobianSign::NotFinite && isPoint(plain))
+  {
+    net.sign = JacobianSign::Zero;
+  }
+  return net;
+}
 
 std::vector<JacobianSign> convertCells(const InputBlocks& blocks,
   const std::vector<const CellBasis*>& bases, const FieldRange& range, const RunUnits& units,

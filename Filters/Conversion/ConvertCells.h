@@ -20,6 +20,24 @@ struct FieldRange
   double origin = 0.0;
 };
 
+/// A cell in Bernstein form, with all components of its field.
+struct ControlNet
+{
+  /// 3 + number of the field's components.
+  int width = 4;
+  /// Rows of x, y, z and the field's components, homogeneous where the cell is rational.
+  std::vector<double> control;
+  /// Ones where the cell is not rational.
+  std::vector<double> weights;
+  /// NotFinite and Zero: there is no element. Zero also for cells that are points beside the bounds of all input.
+  JacobianSign sign = JacobianSign::NotFinite;
+};
+
+/// \param values what readCell() has read, with the field in the unit in which it is wanted
+/// \param unitOfLength divides the coordinates
+ControlNet controlNet(const InputBlocks& blocks, const BlockCell& where, const CellBasis& cell,
+  const CellValues& values, double unitOfLength);
+
 /// Writes the coefficients of all elements, in the given units. Rational cells receive homogeneous coefficients and weights; where a
 /// magnitude is contoured, the coefficients describe its square.
 /// \param bases of the elements' cells, one an element

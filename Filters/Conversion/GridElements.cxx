@@ -2,6 +2,7 @@
 
 #include "Conversion/CellValues.h"
 #include "Conversion/ConvertCells.h"
+#include "Conversion/DeriveCells.h"
 #include "Conversion/NodeOrder.h"
 #include "Elements/CornerNumbers.h"
 #include "Support/KeepMarked.h"
@@ -50,9 +51,10 @@ public:
 
 private:
   void makeElements(const std::vector<JudgedCells>& ranges);
+  std::vector<JacobianSign> writeDerived(const std::vector<JudgedCells>& ranges);
   Room roomFor(const JudgedCells& range) const;
+  Element elementOf(const JudgedCells& range, std::size_t i) const;
   void makeElements(const JudgedCells& range, const Room& before);
-  Degrees elementDegrees(const CellBasis& cell) const;
   void dropMisordered(std::vector<JacobianSign>& signs);
   void drop(const MisorderedCells& misordered, std::vector<JacobianSign>& signs);
   std::vector<BlockCell> foldedCells(
@@ -69,9 +71,10 @@ private:
 void Builder::build(const std::vector<JudgedCells>& judged)
 {
   this->makeElements(judged);
-  std::vector<JacobianSign> signs =
-    convertCells(this->Blocks, this->Result.bases, { this->Isovalues, this->Result.origin },
-      this->Result.units, this->Result.mesh, this->Parallel);
+  std::vector<JacobianSign> signs = this->Blocks.isDerived()
+    ? this->writeDerived(judged)
+    : convertCells(this->Blocks, this->Result.bases, { this->Isovalues, this->Result.origin },
+        this->Result.units, this->Result.mesh, this->Parallel);
   this->dropMisordered(signs);
   this->dropCollapsed(signs);
 }
@@ -104,12 +107,11 @@ Room Builder::roomFor(const JudgedCells& range) const
 {
   Room room;
   room.elements = range.kept.size();
-  for (const KeptCell& kept : range.kept)
+  for (std::size_t i = 0; i < range.kept.size(); ++i)
   {
-    room.coefficients +=
-      coefficientCount(kept.basis->basis.domain(), this->elementDegrees(*kept.basis));
-    room.anyRational =
-      room.anyRational || rationalWeights(this->Blocks[range.block], *kept.basis) != nullptr;
+    const Element element = this->elementOf(range, i);
+    room.coefficients += coefficientCount(element.domain, element.degrees);
+    room.anyRational = room.anyRational || element.rational;
   }
   return room;
 }
@@ -120,23 +122,49 @@ void Builder::makeElements(const JudgedCells& range, const Room& before)
   std::size_t coefficient = before.coefficients;
   for (std::size_t i = 0; i < range.kept.size(); ++i)
   {
-    const KeptCell& kept = range.kept[i];
     Element& element = this->Result.mesh.elements[before.elements + i];
-    element.domain = kept.basis->basis.domain();
-    element.degrees = this->elementDegrees(*kept.basis);
+    element = this->elementOf(range, i);
     element.firstCoefficient = coefficient;
-    element.rational = rationalWeights(this->Blocks[range.block], *kept.basis) != nullptr;
-    element.cell = this->Blocks.firstCell(range.block) + kept.cell;
-    this->Result.bases[before.elements + i] = kept.basis;
+    this->Result.bases[before.elements + i] = range.kept[i].basis;
     coefficient += coefficientCount(element.domain, element.degrees);
   }
 }
 
-/// The degrees of a cell's element: squares have twice the degree.
-Degrees Builder::elementDegrees(const CellBasis& cell) const
+/// The element of kept cell i of a range, but for the place of its coefficients. Squares have twice the degree.
+Element Builder::elementOf(const JudgedCells& range, std::size_t i) const
 {
+  const CellBasis& cell = *range.kept[i].basis;
   const Degrees& d = cell.basis.degrees();
-  return this->Result.squared ? Degrees{ 2 * d[0], 2 * d[1], 2 * d[2] } : d;
+  Element element;
+  element.domain = cell.basis.domain();
+  element.cell = this->Blocks.firstCell(range.block) + range.kept[i].cell;
+  if (this->Blocks.isDerived())
+  {
+    element.degrees = range.derived[i].element.degrees;
+    element.rational = !range.derived[i].element.weights.empty();
+  }
+  else
+  {
+    element.degrees = this->Result.squared ? Degrees{ 2 * d[0], 2 * d[1], 2 * d[2] } : d;
+    element.rational = rationalWeights(this->Blocks[range.block], cell) != nullptr;
+  }
+  return element;
+}
+
+/// Writes the coefficients of derived fields.
+std::vector<JacobianSign> Builder::writeDerived(const std::vector<JudgedCells>& ranges)
+{
+  ElementMesh& mesh = this->Result.mesh;
+  std::vector<JacobianSign> signs;
+  for (const JudgedCells& range : ranges)
+  {
+    for (const DerivedCell& cell : range.derived)
+    {
+      signs.push_back(hop::writeDerived(cell, this->Blocks.quantity(), this->Result.units.value,
+        mesh.elements[signs.size()], mesh));
+    }
+  }
+  return signs;
 }
 
 /// Removes elements whose cells have their nodes in another order than VTK; their signs, too.
@@ -230,7 +258,8 @@ void Builder::dropCollapsed(const std::vector<JacobianSign>& signs)
         marks[e] = 0;
         break;
       case JacobianSign::Mixed:
-        census.folded.add(cell);
+        (this->Blocks.isDerived() ? census.singular : census.folded).add(cell);
+        marks[e] = !this->Blocks.isDerived();
         break;
       case JacobianSign::Positive:
       case JacobianSign::Negative:
@@ -280,7 +309,7 @@ double originFor(const std::array<double, 2>& range)
 
 std::array<double, 2> valueRange(const InputBlocks& blocks)
 {
-  if (blocks.isMagnitude())
+  if (blocks.isMagnitude() || blocks.isDerived())
   {
     return { 0.0, 0.0 };
   }
@@ -300,7 +329,7 @@ GridConversion::GridConversion(const InputBlocks& blocks, NodeSpacing spacing,
   : Blocks(blocks)
   , Isovalues(isovalues)
 {
-  this->Result.squared = blocks.isMagnitude();
+  this->Result.squared = blocks.isMagnitude() || isSquareRoot(blocks.quantity());
   this->Result.origin = origin;
   this->Result.units.length = unitOfLength;
   this->Result.kinds = std::make_unique<CellBases>(spacing);
@@ -310,6 +339,11 @@ GridConversion::GridConversion(const InputBlocks& blocks, NodeSpacing spacing,
 UnitCounts GridConversion::judge(const ParallelFor& parallelFor)
 {
   this->Judged = judgeCells(this->Blocks, this->Isovalues, *this->Result.kinds, parallelFor);
+  if (this->Blocks.isDerived())
+  {
+    deriveCells(
+      this->Blocks, this->Isovalues, this->Result.units.length, this->Judged, parallelFor);
+  }
   UnitCounts counts;
   for (const JudgedCells& range : this->Judged)
   {

@@ -28,10 +28,10 @@ struct GridElements
   /// The basis of each element, owned by `kinds`.
   std::vector<const CellBasis*> bases;
   /// Whether the mesh's field is the square of the chosen scalar: the magnitude of a vector is no
-  /// polynomial, its square is, and |v| = c where |v|^2 = c^2.
+  /// polynomial, its square is, and |v| = c where |v|^2 = c^2. So it is with magnitudes of derived fields.
   bool squared = false;
   /// Is subtracted from the chosen scalar where this is large and changes little: rounding errors would hide the
-  /// changes. 0 where a magnitude is contoured.
+  /// changes. 0 where a magnitude or a derived field is contoured.
   double origin = 0.0;
   /// The mesh's coordinates and fields are those of the input divided by these.
   RunUnits units;
@@ -61,7 +61,7 @@ double usualUnit(const UnitCounts& counts);
 /// \param range of all values; the lowest above the highest where there are none
 double originFor(const std::array<double, 2>& range);
 
-/// The range of the chosen scalar in all blocks, 0 to 0 where a magnitude is contoured.
+/// The range of the chosen scalar in all blocks, 0 to 0 where a magnitude or a derived field is contoured.
 std::array<double, 2> valueRange(const InputBlocks& blocks);
 
 /// Converts the cells of all blocks, stage by stage: between the stages ranks agree on what they have found out.

@@ -32,7 +32,7 @@ std::vector<JudgedCells> rangesOfCells(const InputBlocks& blocks)
     const vtkIdType count = blocks[b].grid->GetNumberOfCells();
     for (vtkIdType begin = 0; begin < count; begin += cellsAtOnce)
     {
-      ranges.push_back({ b, begin, std::min(count, begin + cellsAtOnce), {}, {} });
+      ranges.push_back({ b, begin, std::min(count, begin + cellsAtOnce), {}, {}, {} });
     }
   }
   return ranges;
@@ -153,9 +153,14 @@ Verdict Judge::judge(const BlockCell& where, const CellBasis* cell, CellValues& 
 /// Whether the cell can hold one of the isosurfaces. It can if nodal values lie on both sides of an isovalue; otherwise
 /// the convex hull of the Bernstein coefficients decides, widened by the rounding errors of the conversion. A magnitude
 /// is at most that of the longest control vector, and equal to it where the vector is constant. Positive weights do not
-/// change the hull.
+/// change the hull. A derived field is zero where
+/// the array is constant; more is found out by deriveCells().
 bool Judge::canHoldSurface(const CellBasis& cell, const CellValues& values) const
 {
+  if (this->Blocks.isDerived())
+  {
+    return !isConstant(values) || this->straddles(0.0, 0.0);
+  }
   const auto [lowest, highest] = std::minmax_element(values.field.begin(), values.field.end());
   if (!this->Blocks.isMagnitude() && this->straddles(*lowest, *highest))
   {

@@ -3,6 +3,7 @@
 #include "Common/Monitor.h"
 #include "Conversion/CellBases.h"
 #include "Conversion/CellCensus.h"
+#include "Conversion/DerivedCell.h"
 #include "Input/InputBlocks.h"
 
 #include <vector>
@@ -15,7 +16,7 @@ struct KeptCell
 {
   vtkIdType cell = 0;
   const CellBasis* basis = nullptr;
-  /// Largest difference of two nodal values; of a vector its largest component.
+  /// Largest difference of two nodal values; of a vector its largest component; of a derived field how much it changes.
   double change = 0.0;
 };
 
@@ -27,11 +28,14 @@ struct JudgedCells
   vtkIdType end = 0;
   /// In ascending order.
   std::vector<KeptCell> kept;
+  /// One a kept cell where a derived field is contoured, else empty.
+  std::vector<DerivedCell> derived;
   /// Of the cells that are not kept.
   CellCensus census;
 };
 
-/// Finds the cells that can hold surface. Only values are read here, not coordinates.
+/// Finds the cells that can hold surface. Only values are read here, not coordinates: of a derived field all sound cells
+/// are kept in which the array is not constant.
 /// \param isovalues of the chosen scalar, at least one
 /// \param kinds receives the bases of the cells
 /// \return all cells in ranges, in ascending order

@@ -285,7 +285,7 @@ InputBlocks blocksOfGroup(const InputBlocks& blocks, const std::set<int>& group)
       members.push_back(blocks[b]);
     }
   }
-  return { std::move(members), blocks.component() };
+  return { std::move(members), blocks.component(), blocks.quantity() };
 }
 
 } // namespace hop

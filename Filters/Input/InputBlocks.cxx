@@ -55,9 +55,10 @@ std::vector<char> pointsOfOwnCells(vtkUnstructuredGrid* grid)
 
 } // namespace
 
-InputBlocks::InputBlocks(std::vector<InputBlock> blocks, int component)
+InputBlocks::InputBlocks(std::vector<InputBlock> blocks, int component, Quantity quantity)
   : Blocks(std::move(blocks))
   , Component(component)
+  , ItsQuantity(quantity)
   , FirstCells{ 0 }
 {
   for (const InputBlock& block : this->Blocks)
@@ -80,8 +81,12 @@ std::string InputBlocks::describe(std::int64_t number) const
   return "cell " + std::to_string(where.cell) + (name.empty() ? "" : " of " + name);
 }
 
-int componentOf(const std::vector<InputBlock>& blocks, int asked)
+int componentOf(const std::vector<InputBlock>& blocks, int asked, Quantity quantity)
 {
+  if (needsVector(quantity))
+  {
+    return InputBlocks::Magnitude;
+  }
   const int components = blocks.empty() ? 1 : blocks[0].scalars->GetNumberOfComponents();
   return components == 1 ? 0 : asked < components ? asked : InputBlocks::Magnitude;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "Elements/Quantity.h"
+
 #include "vtkBoundingBox.h"
 #include "vtkDataArray.h"
 #include "vtkSmartPointer.h"
@@ -49,14 +51,23 @@ public:
 
   /// \param blocks all with the same number of components; none where only other ranks have blocks
   /// \param component of the scalars, or Magnitude
-  InputBlocks(std::vector<InputBlock> blocks, int component);
+  /// \param quantity of the component, or of all components
+  InputBlocks(
+    std::vector<InputBlock> blocks, int component, Quantity quantity = Quantity::Value);
 
   std::size_t size() const { return this->Blocks.size(); }
   const InputBlock& operator[](std::size_t block) const { return this->Blocks[block]; }
   int component() const { return this->Component; }
   /// The same blocks, contoured by another component.
-  InputBlocks withComponent(int component) const { return { this->Blocks, component }; }
-  bool isMagnitude() const { return this->Component == Magnitude; }
+  Quantity quantity() const { return this->ItsQuantity; }
+  InputBlocks withComponent(int component) const
+  {
+    return { this->Blocks, component, this->ItsQuantity };
+  }
+  /// Whether all components of the scalars are read, not only one.
+  bool readsAllComponents() const { return this->Component == Magnitude; }
+  bool isDerived() const { return this->ItsQuantity != Quantity::Value; }
+  bool isMagnitude() const { return this->readsAllComponents() && !this->isDerived(); }
   std::int64_t cellCount() const { return this->FirstCells.back(); }
   /// The number of a block's first cell; for block size() the number of all cells.
   std::int64_t firstCell(std::size_t block) const { return this->FirstCells[block]; }
@@ -68,12 +79,15 @@ public:
 private:
   std::vector<InputBlock> Blocks;
   int Component;
+  Quantity ItsQuantity;
   std::vector<std::int64_t> FirstCells;
 };
 
 /// The component of the blocks' scalars to contour by, or InputBlocks::Magnitude.
 /// \param asked number of components or more for the magnitude; scalars have but one component
-int componentOf(const std::vector<InputBlock>& blocks, int asked);
+/// \param quantity that may need all components
+int componentOf(
+  const std::vector<InputBlock>& blocks, int asked, Quantity quantity = Quantity::Value);
 
 /// Whether a cell belongs to another piece, is hidden, or was replaced by finer cells. Such a cell is left out: the
 /// piece that it belongs to has it, too. Other bits of `vtkGhostType` are ignored.

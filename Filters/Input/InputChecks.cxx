@@ -247,6 +247,25 @@ CheckedBlocks checkBlocks(const GatheredBlocks& gathered, vtkInformation* asked)
   return checked;
 }
 
+CheckedBlocks checkQuantity(CheckedBlocks checked, Quantity quantity)
+{
+  if (!needsVector(quantity) || checked.sound.empty())
+  {
+    return checked;
+  }
+  vtkDataArray* scalars = checked.sound[0].scalars;
+  if (scalars->GetNumberOfComponents() != 3)
+  {
+    const char* name = scalars->GetName();
+    checked.messages.push_back({ UserMessage::Error,
+      "This Quantity needs a vector of three components; the array '" +
+        std::string(name ? name : "(unnamed)") + "' has " +
+        std::to_string(scalars->GetNumberOfComponents()) + ". Choose a vector with ContourBy." });
+    checked.sound.clear();
+  }
+  return checked;
+}
+
 CheckedBlocks checkBlocks(const GatheredBlocks& gathered,
   const std::function<vtkSmartPointer<vtkDataArray>(vtkUnstructuredGrid*)>& makeScalars,
   vtkMTimeType time)

@@ -33,6 +33,9 @@ struct CheckedBlocks
 /// \param asked vtkAlgorithm::GetInputArrayInformation, which names the array to contour by
 CheckedBlocks checkBlocks(const GatheredBlocks& gathered, vtkInformation* asked);
 
+/// The same blocks, or none and an error where their scalars are no vectors, although a quantity needs vectors.
+CheckedBlocks checkQuantity(CheckedBlocks checked, Quantity quantity);
+
 /// The same where the scalars are made for each grid.
 /// \param time when what they are made of was changed last
 CheckedBlocks checkBlocks(const GatheredBlocks& gathered,

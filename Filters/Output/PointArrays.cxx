@@ -1,5 +1,6 @@
 #include "Output/PointArrays.h"
 
+#include "Conversion/CellValues.h"
 #include "Conversion/GatherValues.h"
 #include "Elements/BatchEvaluator.h"
 #include "Input/VtkCompatibility.h"
@@ -123,11 +124,12 @@ private:
     this->Coefficients.resize(static_cast<std::size_t>(basis.coefficientCount()) * this->width());
     basis.toBernstein(this->Nodal.data(), this->width(), this->Coefficients.data());
     this->Weights.clear();
-    if (e.rational)
+    // Of the cell: its element is rational for a derived field, too.
+    if (vtkDataArray* weights =
+          rationalWeights(this->Blocks[block], *this->Elements.bases[element]))
     {
       this->Nodal.resize(nodes);
-      gatherComponent(
-        grid->GetPointData()->GetRationalWeights(), ids, nodes, 0, this->Nodal.data());
+      gatherComponent(weights, ids, nodes, 0, this->Nodal.data());
       this->Weights.resize(basis.coefficientCount());
       basis.toBernstein(this->Nodal.data(), 1, this->Weights.data());
     }

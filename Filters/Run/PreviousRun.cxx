@@ -39,6 +39,7 @@ bool RunOrigin::continues(const RunOrigin& before) const
   const bool somethingChanged =
     this->isovalue != before.isovalue || this->dataTime != before.dataTime;
   return somethingChanged && this->array == before.array && this->component == before.component &&
+    this->quantity == before.quantity &&
     this->cells == before.cells && this->points == before.points &&
     this->nodeSpacing == before.nodeSpacing && sameSpacing(*this, before) &&
     sameRequest(this->parameters, before.parameters);
@@ -50,6 +51,7 @@ RunOrigin originOf(const InputBlocks& blocks)
   const char* name = blocks[0].scalars->GetName();
   origin.array = name ? name : "";
   origin.component = blocks.component();
+  origin.quantity = blocks.quantity();
   for (std::size_t b = 0; b < blocks.size(); ++b)
   {
     // The grid itself is a new copy each time that ParaView's pipeline looks at it.

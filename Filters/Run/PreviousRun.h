@@ -22,6 +22,7 @@ struct RunOrigin
   /// Name of the contoured array.
   std::string array;
   int component = 0;
+  Quantity quantity = Quantity::Value;
   /// Numbers of cells and points of the input.
   std::int64_t cells = 0;
   std::int64_t points = 0;

@@ -103,6 +103,7 @@ RankBlocks::RankBlocks(Exchange& exchange, const InputBlocks& mine)
     stream << mine[b].name << static_cast<vtkTypeInt64>(mine[b].grid->GetNumberOfCells());
   }
   this->Origin.component = mine.component();
+  this->Origin.quantity = mine.quantity();
   ByteHash times;
   int rank = 0;
   for (vtkMultiProcessStream& some : gatherStreams(exchange, stream))

@@ -110,6 +110,24 @@ std::array<double, 2> rangeOfValues(const InputBlocks& blocks)
   return { all.GetBound(0), all.GetBound(1) };
 }
 
+const char* nameOf(Quantity quantity)
+{
+  switch (quantity)
+  {
+    case Quantity::Value:
+      break;
+    case Quantity::GradientMagnitude:
+      return "The magnitude of the gradient";
+    case Quantity::Divergence:
+      return "The divergence";
+    case Quantity::VorticityMagnitude:
+      return "The magnitude of the vorticity";
+    case Quantity::QCriterion:
+      return "The Q criterion";
+  }
+  return "The value";
+}
+
 /// "Isovalue 7: no surface. 'u' goes from 0 to 1."
 std::string describeMissing(const InputBlocks& blocks, const std::vector<std::string>& isovalues,
   const std::array<double, 2>& range)
@@ -117,7 +135,14 @@ std::string describeMissing(const InputBlocks& blocks, const std::vector<std::st
   const char* name = blocks.size() > 0 ? blocks[0].scalars->GetName() : nullptr;
   std::ostringstream text;
   text << (isovalues.size() == 1 ? "Isovalue " : "Isovalues ") << listOf(isovalues)
-       << ": no surface. " << (blocks.isMagnitude() ? "The magnitude of " : "")
+       << ": no surface. ";
+  if (blocks.isDerived())
+  {
+    text << nameOf(blocks.quantity()) << " of " << (name ? "'" + std::string(name) + "'" : "the array")
+         << (isovalues.size() == 1 ? " does not take this value" : " does not take these values") << " in any cell.";
+    return text.str();
+  }
+  text << (blocks.isMagnitude() ? "The magnitude of " : "")
        << (name ? "'" + std::string(name) + "'" : std::string("The array")) << " goes from "
        << range[0] << " to " << range[1] << ".";
   return text.str();
@@ -238,7 +263,8 @@ UserMessages reviewSurfaces(const InputBlocks& blocks, const std::vector<double>
   std::vector<std::string> missing;
   for (std::size_t i = 0; i < isovalues.size(); ++i)
   {
-    const bool isOutside = isovalues[i] < range[0] || isovalues[i] > range[1];
+    const bool isOutside =
+      !blocks.isDerived() && (isovalues[i] < range[0] || isovalues[i] > range[1]);
     if (sumOfRanks(static_cast<double>(counts[i])) == 0.0 && (isOutside || !explained))
     {
       std::ostringstream text;

@@ -8,6 +8,9 @@
  * quantiles of shares that are thousandths are exact; with several ranks they are off by less than a thousandth of a
  * rank's values.
  *
+ * Of a field made of derivatives, values in the middles of cells are looked at instead of nodal values, of a few
+ * thousand cells a rank.
+ *
  * Particles stand closer where the surface bends, so that half of them may cover a twentieth of it. With an array of
  * spacings a quantile is the value below which a given share of the surface's *area* lies.
  */
@@ -22,6 +25,7 @@
 #include <vector>  // for the values
 
 class vtkDataArray;
+class vtkDataObject;
 
 class VTKHIGHORDERPARTICLESERVERMANAGER_EXPORT vtkPVQuantileInformation : public vtkPVInformation
 {
@@ -38,6 +42,13 @@ public:
   vtkSetMacro(Port, int);
   vtkSetMacro(ArrayName, std::string);
   vtkSetMacro(Component, int);
+  ///@}
+
+  ///@{
+  /**
+   * One of vtkHighOrderParticleIsosurface::QuantityType; 0, the default, is the array itself.
+   */
+  vtkSetMacro(Quantity, int);
   ///@}
 
   /**
@@ -76,12 +87,14 @@ private:
   void operator=(const vtkPVQuantileInformation&) = delete;
 
   void AddValues(vtkDataArray* array, vtkDataArray* spacings, vtkIdType step);
+  void AddDerived(vtkDataObject* data);
   void ThinOut();
 
   int Port = 0;
   std::string ArrayName;
   std::string SpacingArrayName;
   int Component = 0;
+  int Quantity = 0;
   /// Values, each with the number of values, or the area, for which it stands.
   std::vector<std::pair<double, double>> Samples;
 };

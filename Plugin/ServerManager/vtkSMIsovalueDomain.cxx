@@ -1,5 +1,6 @@
 #include "vtkSMIsovalueDomain.h"
 
+#include "vtkHighOrderParticleIsosurface.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVQuantileInformation.h"
@@ -58,14 +59,22 @@ int vtkSMIsovalueDomain::SetDefaultValues(vtkSMProperty* property, bool useUnche
   // Share of the values that is left out at either end. Larger shares hide small regions of extreme values, smaller
   // ones let a few wrong values decide. Chosen by experiment.
   constexpr double leftOut = 0.01;
+  // Share of the cells in which the Q criterion is above its default. Larger shares show the shear layers between vortices,
+  // too, smaller ones the cores of the strongest vortices alone. Chosen by experiment.
+  constexpr double inVortices = 0.05;
   vtkNew<vtkPVQuantileInformation> values;
   this->LookAtValues(values);
   if (!values->HasValues())
   {
     return this->Superclass::SetDefaultValues(property, useUnchecked);
   }
-  const double isovalue =
-    isovalueBetween(values->GetQuantile(leftOut), values->GetQuantile(1.0 - leftOut));
+  const double low = values->GetQuantile(leftOut);
+  const double high = values->GetQuantile(1.0 - leftOut);
+  const double vortices = values->GetQuantile(1.0 - inVortices);
+  const bool isQ = this->GetQuantity(true) == vtkHighOrderParticleIsosurface::Q_CRITERION;
+  const double isovalue = isQ && vortices > 0.0 && vortices < high
+    ? roundedToRange(vortices, vortices)
+    : isovalueBetween(low, high);
   vtkSMPropertyHelper isovalues(property);
   isovalues.SetUseUnchecked(useUnchecked);
   isovalues.SetNumberOfElements(1);
@@ -110,7 +119,15 @@ std::string vtkSMIsovalueDomain::GetChoice(bool useUnchecked)
   array.SetUseUnchecked(useUnchecked);
   component.SetUseUnchecked(useUnchecked);
   const char* name = array.GetInputArrayNameToProcess();
-  return std::to_string(component.GetAsInt()) + " " + (name ? name : "");
+  return std::to_string(this->GetQuantity(useUnchecked)) + " " +
+    std::to_string(component.GetAsInt()) + " " + (name ? name : "");
+}
+
+int vtkSMIsovalueDomain::GetQuantity(bool useUnchecked)
+{
+  vtkSMPropertyHelper quantity(this->GetRequiredProperty("QuantitySelection"));
+  quantity.SetUseUnchecked(useUnchecked);
+  return quantity.GetAsInt();
 }
 
 /// Gathers the values of the chosen array. Where every MPI rank runs the same script nothing is gathered: each rank
@@ -130,5 +147,6 @@ void vtkSMIsovalueDomain::LookAtValues(vtkPVQuantileInformation* values)
   values->SetPort(static_cast<int>(input.GetOutputPort(0)));
   values->SetArrayName(array);
   values->SetComponent(component.GetAsInt());
+  values->SetQuantity(this->GetQuantity(true));
   source->GatherInformation(values);
 }

@@ -7,7 +7,10 @@
  * highest hundredth of the nodal values, rounded to three digits of their range. Where that is 0 and values of both
  * signs exist, it is a twentieth of the range: fields that are symmetric about 0 often have a saddle at 0.
  *
- * Where another array or component is chosen, an isovalue that is still the default of the last choice becomes the
+ * Of a field made of derivatives the values in the middles of cells count in place of nodal values. Of the Q criterion
+ * the default is a high quantile: its positive values are what is looked for.
+ *
+ * Where another array, component or quantity is chosen, an isovalue that is still the default of the last choice becomes the
  * default of the new one. In the panel, before Apply, this is the unchecked value.
  */
 #ifndef vtkSMIsovalueDomain_h
@@ -52,9 +55,10 @@ private:
     std::vector<double> Isovalue;
   };
 
-  /// Array and component, as text.
+  /// Quantity, component and array, as text.
   std::string GetChoice(bool useUnchecked);
   void FollowChoice(bool useUnchecked);
+  int GetQuantity(bool useUnchecked);
   void LookAtValues(vtkPVQuantileInformation* values);
 
   /// Of the property's values, and of its unchecked values.

@@ -1,5 +1,8 @@
 #include "Elements/BernsteinProduct.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace hop
@@ -34,7 +37,7 @@ double multiplicity(Domain domain, const Degrees& degrees, const LatticePoint& p
   return result;
 }
 
-Degrees sumOf(const Degrees& a, const Degrees& b)
+Degrees addedDegrees(const Degrees& a, const Degrees& b)
 {
   return { a[0] + b[0], a[1] + b[1], a[2] + b[2] };
 }
@@ -49,6 +52,88 @@ ScaledPolynomial component(
     coefficients.push_back(control[i]);
   }
   return scaled(domain, degrees, std::move(coefficients));
+}
+
+/// The constant 1.
+ScaledPolynomial one(Domain domain, const Degrees& degrees)
+{
+  return scaled(domain, degrees, std::vector<double>(coefficientCount(domain, degrees), 1.0));
+}
+
+/// A lattice point's numbers in a simplex of its domain: along its axes, then the rest up to the degree, which belongs to
+/// b = 1 - u (- v - w).
+std::vector<int> barycentric(const SimplexFactor& factor, const Degrees& degrees, const LatticePoint& point)
+{
+  const std::array<int, 3> index{ point.i, point.j, point.k };
+  std::vector<int> result(index.begin() + factor.axis, index.begin() + factor.end());
+  result.push_back(degrees[factor.axis] - std::accumulate(result.begin(), result.end(), 0));
+  return result;
+}
+
+/// The lattice point with one more of a barycentric number.
+LatticePoint oneMore(const SimplexFactor& factor, LatticePoint point, int number)
+{
+  const int axis = factor.axis + number;
+  const int step = number < factor.dimension ? 1 : 0;
+  return { point.i + step * (axis == 0), point.j + step * (axis == 1), point.k + step * (axis == 2) };
+}
+
+/// The quotient of a polynomial and 1 = u (+ v + w) + b in a simplex of its domain: of one degree less there. What the
+/// division leaves over is dropped. A coefficient p_a of the product is the sum of all quotient's q_(a - e_k), so that
+/// each q follows from those nearer to a corner of the simplex; starting at the nearest corner errors hardly grow.
+/// \pre the degree is positive
+ScaledPolynomial dividedByOne(const ScaledPolynomial& polynomial, const SimplexFactor& factor)
+{
+  const Domain domain = polynomial.domain;
+  ScaledPolynomial result{ domain, polynomial.degrees, {} };
+  for (int a = factor.axis; a < factor.end(); ++a)
+  {
+    --result.degrees[a];
+  }
+  const std::vector<LatticePoint> points = latticePoints(domain, result.degrees);
+  result.values.resize(points.size());
+  for (int largest = result.degrees[factor.axis]; largest >= 0; --largest)
+  {
+    for (std::size_t n = 0; n < points.size(); ++n)
+    {
+      const std::vector<int> numbers = barycentric(factor, result.degrees, points[n]);
+      const auto most = std::max_element(numbers.begin(), numbers.end());
+      if (*most != largest)
+      {
+        continue;
+      }
+      const int corner = static_cast<int>(most - numbers.begin());
+      const LatticePoint upper = oneMore(factor, points[n], corner);
+      double value = polynomial.values[coefficientIndex(domain, polynomial.degrees, upper)];
+      for (int other = 0; other <= factor.dimension; ++other)
+      {
+        const LatticePoint step = oneMore(factor, {}, other);
+        const LatticePoint before{ upper.i - step.i, upper.j - step.j, upper.k - step.k };
+        if (other != corner && numbers[other] > 0)
+        {
+          value -= result.values[coefficientIndex(domain, result.degrees, before)];
+        }
+      }
+      result.values[n] = value;
+    }
+  }
+  return result;
+}
+
+/// Largest difference of Bernstein coefficients of two polynomials of the same degrees.
+double largestDifference(const ScaledPolynomial& a, const ScaledPolynomial& b)
+{
+  ScaledPolynomial difference = a;
+  for (std::size_t i = 0; i < b.values.size(); ++i)
+  {
+    difference.values[i] -= b.values[i];
+  }
+  double largest = 0.0;
+  for (const double value : unscaled(std::move(difference)))
+  {
+    largest = std::max(largest, std::abs(value));
+  }
+  return largest;
 }
 
 } // namespace
@@ -73,9 +158,95 @@ std::vector<double> unscaled(ScaledPolynomial polynomial)
   return std::move(polynomial.values);
 }
 
+ScaledPolynomial elevated(const ScaledPolynomial& polynomial, const Degrees& degrees)
+{
+  const Degrees& have = polynomial.degrees;
+  const Degrees missing{ degrees[0] - have[0], degrees[1] - have[1], degrees[2] - have[2] };
+  return polynomial * one(polynomial.domain, missing);
+}
+
+ScaledPolynomial lowered(ScaledPolynomial polynomial, double tolerance)
+{
+  for (const SimplexFactor& factor : facts(polynomial.domain).factors)
+  {
+    while (polynomial.degrees[factor.axis] > 0)
+    {
+      ScaledPolynomial lower = dividedByOne(polynomial, factor);
+      if (largestDifference(elevated(lower, polynomial.degrees), polynomial) > tolerance)
+      {
+        break;
+      }
+      polynomial = std::move(lower);
+    }
+  }
+  return polynomial;
+}
+
+ScaledPolynomial derivative(const ScaledPolynomial& polynomial, int axis)
+{
+  const Domain domain = polynomial.domain;
+  const SimplexFactor& factor = factorOf(domain, axis);
+  ScaledPolynomial result{ domain, polynomial.degrees, {} };
+  if (polynomial.degrees[axis] == 0)
+  {
+    result.values.assign(polynomial.values.size(), 0.0);
+    return result;
+  }
+  for (int a = factor.axis; a < factor.end(); ++a)
+  {
+    --result.degrees[a];
+  }
+  // In the scaled basis: d/du of s u^i v^j b^l, with b = 1 - u - v of degree l = p - i - j.
+  for (const LatticePoint& point : latticePoints(domain, result.degrees))
+  {
+    const std::array<int, 3> index{ point.i, point.j, point.k };
+    int rest = result.degrees[axis];
+    for (int a = factor.axis; a < factor.end(); ++a)
+    {
+      rest -= index[a];
+    }
+    const LatticePoint next{ point.i + (axis == 0), point.j + (axis == 1), point.k + (axis == 2) };
+    const auto at = [&](const LatticePoint& place)
+    { return polynomial.values[coefficientIndex(domain, polynomial.degrees, place)]; };
+    result.values.push_back((index[axis] + 1) * at(next) - (rest + 1) * at(point));
+  }
+  return result;
+}
+
+bool isZero(const ScaledPolynomial& polynomial)
+{
+  return std::all_of(polynomial.values.begin(), polynomial.values.end(),
+    [](double value) { return value == 0.0; });
+}
+
+ScaledPolynomial sumOf(const std::vector<std::pair<double, const ScaledPolynomial*>>& terms)
+{
+  const Domain domain = terms.front().second->domain;
+  ScaledPolynomial sum{ domain, { 0, 0, 0 }, { 0.0 } };
+  for (const auto& [factor, term] : terms)
+  {
+    for (int a = 0; a < 3 && !isZero(*term); ++a)
+    {
+      sum.degrees[a] = std::max(sum.degrees[a], term->degrees[a]);
+    }
+  }
+  sum.values.assign(coefficientCount(domain, sum.degrees), 0.0);
+  for (const auto& [factor, term] : terms)
+  {
+    if (!isZero(*term))
+    {
+      const Degrees& have = term->degrees;
+      addProduct(factor, *term,
+        one(domain, { sum.degrees[0] - have[0], sum.degrees[1] - have[1], sum.degrees[2] - have[2] }),
+        sum);
+    }
+  }
+  return sum;
+}
+
 ScaledPolynomial operator*(const ScaledPolynomial& a, const ScaledPolynomial& b)
 {
-  ScaledPolynomial product{ a.domain, sumOf(a.degrees, b.degrees), {} };
+  ScaledPolynomial product{ a.domain, addedDegrees(a.degrees, b.degrees), {} };
   product.values.assign(coefficientCount(product.domain, product.degrees), 0.0);
   addProduct(1.0, a, b, product);
   return product;
@@ -107,7 +278,7 @@ std::vector<double> squareField(Domain domain, const Degrees& degrees, int width
   const std::vector<double>& control, const std::vector<double>& weights, Coefficient* result)
 {
   const ScaledPolynomial weight = scaled(domain, degrees, weights);
-  ScaledPolynomial square{ domain, sumOf(degrees, degrees), {} };
+  ScaledPolynomial square{ domain, addedDegrees(degrees, degrees), {} };
   square.values.assign(coefficientCount(domain, square.degrees), 0.0);
   for (int c = 0; c < width; ++c)
   {

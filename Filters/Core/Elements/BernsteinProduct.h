@@ -2,6 +2,9 @@
 
 #include "Elements/Bernstein.h"
 
+#include <utility>
+#include <vector>
+
 namespace hop
 {
 
@@ -33,6 +36,27 @@ ScaledPolynomial operator*(const ScaledPolynomial& a, const ScaledPolynomial& b)
 /// \pre `sum` has the degrees of the product
 void addProduct(
   double factor, const ScaledPolynomial& a, const ScaledPolynomial& b, ScaledPolynomial& sum);
+
+/// The same polynomial with higher degrees.
+/// \pre no degree is lower than the polynomial's
+ScaledPolynomial elevated(const ScaledPolynomial& polynomial, const Degrees& degrees);
+
+/// The same polynomial with the lowest degrees that hold it.
+/// \param tolerance largest change of a Bernstein coefficient
+ScaledPolynomial lowered(ScaledPolynomial polynomial, double tolerance);
+
+/// The derivative along an axis: its degree is one less in the simplex in which the axis runs. Zero, of degree 0 there,
+/// if that degree is 0.
+/// \param axis 0, 1 or 2
+ScaledPolynomial derivative(const ScaledPolynomial& polynomial, int axis);
+
+/// The sum of factors times polynomials, with the lowest degrees that all of them have room in. Polynomials that are
+/// zero throughout are left out; of these alone the sum is zero, of degree 0.
+/// \pre all live on one domain; there is one term at least
+ScaledPolynomial sumOf(const std::vector<std::pair<double, const ScaledPolynomial*>>& terms);
+
+/// Whether all coefficients are exactly zero.
+bool isZero(const ScaledPolynomial& polynomial);
 
 /// The element whose field is the squared magnitude of a vector field: twice the degrees, with the
 /// geometry elevated to them.

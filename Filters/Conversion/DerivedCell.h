@@ -1,0 +1,19 @@
+#pragma once
+
+#include "Elements/DerivedField.h"
+#include "Elements/JacobianTest.h"
+
+namespace hop
+{
+
+/// A cell with a derived field, before the unit of the run is known.
+struct DerivedCell
+{
+  JacobianSign sign = JacobianSign::NotFinite;
+  /// Its coordinates are in the unit of the run. Empty where the sign is no reason to keep the cell.
+  DerivedElement element;
+  /// The field times 2^exponent is the quantity, or its square where that is derived.
+  int exponent = 0;
+};
+
+} // namespace hop

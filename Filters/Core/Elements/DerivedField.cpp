@@ -1,0 +1,521 @@
+#include "Elements/DerivedField.h"
+
+#include <glm/glm.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+namespace hop
+{
+
+namespace
+{
+
+/// How much of a number counts as rounding.
+struct RoundingShare
+{
+  /// Of the largest Jacobian entry, of a determinant: sums of some ten products each. Smaller: the degrees of straight
+  /// cells stay as high as those of curved ones; larger: slightly curved cells count as straight.
+  static constexpr double Map = 1e-13;
+  /// Of the largest coefficient: what the determinant leaves in a face where it vanishes. Chosen between rounding, some
+  /// 1e-15, and the least value that a determinant has in cells that are not collapsed.
+  static constexpr double CollapsedFace = 1e-11;
+  /// Of the products of the largest derivatives.
+  static constexpr double Field = 1e-13;
+};
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Range sum(const Range& a, const Range& b)
+{
+  return { a.lower + b.lower, a.upper + b.upper };
+}
+
+Range scaledBy(double factor, const Range& a)
+{
+  return factor >= 0.0 ? Range{ factor * a.lower, factor * a.upper }
+                       : Range{ factor * a.upper, factor * a.lower };
+}
+
+Range product(const Range& a, const Range& b)
+{
+  const auto [lower, upper] = std::minmax(
+    { a.lower * b.lower, a.lower * b.upper, a.upper * b.lower, a.upper * b.upper });
+  return { lower, upper };
+}
+
+Range square(const Range& a)
+{
+  const double largest = a.magnitude() * a.magnitude();
+  if (a.lower <= 0.0 && a.upper >= 0.0)
+  {
+    return { 0.0, largest };
+  }
+  const double least = std::min(std::abs(a.lower), std::abs(a.upper));
+  return { least * least, largest };
+}
+
+/// Of the Bernstein coefficients, and so of all values.
+Range hullOf(const ScaledPolynomial& polynomial)
+{
+  const std::vector<double> coefficients = unscaled(polynomial);
+  const auto [lower, upper] = std::minmax_element(coefficients.begin(), coefficients.end());
+  return { *lower, *upper };
+}
+
+double meanOf(const ScaledPolynomial& polynomial)
+{
+  double sum = 0.0;
+  for (const double coefficient : unscaled(polynomial))
+  {
+    sum += coefficient;
+  }
+  return sum / static_cast<double>(polynomial.values.size());
+}
+
+ScaledPolynomial constant(Domain domain, double value)
+{
+  return { domain, { 0, 0, 0 }, { value } };
+}
+
+/// `width` components that stand beside each other, as polynomials.
+std::vector<ScaledPolynomial> componentsOf(const SourceElement& source)
+{
+  std::vector<ScaledPolynomial> components;
+  for (int c = 0; c < source.width; ++c)
+  {
+    std::vector<double> values;
+    for (std::size_t i = c; i < source.control.size(); i += source.width)
+    {
+      values.push_back(source.control[i]);
+    }
+    components.push_back(scaled(source.domain, source.degrees, std::move(values)));
+  }
+  return components;
+}
+
+ScaledPolynomial weightOf(const SourceElement& source)
+{
+  return source.isRational ? scaled(source.domain, source.degrees, source.weights)
+                           : constant(source.domain, 1.0);
+}
+
+/// w p' - p w'; the derivative p' where the weight is constant.
+ScaledPolynomial homogeneousDerivative(
+  const ScaledPolynomial& p, const ScaledPolynomial& weight, int axis)
+{
+  if (weight.values.size() == 1)
+  {
+    return derivative(p, axis);
+  }
+  const ScaledPolynomial plus = weight * derivative(p, axis);
+  const ScaledPolynomial minus = p * derivative(weight, axis);
+  return sumOf({ { 1.0, &plus }, { -1.0, &minus } });
+}
+
+/// factor_0 p_0 + factor_1 p_1 + factor_2 p_2.
+ScaledPolynomial combined(const glm::dvec3& factors, const std::vector<ScaledPolynomial>& p)
+{
+  return sumOf({ { factors[0], &p[0] }, { factors[1], &p[1] }, { factors[2], &p[2] } });
+}
+
+ScaledPolynomial sumOfProducts(
+  const std::vector<std::tuple<double, const ScaledPolynomial*, const ScaledPolynomial*>>& terms)
+{
+  std::vector<ScaledPolynomial> products;
+  products.reserve(terms.size());
+  std::vector<std::pair<double, const ScaledPolynomial*>> sum;
+  for (const auto& [factor, a, b] : terms)
+  {
+    products.push_back(
+      isZero(*a) || isZero(*b) ? constant(a->domain, 0.0) : *a * *b);
+    sum.emplace_back(factor, &products.back());
+  }
+  return sumOf(sum);
+}
+
+/// A face of a hexahedron or wedge across a line of its domain, where the line's coordinate is 0 or 1.
+struct LineEnd
+{
+  int axis = 0;
+  bool isTop = false;
+
+  bool holds(const LatticePoint& point, const Degrees& degrees) const
+  {
+    const std::array<int, 3> index{ point.i, point.j, point.k };
+    return index[this->axis] == (this->isTop ? degrees[this->axis] : 0);
+  }
+};
+
+/// Whether a polynomial is zero in a face, to rounding.
+bool vanishesAt(const ScaledPolynomial& polynomial, const LineEnd& end)
+{
+  if (polynomial.degrees[end.axis] == 0)
+  {
+    return isZero(polynomial);
+  }
+  const std::vector<double> coefficients = unscaled(polynomial);
+  double largest = 0.0;
+  double there = 0.0;
+  std::size_t n = 0;
+  for (const LatticePoint& point : latticePoints(polynomial.domain, polynomial.degrees))
+  {
+    const double size = std::abs(coefficients[n++]);
+    largest = std::max(largest, size);
+    there = std::max(there, end.holds(point, polynomial.degrees) ? size : 0.0);
+  }
+  return there <= RoundingShare::CollapsedFace * largest;
+}
+
+/// The quotient of a polynomial that vanishes in a face and the line's coordinate, or 1 less it.
+ScaledPolynomial withoutFactor(const ScaledPolynomial& polynomial, const LineEnd& end)
+{
+  if (polynomial.degrees[end.axis] == 0)
+  {
+    return polynomial; // zero
+  }
+  ScaledPolynomial result{ polynomial.domain, polynomial.degrees, {} };
+  --result.degrees[end.axis];
+  std::size_t n = 0;
+  for (const LatticePoint& point : latticePoints(polynomial.domain, polynomial.degrees))
+  {
+    if (!end.holds(point, polynomial.degrees))
+    {
+      result.values.push_back(polynomial.values[n]);
+    }
+    ++n;
+  }
+  return result;
+}
+
+/// Takes common factors out of a numerator and a denominator: where a face is collapsed, as in a pyramid's apex, both
+/// vanish although their quotient is finite.
+void cancelCollapsedFaces(ScaledPolynomial& numerator, ScaledPolynomial& denominator)
+{
+  for (const SimplexFactor& factor : facts(numerator.domain).factors)
+  {
+    for (int end = 0; end < 2 && factor.dimension == 1; ++end)
+    {
+      const LineEnd face{ factor.axis, end == 1 };
+      while (denominator.degrees[face.axis] > 0 && vanishesAt(denominator, face) &&
+        vanishesAt(numerator, face))
+      {
+        numerator = withoutFactor(numerator, face);
+        denominator = withoutFactor(denominator, face);
+      }
+    }
+  }
+}
+
+} // namespace
+
+Derivation::Derivation(const SourceElement& source, Quantity quantity)
+  : Source(source)
+  , ItsQuantity(quantity)
+  , Components(source.width - 3)
+  , Weight(weightOf(source))
+{
+  const std::vector<ScaledPolynomial> components = componentsOf(source);
+  Columns world;
+  glm::dmat3 mean(1.0);
+  for (int k = 0; k < 3; ++k)
+  {
+    for (int c = 0; c < source.width; ++c)
+    {
+      std::vector<ScaledPolynomial>& column = c < 3 ? world[k] : this->Field[k];
+      column.push_back(homogeneousDerivative(components[c], this->Weight, k));
+    }
+    for (int c = 0; c < 3; ++c)
+    {
+      mean[k][c] = meanOf(world[k][c]);
+    }
+  }
+  this->Inverse = glm::inverse(mean);
+  for (int c = 0; c < 3; ++c)
+  {
+    const glm::dvec3 row(this->Inverse[0][c], this->Inverse[1][c], this->Inverse[2][c]);
+    const glm::dvec3 sizes = glm::abs(row);
+    const int degree = *std::max_element(source.degrees.begin(), source.degrees.end());
+    const double error = 4.0 * degree * (sizes.x + sizes.y + sizes.z) * source.coordinateError;
+    for (int k = 0; k < 3; ++k)
+    {
+      this->Map[k].push_back(
+        lowered(combined(row, world[k]), std::max(RoundingShare::Map, error)));
+    }
+  }
+}
+
+/// Of the gradient with respect to world coordinates, three entries a component.
+std::vector<std::array<Range, 3>> Derivation::gradientRanges() const
+{
+  // J = I + E: (I + E)^-1 differs from I by |E| / (1 - |E|) at most.
+  double size2 = 0.0;
+  for (int k = 0; k < 3; ++k)
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      const double entry = sum(hullOf(this->Map[k][c]), { -double(k == c), -double(k == c) }).magnitude();
+      size2 += entry * entry;
+    }
+  }
+  const double size = std::sqrt(size2);
+  const double deviation = size < 1.0 ? size / (1.0 - size) : infinity;
+  std::vector<std::array<Range, 3>> ranges(this->Components);
+  for (int i = 0; i < this->Components; ++i)
+  {
+    std::array<Range, 3> row;
+    double length2 = 0.0;
+    for (int k = 0; k < 3; ++k)
+    {
+      row[k] = hullOf(this->Field[k][i]);
+      length2 += row[k].magnitude() * row[k].magnitude();
+    }
+    const double radius = length2 > 0.0 ? deviation * std::sqrt(length2) : 0.0;
+    for (int j = 0; j < 3; ++j)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        const Range entry = sum(row[k], { -radius, radius });
+        const double factor = this->Inverse[j][k];
+        ranges[i][j] = factor == 0.0 ? ranges[i][j] : sum(ranges[i][j], scaledBy(factor, entry));
+      }
+    }
+  }
+  return ranges;
+}
+
+Range Derivation::bounds() const
+{
+  const std::vector<std::array<Range, 3>> g = this->gradientRanges();
+  Range result;
+  const auto add = [&](double factor, const Range& term)
+  { result = sum(result, scaledBy(factor, term)); };
+  for (int i = 0; i < this->Components; ++i)
+  {
+    const int j = (i + 1) % 3;
+    switch (this->ItsQuantity)
+    {
+      case Quantity::Value:
+        break;
+      case Quantity::GradientMagnitude:
+        for (const Range& entry : g[i])
+        {
+          add(1.0, square(entry));
+        }
+        break;
+      case Quantity::Divergence:
+        add(1.0, g[i][i]);
+        break;
+      case Quantity::VorticityMagnitude:
+        add(1.0, square(sum(g[i][j], scaledBy(-1.0, g[j][i]))));
+        break;
+      case Quantity::QCriterion:
+        add(-0.5, square(g[i][i]));
+        add(-1.0, product(g[i][j], g[j][i]));
+        break;
+    }
+  }
+  const double slack = this->rounding();
+  result = sum(result, { -slack, slack });
+  const bool isKnown = result.lower > -infinity && result.upper < infinity; // NaN is not
+  return isKnown ? result : Range{ -infinity, infinity };
+}
+
+double Derivation::rounding() const
+{
+  double largest = 0.0;
+  for (int i = 0; i < this->Components; ++i)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const double derivative = hullOf(this->Field[k][i]).magnitude();
+      for (int j = 0; j < 3; ++j)
+      {
+        largest += derivative * std::abs(this->Inverse[j][k]);
+      }
+    }
+  }
+  return RoundingShare::Field * (orderOf(this->ItsQuantity) == 1 ? largest : largest * largest);
+}
+
+/// adj(Y') Inverse: entry [k][j] takes a derivative along coordinate k to one along world axis j, times the determinant
+/// of Y'.
+Derivation::Columns Derivation::adjugate() const
+{
+  Columns result;
+  for (int k = 0; k < 3; ++k)
+  {
+    const std::vector<ScaledPolynomial>& a = this->Map[(k + 1) % 3];
+    const std::vector<ScaledPolynomial>& b = this->Map[(k + 2) % 3];
+    std::vector<ScaledPolynomial> cross;
+    for (int c = 0; c < 3; ++c)
+    {
+      const int d = (c + 1) % 3;
+      const int e = (c + 2) % 3;
+      cross.push_back(sumOfProducts({ { 1.0, &a[d], &b[e] }, { -1.0, &a[e], &b[d] } }));
+    }
+    result[k] = std::move(cross);
+  }
+  return result;
+}
+
+/// The entries of G det(Y').
+std::vector<std::array<ScaledPolynomial, 3>> Derivation::gradientNumerators(
+  const Columns& adjugate) const
+{
+  std::vector<std::array<ScaledPolynomial, 3>> gradient(this->Components);
+  for (int j = 0; j < 3; ++j)
+  {
+    Columns toWorld;
+    for (int k = 0; k < 3; ++k)
+    {
+      toWorld[k].push_back(combined(this->Inverse[j], adjugate[k]));
+    }
+    for (int i = 0; i < this->Components; ++i)
+    {
+      gradient[i][j] = sumOfProducts({ { 1.0, &this->Field[0][i], &toWorld[0][0] },
+        { 1.0, &this->Field[1][i], &toWorld[1][0] }, { 1.0, &this->Field[2][i], &toWorld[2][0] } });
+    }
+  }
+  return gradient;
+}
+
+/// The quantity, or its square, times the determinant to the power of orderOf().
+ScaledPolynomial Derivation::numerator(
+  const std::vector<std::array<ScaledPolynomial, 3>>& gradient) const
+{
+  std::vector<ScaledPolynomial> curl;
+  std::vector<std::tuple<double, const ScaledPolynomial*, const ScaledPolynomial*>> terms;
+  curl.reserve(3);
+  for (int i = 0; i < this->Components; ++i)
+  {
+    const int j = (i + 1) % 3;
+    switch (this->ItsQuantity)
+    {
+      case Quantity::Value:
+        break;
+      case Quantity::Divergence:
+        return sumOf({ { 1.0, &gradient[0][0] }, { 1.0, &gradient[1][1] }, { 1.0, &gradient[2][2] } });
+      case Quantity::GradientMagnitude:
+        for (const ScaledPolynomial& entry : gradient[i])
+        {
+          terms.emplace_back(1.0, &entry, &entry);
+        }
+        break;
+      case Quantity::VorticityMagnitude:
+        curl.push_back(sumOf({ { 1.0, &gradient[i][j] }, { -1.0, &gradient[j][i] } }));
+        terms.emplace_back(1.0, &curl.back(), &curl.back());
+        break;
+      case Quantity::QCriterion:
+        terms.emplace_back(-0.5, &gradient[i][i], &gradient[i][i]);
+        terms.emplace_back(-1.0, &gradient[i][j], &gradient[j][i]);
+        break;
+    }
+  }
+  return sumOfProducts(terms);
+}
+
+/// Bounds on the degrees of element(), from those of the factors.
+Degrees Derivation::degreesAtMost() const
+{
+  const int order = orderOf(this->ItsQuantity);
+  Degrees result{ 0, 0, 0 };
+  for (int a = 0; a < 3; ++a)
+  {
+    std::array<int, 3> map{ 0, 0, 0 };
+    std::array<int, 3> field{ 0, 0, 0 };
+    for (int k = 0; k < 3; ++k)
+    {
+      for (const ScaledPolynomial& entry : this->Map[k])
+      {
+        map[k] = std::max(map[k], entry.degrees[a]);
+      }
+      for (const ScaledPolynomial& entry : this->Field[k])
+      {
+        field[k] = std::max(field[k], entry.degrees[a]);
+      }
+    }
+    const int determinant = map[0] + map[1] + map[2];
+    int gradient = 0;
+    for (int k = 0; k < 3; ++k)
+    {
+      gradient = std::max(gradient, field[k] + determinant - map[k]);
+    }
+    const int weight = this->Weight.degrees[a];
+    result[a] =
+      std::max(order * gradient + weight, order * determinant + this->Source.degrees[a]);
+  }
+  return result;
+}
+
+DerivedElement Derivation::element() const
+{
+  const Degrees most = this->degreesAtMost();
+  if (*std::max_element(most.begin(), most.end()) > MaximumDegree)
+  {
+    DerivedElement none;
+    none.state = DerivedElement::State::DegreeTooHigh;
+    return none;
+  }
+  const Columns adjugate = this->adjugate();
+  ScaledPolynomial denominator = lowered(
+    sumOfProducts({ { 1.0, &this->Map[0][0], &adjugate[0][0] },
+      { 1.0, &this->Map[0][1], &adjugate[0][1] }, { 1.0, &this->Map[0][2], &adjugate[0][2] } }),
+    RoundingShare::Map);
+  ScaledPolynomial numerator = this->numerator(this->gradientNumerators(adjugate));
+  if (orderOf(this->ItsQuantity) == 2)
+  {
+    denominator = denominator * denominator;
+  }
+  cancelCollapsedFaces(numerator, denominator);
+  return this->assemble(numerator, denominator);
+}
+
+DerivedElement Derivation::assemble(
+  const ScaledPolynomial& numerator, const ScaledPolynomial& denominator) const
+{
+  // One of the denominators' powers: a constant one is divided by here, so that the field is a polynomial.
+  const bool isPolynomial = denominator.values.size() == 1 && !this->Source.isRational;
+  const double divisor = isPolynomial ? denominator.values[0] : 1.0;
+  const Domain domain = this->Source.domain;
+  const ScaledPolynomial unit = constant(domain, 1.0);
+  const ScaledPolynomial& factor = isPolynomial ? unit : denominator;
+  const std::vector<ScaledPolynomial> components = componentsOf(this->Source);
+  std::array<ScaledPolynomial, 5> parts{ factor * components[0], factor * components[1],
+    factor * components[2], numerator * this->Weight, factor * this->Weight };
+  DerivedElement result;
+  for (const ScaledPolynomial& part : parts)
+  {
+    for (int a = 0; a < 3; ++a)
+    {
+      result.degrees[a] = std::max(result.degrees[a], part.degrees[a]);
+    }
+  }
+  std::array<std::vector<double>, 5> rows;
+  for (int r = 0; r < 5; ++r)
+  {
+    rows[r] = unscaled(elevated(parts[r], result.degrees));
+  }
+  // Control points are quotients by the weights: where one of these is no larger than rounding they mean nothing.
+  const double leastWeight =
+    RoundingShare::CollapsedFace * *std::max_element(rows[4].begin(), rows[4].end());
+  if (!(*std::min_element(rows[4].begin(), rows[4].end()) > leastWeight) || !(divisor > 0.0))
+  {
+    return result;
+  }
+  result.state = DerivedElement::State::Sound;
+  for (std::size_t i = 0; i < rows[0].size(); ++i)
+  {
+    result.coefficients.emplace_back(rows[0][i], rows[1][i], rows[2][i], rows[3][i] / divisor);
+  }
+  if (!isPolynomial)
+  {
+    result.weights = std::move(rows[4]);
+  }
+  return result;
+}
+
+} // namespace hop

@@ -1,0 +1,98 @@
+#pragma once
+
+#include "Elements/BernsteinProduct.h"
+#include "Elements/Quantity.h"
+
+#include <array>
+#include <vector>
+
+namespace hop
+{
+
+/// An element whose field has components, from whose derivatives another field is made.
+struct SourceElement
+{
+  Domain domain = Domain::Hexahedron;
+  Degrees degrees{ 1, 1, 1 };
+  /// 3 + number of the field's components.
+  int width = 4;
+  /// coefficientCount x width values: (x, y, z, u...), homogeneous if rational.
+  const std::vector<double>& control;
+  /// coefficientCount weights; not read unless the element is rational.
+  const std::vector<double>& weights;
+  bool isRational = false;
+  /// Largest error of the coordinates, in their unit. A Jacobian that is of lower degree up to this error is taken to be
+  /// of lower degree: cells with straight edges keep small polynomials although their nodes are rounded.
+  double coordinateError = 0.0;
+};
+
+/// An element with the derived field in the place of f.
+struct DerivedElement
+{
+  enum class State
+  {
+    Sound,
+    /// Its degree would be above MaximumDegree; there are no coefficients.
+    DegreeTooHigh,
+    /// The determinant is not proven to be positive, so that the field may be infinite; there are no coefficients.
+    Singular
+  };
+
+  State state = State::Singular;
+  Degrees degrees{ 0, 0, 0 };
+  /// In the order of coefficientIndex; homogeneous where there are weights.
+  std::vector<Coefficient> coefficients;
+  /// Empty where the field is a polynomial.
+  std::vector<double> weights;
+};
+
+/// Derives a field from the field of one element.
+///
+/// With x = X/w and u = U/w, and the columns X'_k = w dX/du_k - X dw/du_k (dX/du_k where w = 1), the gradient is
+/// G = U' adj(X') / det(X'). So every quantity, or its square, is a quotient N/D of polynomials with D = det(X') or
+/// its square: a rational field, on the rational element (w D x, w N, w D), which all other rooms take as it is. On
+/// affine maps D is constant, and the field a polynomial. Products are taken in Bernstein form, so that no accuracy is
+/// lost at high degrees. Derivation: Documentation/algorithm.md, section Derived fields.
+class Derivation
+{
+public:
+  /// \param quantity not Value
+  /// \pre the mean of the Jacobian is not singular: its determinant is not zero everywhere, nor does it change its sign
+  Derivation(const SourceElement& source, Quantity quantity);
+
+  /// Bounds of the quantity, or of its square where that is derived, from the hulls of first derivatives alone: much
+  /// cheaper than element().
+  Range bounds() const;
+
+  /// Values that differ less cannot be told apart: a small multiple of what rounding makes of sums and products of the
+  /// largest derivatives.
+  double rounding() const;
+
+  /// \return its field is the quantity, or its square
+  DerivedElement element() const;
+
+private:
+  using Columns = std::array<std::vector<ScaledPolynomial>, 3>;
+
+  std::vector<std::array<Range, 3>> gradientRanges() const;
+  Columns adjugate() const;
+  std::vector<std::array<ScaledPolynomial, 3>> gradientNumerators(const Columns& adjugate) const;
+  ScaledPolynomial numerator(const std::vector<std::array<ScaledPolynomial, 3>>& gradient) const;
+  Degrees degreesAtMost() const;
+  DerivedElement assemble(const ScaledPolynomial& numerator, const ScaledPolynomial& denominator) const;
+
+  SourceElement Source;
+  Quantity ItsQuantity;
+  int Components;
+  /// The inverse of the mean Jacobian. Derivatives are taken of y = Inverse x, whose Jacobian is about the identity:
+  /// thin and stretched elements lose no accuracy.
+  glm::dmat3 Inverse{ 1.0 };
+  /// w; the constant 1 where the element is not rational.
+  ScaledPolynomial Weight;
+  /// Y'_k: three components for each coordinate.
+  Columns Map;
+  /// U'_k.
+  Columns Field;
+};
+
+} // namespace hop

@@ -1,0 +1,85 @@
+#include "DerivedSamples.h"
+
+#include "vtkCell.h"
+#include "vtkDataArray.h"
+#include "vtkDataSet.h"
+#include "vtkGenericCell.h"
+#include "vtkHighOrderParticleIsosurface.h"
+#include "vtkNew.h"
+
+#include <cmath>
+
+namespace hop
+{
+
+namespace
+{
+
+/// \param g rows of three derivatives, one a component
+double valueOf(int quantity, const std::vector<double>& g)
+{
+  double sum = 0.0;
+  switch (quantity)
+  {
+    case vtkHighOrderParticleIsosurface::DIVERGENCE:
+      return g[0] + g[4] + g[8];
+    case vtkHighOrderParticleIsosurface::VORTICITY_MAGNITUDE:
+      return std::hypot(g[7] - g[5], g[2] - g[6], g[3] - g[1]);
+    case vtkHighOrderParticleIsosurface::Q_CRITERION:
+      return -0.5 * (g[0] * g[0] + g[4] * g[4] + g[8] * g[8]) - g[1] * g[3] - g[2] * g[6] -
+        g[5] * g[7];
+    default:
+      for (const double derivative : g)
+      {
+        sum = std::hypot(sum, derivative);
+      }
+      return sum;
+  }
+}
+
+} // namespace
+
+std::vector<double> sampleDerived(
+  vtkDataSet* data, vtkDataArray* array, int component, int quantity, long long step)
+{
+  const int all = array->GetNumberOfComponents();
+  const bool isGradient = quantity == vtkHighOrderParticleIsosurface::GRADIENT_MAGNITUDE;
+  std::vector<double> values;
+  if (!isGradient && all != 3)
+  {
+    return values;
+  }
+  const bool isOne = isGradient && (all == 1 || component < all);
+  const int first = isOne && all > 1 ? component : 0;
+  const int count = isOne ? 1 : all;
+  vtkNew<vtkGenericCell> cell;
+  std::vector<double> nodal;
+  std::vector<double> gradient(3 * static_cast<std::size_t>(count));
+  for (vtkIdType c = 0; c < data->GetNumberOfCells(); c += step)
+  {
+    data->GetCell(c, cell);
+    if (cell->GetCellDimension() != 3)
+    {
+      continue;
+    }
+    nodal.clear();
+    for (vtkIdType n = 0; n < cell->GetNumberOfPoints(); ++n)
+    {
+      for (int i = first; i < first + count; ++i)
+      {
+        nodal.push_back(array->GetComponent(cell->GetPointId(static_cast<int>(n)), i));
+      }
+    }
+    double middle[3];
+    const int sub = cell->GetParametricCenter(middle);
+    cell->Derivatives(sub, middle, nodal.data(), count, gradient.data());
+    const double value = valueOf(quantity, gradient);
+    if (std::isfinite(value))
+    {
+      values.push_back(value);
+    }
+  }
+  return values;
+}
+
+} // namespace hop

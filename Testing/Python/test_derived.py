@@ -1,0 +1,213 @@
+"""Isosurfaces of fields made of derivatives: the property Quantity."""
+
+import cells
+import numpy as np
+import pytest
+import support
+from paraview import simple
+from vtkmodules.vtkCommonCore import vtkSMPTools
+
+FLOW = "ngsolve_cylinder_ns_tet_p3.vtu"
+QUANTITIES = ["Gradient Magnitude", "Divergence", "Vorticity Magnitude", "Q Criterion"]
+
+
+def derived(quantity, g):
+    """The quantity from gradients: g[n, i, j] = du_i/dx_j."""
+    curl = np.stack([g[:, 2, 1] - g[:, 1, 2], g[:, 0, 2] - g[:, 2, 0], g[:, 1, 0] - g[:, 0, 1]], axis=1)
+    return {
+        "Gradient Magnitude": lambda: np.linalg.norm(g.reshape(len(g), -1), axis=1),
+        "Divergence": lambda: np.trace(g, axis1=1, axis2=2),
+        "Vorticity Magnitude": lambda: np.linalg.norm(curl, axis=1),
+        "Q Criterion": lambda: -0.5 * np.einsum("nij,nji->n", g, g),
+    }[quantity]()
+
+
+def gradients_at(grid, name, ids, parametric):
+    """Gradients of a vector by VTK's own cells."""
+    field = support.array_of(grid, name).astype(float)
+    result = np.zeros((len(ids), 3, 3))
+    for id in np.unique(ids):
+        cell = grid.GetCell(id)
+        nodal = np.ascontiguousarray(field[cells.point_ids(cell)]).ravel()
+        for i in np.flatnonzero(ids == id):
+            gradient = np.zeros(9)
+            cell.Derivatives(0, parametric[i], nodal, 3, gradient)
+            result[i] = gradient.reshape(3, 3)
+    return result
+
+
+def in_cells(grid, name, quantity):
+    """Values of the quantity in the middles of cells."""
+    ids = np.arange(grid.GetNumberOfCells())
+    middles = np.zeros((len(ids), 3))
+    for id in ids:
+        grid.GetCell(id).GetParametricCenter(middles[id])
+    return derived(quantity, gradients_at(grid, name, ids, middles))
+
+
+def at_particles(grid, name, quantity, particles):
+    ids = support.array_of(particles, "vtkOriginalCellIds")
+    return derived(quantity, gradients_at(grid, name, ids, support.array_of(particles, "ParametricCoordinates")))
+
+
+# Particles lie where VTK's own cells say that the quantity has the isovalue.
+
+
+@pytest.mark.parametrize("quantity", QUANTITIES)
+def test_agrees_with_vtk_on_a_flow(quantity, data):
+    reader = support.read(data(FLOW))
+    grid = support.output_of(reader)
+    values = in_cells(grid, "velocity", quantity)
+    isovalue = np.quantile(values, 0.8)
+    particles, messages = support.run(reader, "velocity", isovalue, Quantity=quantity)
+    assert messages.errors == []
+    assert particles.GetNumberOfPoints() > 1000
+    error = np.abs(at_particles(grid, "velocity", quantity, particles) - isovalue)
+    assert error.max() < 1e-6 * np.quantile(np.abs(values), 0.95)
+
+
+def bent_grid(name):
+    """Cells of order 4 whose map is quadratic, so that they hold polynomials of degree 2 of the world's coordinates
+    exactly; the cube [-1, 1]^3, bent."""
+    grid = cells.straight_grid(name, order=4, blocks=2)
+    points = support.points_of(grid)
+    lower, upper = support.bounds_of(grid)
+    straight = 2.0 * (points - lower) / (upper - lower) - 1.0
+    cells.set_points(grid, straight + 0.1 * straight[:, [1, 2, 0]] ** 2)
+    return grid
+
+
+# Of these vectors each quantity is a function of the distance from the origin.
+def vector_for(quantity, x):
+    if quantity == "Vorticity Magnitude":
+        return 0.5 * x[:, [2, 0, 1]] ** 2  # curl (y, z, x)
+    return 0.5 * x**2  # gradient diag(x, y, z)
+
+
+def isovalue_for(quantity, radius):
+    return {"Q Criterion": -0.5 * radius**2}.get(quantity, radius)
+
+
+@pytest.mark.parametrize("quantity", ["Gradient Magnitude", "Vorticity Magnitude", "Q Criterion"])
+@pytest.mark.parametrize("name", ["LAGRANGE_TETRAHEDRON", "LAGRANGE_HEXAHEDRON", "LAGRANGE_WEDGE"])
+def test_finds_a_sphere_on_curved_cells(name, quantity):
+    grid = bent_grid(name)
+    support.add_point_array(grid, "u", vector_for(quantity, support.points_of(grid)))
+    radius = 0.6
+    isovalue = isovalue_for(quantity, radius)
+    particles = support.run_quietly(grid, "u", isovalue, Quantity=quantity, Spacing=0.1)
+    distances = np.linalg.norm(support.points_of(particles), axis=1)
+    assert np.abs(distances - radius).max() < 1e-9
+    # Also where elements meet: derivatives of these fields do not jump.
+    area = support.array_of(particles, "Area").sum()
+    assert abs(area / (4.0 * np.pi * radius**2) - 1.0) < 0.01
+    curvature = np.abs(support.array_of(particles, "Mean_Curvature"))
+    assert np.abs(curvature * radius - 1.0).max() < 1e-5
+
+
+def test_finds_the_divergence_on_curved_cells():
+    grid = bent_grid("LAGRANGE_HEXAHEDRON")
+    x = support.points_of(grid)
+    support.add_point_array(grid, "u", 0.5 * x**2)
+    particles = support.run_quietly(grid, "u", 0.3, Quantity="Divergence", Spacing=0.1)
+    assert np.abs(support.points_of(particles).sum(axis=1) - 0.3).max() < 1e-9
+
+
+def test_takes_one_component_of_a_vector():
+    grid = bent_grid("LAGRANGE_HEXAHEDRON")
+    x = support.points_of(grid)
+    support.add_point_array(grid, "u", np.stack([x[:, 0], 0.5 * (x**2).sum(axis=1), x[:, 2]], axis=1))
+    particles = support.run_quietly(
+        grid, "u", 0.6, Quantity="Gradient Magnitude", Component="Y", Spacing=0.1
+    )
+    assert np.abs(np.linalg.norm(support.points_of(particles), axis=1) - 0.6).max() < 1e-9
+
+
+def test_units_do_not_matter():
+    """Tiny lengths and huge values: the same particles in other units."""
+    def run(length, value):
+        grid = bent_grid("LAGRANGE_HEXAHEDRON")
+        x = support.points_of(grid)
+        support.add_point_array(grid, "u", value * vector_for("Q Criterion", x))
+        cells.set_points(grid, length * x)
+        isovalue = isovalue_for("Q Criterion", 0.6) * (value / length) ** 2
+        particles = support.run_quietly(grid, "u", isovalue, Quantity="Q Criterion", Spacing=0.1 * length)
+        return support.points_of(particles) / length
+
+    small, usual = run(2.0**-30, 2.0**60), run(1.0, 1.0)
+    assert np.array_equal(small, usual)
+
+
+def test_pyramids_have_finite_derivatives_in_their_apex():
+    grid = cells.bend(cells.straight_grid("QUADRATIC_PYRAMID", blocks=2), 0.02)
+    support.add_point_array(grid, "u", vector_for("Gradient Magnitude", support.points_of(grid)))
+    values = in_cells(grid, "u", "Gradient Magnitude")
+    isovalue = np.quantile(values, 0.5)
+    particles, messages = support.run(grid, "u", isovalue, Quantity="Gradient Magnitude")
+    assert messages.errors == []
+    assert particles.GetNumberOfPoints() > 100
+    for name in ("Normals", "Mean_Curvature", "Residual"):
+        assert np.isfinite(support.array_of(particles, name)).all()
+
+
+# What cannot be done is said.
+
+
+def test_a_scalar_has_no_q_criterion(data):
+    reader = support.read(data(FLOW))
+    particles, messages = support.run(reader, "pressure", 1.0, Quantity="Q Criterion")
+    assert particles.GetNumberOfPoints() == 0
+    assert any("three components" in text for text in messages.errors)
+
+
+def test_says_that_no_cell_takes_the_value(data):
+    reader = support.read(data(FLOW))
+    particles, messages = support.run(reader, "velocity", 1e9, Quantity="Q Criterion")
+    assert particles.GetNumberOfPoints() == 0
+    assert any("Q criterion of 'velocity' does not take this value" in text for text in messages.warnings)
+
+
+def test_counts_bent_cells_of_too_high_a_degree():
+    grid = cells.bend(cells.straight_grid("LAGRANGE_HEXAHEDRON", order=7))
+    support.add_point_array(grid, "u", vector_for("Q Criterion", support.points_of(grid)))
+    particles, messages = support.run(grid, "u", -0.1, Quantity="Q Criterion")
+    assert particles.GetNumberOfPoints() == 0
+    assert any("skipped: bent cells of a degree" in text for text in messages.warnings)
+
+
+def test_constant_gradients_are_no_surface():
+    grid = cells.straight_grid("LAGRANGE_HEXAHEDRON", order=2, blocks=2)
+    support.add_point_array(grid, "u", support.points_of(grid))
+    particles, messages = support.run(grid, "u", 3.0, Quantity="Divergence")
+    assert particles.GetNumberOfPoints() == 0
+    assert any("the field is the isovalue throughout" in text for text in messages.warnings)
+
+
+# The default isovalue shows something, and follows the quantity.
+
+
+def test_default_isovalue_follows_the_quantity(data):
+    reader = support.read(data(FLOW))
+    grid = support.output_of(reader)
+    proxy = simple.HighOrderParticleIsosurface(Input=reader)
+    proxy.ContourBy = ["POINTS", "velocity"]
+    proxy.Quantity = "Q Criterion"
+    isovalue = proxy.Isosurfaces[0]
+    values = in_cells(grid, "velocity", "Q Criterion")
+    assert 0.0 < np.quantile(values, 0.93) < isovalue < np.quantile(values, 0.97)
+    assert support.output_of(proxy).GetNumberOfPoints() > 0
+    proxy.Quantity = "Vorticity Magnitude"
+    assert proxy.Isosurfaces[0] != isovalue
+    proxy.Isosurfaces = [0.123]
+    proxy.Quantity = "Divergence"
+    assert list(proxy.Isosurfaces) == [0.123]
+
+
+def test_threads_do_not_matter():
+    grid = bent_grid("LAGRANGE_WEDGE")
+    support.add_point_array(grid, "u", np.sin(3.0 * support.points_of(grid)[:, [1, 2, 0]]))
+    outputs = []
+    for threads in (1, 2):
+        vtkSMPTools.Initialize(threads)
+        outputs.append(support.contents(support.run(grid, "u", 0.2, Quantity="Q Criterion", Seed=1)[0]))
+    assert outputs[0] == outputs[1]
