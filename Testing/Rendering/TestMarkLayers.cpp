@@ -58,3 +58,40 @@ TEST(MarkLayers, MarksNothingWhereTheSurfaceGoesOn)
   EXPECT_FALSE(Particles(0.03, 0.).HasLayers);
   EXPECT_FALSE(Particles(0., 4.).HasLayers); // the normal turns by 0.4 from particle to particle
 }
+
+// Two sheets, the upper one a few columns longer: nothing ends above the middle of the overlap. The distance is in radii.
+TEST(MarkLayers, MarksSheetsThatLieOverEachOther)
+{
+  for (const double height : { 0.3, 0.8 })
+  {
+    hop::SplatParticles particles;
+    particles.ClipStride = 12;
+    for (int sheet = 0; sheet < 2; ++sheet)
+    {
+      for (int column = 0; column < 12 - 4 * sheet; ++column)
+      {
+        const double x = Radius * (column + 0.3 * sheet);
+        particles.CentreRadius.insert(
+          particles.CentreRadius.end(), { float(x), 0.f, float(sheet * height * Radius), Radius });
+        particles.Normal.insert(particles.Normal.end(), { 0.f, 0.f, 1.f, 2.f });
+        particles.Clip.insert(particles.Clip.end(), 12, 0.f);
+        particles.PointIds.push_back(static_cast<vtkIdType>(particles.PointIds.size()));
+      }
+    }
+    hop::SplatParticles apart = particles;
+    hop::MarkLayers(particles);
+    EXPECT_TRUE(particles.HasLayers);
+    for (int column = 0; column < 8; ++column)
+    {
+      EXPECT_EQ(particles.Normal[4 * column + 3], 2.5f) << height << " below at " << column;
+      EXPECT_EQ(particles.Normal[4 * (12 + column) + 3], 2.5f) << height << " above at " << column;
+    }
+    EXPECT_EQ(particles.Normal[4 * 11 + 3], 2.f);
+    for (std::size_t i = 12; i < apart.PointIds.size(); ++i)
+    {
+      apart.Normal[4 * i + 3] = 4.f; // another isovalue
+    }
+    hop::MarkLayers(apart);
+    EXPECT_FALSE(apart.HasLayers);
+  }
+}

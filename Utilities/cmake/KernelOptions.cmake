@@ -31,5 +31,6 @@ function (compile_kernels instruction_set)
     set(Avx512_options -mavx2 -mfma -mavx512f -mavx512dq -mavx512vl)
   endif ()
   set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "${options};${${instruction_set}_options}"
-    COMPILE_DEFINITIONS "$<$<NOT:$<BOOL:${HOP_GNU_VECTORS}>>:HOP_PORTABLE_VECTORS>")
+    COMPILE_DEFINITIONS "$<$<NOT:$<BOOL:${HOP_GNU_VECTORS}>>:HOP_PORTABLE_VECTORS>"
+    SKIP_PRECOMPILE_HEADERS ON) # they are for other options
 endfunction ()

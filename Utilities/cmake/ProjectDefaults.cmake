@@ -43,3 +43,12 @@ function (target_strict_warnings target)
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow $<$<BOOL:${WARNINGS_AS_ERRORS}>:-Werror>)
   endif ()
 endfunction ()
+
+# precompile_headers(TARGET HEADER...): what most files of the target include is read once, which saves a quarter of the
+# time of a build. Not with tests or a compiler launcher: clang-tidy does not read GCC's precompiled headers, and ccache
+# keeps nothing of what uses them. So it is that every file has the includes it needs.
+function (precompile_headers target)
+  if (NOT BUILD_TESTING AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+  endif ()
+endfunction ()
