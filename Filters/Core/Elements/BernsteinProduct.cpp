@@ -62,7 +62,8 @@ ScaledPolynomial one(Domain domain, const Degrees& degrees)
 
 /// A lattice point's numbers in a simplex of its domain: along its axes, then the rest up to the degree, which belongs to
 /// b = 1 - u (- v - w).
-std::vector<int> barycentric(const SimplexFactor& factor, const Degrees& degrees, const LatticePoint& point)
+std::vector<int> barycentric(
+  const SimplexFactor& factor, const Degrees& degrees, const LatticePoint& point)
 {
   const std::array<int, 3> index{ point.i, point.j, point.k };
   std::vector<int> result(index.begin() + factor.axis, index.begin() + factor.end());
@@ -75,7 +76,8 @@ LatticePoint oneMore(const SimplexFactor& factor, LatticePoint point, int number
 {
   const int axis = factor.axis + number;
   const int step = number < factor.dimension ? 1 : 0;
-  return { point.i + step * (axis == 0), point.j + step * (axis == 1), point.k + step * (axis == 2) };
+  return { point.i + step * (axis == 0), point.j + step * (axis == 1),
+    point.k + step * (axis == 2) };
 }
 
 /// The quotient of a polynomial and 1 = u (+ v + w) + b in a simplex of its domain: of one degree less there. What the
@@ -215,8 +217,8 @@ ScaledPolynomial derivative(const ScaledPolynomial& polynomial, int axis)
 
 bool isZero(const ScaledPolynomial& polynomial)
 {
-  return std::all_of(polynomial.values.begin(), polynomial.values.end(),
-    [](double value) { return value == 0.0; });
+  return std::all_of(
+    polynomial.values.begin(), polynomial.values.end(), [](double value) { return value == 0.0; });
 }
 
 ScaledPolynomial sumOf(const std::vector<std::pair<double, const ScaledPolynomial*>>& terms)
@@ -237,7 +239,8 @@ ScaledPolynomial sumOf(const std::vector<std::pair<double, const ScaledPolynomia
     {
       const Degrees& have = term->degrees;
       addProduct(factor, *term,
-        one(domain, { sum.degrees[0] - have[0], sum.degrees[1] - have[1], sum.degrees[2] - have[2] }),
+        one(
+          domain, { sum.degrees[0] - have[0], sum.degrees[1] - have[1], sum.degrees[2] - have[2] }),
         sum);
     }
   }

@@ -42,8 +42,8 @@ Range scaledBy(double factor, const Range& a)
 
 Range product(const Range& a, const Range& b)
 {
-  const auto [lower, upper] = std::minmax(
-    { a.lower * b.lower, a.lower * b.upper, a.upper * b.lower, a.upper * b.upper });
+  const auto [lower, upper] =
+    std::minmax({ a.lower * b.lower, a.lower * b.upper, a.upper * b.lower, a.upper * b.upper });
   return { lower, upper };
 }
 
@@ -130,8 +130,7 @@ ScaledPolynomial sumOfProducts(
   std::vector<std::pair<double, const ScaledPolynomial*>> sum;
   for (const auto& [factor, a, b] : terms)
   {
-    products.push_back(
-      isZero(*a) || isZero(*b) ? constant(a->domain, 0.0) : *a * *b);
+    products.push_back(isZero(*a) || isZero(*b) ? constant(a->domain, 0.0) : *a * *b);
     sum.emplace_back(factor, &products.back());
   }
   return sumOf(sum);
@@ -242,8 +241,7 @@ Derivation::Derivation(const SourceElement& source, Quantity quantity)
     const double error = 4.0 * degree * (sizes.x + sizes.y + sizes.z) * source.coordinateError;
     for (int k = 0; k < 3; ++k)
     {
-      this->Map[k].push_back(
-        lowered(combined(row, world[k]), std::max(RoundingShare::Map, error)));
+      this->Map[k].push_back(lowered(combined(row, world[k]), std::max(RoundingShare::Map, error)));
     }
   }
 }
@@ -257,7 +255,8 @@ std::vector<std::array<Range, 3>> Derivation::gradientRanges() const
   {
     for (int c = 0; c < 3; ++c)
     {
-      const double entry = sum(hullOf(this->Map[k][c]), { -double(k == c), -double(k == c) }).magnitude();
+      const double entry =
+        sum(hullOf(this->Map[k][c]), { -double(k == c), -double(k == c) }).magnitude();
       size2 += entry * entry;
     }
   }
@@ -398,7 +397,8 @@ ScaledPolynomial Derivation::numerator(
       case Quantity::Value:
         break;
       case Quantity::Divergence:
-        return sumOf({ { 1.0, &gradient[0][0] }, { 1.0, &gradient[1][1] }, { 1.0, &gradient[2][2] } });
+        return sumOf(
+          { { 1.0, &gradient[0][0] }, { 1.0, &gradient[1][1] }, { 1.0, &gradient[2][2] } });
       case Quantity::GradientMagnitude:
         for (const ScaledPolynomial& entry : gradient[i])
         {
@@ -445,8 +445,7 @@ Degrees Derivation::degreesAtMost() const
       gradient = std::max(gradient, field[k] + determinant - map[k]);
     }
     const int weight = this->Weight.degrees[a];
-    result[a] =
-      std::max(order * gradient + weight, order * determinant + this->Source.degrees[a]);
+    result[a] = std::max(order * gradient + weight, order * determinant + this->Source.degrees[a]);
   }
   return result;
 }

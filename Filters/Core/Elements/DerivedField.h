@@ -79,7 +79,8 @@ private:
   std::vector<std::array<ScaledPolynomial, 3>> gradientNumerators(const Columns& adjugate) const;
   ScaledPolynomial numerator(const std::vector<std::array<ScaledPolynomial, 3>>& gradient) const;
   Degrees degreesAtMost() const;
-  DerivedElement assemble(const ScaledPolynomial& numerator, const ScaledPolynomial& denominator) const;
+  DerivedElement assemble(
+    const ScaledPolynomial& numerator, const ScaledPolynomial& denominator) const;
 
   SourceElement Source;
   Quantity ItsQuantity;
