@@ -122,6 +122,47 @@ ScaledPolynomial dividedByOne(const ScaledPolynomial& polynomial, const SimplexF
   return result;
 }
 
+/// The nearest polynomial of one degree less along a line, still written with all coefficients. Of degree n are
+/// the coefficients whose n-th difference is zero: what is taken away is a multiple of (-1)^i C(n,i) (Lutterkort, Peters
+/// and Reif 1999, Polynomial degree reduction in the L2-norm equals best Euclidean approximation of Bezier coefficients).
+ScaledPolynomial nearestOfLowerDegree(ScaledPolynomial polynomial, int axis)
+{
+  const Domain domain = polynomial.domain;
+  const int n = polynomial.degrees[axis];
+  // In the scaled basis the coefficients are C(n,i) a_i, and what is taken away is (-1)^i C(n,i)^2.
+  std::vector<double> binomials;
+  double norm2 = 0.0;
+  for (int i = 0; i <= n; ++i)
+  {
+    binomials.push_back(binomial(n, i));
+    norm2 += binomials.back() * binomials.back();
+  }
+  for (const LatticePoint& start : latticePoints(domain, polynomial.degrees))
+  {
+    const std::array<int, 3> index{ start.i, start.j, start.k };
+    if (index[axis] != 0)
+    {
+      continue;
+    }
+    const auto at = [&](int i) -> double&
+    {
+      const LatticePoint point{ start.i + i * (axis == 0), start.j + i * (axis == 1),
+        start.k + i * (axis == 2) };
+      return polynomial.values[coefficientIndex(domain, polynomial.degrees, point)];
+    };
+    double difference = 0.0;
+    for (int i = 0; i <= n; ++i)
+    {
+      difference += (i % 2 == 0 ? 1.0 : -1.0) * at(i);
+    }
+    for (int i = 0; i <= n; ++i)
+    {
+      at(i) -= (i % 2 == 0 ? 1.0 : -1.0) * binomials[i] * binomials[i] * difference / norm2;
+    }
+  }
+  return polynomial;
+}
+
 /// Largest difference of Bernstein coefficients of two polynomials of the same degrees.
 double largestDifference(const ScaledPolynomial& a, const ScaledPolynomial& b)
 {
@@ -173,7 +214,8 @@ ScaledPolynomial lowered(ScaledPolynomial polynomial, double tolerance)
   {
     while (polynomial.degrees[factor.axis] > 0)
     {
-      ScaledPolynomial lower = dividedByOne(polynomial, factor);
+      ScaledPolynomial lower = dividedByOne(
+        factor.dimension == 1 ? nearestOfLowerDegree(polynomial, factor.axis) : polynomial, factor);
       if (largestDifference(elevated(lower, polynomial.degrees), polynomial) > tolerance)
       {
         break;

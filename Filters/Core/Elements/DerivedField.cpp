@@ -25,7 +25,14 @@ struct RoundingShare
   static constexpr double CollapsedFace = 1e-11;
   /// Of the products of the largest derivatives.
   static constexpr double Field = 1e-13;
+  /// Of the largest coefficient of a gradient, a determinant, a numerator or a denominator: their degrees are lowered
+  /// as far as this allows, in several steps. Smaller: bent elements of degree 4 cost up to ten times as much; larger:
+  /// particles are off their isovalue by as much.
+  static constexpr double Degree = 1e-12;
 };
+
+/// Highest degree that the products may have before their degrees are lowered. Larger: a cell takes seconds to derive.
+constexpr int MostBeforeTrimming = 3 * MaximumDegree / 2;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -136,6 +143,13 @@ ScaledPolynomial sumOfProducts(
   return sumOf(sum);
 }
 
+/// A polynomial of the lowest degrees that change nothing that matters.
+ScaledPolynomial trimmed(ScaledPolynomial polynomial)
+{
+  const double largest = hullOf(polynomial).magnitude();
+  return lowered(std::move(polynomial), RoundingShare::Degree * largest);
+}
+
 /// A face of a hexahedron or wedge across a line of its domain, where the line's coordinate is 0 or 1.
 struct LineEnd
 {
@@ -167,6 +181,17 @@ bool vanishesAt(const ScaledPolynomial& polynomial, const LineEnd& end)
     there = std::max(there, end.holds(point, polynomial.degrees) ? size : 0.0);
   }
   return there <= RoundingShare::CollapsedFace * largest;
+}
+
+bool vanishesInSomeFace(const ScaledPolynomial& polynomial)
+{
+  const auto& factors = facts(polynomial.domain).factors;
+  return std::any_of(factors.begin(), factors.end(),
+    [&](const SimplexFactor& factor)
+    {
+      return factor.dimension == 1 &&
+        (vanishesAt(polynomial, { factor.axis, false }) || vanishesAt(polynomial, { factor.axis, true }));
+    });
 }
 
 /// The quotient of a polynomial that vanishes in a face and the line's coordinate, or 1 less it.
@@ -363,7 +388,7 @@ Derivation::Columns Derivation::adjugate() const
 
 /// The entries of G det(Y').
 std::vector<std::array<ScaledPolynomial, 3>> Derivation::gradientNumerators(
-  const Columns& adjugate) const
+  const Columns& adjugate, bool mayTrim) const
 {
   std::vector<std::array<ScaledPolynomial, 3>> gradient(this->Components);
   for (int j = 0; j < 3; ++j)
@@ -375,8 +400,9 @@ std::vector<std::array<ScaledPolynomial, 3>> Derivation::gradientNumerators(
     }
     for (int i = 0; i < this->Components; ++i)
     {
-      gradient[i][j] = sumOfProducts({ { 1.0, &this->Field[0][i], &toWorld[0][0] },
+      ScaledPolynomial entry = sumOfProducts({ { 1.0, &this->Field[0][i], &toWorld[0][0] },
         { 1.0, &this->Field[1][i], &toWorld[1][0] }, { 1.0, &this->Field[2][i], &toWorld[2][0] } });
+      gradient[i][j] = mayTrim ? trimmed(std::move(entry)) : std::move(entry);
     }
   }
   return gradient;
@@ -453,23 +479,30 @@ Degrees Derivation::degreesAtMost() const
 DerivedElement Derivation::element() const
 {
   const Degrees most = this->degreesAtMost();
-  if (*std::max_element(most.begin(), most.end()) > MaximumDegree)
+  if (*std::max_element(most.begin(), most.end()) > MostBeforeTrimming)
   {
     DerivedElement none;
     none.state = DerivedElement::State::DegreeTooHigh;
     return none;
   }
   const Columns adjugate = this->adjugate();
-  ScaledPolynomial denominator = lowered(
+  ScaledPolynomial determinant = lowered(
     sumOfProducts({ { 1.0, &this->Map[0][0], &adjugate[0][0] },
       { 1.0, &this->Map[0][1], &adjugate[0][1] }, { 1.0, &this->Map[0][2], &adjugate[0][2] } }),
     RoundingShare::Map);
-  ScaledPolynomial numerator = this->numerator(this->gradientNumerators(adjugate));
-  if (orderOf(this->ItsQuantity) == 2)
+  // In a collapsed face numerator and denominator have to vanish alike.
+  const bool isCollapsed = vanishesInSomeFace(determinant);
+  determinant = isCollapsed ? std::move(determinant) : trimmed(std::move(determinant));
+  ScaledPolynomial numerator =
+    this->numerator(this->gradientNumerators(adjugate, !isCollapsed));
+  ScaledPolynomial denominator =
+    orderOf(this->ItsQuantity) == 2 ? determinant * determinant : std::move(determinant);
+  if (isCollapsed)
   {
-    denominator = denominator * denominator;
+    cancelCollapsedFaces(numerator, denominator);
   }
-  cancelCollapsedFaces(numerator, denominator);
+  numerator = trimmed(std::move(numerator));
+  denominator = trimmed(std::move(denominator));
   return this->assemble(numerator, denominator);
 }
 
@@ -482,7 +515,11 @@ DerivedElement Derivation::assemble(
   const Domain domain = this->Source.domain;
   const ScaledPolynomial unit = constant(domain, 1.0);
   const ScaledPolynomial& factor = isPolynomial ? unit : denominator;
-  const std::vector<ScaledPolynomial> components = componentsOf(this->Source);
+  std::vector<ScaledPolynomial> components = componentsOf(this->Source);
+  for (int c = 0; c < 3 && !this->Source.isRational; ++c)
+  {
+    components[c] = lowered(std::move(components[c]), this->Source.coordinateError);
+  }
   std::array<ScaledPolynomial, 5> parts{ factor * components[0], factor * components[1],
     factor * components[2], numerator * this->Weight, factor * this->Weight };
   DerivedElement result;
@@ -492,6 +529,11 @@ DerivedElement Derivation::assemble(
     {
       result.degrees[a] = std::max(result.degrees[a], part.degrees[a]);
     }
+  }
+  if (*std::max_element(result.degrees.begin(), result.degrees.end()) > MaximumDegree)
+  {
+    result.state = DerivedElement::State::DegreeTooHigh;
+    return result;
   }
   std::array<std::vector<double>, 5> rows;
   for (int r = 0; r < 5; ++r)

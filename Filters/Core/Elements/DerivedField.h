@@ -76,7 +76,8 @@ private:
 
   std::vector<std::array<Range, 3>> gradientRanges() const;
   Columns adjugate() const;
-  std::vector<std::array<ScaledPolynomial, 3>> gradientNumerators(const Columns& adjugate) const;
+  std::vector<std::array<ScaledPolynomial, 3>> gradientNumerators(
+    const Columns& adjugate, bool mayTrim) const;
   ScaledPolynomial numerator(const std::vector<std::array<ScaledPolynomial, 3>>& gradient) const;
   Degrees degreesAtMost() const;
   DerivedElement assemble(
