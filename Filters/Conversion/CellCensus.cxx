@@ -124,9 +124,11 @@ std::string CellCensus::describe() const
   describeCells(
     text, this->level, "skipped: the field is the isovalue throughout, which is no surface");
   describeCells(text, this->degreeTooHigh,
-    "skipped: bent cells of a degree at which Quantity is not supported; see the table of degrees in the user guide");
+    "skipped: bent cells of a degree at which Quantity is not supported; see the table of degrees "
+    "in the user guide");
   describeCells(text, this->singular,
-    "skipped: so distorted that derivatives may be infinite in them: the Jacobian determinant is not proven to "
+    "skipped: so distorted that derivatives may be infinite in them: the Jacobian determinant is "
+    "not proven to "
     "keep its sign");
   describeCells(text, this->collapsed,
     "skipped: without volume, or smaller than 1e-15 of the bounds of the input");

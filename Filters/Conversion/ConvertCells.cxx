@@ -181,8 +181,8 @@ JacobianSign convert(const InputBlocks& blocks, const CellBasis& cell, const Fie
   Coefficient* coefficients = &mesh.coefficients[element.firstCoefficient];
   if (blocks.isMagnitude())
   {
-    net.weights = squareField(cell.basis.domain(), cell.basis.degrees(), net.width, net.control,
-      net.weights, coefficients);
+    net.weights = squareField(
+      cell.basis.domain(), cell.basis.degrees(), net.width, net.control, net.weights, coefficients);
   }
   else
   {

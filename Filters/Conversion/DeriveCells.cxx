@@ -47,7 +47,8 @@ double coordinateError(vtkUnstructuredGrid* grid, const ControlNet& net)
   }
   const bool isDouble = grid->GetPoints()->GetDataType() == VTK_DOUBLE;
   return largest *
-    (isDouble ? std::numeric_limits<double>::epsilon() : double(std::numeric_limits<float>::epsilon()));
+    (isDouble ? std::numeric_limits<double>::epsilon()
+              : double(std::numeric_limits<float>::epsilon()));
 }
 
 /// Derives cells. All threads share one Deriver.
@@ -111,11 +112,9 @@ Verdict Deriver::derive(
   {
     return Verdict::Keep;
   }
-  derived.exponent =
-    orderOf(this->Blocks.quantity()) * (unit - std::ilogb(this->UnitOfLength));
+  derived.exponent = orderOf(this->Blocks.quantity()) * (unit - std::ilogb(this->UnitOfLength));
   const SourceElement source{ cell.basis.domain(), cell.basis.degrees(), net.width, net.control,
-    net.weights, !values.weights.empty(),
-    coordinateError(this->Blocks[block].grid, net) };
+    net.weights, !values.weights.empty(), coordinateError(this->Blocks[block].grid, net) };
   return this->find(Derivation(source, this->Blocks.quantity()), derived, kept.change);
 }
 

@@ -52,8 +52,7 @@ public:
   /// \param blocks all with the same number of components; none where only other ranks have blocks
   /// \param component of the scalars, or Magnitude
   /// \param quantity of the component, or of all components
-  InputBlocks(
-    std::vector<InputBlock> blocks, int component, Quantity quantity = Quantity::Value);
+  InputBlocks(std::vector<InputBlock> blocks, int component, Quantity quantity = Quantity::Value);
 
   std::size_t size() const { return this->Blocks.size(); }
   const InputBlock& operator[](std::size_t block) const { return this->Blocks[block]; }

@@ -138,8 +138,10 @@ std::string describeMissing(const InputBlocks& blocks, const std::vector<std::st
        << ": no surface. ";
   if (blocks.isDerived())
   {
-    text << nameOf(blocks.quantity()) << " of " << (name ? "'" + std::string(name) + "'" : "the array")
-         << (isovalues.size() == 1 ? " does not take this value" : " does not take these values") << " in any cell.";
+    text << nameOf(blocks.quantity()) << " of "
+         << (name ? "'" + std::string(name) + "'" : "the array")
+         << (isovalues.size() == 1 ? " does not take this value" : " does not take these values")
+         << " in any cell.";
     return text.str();
   }
   text << (blocks.isMagnitude() ? "The magnitude of " : "")

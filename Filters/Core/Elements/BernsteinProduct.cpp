@@ -62,7 +62,8 @@ ScaledPolynomial one(Domain domain, const Degrees& degrees)
 
 /// A lattice point's numbers in a simplex of its domain: along its axes, then the rest up to the degree, which belongs to
 /// b = 1 - u (- v - w).
-std::vector<int> barycentric(const SimplexFactor& factor, const Degrees& degrees, const LatticePoint& point)
+std::vector<int> barycentric(
+  const SimplexFactor& factor, const Degrees& degrees, const LatticePoint& point)
 {
   const std::array<int, 3> index{ point.i, point.j, point.k };
   std::vector<int> result(index.begin() + factor.axis, index.begin() + factor.end());
@@ -75,7 +76,8 @@ LatticePoint oneMore(const SimplexFactor& factor, LatticePoint point, int number
 {
   const int axis = factor.axis + number;
   const int step = number < factor.dimension ? 1 : 0;
-  return { point.i + step * (axis == 0), point.j + step * (axis == 1), point.k + step * (axis == 2) };
+  return { point.i + step * (axis == 0), point.j + step * (axis == 1),
+    point.k + step * (axis == 2) };
 }
 
 /// The quotient of a polynomial and 1 = u (+ v + w) + b in a simplex of its domain: of one degree less there. What the
@@ -118,6 +120,47 @@ ScaledPolynomial dividedByOne(const ScaledPolynomial& polynomial, const SimplexF
     }
   }
   return result;
+}
+
+/// The nearest polynomial of one degree less along a line, still written with all coefficients. Of degree n are
+/// the coefficients whose n-th difference is zero: what is taken away is a multiple of (-1)^i C(n,i) (Lutterkort, Peters
+/// and Reif 1999, Polynomial degree reduction in the L2-norm equals best Euclidean approximation of Bezier coefficients).
+ScaledPolynomial nearestOfLowerDegree(ScaledPolynomial polynomial, int axis)
+{
+  const Domain domain = polynomial.domain;
+  const int n = polynomial.degrees[axis];
+  // In the scaled basis the coefficients are C(n,i) a_i, and what is taken away is (-1)^i C(n,i)^2.
+  std::vector<double> binomials;
+  double norm2 = 0.0;
+  for (int i = 0; i <= n; ++i)
+  {
+    binomials.push_back(binomial(n, i));
+    norm2 += binomials.back() * binomials.back();
+  }
+  for (const LatticePoint& start : latticePoints(domain, polynomial.degrees))
+  {
+    const std::array<int, 3> index{ start.i, start.j, start.k };
+    if (index[axis] != 0)
+    {
+      continue;
+    }
+    const auto at = [&](int i) -> double&
+    {
+      const LatticePoint point{ start.i + i * (axis == 0), start.j + i * (axis == 1),
+        start.k + i * (axis == 2) };
+      return polynomial.values[coefficientIndex(domain, polynomial.degrees, point)];
+    };
+    double difference = 0.0;
+    for (int i = 0; i <= n; ++i)
+    {
+      difference += (i % 2 == 0 ? 1.0 : -1.0) * at(i);
+    }
+    for (int i = 0; i <= n; ++i)
+    {
+      at(i) -= (i % 2 == 0 ? 1.0 : -1.0) * binomials[i] * binomials[i] * difference / norm2;
+    }
+  }
+  return polynomial;
 }
 
 /// Largest difference of Bernstein coefficients of two polynomials of the same degrees.
@@ -171,7 +214,8 @@ ScaledPolynomial lowered(ScaledPolynomial polynomial, double tolerance)
   {
     while (polynomial.degrees[factor.axis] > 0)
     {
-      ScaledPolynomial lower = dividedByOne(polynomial, factor);
+      ScaledPolynomial lower = dividedByOne(
+        factor.dimension == 1 ? nearestOfLowerDegree(polynomial, factor.axis) : polynomial, factor);
       if (largestDifference(elevated(lower, polynomial.degrees), polynomial) > tolerance)
       {
         break;
@@ -215,8 +259,8 @@ ScaledPolynomial derivative(const ScaledPolynomial& polynomial, int axis)
 
 bool isZero(const ScaledPolynomial& polynomial)
 {
-  return std::all_of(polynomial.values.begin(), polynomial.values.end(),
-    [](double value) { return value == 0.0; });
+  return std::all_of(
+    polynomial.values.begin(), polynomial.values.end(), [](double value) { return value == 0.0; });
 }
 
 ScaledPolynomial sumOf(const std::vector<std::pair<double, const ScaledPolynomial*>>& terms)
@@ -237,7 +281,8 @@ ScaledPolynomial sumOf(const std::vector<std::pair<double, const ScaledPolynomia
     {
       const Degrees& have = term->degrees;
       addProduct(factor, *term,
-        one(domain, { sum.degrees[0] - have[0], sum.degrees[1] - have[1], sum.degrees[2] - have[2] }),
+        one(
+          domain, { sum.degrees[0] - have[0], sum.degrees[1] - have[1], sum.degrees[2] - have[2] }),
         sum);
     }
   }

@@ -41,8 +41,10 @@ void addProduct(
 /// \pre no degree is lower than the polynomial's
 ScaledPolynomial elevated(const ScaledPolynomial& polynomial, const Degrees& degrees);
 
-/// The same polynomial with the lowest degrees that hold it.
-/// \param tolerance largest change of a Bernstein coefficient
+/// A polynomial with the lowest degrees that hold it. Along lines of the domain each step is the best one in the sense of
+/// least squares: it takes away the Legendre polynomial of the highest degree. On triangles and tetrahedra steps
+/// are taken only where the polynomial is of a lower degree.
+/// \param tolerance largest change of a Bernstein coefficient in a step, and so of any value
 ScaledPolynomial lowered(ScaledPolynomial polynomial, double tolerance);
 
 /// The derivative along an axis: its degree is one less in the simplex in which the axis runs. Zero, of degree 0 there,

@@ -25,7 +25,14 @@ struct RoundingShare
   static constexpr double CollapsedFace = 1e-11;
   /// Of the products of the largest derivatives.
   static constexpr double Field = 1e-13;
+  /// Of the largest coefficient of a gradient, a determinant, a numerator or a denominator: their degrees are lowered
+  /// as far as this allows, in several steps. Smaller: bent elements of degree 4 cost up to ten times as much; larger:
+  /// particles are off their isovalue by as much.
+  static constexpr double Degree = 1e-12;
 };
+
+/// Highest degree that the products may have before their degrees are lowered. Larger: a cell takes seconds to derive.
+constexpr int MostBeforeTrimming = 3 * MaximumDegree / 2;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -42,8 +49,8 @@ Range scaledBy(double factor, const Range& a)
 
 Range product(const Range& a, const Range& b)
 {
-  const auto [lower, upper] = std::minmax(
-    { a.lower * b.lower, a.lower * b.upper, a.upper * b.lower, a.upper * b.upper });
+  const auto [lower, upper] =
+    std::minmax({ a.lower * b.lower, a.lower * b.upper, a.upper * b.lower, a.upper * b.upper });
   return { lower, upper };
 }
 
@@ -130,11 +137,17 @@ ScaledPolynomial sumOfProducts(
   std::vector<std::pair<double, const ScaledPolynomial*>> sum;
   for (const auto& [factor, a, b] : terms)
   {
-    products.push_back(
-      isZero(*a) || isZero(*b) ? constant(a->domain, 0.0) : *a * *b);
+    products.push_back(isZero(*a) || isZero(*b) ? constant(a->domain, 0.0) : *a * *b);
     sum.emplace_back(factor, &products.back());
   }
   return sumOf(sum);
+}
+
+/// A polynomial of the lowest degrees that change nothing that matters.
+ScaledPolynomial trimmed(ScaledPolynomial polynomial)
+{
+  const double largest = hullOf(polynomial).magnitude();
+  return lowered(std::move(polynomial), RoundingShare::Degree * largest);
 }
 
 /// A face of a hexahedron or wedge across a line of its domain, where the line's coordinate is 0 or 1.
@@ -168,6 +181,17 @@ bool vanishesAt(const ScaledPolynomial& polynomial, const LineEnd& end)
     there = std::max(there, end.holds(point, polynomial.degrees) ? size : 0.0);
   }
   return there <= RoundingShare::CollapsedFace * largest;
+}
+
+bool vanishesInSomeFace(const ScaledPolynomial& polynomial)
+{
+  const auto& factors = facts(polynomial.domain).factors;
+  return std::any_of(factors.begin(), factors.end(),
+    [&](const SimplexFactor& factor)
+    {
+      return factor.dimension == 1 &&
+        (vanishesAt(polynomial, { factor.axis, false }) || vanishesAt(polynomial, { factor.axis, true }));
+    });
 }
 
 /// The quotient of a polynomial that vanishes in a face and the line's coordinate, or 1 less it.
@@ -242,8 +266,7 @@ Derivation::Derivation(const SourceElement& source, Quantity quantity)
     const double error = 4.0 * degree * (sizes.x + sizes.y + sizes.z) * source.coordinateError;
     for (int k = 0; k < 3; ++k)
     {
-      this->Map[k].push_back(
-        lowered(combined(row, world[k]), std::max(RoundingShare::Map, error)));
+      this->Map[k].push_back(lowered(combined(row, world[k]), std::max(RoundingShare::Map, error)));
     }
   }
 }
@@ -257,7 +280,8 @@ std::vector<std::array<Range, 3>> Derivation::gradientRanges() const
   {
     for (int c = 0; c < 3; ++c)
     {
-      const double entry = sum(hullOf(this->Map[k][c]), { -double(k == c), -double(k == c) }).magnitude();
+      const double entry =
+        sum(hullOf(this->Map[k][c]), { -double(k == c), -double(k == c) }).magnitude();
       size2 += entry * entry;
     }
   }
@@ -364,7 +388,7 @@ Derivation::Columns Derivation::adjugate() const
 
 /// The entries of G det(Y').
 std::vector<std::array<ScaledPolynomial, 3>> Derivation::gradientNumerators(
-  const Columns& adjugate) const
+  const Columns& adjugate, bool mayTrim) const
 {
   std::vector<std::array<ScaledPolynomial, 3>> gradient(this->Components);
   for (int j = 0; j < 3; ++j)
@@ -376,8 +400,9 @@ std::vector<std::array<ScaledPolynomial, 3>> Derivation::gradientNumerators(
     }
     for (int i = 0; i < this->Components; ++i)
     {
-      gradient[i][j] = sumOfProducts({ { 1.0, &this->Field[0][i], &toWorld[0][0] },
+      ScaledPolynomial entry = sumOfProducts({ { 1.0, &this->Field[0][i], &toWorld[0][0] },
         { 1.0, &this->Field[1][i], &toWorld[1][0] }, { 1.0, &this->Field[2][i], &toWorld[2][0] } });
+      gradient[i][j] = mayTrim ? trimmed(std::move(entry)) : std::move(entry);
     }
   }
   return gradient;
@@ -398,7 +423,8 @@ ScaledPolynomial Derivation::numerator(
       case Quantity::Value:
         break;
       case Quantity::Divergence:
-        return sumOf({ { 1.0, &gradient[0][0] }, { 1.0, &gradient[1][1] }, { 1.0, &gradient[2][2] } });
+        return sumOf(
+          { { 1.0, &gradient[0][0] }, { 1.0, &gradient[1][1] }, { 1.0, &gradient[2][2] } });
       case Quantity::GradientMagnitude:
         for (const ScaledPolynomial& entry : gradient[i])
         {
@@ -445,8 +471,7 @@ Degrees Derivation::degreesAtMost() const
       gradient = std::max(gradient, field[k] + determinant - map[k]);
     }
     const int weight = this->Weight.degrees[a];
-    result[a] =
-      std::max(order * gradient + weight, order * determinant + this->Source.degrees[a]);
+    result[a] = std::max(order * gradient + weight, order * determinant + this->Source.degrees[a]);
   }
   return result;
 }
@@ -454,23 +479,30 @@ Degrees Derivation::degreesAtMost() const
 DerivedElement Derivation::element() const
 {
   const Degrees most = this->degreesAtMost();
-  if (*std::max_element(most.begin(), most.end()) > MaximumDegree)
+  if (*std::max_element(most.begin(), most.end()) > MostBeforeTrimming)
   {
     DerivedElement none;
     none.state = DerivedElement::State::DegreeTooHigh;
     return none;
   }
   const Columns adjugate = this->adjugate();
-  ScaledPolynomial denominator = lowered(
+  ScaledPolynomial determinant = lowered(
     sumOfProducts({ { 1.0, &this->Map[0][0], &adjugate[0][0] },
       { 1.0, &this->Map[0][1], &adjugate[0][1] }, { 1.0, &this->Map[0][2], &adjugate[0][2] } }),
     RoundingShare::Map);
-  ScaledPolynomial numerator = this->numerator(this->gradientNumerators(adjugate));
-  if (orderOf(this->ItsQuantity) == 2)
+  // In a collapsed face numerator and denominator have to vanish alike.
+  const bool isCollapsed = vanishesInSomeFace(determinant);
+  determinant = isCollapsed ? std::move(determinant) : trimmed(std::move(determinant));
+  ScaledPolynomial numerator =
+    this->numerator(this->gradientNumerators(adjugate, !isCollapsed));
+  ScaledPolynomial denominator =
+    orderOf(this->ItsQuantity) == 2 ? determinant * determinant : std::move(determinant);
+  if (isCollapsed)
   {
-    denominator = denominator * denominator;
+    cancelCollapsedFaces(numerator, denominator);
   }
-  cancelCollapsedFaces(numerator, denominator);
+  numerator = trimmed(std::move(numerator));
+  denominator = trimmed(std::move(denominator));
   return this->assemble(numerator, denominator);
 }
 
@@ -483,7 +515,11 @@ DerivedElement Derivation::assemble(
   const Domain domain = this->Source.domain;
   const ScaledPolynomial unit = constant(domain, 1.0);
   const ScaledPolynomial& factor = isPolynomial ? unit : denominator;
-  const std::vector<ScaledPolynomial> components = componentsOf(this->Source);
+  std::vector<ScaledPolynomial> components = componentsOf(this->Source);
+  for (int c = 0; c < 3 && !this->Source.isRational; ++c)
+  {
+    components[c] = lowered(std::move(components[c]), this->Source.coordinateError);
+  }
   std::array<ScaledPolynomial, 5> parts{ factor * components[0], factor * components[1],
     factor * components[2], numerator * this->Weight, factor * this->Weight };
   DerivedElement result;
@@ -493,6 +529,11 @@ DerivedElement Derivation::assemble(
     {
       result.degrees[a] = std::max(result.degrees[a], part.degrees[a]);
     }
+  }
+  if (*std::max_element(result.degrees.begin(), result.degrees.end()) > MaximumDegree)
+  {
+    result.state = DerivedElement::State::DegreeTooHigh;
+    return result;
   }
   std::array<std::vector<double>, 5> rows;
   for (int r = 0; r < 5; ++r)

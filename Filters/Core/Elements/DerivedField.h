@@ -76,10 +76,12 @@ private:
 
   std::vector<std::array<Range, 3>> gradientRanges() const;
   Columns adjugate() const;
-  std::vector<std::array<ScaledPolynomial, 3>> gradientNumerators(const Columns& adjugate) const;
+  std::vector<std::array<ScaledPolynomial, 3>> gradientNumerators(
+    const Columns& adjugate, bool mayTrim) const;
   ScaledPolynomial numerator(const std::vector<std::array<ScaledPolynomial, 3>>& gradient) const;
   Degrees degreesAtMost() const;
-  DerivedElement assemble(const ScaledPolynomial& numerator, const ScaledPolynomial& denominator) const;
+  DerivedElement assemble(
+    const ScaledPolynomial& numerator, const ScaledPolynomial& denominator) const;
 
   SourceElement Source;
   Quantity ItsQuantity;

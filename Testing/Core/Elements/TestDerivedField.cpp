@@ -155,13 +155,14 @@ TEST(DerivedField, AgreesWithDerivativesPointByPoint)
         const Range bounds = derivation.bounds();
         for (int n = 0; n < 20; ++n)
         {
-          const ReferencePoint u = insidePoint(
-            which.domain, { random.uniform(), random.uniform(), random.uniform() });
+          const ReferencePoint u =
+            insidePoint(which.domain, { random.uniform(), random.uniform(), random.uniform() });
           const Jet jet = evaluateGradient(formOf(which, derived), u);
           const double expected = valueOf(quantity, element.gradient(u));
           EXPECT_NEAR(jet.value.w, expected, 1e3 * derivation.rounding())
             << which << " shape " << int(shape) << " quantity " << int(quantity);
-          EXPECT_LT(glm::distance(glm::dvec3(jet.value), glm::dvec3(element.jet(0, u).value)), 1e-12);
+          EXPECT_LT(
+            glm::distance(glm::dvec3(jet.value), glm::dvec3(element.jet(0, u).value)), 1e-12);
           EXPECT_TRUE(bounds.lower <= expected && expected <= bounds.upper);
         }
       }
