@@ -199,5 +199,41 @@ TEST(ParticleAreas, AddUpToTheSurface)
   EXPECT_NEAR(sumOf(particleAreas(fine.distribution, {}, {})) / ring.area, 1.0, 0.002);
 }
 
+/// Hexagonal packing in the plane z = 0, spacing 1, around the origin, where no particle is.
+Distribution packingWithAHole()
+{
+  Distribution distribution;
+  for (int row = -6; row <= 6; ++row)
+  {
+    for (int column = -6; column <= 6; ++column)
+    {
+      if (row != 0 || column != 0)
+      {
+        Particle particle;
+        particle.position.xyz = { column + 0.5 * row, 0.5 * std::sqrt(3.0) * row, 0.0 };
+        particle.normal.xyz = { 0.0, 0.0, 1.0 };
+        particle.spacing = 1.0;
+        distribution.particles.push_back(particle);
+      }
+    }
+  }
+  return distribution;
+}
+
+TEST(ParticleAreas, ShareTheAreaOfAMissingParticle)
+{
+  const Distribution distribution = packingWithAHole();
+  const std::vector<double> areas = particleAreas(distribution, {}, {});
+  for (std::size_t i = 0; i < areas.size(); ++i)
+  {
+    const double distance = glm::length(distribution.particles[i].position.xyz);
+    if (distance < 3.9)
+    {
+      const double share = distance < 1.1 ? 1.0 / 6.0 : 0.0;
+      EXPECT_NEAR(areas[i], 0.5 * std::sqrt(3.0) * (1.0 + share), 1e-6) << distance;
+    }
+  }
+}
+
 } // namespace
 } // namespace hop::testing
