@@ -241,7 +241,8 @@ UserMessages reviewMesh(
     mesh.parts.begin(), mesh.parts.end(), [](const MeshComponent& part) { return !part.proven; });
   if (unproven != mesh.parts.end())
   {
-    text << mesh.unprovenComponents << " components are not proven to be those of the surface; the "
+    text << mesh.unprovenComponents
+         << " components of mesh and surface are not proven to agree; the "
          << "first passes a point "
          << describePlace(blocks, unproven->cell, unit * unproven->place.xyz)
          << " (all: field data 'ComponentPoint' where 'ComponentProven' is 0). ";
