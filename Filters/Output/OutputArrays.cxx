@@ -272,6 +272,28 @@ std::vector<MeshReportArray> makeMeshReportArrays()
   };
 }
 
+std::vector<ComponentArray> makeComponentArrays()
+{
+  return {
+    { "ComponentIsovalue",
+      "One value a component of the mesh, and of the surface that the mesh lacks, of all blocks "
+      "together: its isovalue.",
+      [](const ComponentRow& row) { return row.isovalue; } },
+    { "ComponentPoint", "A point of it; where the mesh lacks it, of a cell that it passes.",
+      [](const ComponentRow& row) { return row.unitOfLength * row.component.place.xyz; } },
+    { "ComponentCellId",
+      "The cell of the input around this point; of several blocks, and of several ranks, the cells "
+      "are numbered through.",
+      [](const ComponentRow& row) { return row.component.cell; } },
+    { "ComponentEulerCharacteristic", "Vertices - edges + triangles: 2 for a sphere, 1 for a disc.",
+      [](const ComponentRow& row) { return row.component.eulerCharacteristic; } },
+    { "ComponentBoundaryLoops", "Number of closed curves in which it ends.",
+      [](const ComponentRow& row) { return row.component.boundaryLoops; } },
+    { "ComponentProven", "1 if both are proven to be those of the surface, 0 if not.",
+      [](const ComponentRow& row) { return std::int64_t(row.component.proven); } },
+  };
+}
+
 std::vector<OutputArray> makeDescriptions()
 {
   std::vector<OutputArray> rows;
@@ -297,6 +319,12 @@ const std::vector<ParticleArray>& particleArrays()
 const std::vector<ReportArray>& reportArrays()
 {
   static const std::vector<ReportArray> table = makeReportArrays();
+  return table;
+}
+
+const std::vector<ComponentArray>& componentArrays()
+{
+  static const std::vector<ComponentArray> table = makeComponentArrays();
   return table;
 }
 

@@ -77,8 +77,31 @@ struct MeshReportArray
   std::variant<std::int64_t (*)(const MeshNumbers&), double (*)(const MeshNumbers&)> value;
 };
 
+/// What is told of one component of a mesh.
+struct ComponentRow
+{
+  const MeshComponent& component;
+  double isovalue;
+  /// World units.
+  double unitOfLength;
+};
+
+/// A field-data array of meshes: one tuple a component.
+struct ComponentArray
+{
+  const char* name;
+  /// For users.
+  const char* meaning;
+  std::variant<std::int64_t (*)(const ComponentRow&), double (*)(const ComponentRow&),
+    glm::dvec3 (*)(const ComponentRow&)>
+    value;
+};
+
 /// In the order of the output.
 const std::vector<MeshReportArray>& meshReportArrays();
+
+/// In the order of the output.
+const std::vector<ComponentArray>& componentArrays();
 
 /// In the order of the output.
 const std::vector<ParticleArray>& particleArrays();

@@ -6,6 +6,7 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
+#include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -79,6 +80,10 @@ void addReplaced(const InputBlock& block, std::set<std::string>& names)
     addField(array.name);
   }
   for (const MeshReportArray& array : meshReportArrays())
+  {
+    addField(array.name);
+  }
+  for (const ComponentArray& array : componentArrays())
   {
     addField(array.name);
   }
@@ -184,6 +189,7 @@ private:
   void copyCellData(const vtkIdType* cellIds, vtkIdType begin, vtkIdType end);
   void addReport(const std::vector<IsovalueParticles>& isovalues);
   void addMeshReport(const std::vector<IsovalueParticles>& isovalues);
+  void addComponents(const std::vector<IsovalueParticles>& isovalues);
   template <class Array>
   vtkSmartPointer<Array> newArray(const std::string& name, int components) const;
   template <class Array, class Write>
@@ -230,6 +236,7 @@ void Packer::pack(const std::vector<IsovalueParticles>& isovalues)
   this->addCellArrays();
   this->addReport(isovalues);
   this->addMeshReport(isovalues);
+  this->addComponents(isovalues);
 }
 
 ForeignCorners Packer::foreignCorners() const
@@ -558,6 +565,59 @@ void Packer::addMeshReport(const std::vector<IsovalueParticles>& isovalues)
     {
       add(vtkNew<vtkDoubleArray>().Get(), std::get<1>(row.value)(report));
     }
+  }
+}
+
+void append(std::int64_t value, vtkDataArray& to)
+{
+  to.InsertNextTuple1(static_cast<double>(value));
+}
+
+void append(double value, vtkDataArray& to)
+{
+  to.InsertNextTuple1(value);
+}
+
+void append(const glm::dvec3& value, vtkDataArray& to)
+{
+  to.InsertNextTuple3(value.x, value.y, value.z);
+}
+
+/// An empty array of ids, of numbers or of points.
+vtkSmartPointer<vtkDataArray> arrayFor(const ComponentArray& column)
+{
+  vtkSmartPointer<vtkDataArray> array;
+  array.TakeReference(std::holds_alternative<std::int64_t (*)(const ComponentRow&)>(column.value)
+      ? static_cast<vtkDataArray*>(vtkIdTypeArray::New())
+      : vtkDoubleArray::New());
+  array->SetName(column.name);
+  array->SetNumberOfComponents(
+    std::holds_alternative<glm::dvec3 (*)(const ComponentRow&)>(column.value) ? 3 : 1);
+  hide(array);
+  return array;
+}
+
+/// Tells what is known of each component of the mesh.
+void Packer::addComponents(const std::vector<IsovalueParticles>& isovalues)
+{
+  vtkFieldData* target = this->Output->GetFieldData();
+  for (const ComponentArray& column : componentArrays())
+  {
+    target->RemoveArray(column.name);
+    if (this->Content.nodesPerCell == 0)
+    {
+      continue;
+    }
+    const vtkSmartPointer<vtkDataArray> array = arrayFor(column);
+    for (const IsovalueParticles& some : isovalues)
+    {
+      for (const MeshComponent& component : some.mesh.parts)
+      {
+        const ComponentRow row{ component, some.isovalue, this->Elements.units.length };
+        std::visit([&](const auto& valueOf) { append(valueOf(row), *array); }, column.value);
+      }
+    }
+    target->AddArray(array);
   }
 }
 

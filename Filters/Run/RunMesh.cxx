@@ -6,6 +6,7 @@
 #include "Support/Interruptible.h"
 #include "Topology/TopologyComparison.h"
 
+#include <algorithm>
 #include <functional>
 #include <numeric>
 
@@ -31,6 +32,33 @@ std::vector<int> verticesOf(const Distribution& distribution)
   return vertices;
 }
 
+/// A component of the surface on which the mesh has no triangle.
+MeshComponent missingComponent(const ElementMesh& mesh, const SurfaceComponent& component)
+{
+  const Element& element = mesh.elements[component.element];
+  const Jet jet = evaluateGradient(mesh.form(component.element), middleOf(facts(element.domain)));
+  return { { glm::dvec3(jet.value) }, element.cell, component.eulerCharacteristic,
+    component.boundaryLoops, false };
+}
+
+/// The parts of a mesh, and what it lacks.
+std::vector<MeshComponent> partsOf(const ElementMesh& elements, const Buffer<Particle>& particles,
+  const SurfaceTopology& topology, const TopologyComparison& comparison)
+{
+  std::vector<MeshComponent> parts;
+  for (const ComponentComparison& part : comparison.meshComponents)
+  {
+    const Particle& vertex = particles[part.vertex];
+    parts.push_back({ vertex.position, elements.elements[vertex.location.element].cell,
+      part.eulerCharacteristic, part.boundaryLoops, part.proven });
+  }
+  for (const int missing : comparison.missingComponents)
+  {
+    parts.push_back(missingComponent(elements, topology.components[missing]));
+  }
+  return parts;
+}
+
 /// Compares a mesh with what is proven of the surface.
 /// \param mesh whose vertices are known; receives what comes out
 void prove(const Isosurface& surface, const Buffer<Particle>& particles,
@@ -49,11 +77,9 @@ void prove(const Isosurface& surface, const Buffer<Particle>& particles,
   const TopologyComparison comparison =
     compareTopology(topology, particles, triangles, parallelFor);
   mesh.components = static_cast<std::int64_t>(comparison.meshComponents.size());
-  mesh.unprovenComponents = comparison.missingComponents;
-  for (const ComponentComparison& component : comparison.meshComponents)
-  {
-    mesh.unprovenComponents += !component.proven;
-  }
+  mesh.parts = partsOf(*surface.mesh, particles, topology, comparison);
+  mesh.unprovenComponents = std::count_if(
+    mesh.parts.begin(), mesh.parts.end(), [](const MeshComponent& part) { return !part.proven; });
   mesh.isProven = comparison.proven;
 }
 
@@ -92,6 +118,8 @@ void addMesh(const Isosurface& surface, OutputType type, int order, IsovaluePart
     triangles = std::move(mesh.triangles);
     some.mesh.openLoops = mesh.openLoops;
     some.mesh.openLength = mesh.openLength;
+    some.mesh.longestLoop = mesh.longestLoop;
+    some.mesh.onLongestLoop = mesh.onLongestLoop;
     some.mesh.unusedParticles = mesh.unusedParticles;
     some.mesh.nodesPerCell = 3;
     some.mesh.vertices = verticesOf(distribution);

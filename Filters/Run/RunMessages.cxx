@@ -128,6 +128,15 @@ const char* nameOf(Quantity quantity)
   return "The value";
 }
 
+/// "in cell 7, at (1, 2, 3)"
+std::string describePlace(const RankBlocks& blocks, std::int64_t cell, const glm::dvec3& place)
+{
+  std::ostringstream text;
+  text << "in " << blocks.describe(cell) << ", at (" << place.x << ", " << place.y << ", "
+       << place.z << ")";
+  return text.str();
+}
+
 /// "Isovalue 7: no surface. 'u' goes from 0 to 1."
 std::string describeMissing(const InputBlocks& blocks, const std::vector<std::string>& isovalues,
   const std::array<double, 2>& range)
@@ -225,16 +234,22 @@ UserMessage reviewUndersampled(const RankBlocks& blocks, const Distribution& dis
   return { UserMessage::Warning, whole.str() };
 }
 
-UserMessages reviewMesh(const IsovalueParticles& some, double unit)
+UserMessages reviewMesh(
+  const RankBlocks& blocks, const ElementMesh& elements, const IsovalueParticles& some, double unit)
 {
   const ParticleMesh& mesh = some.mesh;
+  const Buffer<Particle>& particles = some.distribution.particles;
   std::ostringstream text;
   text << "Isovalue " << some.isovalue << ": ";
   if (mesh.openLoops > 0)
   {
     text << "the mesh has " << mesh.openLoops
          << " holes that are no boundary curves of the surface, " << unit * mesh.openLength
-         << " long together. ";
+         << " long together; the longest, " << unit * mesh.longestLoop << ", "
+         << describePlace(blocks,
+              elements.elements[particles[mesh.onLongestLoop].location.element].cell,
+              unit * particles[mesh.onLongestLoop].position.xyz)
+         << ". ";
   }
   if (mesh.straightNodes > 0)
   {
@@ -248,6 +263,16 @@ UserMessages reviewMesh(const IsovalueParticles& some, double unit)
   if (mesh.openLoops == 0 && mesh.straightNodes == 0 && mesh.unusedParticles == 0)
   {
     return {};
+  }
+  const auto unproven = std::find_if(
+    mesh.parts.begin(), mesh.parts.end(), [](const MeshComponent& part) { return !part.proven; });
+  if (unproven != mesh.parts.end())
+  {
+    text << mesh.unprovenComponents
+         << " components of mesh and surface are not proven to agree; the "
+         << "first passes a point "
+         << describePlace(blocks, unproven->cell, unit * unproven->place.xyz)
+         << " (all: field data 'ComponentPoint' where 'ComponentProven' is 0). ";
   }
   const DistributionReport& report = some.distribution.report;
   text << "Of its particles " << report.particlesUndersampled << " are undersampled; of its boxes "

@@ -40,7 +40,9 @@ UserMessage reviewUndersampled(const RankBlocks& blocks, const Distribution& dis
 
 /// Tells what a mesh lacks.
 /// \param unit of length of the run, world units
-UserMessages reviewMesh(const IsovalueParticles& some, double unit);
+/// \param mesh the elements of all ranks
+UserMessages reviewMesh(
+  const RankBlocks& blocks, const ElementMesh& mesh, const IsovalueParticles& some, double unit);
 
 /// Tells which isovalues have no surface in any block on any rank, and the range of the values. Every rank has to call
 /// this.

@@ -52,7 +52,7 @@ void SurfaceWorker::distribute(
     const Work rest = work.part(distributed, 1.0);
     addMesh(surface, this->Properties.outputType, this->Properties.order, some, rest.monitor,
       rest.parallelFor);
-    this->Caller.tell(reviewMesh(some, this->Scale.unit));
+    this->Caller.tell(reviewMesh(this->Blocks, this->Mesh, some, this->Scale.unit));
   }
 }
 

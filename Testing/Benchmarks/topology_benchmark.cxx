@@ -83,8 +83,9 @@ void measure(vtkUnstructuredGrid* grid, vtkDataArray* array, double isovalue)
     array->GetName(), isovalue, count, withSurface, topology.components.size(),
     static_cast<long long>(proven), static_cast<long long>(euler), static_cast<long long>(loops),
     topology.unresolvedCells.size(), comparison.meshComponents.size(), same,
-    static_cast<long long>(comparison.missingComponents), comparison.proven ? "proven" : "      ",
-    1e6 * seconds / count, 1e6 * distributed / count, 1e6 * meshed / count);
+    static_cast<long long>(comparison.missingComponents.size()),
+    comparison.proven ? "proven" : "      ", 1e6 * seconds / count, 1e6 * distributed / count,
+    1e6 * meshed / count);
   std::fflush(stdout);
 }
 

@@ -1,16 +1,19 @@
 """Triangles and curved triangles: closed, on the surface, and at home in ParaView's other filters and files."""
 
+import re
+
 import numpy as np
 import pytest
 import support
 from cells import straight_grid
 from paraview import simple
 from paraview.vtk.util.numpy_support import vtk_to_numpy
+from pictures import background_share, read_png
 from support import add_cell_array, add_point_array, array_names, array_of, leaves_of, output_of, points_of
 from test_blocks import multiblock
 from vtkmodules.vtkCommonCore import reference
 from vtkmodules.vtkCommonDataModel import VTK_LAGRANGE_TRIANGLE
-from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkExtractCells, vtkFeatureEdges
+from vtkmodules.vtkFiltersCore import vtkAppendFilter, vtkCleanPolyData, vtkExtractCells, vtkFeatureEdges
 
 CENTER = np.array([2.0, 2.0, 2.0])
 RADIUS = 1.5
@@ -52,8 +55,8 @@ def mesh_proxy(grid, kind, **properties):
     return support.make_filter(grid, "u", -RADIUS**2, OutputType=kind, **{"Spacing": SPACING, **properties})[0]
 
 
-def mesh_of(grid, kind, **properties):
-    return support.run_quietly(grid, "u", -RADIUS**2, OutputType=kind, **{"Spacing": SPACING, **properties})
+def mesh_of(grid, kind, isovalues=-RADIUS**2, **properties):
+    return support.run_quietly(grid, "u", isovalues, OutputType=kind, **{"Spacing": SPACING, **properties})
 
 
 def corners_of(mesh):
@@ -121,6 +124,47 @@ def test_topology_of_a_field_with_jumps_is_not_proven(data, plugin):
     assert support.reported(report, "ComponentsUnproven") > 0
 
 
+def components_of(mesh):
+    """The arrays with one entry a component, by the rest of their names."""
+    fields = mesh.GetFieldData()
+    names = [name for name in map(fields.GetArrayName, range(fields.GetNumberOfArrays())) if name.startswith("Component")]
+    return {name[len("Component"):]: vtk_to_numpy(fields.GetArray(name)) for name in names if name != "ComponentsUnproven"}
+
+
+def test_components_are_listed(grid):
+    values = [-0.25, -(RADIUS**2)]
+    parts = components_of(mesh_of(grid, "Triangles", Spacing=0.1, isovalues=values))
+    assert list(parts["Isovalue"]) == values
+    assert (parts["EulerCharacteristic"] == 2).all() and (parts["BoundaryLoops"] == 0).all()
+    # A corner of the middle cells is the center of both spheres, and the surface passes no corner.
+    assert list(parts["Proven"]) == [1, 1]
+    for cell, point, value in zip(parts["CellId"], parts["Point"], values):
+        lower, upper = np.reshape(grid.GetCell(cell).GetBounds(), (3, 2)).T
+        assert (point >= lower - 1e-9).all() and (point <= upper + 1e-9).all()
+        assert np.linalg.norm(point - CENTER) == pytest.approx(np.sqrt(-value), abs=1e-9)
+
+
+def test_particles_have_no_list_of_components(grid):
+    assert components_of(mesh_of(grid, "Particles")) == {}
+
+
+def test_a_warning_says_where_the_mesh_has_a_hole(data, plugin):
+    grid = output_of(support.read(data("mfem_dg_advection_2.vtu")))
+    mesh, messages = support.run(grid, "rho", 0.3, OutputType="Triangles")
+    if support.reported(mesh, "MeshOpenLoops") == 0:
+        pytest.skip("no hole is left in this mesh")
+    text = messages.warnings[0]
+    cell, *place = re.search(r"the longest, \S+, in cell (\d+), at \((\S+), (\S+), (\S+)\)", text).groups()
+    apart = points_of(mesh) - np.array(place, dtype=float)
+    nearest = np.linalg.norm(apart, axis=1).argmin()
+    assert np.linalg.norm(apart[nearest]) < 1e-4
+    assert array_of(mesh, "Cell_Id")[np.linalg.norm(apart, axis=1) < 1e-4].tolist().count(int(cell)) > 0
+    parts = components_of(mesh)
+    assert (parts["Proven"] == 0).sum() == support.reported(mesh, "ComponentsUnproven")
+    first = parts["CellId"][parts["Proven"] == 0][0]
+    assert f"the first passes a point in cell {first}, at" in text
+
+
 def test_particles_without_a_triangle_are_told(grid):
     mesh, messages = support.run(grid, "u", -RADIUS**2, OutputType="Triangles", NumberOfParticles=1)
     assert mesh.GetNumberOfPoints() == 0 and support.reported(mesh, "MeshUnusedParticles") == 1
@@ -179,6 +223,35 @@ def test_integrals_converge(grid, kind, rate):
     assert errors[1][0] < (2e-2 if kind == "Triangles" else 5e-3) * AREA
 
 
+def flux_of(mesh):
+    """The integral of velocity . normal over the cells, by their own shape functions."""
+    cells = mesh.GetPolys() if mesh.IsA("vtkPolyData") else mesh.GetCells()
+    nodes = vtk_to_numpy(cells.GetConnectivityArray()).reshape(mesh.GetNumberOfCells(), -1)
+    cell, count = mesh.GetCell(0), nodes.shape[1]
+    row, slopes, flux = [0.0] * count, [0.0] * (2 * count), 0.0
+    # Gauss points of a square, folded into the triangle: exact to degree 10.
+    points, weights = np.polynomial.legendre.leggauss(6)
+    for r, wr in zip((points + 1) / 2, weights / 2):
+        for q, wq in zip((points + 1) / 2, weights / 2):
+            place = [r, (1 - r) * q, 0.0]
+            cell.InterpolateFunctions(place, row)
+            cell.InterpolateDerivs(place, slopes)
+            velocity = np.einsum("n,cnx->cx", row, array_of(mesh, "velocity")[nodes])
+            across, along = (np.einsum("n,cnx->cx", slopes[i * count:(i + 1) * count], points_of(mesh)[nodes]) for i in (0, 1))
+            flux += wr * wq * (1 - r) * np.einsum("cx,cx->", velocity, np.cross(across, along))
+    return flux
+
+
+@pytest.mark.parametrize("order, rate", [(1, 2), (2, 3), (3, 4), (4, 5)])
+def test_flux_converges_at_the_order_of_the_mesh(grid, order, rate):
+    kind = "Triangles" if order == 1 else "Curved Triangles"
+    errors = [abs(flux_of(mesh_of(grid, kind, Spacing=spacing, AngularDensity=0, Order=max(2, order))) - FLUX)
+              for spacing in (3 * SPACING, 1.5 * SPACING)]
+    # Meshes are no refinements of each other: a little below the rate.
+    assert errors[0] > 2 ** (rate - 0.4) * errors[1] > 0
+    assert errors[1] < [0.03, 1e-3, 3e-4, 1e-5][order - 1] * FLUX
+
+
 def test_the_same_for_any_number_of_threads(grid):
     from vtkmodules.vtkCommonCore import vtkSMPTools
 
@@ -199,6 +272,24 @@ def test_a_warm_start_has_a_mesh_too(grid):
     moved = output_of(proxy)
     assert open_edges_of(moved) == 0
     assert np.abs(np.linalg.norm(points_of(moved) - CENTER, axis=1) - RADIUS * 0.98).max() < 1e-9
+
+
+@pytest.mark.parametrize("warm", [0, 1])
+def test_every_step_of_a_series_has_a_mesh_of_its_own(data, plugin, warm):
+    series = simple.PVDReader(FileName=data("mfem_dg_advection.pvd"))
+    series.UpdatePipelineInformation()
+    proxy = support.make_filter(series, "rho", 0.3, OutputType="Triangles", Spacing=0.06, WarmStart=warm)[0]
+    times = list(series.TimestepValues)
+    for time, number in zip(times + times[:1], (0, 2, 4, 0)):
+        proxy.UpdatePipeline(time)
+        mesh = proxy.GetClientSideObject().GetOutputDataObject(0)
+        assert corners_of(mesh).max() < mesh.GetNumberOfPoints() and mesh.GetNumberOfCells() > 600
+        assert np.abs(array_of(mesh, "Residual")).max() < 1e-8
+        if not warm:
+            alone = support.run(support.read(data(f"mfem_dg_advection_{number}.vtu")), "rho", 0.3,
+                                OutputType="Triangles", Spacing=0.06)[0]
+            assert support.contents(mesh) == support.contents(alone)
+            assert (corners_of(mesh) == corners_of(alone)).all()
 
 
 def test_the_type_can_be_changed_back_and_forth(grid):
@@ -259,6 +350,27 @@ def test_blocks_have_their_parts_of_one_mesh(grid, kind):
     assert shift.max() < 2 * SPACING and (shift < 1e-9).mean() > 0.5
 
 
+@pytest.mark.parametrize("kind", ["Triangles", "Curved Triangles"])
+def test_three_blocks_are_closed_together(grid, kind):
+    count = grid.GetNumberOfCells()
+    # Each block borders on both others.
+    owners = [range(count // 2), range(count // 2, 3 * count // 4), range(3 * count // 4, count)]
+    parts = mesh_of(multiblock(*[part_of(grid, cells) for cells in owners]), kind)
+    append = vtkAppendFilter()
+    append.MergePointsOn()
+    for _, _, leaf in leaves_of(parts):
+        assert leaf.GetNumberOfCells() > 0
+        assert support.reported(leaf, "MeshOpenLoops") == 0
+        assert list(components_of(leaf)["EulerCharacteristic"]) == [2]
+        append.AddInputData(leaf)
+    append.Update()
+    whole = mesh_of(grid, kind)
+    # Points on borders are in both blocks, the same to the last bit.
+    assert append.GetOutput().GetNumberOfPoints() == whole.GetNumberOfPoints()
+    edges = np.sort(corners_of(append.GetOutput())[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+    assert (np.unique(edges, axis=0, return_counts=True)[1] == 2).all()
+
+
 # ParaView's display, filters and files
 
 
@@ -287,6 +399,17 @@ def test_a_clipped_mesh_has_half_of_the_area(grid):
     half.ClipType.Origin, half.ClipType.Normal = [2.0, 2.0, 2.0], [1.0, 0.0, 0.0]
     area = array_of(output_of(simple.IntegrateVariables(Input=half)), "Area", "cell")[0]
     assert area == pytest.approx(AREA / 2, rel=1e-2)
+
+
+def test_feature_edges_are_where_the_surface_ends(grid):
+    """The sphere through the middles of the outer faces would end there: one of radius 2.1 has six circles."""
+    radius = 2.1
+    proxy = support.make_filter(grid, "u", -radius**2, OutputType="Triangles", Spacing=SPACING)[0]
+    edges = simple.FeatureEdges(Input=proxy, NonManifoldEdges=1, ManifoldEdges=0, FeatureEdges=0, BoundaryEdges=1)
+    length = array_of(output_of(simple.IntegrateVariables(Input=edges)), "Length", "cell")[0]
+    assert length == pytest.approx(6 * 2 * np.pi * np.sqrt(radius**2 - 4), rel=2e-2)
+    parts = components_of(output_of(proxy))
+    assert list(parts["EulerCharacteristic"]) == [-4] and list(parts["BoundaryLoops"]) == [6]
 
 
 def test_components_are_told_apart(grid):
@@ -330,3 +453,36 @@ def test_scenes_have_triangles(grid, tmp_path, capfd):
     simple.ExportView(str(path), view=view)
     assert "WARN" not in "".join(capfd.readouterr())
     assert '"mode":4' in path.read_text().replace(" ", "")
+
+
+# Splats of a mesh
+
+
+def splats_of(source, path):
+    view = simple.CreateView("RenderView")
+    view.ViewSize = [500, 400]
+    view.OrientationAxesVisibility = 0
+    shown = simple.Show(source, view)
+    shown.SetRepresentationType("Surface Splats")
+    shown.ColorArrayName = ["POINTS", ""]
+    view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [3, -5, 2], [0, 0, 0], [0, 0, 1]
+    simple.ResetCamera(view)
+    simple.SaveScreenshot(str(path), view)
+    simple.Delete(view)
+    return read_png(path)
+
+
+@pytest.mark.parametrize("file, array, value", [
+    ("mfem_hex1_p8.vtu", "u", 0.2),
+    ("mfem_dg_advection_2.vtu", "rho", 0.3),
+    ("trixi_adv_sphere_hex_p3.vtu", "scalar", 1.28),
+    ("dolfinx_tet_p3.vtu", "u", 0.5),
+])
+def test_splats_of_a_mesh_look_like_those_of_particles(data, plugin, tmp_path, file, array, value):
+    reader = support.read(data(file))
+    particles, mesh = (
+        splats_of(support.make_filter(reader, array, value, OutputType=kind)[0], tmp_path / f"{kind}.png").astype(float)
+        for kind in ("Particles", "Triangles"))
+    assert background_share(particles.astype(int)) < 0.98
+    error = ((particles - mesh) ** 2).mean()
+    assert error == 0 or 10 * np.log10(255**2 / error) >= 45

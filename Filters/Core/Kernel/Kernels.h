@@ -113,6 +113,35 @@ struct Candidates
 using NearFunction = std::int32_t* (*)(const Candidates&, const double (&position)[3],
   double inverseSpacing, double limit, std::int32_t* near);
 
+/// Points of a plane, around the origin. `count` is a multiple of MaximumLanes; behind the `used` points stand points
+/// far away.
+struct FlatPoints
+{
+  const double* x;
+  const double* y;
+  std::ptrdiff_t used;
+  std::ptrdiff_t count;
+};
+
+/// How areas around the origin differ from their picture in the plane: a piece at t counts (1 + form(t)^2/|t|^2 - gauss
+/// |t|^2) times, where form is the quadratic form of xx, xy, yy.
+struct CellBend
+{
+  double xx, xy, yy;
+  double gauss;
+};
+
+struct PlaneCell
+{
+  double area = 0.0;
+  /// Square of the largest distance of a corner.
+  double reachSquared = 0.0;
+};
+
+/// The cell of the origin in the Voronoi diagram of the origin and the points: what is nearer to it than to them.
+/// \return an area that means nothing, and a huge reach, where they do not surround the origin
+using PlaneCellFunction = PlaneCell (*)(const FlatPoints&, const CellBend&);
+
 struct Kernels
 {
   DomainKernels hexahedron;
@@ -120,6 +149,7 @@ struct Kernels
   DomainKernels wedge;
   SweepFunction sweep;
   NearFunction near;
+  PlaneCellFunction planeCell;
 };
 
 Kernels baselineKernels();

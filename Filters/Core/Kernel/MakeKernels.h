@@ -2,6 +2,7 @@
 
 #include "Kernel/Jets.h"
 #include "Kernel/Near.h"
+#include "Kernel/PlaneCell.h"
 #include "Kernel/Sweep.h"
 
 #include <utility>
@@ -164,7 +165,8 @@ constexpr Kernels makeKernels()
   static_assert(PointLanes <= MaximumLanes);
   return { makeDomainKernels<Hexahedron, PointLanes, ComponentLanes>(),
     makeDomainKernels<Tetrahedron, PointLanes, ComponentLanes>(),
-    makeDomainKernels<Wedge, PointLanes, ComponentLanes>(), sweepBlocks, findNear<PointLanes> };
+    makeDomainKernels<Wedge, PointLanes, ComponentLanes>(), sweepBlocks, findNear<PointLanes>,
+    measurePlaneCell<PointLanes> };
 }
 
 } // namespace

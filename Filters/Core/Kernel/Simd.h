@@ -9,6 +9,7 @@
 //   a <= b                    per lane -1 where it holds, else 0; the lanes are integers as wide as a number
 //   a >> n                    shift of integers
 //   least, greatest           the first or the second operand, as `<` or `>` says
+//   select(m, a, b)           a where m is -1, b where it is 0; m comes from a comparison
 //   shuffle<i...>(a, b)       lanes of a followed by those of b, by number
 //
 // Whatever is made of vectors is local to the file that includes it (namespaces without a name), so that each
@@ -54,6 +55,7 @@ constexpr int DoublesIn = simd::FitsRegisters ? Bits / 64 : 1;
 
 using simd::greatest;
 using simd::least;
+using simd::select;
 using simd::shuffle;
 
 /// The same bits as another type: from and to memory, between floats and integers.

@@ -32,6 +32,12 @@ inline V greatest(V a, V b)
   return a > b ? a : b;
 }
 
+template <class Mask, class V>
+inline V select(Mask mask, V a, V b)
+{
+  return mask ? a : b;
+}
+
 template <int... Lanes, class V>
 inline V shuffle(V a, V b)
 {

@@ -99,6 +99,32 @@ struct VectorOf
   using Type = LaneArray<Number, Count>;
 };
 
+// Of single numbers.
+template <class Number>
+inline Number least(Number a, Number b)
+{
+  return a < b ? a : b;
+}
+
+template <class Number>
+inline Number greatest(Number a, Number b)
+{
+  return a > b ? a : b;
+}
+
+template <class Number>
+inline Number select(bool mask, Number a, Number b)
+{
+  return mask ? a : b;
+}
+
+template <class Number, int Count>
+inline LaneArray<Number, Count> select(const typename LaneArray<Number, Count>::Mask& mask,
+  const LaneArray<Number, Count>& a, const LaneArray<Number, Count>& b)
+{
+  return LaneArray<Number, Count>::eachLane([&](int i) { return mask[i] ? a[i] : b[i]; });
+}
+
 template <class Number, int Count>
 inline LaneArray<Number, Count> least(
   const LaneArray<Number, Count>& a, const LaneArray<Number, Count>& b)

@@ -118,9 +118,10 @@ private:
 };
 
 /// Appends the edges opposite to a particle in its star.
-void addStar(int particle, TangentView& view, std::vector<LinkEdge>& fan)
+void addStar(
+  const ParticleNeighbors& neighbors, int particle, TangentView& view, std::vector<LinkEdge>& fan)
 {
-  view.lookFrom(particle);
+  view.lookFrom(particle, neighbors.of(particle));
   if (view.sectors().empty())
   {
     Star(view.neighbors(), fan).close();
@@ -138,8 +139,8 @@ TriangleFans agreedTriangles(
 {
   TriangleFans fans(
     neighbors.normals.size(), parallelFor, [&]() { return TangentView(neighbors, edges); },
-    [](int particle, std::vector<LinkEdge>& fan, TangentView& view)
-    { addStar(particle, view, fan); });
+    [&](int particle, std::vector<LinkEdge>& fan, TangentView& view)
+    { addStar(neighbors, particle, view, fan); });
   fans.keepAgreed(parallelFor);
   return fans;
 }

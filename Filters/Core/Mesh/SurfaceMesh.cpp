@@ -21,10 +21,17 @@ void countOpen(const Distribution& distribution, const ConstrainedEdges& edges,
   for (const OpenLoop& loop : findOpenLoops(particles, edges, fans, parallelFor))
   {
     ++mesh.openLoops;
+    double around = 0.0;
     for (std::size_t n = 0; n < loop.edgeCount(); ++n)
     {
       const int next = loop.particles[n + 1 < loop.particles.size() ? n + 1 : 0];
-      mesh.openLength += length(particles[next].position - particles[loop.particles[n]].position);
+      around += length(particles[next].position - particles[loop.particles[n]].position);
+    }
+    mesh.openLength += around;
+    if (mesh.onLongestLoop < 0 || around > mesh.longestLoop)
+    {
+      mesh.longestLoop = around;
+      mesh.onLongestLoop = loop.particles[0];
     }
   }
   for (std::size_t i = 0; i < particles.size(); ++i)

@@ -20,6 +20,9 @@ struct SurfaceMesh
   /// world units.
   std::int64_t openLoops = 0;
   double openLength = 0.0;
+  /// The longest of them: its length, and a particle on it; -1 if there is none.
+  double longestLoop = 0.0;
+  int onLongestLoop = -1;
   /// Particles without a triangle.
   std::int64_t unusedParticles = 0;
 };

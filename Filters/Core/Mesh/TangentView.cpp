@@ -54,15 +54,20 @@ double creaseBefore(const Particle& particle, const glm::dvec3& apart)
 
 } // namespace
 
-ParticleNeighbors::ParticleNeighbors(const Buffer<Particle>& all, const ParallelFor& parallelFor)
+ParticlePlaces::ParticlePlaces(const Buffer<Particle>& all, const ParallelFor& parallelFor)
   : particles(all)
   , points(
       all.size(), [&](std::size_t i) { return all[i].position.xyz; },
       [&](std::size_t i) { return all[i].spacing; }, parallelFor)
   , normals(all.size())
-  , seen(points.positions, points.spacings, Reach, parallelFor)
 {
   forAll(parallelFor, all.size(), [&](std::size_t i) { this->normals[i] = all[i].normal.xyz; });
+}
+
+ParticleNeighbors::ParticleNeighbors(const Buffer<Particle>& all, const ParallelFor& parallelFor)
+  : ParticlePlaces(all, parallelFor)
+  , seen(points.positions, points.spacings, Reach, parallelFor)
+{
 }
 
 /// Whether the normals of a neighbour and of the middle differ as curvature says: by the mean of both shape operators,
@@ -189,7 +194,7 @@ void TangentView::makeSectors()
   }
 }
 
-void TangentView::lookFrom(int particle)
+void TangentView::lookFrom(int particle, Span<int> near)
 {
   this->Middle = particle;
   this->Normal = this->Particles.normals[particle];
@@ -197,21 +202,20 @@ void TangentView::lookFrom(int particle)
     this->Particles.points.spacings[particle]);
   this->Neighbors.clear();
   this->Sectors.clear();
-  bool isNearEdge = false;
-  for (const int* j = this->Particles.seen.begin(particle); j != this->Particles.seen.end(particle);
-       ++j)
+  this->IsNearEdge = this->Edges.isOnEdge(particle);
+  for (const int j : near)
   {
-    if (this->isOnSheet(*j))
+    if (this->isOnSheet(j))
     {
-      const FlatNeighbor neighbor = this->flat(*j);
+      const FlatNeighbor neighbor = this->flat(j);
       if (neighbor.place != glm::dvec2(0.0))
       {
         this->Neighbors.push_back(neighbor);
-        isNearEdge = isNearEdge || this->Edges.isOnEdge(*j);
+        this->IsNearEdge = this->IsNearEdge || this->Edges.isOnEdge(j);
       }
     }
   }
-  if (isNearEdge)
+  if (this->IsNearEdge)
   {
     this->collectEdges();
     this->Neighbors.erase(std::remove_if(this->Neighbors.begin(), this->Neighbors.end(),

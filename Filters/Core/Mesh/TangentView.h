@@ -12,8 +12,19 @@
 namespace hop
 {
 
+/// Where particles are, without what else is known of them.
+struct ParticlePlaces
+{
+  /// \pre the particles outlive it
+  ParticlePlaces(const Buffer<Particle>& all, const ParallelFor& parallelFor);
+
+  const Buffer<Particle>& particles;
+  SpacedPoints points;
+  Buffer<glm::vec3> normals;
+};
+
 /// Who is near whom on the surface.
-struct ParticleNeighbors
+struct ParticleNeighbors : ParticlePlaces
 {
   /// Largest circumradius of a triangle in a star, in units of the spacing: 1/sqrt(3) in hexagonal packing, about 1
   /// where a particle is missing. Chosen by experiment. Larger: triangles across thin gaps, and more neighbours to look
@@ -25,9 +36,13 @@ struct ParticleNeighbors
   /// \pre the particles outlive it
   ParticleNeighbors(const Buffer<Particle>& all, const ParallelFor& parallelFor);
 
-  const Buffer<Particle>& particles;
-  SpacedPoints points;
-  Buffer<glm::vec3> normals;
+  /// The particles within reach of a particle.
+  Span<int> of(int particle) const
+  {
+    const auto p = static_cast<std::size_t>(particle);
+    return { this->seen.begin(p), static_cast<std::size_t>(this->seen.count(p)) };
+  }
+
   SeenLists seen;
 };
 
@@ -42,7 +57,7 @@ struct FlatNeighbor
 class TangentView
 {
 public:
-  TangentView(const ParticleNeighbors& particles, const ConstrainedEdges& edges)
+  TangentView(const ParticlePlaces& particles, const ConstrainedEdges& edges)
     : Particles(particles)
     , Edges(edges)
   {
@@ -59,10 +74,13 @@ public:
 
   /// Lays the neighbours of a particle into its plane that are on the same sheet. Those that a constrained edge hides
   /// are left out.
-  void lookFrom(int particle);
+  /// \param near the particles around, without itself
+  void lookFrom(int particle, Span<int> near);
 
   const TangentPlane& plane() const { return this->Plane; }
   const std::vector<FlatNeighbor>& neighbors() const { return this->Neighbors; }
+  /// Whether there are constrained edges around.
+  bool isNearEdge() const { return this->IsNearEdge; }
   /// Empty for a particle that is on no constrained edge.
   const std::vector<Sector>& sectors() const { return this->Sectors; }
 
@@ -83,7 +101,7 @@ private:
   bool isSeenFromTheLeft(const FlatNeighbor& neighbor) const;
   void makeSectors();
 
-  const ParticleNeighbors& Particles;
+  const ParticlePlaces& Particles;
   const ConstrainedEdges& Edges;
   int Middle = -1;
   glm::vec3 Normal{ 0.0f };
@@ -91,6 +109,7 @@ private:
   std::vector<FlatNeighbor> Neighbors;
   std::vector<FlatEdge> FlatEdges;
   std::vector<Sector> Sectors;
+  bool IsNearEdge = false;
 };
 
 } // namespace hop

@@ -1,9 +1,8 @@
 #include "Support/SpacingGrid.h"
 
-#include "Kernel/InstructionSet.h"
+#include "Support/SeenPoints.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -170,65 +169,6 @@ std::size_t SpacingGrid::findOrAdd(std::uint64_t key)
   }
 }
 
-namespace
-{
-
-/// Points among which neighbours are looked for, in the rows that the kernel takes. To be reused: its memory only
-/// grows.
-class CandidateRows
-{
-public:
-  void clear() { this->Count = 0; }
-
-  void add(const glm::dvec3& position, double inverseSpacing, int index)
-  {
-    if (this->Count + kernel::MaximumLanes > this->Index.size())
-    {
-      this->grow();
-    }
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      this->Rows[axis][this->Count] = position[axis];
-    }
-    this->Rows[3][this->Count] = inverseSpacing;
-    this->Index[this->Count++] = index;
-  }
-
-  /// All points that were added, and further ones out of reach that fill up the last vector.
-  kernel::Candidates filledUp()
-  {
-    // Far from everything, yet its square is finite.
-    constexpr double outOfReach = 1e150;
-    const std::size_t count = this->Count;
-    while (this->Count % kernel::MaximumLanes != 0)
-    {
-      this->add(glm::dvec3(outOfReach), 1.0, 0);
-    }
-    const kernel::Candidates result{ this->Rows[0].data(), this->Rows[1].data(),
-      this->Rows[2].data(), this->Rows[3].data(), this->Index.data(),
-      static_cast<std::ptrdiff_t>(this->Count) };
-    this->Count = count;
-    return result;
-  }
-
-private:
-  void grow()
-  {
-    const std::size_t size = 2 * this->Index.size() + 64;
-    for (auto& row : this->Rows)
-    {
-      row.resize(size);
-    }
-    this->Index.resize(size);
-  }
-
-  std::array<std::vector<double>, 4> Rows;
-  std::vector<std::int32_t> Index;
-  std::size_t Count = 0;
-};
-
-} // namespace
-
 SeenLists::SeenLists(
   Span<glm::dvec3> positions, Span<float> spacings, double reach, const ParallelFor& parallelFor)
 {
@@ -241,10 +181,7 @@ SeenLists::SeenLists(
 
   Buffer<double> inverse(positions.size());
   forAll(parallelFor, inverse.size(), [&](std::size_t i) { inverse[i] = 1.0 / spacings[i]; });
-  // Two points see each other if d <= 2 reach/(1/h_i + 1/h_j).
-  const double limit = 4.0 * reach * reach;
-  const auto findNear = kernel::current().near;
-  const auto fillChunk = [&](std::size_t chunk, CandidateRows& candidates)
+  const auto fillChunk = [&](std::size_t chunk, SeenPoints& finder)
   {
     std::vector<int>& lists = this->Chunks[chunk];
     std::size_t used = 0;
@@ -257,16 +194,12 @@ SeenLists::SeenLists(
       {
         continue;
       }
-      candidates.clear();
-      grid.visitAround(points, [&](int j) { candidates.add(positions[j], inverse[j], j); });
-      const kernel::Candidates rows = candidates.filledUp();
+      finder.lookAround(points);
       for (const int i : points)
       {
-        lists.resize(std::max(lists.size(), used + rows.count));
-        const glm::dvec3& x = positions[i];
+        lists.resize(std::max(lists.size(), used + finder.most()));
         int* list = lists.data() + used;
-        int* listEnd = findNear(rows, { x.x, x.y, x.z }, inverse[i], limit, list);
-        listEnd = std::remove(list, listEnd, i);
+        const int* listEnd = finder.list(i, list);
         this->Places[i] = { static_cast<int>(chunk), static_cast<int>(used),
           static_cast<int>(listEnd - list) };
         used += listEnd - list;
@@ -277,10 +210,10 @@ SeenLists::SeenLists(
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(this->Chunks.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
-      CandidateRows candidates;
+      SeenPoints finder(grid, positions, inverse, reach);
       for (std::ptrdiff_t chunk = begin; chunk < end; ++chunk)
       {
-        fillChunk(chunk, candidates);
+        fillChunk(chunk, finder);
       }
     });
 }

@@ -16,6 +16,7 @@ namespace
 struct Header
 {
   MeshNumbers numbers;
+  std::int64_t components = 0;
   std::int64_t nodes = 0;
   std::int64_t foreign = 0;
   bool isDone = false;
@@ -25,6 +26,7 @@ struct Header
 struct Part
 {
   Header header;
+  std::vector<MeshComponent> components;
   std::vector<int> nodes;
   Buffer<Particle> copies;
   std::vector<ElementHome> foreign;
@@ -93,8 +95,10 @@ public:
       part.foreign.push_back(this->homeOf(particle));
       this->Copy[particle] = none;
     }
-    part.header = { this->Mesh, static_cast<std::int64_t>(part.nodes.size()),
-      static_cast<std::int64_t>(part.foreign.size()), true };
+    part.components = this->Mesh.parts;
+    part.header = { this->Mesh, static_cast<std::int64_t>(part.components.size()),
+      static_cast<std::int64_t>(part.nodes.size()), static_cast<std::int64_t>(part.foreign.size()),
+      true };
     return part;
   }
 
@@ -122,6 +126,7 @@ private:
 void send(Exchange& exchange, const Part& part, int to)
 {
   sendArray(exchange, &part.header, 1, to);
+  sendArray(exchange, part.components.data(), part.components.size(), to);
   sendArray(exchange, part.nodes.data(), part.nodes.size(), to);
   sendArray(exchange, part.copies.data(), part.copies.size(), to);
   sendArray(exchange, part.foreign.data(), part.foreign.size(), to);
@@ -135,6 +140,7 @@ std::optional<Part> receive(Exchange& exchange, int from)
   bool fits = true;
   try
   {
+    part.components.resize(part.header.components);
     part.nodes.resize(part.header.nodes);
     part.copies.resize(part.header.foreign);
     part.foreign.resize(part.header.foreign);
@@ -143,6 +149,7 @@ std::optional<Part> receive(Exchange& exchange, int from)
   {
     fits = false;
   }
+  receiveArray(exchange, fits ? part.components.data() : nullptr, part.header.components, from);
   receiveArray(exchange, fits ? part.nodes.data() : nullptr, part.header.nodes, from);
   receiveArray(exchange, fits ? part.copies.data() : nullptr, part.header.foreign, from);
   receiveArray(exchange, fits ? part.foreign.data() : nullptr, part.header.foreign, from);
@@ -182,6 +189,7 @@ void take(Part&& part, ParticleMesh& mesh, Distribution& home)
 {
   mesh = {};
   static_cast<MeshNumbers&>(mesh) = part.header.numbers;
+  mesh.parts = std::move(part.components);
   mesh.nodes = std::move(part.nodes);
   mesh.foreign = std::move(part.foreign);
   for (const Particle& copy : part.copies)

@@ -29,9 +29,28 @@ struct MeshNumbers
   bool isProven = true;
 };
 
+/// A connected part of a mesh, or a component of the surface that the mesh lacks.
+struct MeshComponent
+{
+  /// A vertex; of a component that the mesh lacks, the middle of an element that the component passes.
+  WorldPoint place;
+  /// The input's cell at this place, numbered as those of the elements are.
+  std::int64_t cell = -1;
+  /// Of the mesh; of a component that it lacks, the component's own, as far as they are proven.
+  std::int64_t eulerCharacteristic = 0;
+  std::int64_t boundaryLoops = 0;
+  /// Whether it is proven to be as the surface is.
+  bool proven = false;
+};
+
 /// Cells between the particles of one isovalue.
 struct ParticleMesh : MeshNumbers
 {
+  /// By first vertices; last the components that the mesh lacks. The same on all ranks.
+  std::vector<MeshComponent> parts;
+  /// The longest of the open loops: its length, and a particle on it; -1 if there is none. Known to the worker alone.
+  double longestLoop = 0.0;
+  int onLongestLoop = -1;
   /// nodesPerCell indices into the particles a cell, the corners first.
   std::vector<int> nodes;
   /// For each particle the first particle in the same place: itself, but for creases.

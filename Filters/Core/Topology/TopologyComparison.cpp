@@ -235,8 +235,14 @@ TopologyComparison compareTopology(const SurfaceTopology& topology,
     }
     comparison.proven &= mesh.proven;
   }
-  comparison.missingComponents = std::count(meshesOn.begin(), meshesOn.end(), 0);
-  comparison.proven &= comparison.missingComponents == 0;
+  for (std::size_t component = 0; component < meshesOn.size(); ++component)
+  {
+    if (meshesOn[component] == 0)
+    {
+      comparison.missingComponents.push_back(static_cast<int>(component));
+    }
+  }
+  comparison.proven &= comparison.missingComponents.empty();
   return comparison;
 }
 

@@ -29,8 +29,8 @@ struct TopologyComparison
 {
   /// One entry a component of the mesh, by first vertices.
   std::vector<ComponentComparison> meshComponents;
-  /// Components of the surface on which the mesh has no triangle.
-  std::int64_t missingComponents = 0;
+  /// Components of the surface on which the mesh has no triangle: indices in SurfaceTopology::components, ascending.
+  std::vector<int> missingComponents;
   /// Whether all components of the mesh are proven, and no component of the surface is missing or may be.
   bool proven = false;
 };

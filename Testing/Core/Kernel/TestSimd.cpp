@@ -73,6 +73,7 @@ TYPED_TEST(Simd, ChoosesComparesAndMoves)
   static_assert(sizeof(inOrder) == sizeof(V));
   expectLanes(inOrder, -1, -1, 0, -1);
   expectLanes(a <= two, -1, -1, 0, 0);
+  expectLanes(V(select(inOrder, a, b)), 1, 2, 2, 4);
   expectLanes(V(shuffle<0, 4, 1, 5>(a, b)), 1, 4, 2, 2);
   expectLanes(V(shuffle<7, 6, 5, 4>(a, b)), 5, 2, 2, 4);
   Number numbers[5] = { 9, 1, 2, 3, 4 };

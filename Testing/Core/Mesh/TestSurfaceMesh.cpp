@@ -199,5 +199,43 @@ TEST(ParticleAreas, AddUpToTheSurface)
   EXPECT_NEAR(sumOf(particleAreas(fine.distribution, {}, {})) / ring.area, 1.0, 0.002);
 }
 
+/// Hexagonal packing in the plane z = 0, spacing 1, around the origin, where two particles are missing.
+Distribution packingWithAHole()
+{
+  Distribution distribution;
+  for (int row = -8; row <= 8; ++row)
+  {
+    for (int column = -8; column <= 8; ++column)
+    {
+      if (row != 0 || (column != 0 && column != 1))
+      {
+        Particle particle;
+        particle.position.xyz = { column + 0.5 * row, 0.5 * std::sqrt(3.0) * row, 0.0 };
+        particle.normal.xyz = { 0.0, 0.0, 1.0 };
+        particle.spacing = 1.0;
+        distribution.particles.push_back(particle);
+      }
+    }
+  }
+  return distribution;
+}
+
+TEST(ParticleAreas, CoverTheHoleOfMissingParticles)
+{
+  // The particles above and below the hole meet in its middle, farther apart than neighbours are looked for first.
+  const Distribution distribution = packingWithAHole();
+  const std::vector<double> areas = particleAreas(distribution, {}, {});
+  constexpr double hexagon = 0.8660254037844386;
+  double more = 0.0;
+  for (std::size_t i = 0; i < areas.size(); ++i)
+  {
+    if (glm::length(distribution.particles[i].position.xyz) < 4.5)
+    {
+      more += areas[i] - hexagon;
+    }
+  }
+  EXPECT_NEAR(more, 2.0 * hexagon, 1e-6);
+}
+
 } // namespace
 } // namespace hop::testing

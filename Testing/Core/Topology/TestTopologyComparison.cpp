@@ -100,7 +100,7 @@ TEST_F(TwoSpheres, AreProven)
 {
   const TopologyComparison comparison = this->compare();
   EXPECT_TRUE(comparison.proven);
-  EXPECT_EQ(comparison.missingComponents, 0);
+  EXPECT_TRUE(comparison.missingComponents.empty());
   ASSERT_EQ(comparison.meshComponents.size(), 2u);
   for (const ComponentComparison& mesh : comparison.meshComponents)
   {
@@ -128,7 +128,7 @@ TEST_F(TwoSpheres, AMissingComponentIsSeen)
   this->Triangles.resize(this->Triangles.size() / 2);
   const TopologyComparison comparison = this->compare();
   EXPECT_FALSE(comparison.proven);
-  EXPECT_EQ(comparison.missingComponents, 1);
+  EXPECT_EQ(comparison.missingComponents.size(), 1u);
   EXPECT_TRUE(comparison.meshComponents[0].proven);
 }
 
