@@ -14,6 +14,7 @@
 #include "Passes/SplatLayer.h"
 #include "Shading/ShaderText.h"
 #include "vtkCellData.h"
+#include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkHardwareSelector.h"
 #include "vtkImageData.h"
@@ -122,6 +123,7 @@ struct vtkSurfaceSplatMapper::Internals
   hop::SplatColoring Coloring;
   bool ClipsColors = false; // colours end where cells end
   bool DrawsEdges = false;  // lines are drawn there
+  bool HasGhosts = false;   // ghosts are blended
   bool HasBackface = false; // the shaders know of a backface property
   bool CannotSplat = false; // the driver has no floating-point targets
 
@@ -226,6 +228,7 @@ void vtkSurfaceSplatMapper::ShallowCopy(vtkAbstractMapper* mapper)
     this->SetRadiusScale(other->GetRadiusScale());
     this->SetRadius(other->GetRadius());
     this->SetCellColorArrayName(other->GetCellColorArrayName());
+    this->SetBlendGhosts(other->GetBlendGhosts());
     this->SetColorByNormalDirection(other->GetColorByNormalDirection());
     this->SetOutwardColor(other->GetOutwardColor());
     this->SetInwardColor(other->GetInwardColor());
@@ -237,6 +240,14 @@ void vtkSurfaceSplatMapper::ShallowCopy(vtkAbstractMapper* mapper)
 vtkDataArray* vtkSurfaceSplatMapper::GetRadiusArray(vtkPolyData* input)
 {
   return this->RadiusArrayName ? input->GetPointData()->GetArray(this->RadiusArrayName) : nullptr;
+}
+
+//------------------------------------------------------------------------------
+hop::ParticleArrays vtkSurfaceSplatMapper::DescribeArrays(vtkPolyData* input)
+{
+  auto arrays = hop::ParticleArrays::FromPointData(input->GetPointData());
+  arrays.Radii = this->GetRadiusArray(input);
+  return arrays;
 }
 
 //------------------------------------------------------------------------------
@@ -285,6 +296,30 @@ void vtkSurfaceSplatMapper::GetDiskBounds(vtkPolyData* input, double bounds[6])
     bounds[2 * axis] -= margin;
     bounds[2 * axis + 1] += margin;
   }
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkDoubleArray> vtkSurfaceSplatMapper::GetDisks(vtkPolyData* input)
+{
+  auto disks = vtkSmartPointer<vtkDoubleArray>::New();
+  disks->SetNumberOfComponents(4);
+  disks->SetNumberOfTuples(input->GetNumberOfPoints());
+  disks->Fill(0.);
+  const hop::ParticleArrays all = this->DescribeArrays(input);
+  hop::ParticleArrays arrays;
+  arrays.Radii = all.Radii;
+  arrays.FallbackRadius = this->Radius;
+  arrays.Normals = all.Normals;
+  arrays.Placements = all.Placements;
+  arrays.Ghosts = all.Ghosts;
+  const auto particles = hop::SplatParticles::FromPolyData(input, arrays);
+  for (vtkIdType i = 0; i < particles.GetNumberOfParticles(); ++i)
+  {
+    double* disk = disks->GetPointer(4 * particles.PointIds[i]);
+    input->GetPoint(particles.PointIds[i], disk);
+    disk[3] = this->RadiusScale * particles.CentreRadius[4 * i + 3];
+  }
+  return disks;
 }
 
 //------------------------------------------------------------------------------
@@ -351,8 +386,7 @@ void vtkSurfaceSplatMapper::UploadParticles(vtkRenderer* renderer, vtkPolyData* 
   {
     return;
   }
-  auto arrays = hop::ParticleArrays::FromPointData(input->GetPointData());
-  arrays.Radii = this->GetRadiusArray(input);
+  hop::ParticleArrays arrays = this->DescribeArrays(input);
   arrays.FallbackRadius = this->GetFallbackRadius(input);
   arrays.CellColors = this->GetCellColors(input);
   hop::SplatParticles particles = hop::SplatParticles::FromPolyData(input, arrays);
@@ -551,8 +585,13 @@ void vtkSurfaceSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* act
   const bool hasBackface = actor->GetBackfaceProperty() != nullptr;
   const bool drawsEdges =
     actor->GetProperty()->GetEdgeVisibility() && internal.Buffers.GetHasBorders();
-  if (hasBackface != internal.HasBackface || drawsEdges != internal.DrawsEdges)
+  // Of ghosts, every rank would leave out others where particles are thinned out.
+  const bool hasGhosts = internal.Buffers.GetHasGhosts() && this->BlendGhosts &&
+    this->DrawsSplats() && this->Stride == 1;
+  if (hasBackface != internal.HasBackface || drawsEdges != internal.DrawsEdges ||
+    hasGhosts != internal.HasGhosts)
   {
+    internal.HasGhosts = hasGhosts;
     internal.HasBackface = hasBackface;
     internal.DrawsEdges = drawsEdges;
     this->ForgetShaders();
@@ -632,7 +671,9 @@ hop::SplatDrawing vtkSurfaceSplatMapper::DescribeDrawing(vtkRenderer* renderer, 
   drawing.Stride = this->Stride;
   drawing.FacesViewer = !this->CurrentInput->GetPointData()->GetNormals();
   drawing.Colors = source == Source::Colors || source == Source::Lookup;
-  drawing.Strongest = source == Source::Strongest || renderer->GetSelector() != nullptr;
+  drawing.Ghosts = this->Internal->HasGhosts;
+  drawing.Strongest =
+    drawing.Ghosts || source == Source::Strongest || renderer->GetSelector() != nullptr;
   drawing.ClipsColors = this->Internal->ClipsColors;
   drawing.ColorGradients = drawing.ClipsColors && source == Source::Lookup;
   drawing.EdgeWidth = this->Internal->DrawsEdges ? actor->GetProperty()->GetLineWidth() : 0.;
@@ -740,6 +781,7 @@ hop::ShaderText vtkSurfaceSplatMapper::DescribeShaders(vtkActor* actor) const
   shaders.DrawsEdges = this->Internal->DrawsEdges && this->DrawsSplats();
   shaders.ColorsBySide = this->ColorByNormalDirection;
   shaders.HasBackface = this->Internal->HasBackface;
+  shaders.HasGhosts = this->Internal->HasGhosts;
   shaders.HasCoat = property->GetInterpolation() == VTK_PBR && property->GetCoatStrength() > 0.;
   shaders.SelectionPass = this->LastSelectionState;
   return shaders;
@@ -922,6 +964,7 @@ void vtkSurfaceSplatMapper::PrintSelf(ostream& os, vtkIndent indent)
      << "\n";
   os << indent << "RadiusScale: " << this->RadiusScale << "\n";
   os << indent << "Radius: " << this->Radius << "\n";
+  os << indent << "BlendGhosts: " << (this->BlendGhosts ? "On" : "Off") << "\n";
   os << indent << "ColorByNormalDirection: " << (this->ColorByNormalDirection ? "On" : "Off")
      << "\n";
   os << indent << "OutwardColor: " << this->OutwardColor[0] << " " << this->OutwardColor[1] << " "

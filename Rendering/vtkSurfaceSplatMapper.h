@@ -45,6 +45,11 @@
  * map (or one for each run of points) has moved them and a point array `Original_Placement` says where they were: 6
  * components, position and unit normal as computed. A warning says that they were moved in another way.
  *
+ * Points that a point array `vtkGhostType` calls duplicate are ghosts: copies of particles that other ranks have. Splats
+ * are averaged with them as with others, but a pixel to which a ghost contributes most is left to its rank, so that
+ * ranks with the ghosts that their particles touch draw a picture together as one rank would. Ghosts are never
+ * selected, and not drawn in the other modes and with a Stride. Hidden points are not drawn.
+ *
  * Without point normals the disks face the viewer; without radii all particles have the radius `Radius`. One
  * warning says both. A particle with a normal, radius or position
  * that is zero, negative or not finite (positions may of course be zero) is skipped. Where the
@@ -74,12 +79,17 @@
 #include "vtkHighOrderParticleRenderingModule.h" // for export macro
 #include "vtkOpenGLPolyDataMapper.h"
 
+#include "vtkSmartPointer.h" // for vtkSmartPointer
+
 #include <memory> // for std::unique_ptr
 #include <vector> // for std::vector
+
+class vtkDoubleArray;
 
 namespace hop
 {
 class SplatLayer;
+struct ParticleArrays;
 struct SplatDrawing;
 struct ShaderText;
 }
@@ -189,6 +199,16 @@ public:
   ///@}
 
   ///@{
+  /**
+   * Whether splats are averaged with ghosts; without it ghosts are left out. To be switched off where the particles
+   * that ghosts are copies of are in the same input. Default: on.
+   */
+  vtkSetMacro(BlendGhosts, bool);
+  vtkGetMacro(BlendGhosts, bool);
+  vtkBooleanMacro(BlendGhosts, bool);
+  ///@}
+
+  ///@{
   /** Whether some particles are opaque, or some translucent; both may be. */
   bool HasOpaqueGeometry() override;
   bool HasTranslucentPolygonalGeometry() override;
@@ -199,6 +219,12 @@ public:
    * them or not, grown by the largest radius. Uninitialized bounds if there are no points.
    */
   void GetDiskBounds(vtkPolyData* input, double bounds[6]);
+
+  /**
+   * The disks that an input would be drawn as, without levels of detail: for each point centre and radius, which is 0
+   * where nothing is drawn, and without a radius array where Radius is 0.
+   */
+  vtkSmartPointer<vtkDoubleArray> GetDisks(vtkPolyData* input);
 
   /** Particles that are no vertex cells stand for a cell at their point, or for none. */
   void ProcessSelectorPixelBuffers(
@@ -243,6 +269,7 @@ protected:
   char* CellColorArrayName = nullptr;
   double RadiusScale = 1.0;
   double Radius = 0.0;
+  bool BlendGhosts = true;
   bool ColorByNormalDirection = false;
   double OutwardColor[3] = { 0.13, 0.35, 0.85 };
   double InwardColor[3] = { 0.80, 0.15, 0.13 };
@@ -252,6 +279,7 @@ private:
   void operator=(const vtkSurfaceSplatMapper&) = delete;
 
   vtkDataArray* GetRadiusArray(vtkPolyData* input);
+  hop::ParticleArrays DescribeArrays(vtkPolyData* input);
   double GetFallbackRadius(vtkPolyData* input);
   double GetDrawnRadiusScale() const;
   void WarnOfMissingArrays(vtkPolyData* input);

@@ -60,6 +60,7 @@ void SplatDrawing::SetUniforms(vtkShaderProgram* program) const
   program->SetUniformf("splatHiddenSide", static_cast<float>(this->HiddenSide));
   program->SetUniformi("splatFacesViewer", this->FacesViewer ? 1 : 0);
   program->SetUniformi("splatStride", this->Stride);
+  program->SetUniformi("splatGhosts", this->Ghosts ? 1 : 0);
   program->SetUniformi("splatKind", static_cast<int>(this->Kind));
   program->SetUniformi("splatIsovalue", this->Isovalue.value_or(AllIsovalues));
 }
@@ -79,7 +80,7 @@ std::vector<double> SplatDrawing::GetWholeKey() const
   for (double value :
     { this->RadiusScale, this->Sharpness, double(this->Stride), double(this->Kind),
       double(this->Isovalue.value_or(AllIsovalues)), double(this->FacesViewer),
-      double(this->HiddenSide), double(this->Colors), double(this->Strongest),
+      double(this->HiddenSide), double(this->Colors), double(this->Strongest), double(this->Ghosts),
       double(this->ClipsColors), this->EdgeWidth, double(this->NumberOfClippingPlanes) })
   {
     key.push_back(value);
@@ -116,7 +117,7 @@ bool SplatDrawing::DrawsAll() const
 {
   return this->Kind == DrawnKind::All && !this->Isovalue &&
     this->Buffers->GetNumberOfIsovalues() == 1 && this->HiddenSide == CulledSide::None &&
-    this->NumberOfClippingPlanes == 0;
+    this->NumberOfClippingPlanes == 0 && (this->Ghosts || !this->Buffers->GetHasGhosts());
 }
 
 bool SplatDrawing::UsesBorders() const

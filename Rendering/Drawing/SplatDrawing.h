@@ -52,6 +52,7 @@ struct SplatDrawing
   CulledSide HiddenSide = CulledSide::None;
   bool Colors = false;      // colours or lookup coordinates are accumulated
   bool Strongest = false;   // the strongest particle of every pixel is found
+  bool Ghosts = false;      // ghosts have a part in the sums; without it they are left out
   bool ClipsColors = false; // colours end where cells end
   bool ColorGradients =
     false; // colours are lookup coordinates with derivatives; ClipsColors is true then
@@ -87,7 +88,7 @@ struct SplatDrawing
   /** Whether splats have to be drawn with their own depth, because the thickness of a surface is too much. */
   bool TellsDepthsApart() const;
 
-  /** Whether all particles of the stride are drawn, and no clipping plane cuts them. */
+  /** Whether all particles of the stride are drawn, ghosts included, and no clipping plane cuts them. */
   bool DrawsAll() const;
 
   /** Whether it matters where the cells of particles end. */

@@ -80,6 +80,11 @@ struct CullingCells
 // is lost where sums are rounded.
 constexpr double OtherShare = 1e-4;
 
+// Factor on the weight of ghosts where the strongest particle is looked for: of two ranks one draws each pixel, and both
+// do where rounding hides which is the stronger. A smaller share lets both draw more pixels, which only translucent
+// surfaces show; a larger one leaves holes where positions are rounded to more than 1e-4 radii.
+constexpr double GhostShare = 0.999;
+
 int CornersOf(const SplatDrawing& drawing)
 {
   return drawing.DrawsPoints() ? 1 : 3;
@@ -148,6 +153,8 @@ std::string Definitions(const SplatDrawing& drawing, const SplatPrimitives::Styl
     ShaderDefine("SPLAT_SKIPS_HIDDEN", style.SkipsHidden && drawing.DrawsPoints()) +
     ShaderDefine("SPLAT_APART", drawing.TellsDepthsApart()) +
     ShaderDefine("SPLAT_LAYERS", drawing.TellsLayersApart()) +
+    ShaderDefine("SPLAT_GHOSTS", drawing.Ghosts) +
+    ShaderDefine("SPLAT_GHOST_SHARE", GhostShare) +
     ShaderDefine("SPLAT_CLIPPING_PLANES", drawing.NumberOfClippingPlanes);
 }
 }

@@ -37,6 +37,7 @@ void SplatBuffers::Upload(vtkOpenGLRenderWindow* window, const SplatParticles& p
   this->HasBorders = !particles.Borders.empty();
   this->HasShape = !particles.Shape.empty();
   this->HasLayers = particles.HasLayers;
+  this->HasGhosts = particles.HasGhosts;
   this->HasColor = false;
   constexpr int borders = SplatParticles::MaximumNumberOfBorders;
   // Texels of one particle in the longest buffer.

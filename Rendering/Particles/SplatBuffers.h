@@ -66,6 +66,9 @@ public:
   /** See SplatParticles::HasLayers. */
   bool GetHasLayers() const { return this->HasLayers; }
 
+  /** See SplatParticles::HasGhosts. */
+  bool GetHasGhosts() const { return this->HasGhosts; }
+
   ///@{
   /** Radius of the particles that are drawn, in model coordinates; 0 if none is. */
   double GetMeanRadius() const { return this->MeanRadius; }
@@ -118,6 +121,7 @@ private:
   bool HasBorders = false;
   bool HasShape = false;
   bool HasLayers = false;
+  bool HasGhosts = false;
   bool HasColor = false;
 };
 }

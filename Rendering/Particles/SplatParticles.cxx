@@ -6,6 +6,7 @@
 #include "Particles/ParticleMotion.h"
 #include "vtkCellArray.h"
 #include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkMath.h"
 #include "vtkPointData.h"
@@ -288,6 +289,11 @@ void Carry(const LinearMap& map, const ParticleArrays& arrays, vtkIdType id,
   }
 }
 
+int GhostTypeOf(const ParticleArrays& arrays, vtkIdType id)
+{
+  return arrays.Ghosts ? static_cast<int>(arrays.Ghosts->GetComponent(id, 0)) : 0;
+}
+
 // The fourth number of a particle's normal, see SplatParticles::Normal.
 float TagOf(const ParticleArrays& arrays, const SplatParticles& particles,
   const std::vector<double>& isovalues, vtkIdType particle)
@@ -297,6 +303,10 @@ float TagOf(const ParticleArrays& arrays, const SplatParticles& particles,
     arrays.CellColors->GetComponent(particles.CellIds[particle], 3) < 1.)
   {
     tag += 1.f;
+  }
+  if (GhostTypeOf(arrays, particles.PointIds[particle]) & vtkDataSetAttributes::DUPLICATEPOINT)
+  {
+    tag += SplatParticles::GhostMark;
   }
   if (!isovalues.empty())
   {
@@ -398,6 +408,7 @@ ParticleArrays ParticleArrays::FromPointData(vtkPointData* data)
   arrays.Placements = find("Original_Placement");
   arrays.CellBorders = find("Cell_Borders");
   arrays.Isovalues = data->GetArray("Isovalue");
+  arrays.Ghosts = data->GetArray(vtkDataSetAttributes::GhostArrayName());
   return arrays;
 }
 
@@ -463,8 +474,10 @@ SplatParticles SplatParticles::FromPolyData(vtkPolyData* input, const ParticleAr
       for (vtkIdType i = begin; i < end; ++i)
       {
         const vtkIdType id = particles.PointIds[i];
-        const double radius =
-          arrays.Radii ? arrays.Radii->GetComponent(id, 0) : arrays.FallbackRadius;
+        const bool hidden = GhostTypeOf(arrays, id) & vtkDataSetAttributes::HIDDENPOINT;
+        const double radius = hidden ? 0.
+          : arrays.Radii             ? arrays.Radii->GetComponent(id, 0)
+                                     : arrays.FallbackRadius;
         if (!ReadParticle(input->GetPoints(), id, radius, arrays.Normals, particles.Origin,
               &particles.CentreRadius[4 * i], &particles.Normal[4 * i]))
         {
@@ -491,6 +504,9 @@ SplatParticles SplatParticles::FromPolyData(vtkPolyData* input, const ParticleAr
       }
     });
   particles.Skipped = skipped;
+  particles.HasGhosts =
+    std::any_of(particles.PointIds.begin(), particles.PointIds.end(), [&](vtkIdType id)
+      { return GhostTypeOf(arrays, id) & vtkDataSetAttributes::DUPLICATEPOINT; });
   particles.IsovalueRanges = RangesOf(particles, std::max<std::size_t>(1, isovalues.size()));
   if (shaped && IsStronglyBent(particles))
   {

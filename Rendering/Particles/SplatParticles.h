@@ -71,6 +71,7 @@ struct ParticleArrays
   vtkDataArray* Isovalues =
     nullptr; ///< one a point; particles of different values are not averaged
   vtkDataArray* CellColors = nullptr; ///< see vtkSurfaceSplatMapper::SetCellColorArrayName()
+  vtkDataArray* Ghosts = nullptr;     ///< vtkGhostType of points: duplicate ones are ghosts, hidden ones not drawn
 
   /** Arrays made of columns, see Common/SplatColumns.h. */
   std::vector<vtkSmartPointer<vtkDataArray>> Columns;
@@ -85,12 +86,14 @@ struct SplatParticles
   std::vector<float> CentreRadius; ///< 4 a particle: position - Origin, radius (world units)
   /**
    * 4 a particle: unit normal, tag. The tag is twice the number of the particle's isovalue, plus 1 if its cell is
-   * translucent, plus LayerMark where MarkLayers() says so. Isovalues are numbered from 0 on, the smallest first.
+   * translucent, plus LayerMark where MarkLayers() says so, plus GhostMark for ghosts. Isovalues are numbered from 0 on, the smallest first.
    */
   std::vector<float> Normal;
   bool HasLayers = false; ///< whether a particle has LayerMark
   /** A share of 1, so that tags are still whole numbers after rounding down. */
   static constexpr float LayerMark = 0.5f;
+  bool HasGhosts = false; ///< whether a particle has GhostMark: it is blended with others, which is all
+  static constexpr float GhostMark = 0.25f; ///< as LayerMark
   /**
    * ClipStride a particle: normal and distance of one plane, the same of another; two overlaps in radii, see
    * OverlapAt(); two curvatures, see ParticleArrays::ClipCurvatures. If any particle has a third plane: its normal and

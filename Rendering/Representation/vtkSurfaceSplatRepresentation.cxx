@@ -1,11 +1,15 @@
 #include "vtkSurfaceSplatRepresentation.h"
 
+#include "GhostParticles.h"
 #include "SplatInput.h"
 #include "vtkAlgorithm.h"
 #include "vtkDataObject.h"
+#include "vtkDoubleArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMath.h"
 #include "vtkMatrix4x4.h"
+#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVRenderView.h"
 #include "vtkPolyData.h"
@@ -33,6 +37,7 @@ vtkSurfaceSplatRepresentation::vtkSurfaceSplatRepresentation()
   , ArraysToColorBy(Particles)
 {
   this->Actor->SetMapper(this->Mapper);
+  vtkMath::UninitializeBounds(this->DiskBounds);
   // Inputs need not have these arrays.
   this->Mapper->SetPointIdArrayName(hop::SplatInput::BlockPointIdName);
   this->Mapper->SetCellIdArrayName(hop::SplatInput::BlockCellIdName);
@@ -66,6 +71,12 @@ int vtkSurfaceSplatRepresentation::RequestData(
   this->Particles = hop::SplatInput::AsParticles(
     hasInput ? vtkDataObject::GetData(inputs[0], 0) : nullptr, this->Blocks);
   this->ArraysToColorBy = hop::SplatInput::WithoutBlockIds(this->Particles);
+  this->Mapper->GetDiskBounds(this->Particles, this->DiskBounds);
+  if (hasInput)
+  {
+    this->Particles = hop::GhostParticles::Add(this->Particles,
+      this->Mapper->GetDisks(this->Particles), vtkMultiProcessController::GetGlobalController());
+  }
   return this->Superclass::RequestData(request, inputs, outputs);
 }
 
@@ -104,6 +115,7 @@ void vtkSurfaceSplatRepresentation::PrepareMapper(vtkInformation* inInfo)
   const vtkIdType count = particles ? particles->GetNumberOfPoints() : 0;
   this->Mapper->SetStride(lod ? static_cast<int>(1 + count / InteractiveParticles) : 1);
   this->Mapper->SetInputDataObject(particles);
+  this->Mapper->SetBlendGhosts(!particles || !hop::GhostParticles::AreMerged(particles));
   this->UpdateColoring();
   this->UpdateBackface();
 }
@@ -114,11 +126,9 @@ void vtkSurfaceSplatRepresentation::ProvideParticles(
 {
   vtkPVView::SetPiece(inInfo, this, this->Particles);
 
-  double bounds[6];
-  this->Mapper->GetDiskBounds(this->Particles, bounds);
   vtkNew<vtkMatrix4x4> matrix;
   this->Actor->GetMatrix(matrix);
-  vtkPVRenderView::SetGeometryBounds(inInfo, this, bounds, matrix);
+  vtkPVRenderView::SetGeometryBounds(inInfo, this, this->DiskBounds, matrix);
 
   // Particles stay on their ranks, and the other data follows their partition: redistribution cuts
   // by cells and fails on ranks without particles and on coincident ones.
@@ -312,16 +322,19 @@ void vtkSurfaceSplatRepresentation::SetInterpolateScalarsBeforeMapping(int inter
 void vtkSurfaceSplatRepresentation::SetRadiusArrayName(const char* name)
 {
   this->Mapper->SetRadiusArrayName(name);
+  this->MarkModified(); // another radius reaches other ghosts
 }
 
 void vtkSurfaceSplatRepresentation::SetRadiusScale(double scale)
 {
   this->Mapper->SetRadiusScale(scale);
+  this->MarkModified(); // another radius reaches other ghosts
 }
 
 void vtkSurfaceSplatRepresentation::SetRadius(double radius)
 {
   this->Mapper->SetRadius(radius);
+  this->MarkModified(); // another radius reaches other ghosts
 }
 
 void vtkSurfaceSplatRepresentation::SetColorByNormalDirection(bool on)

@@ -158,8 +158,10 @@ private:
   vtkNew<vtkSurfaceSplatActor> Actor;
   vtkNew<vtkProperty> Backface;
   hop::SplatInput::Blocks Blocks;
-  vtkSmartPointer<vtkPolyData> Particles;       // of this process; empty where it has no data
-  vtkSmartPointer<vtkPolyData> ArraysToColorBy; // the same without arrays that are not for users
+  // Of this process, empty where it has no data; with the ghosts that other ranks have for it.
+  vtkSmartPointer<vtkPolyData> Particles;
+  vtkSmartPointer<vtkPolyData> ArraysToColorBy; // without ghosts, and without arrays that are not for users
+  double DiskBounds[6];                         // without ghosts
 };
 
 #endif

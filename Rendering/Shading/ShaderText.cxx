@@ -182,6 +182,7 @@ void ShaderText::ReplacePosition(vtkShader* fragment) const
     ShaderDefine("SPLAT_OUTLINE", folds || this->Drawn == Part::Outline) +
       ShaderDefine("SPLAT_FOLDS", folds) + ShaderDefine("SPLAT_EDGES", this->DrawsEdges) +
       ShaderDefine("SPLAT_CLIPS_COLORS", this->ClipsColors) +
+      ShaderDefine("SPLAT_GHOSTS", this->HasGhosts) +
       ShaderDefine("SPLAT_BACK_LAYER", this->Drawn == Part::BackLayer) + SplatResolveGlsl);
   Replace(fragment, "//Splat::Ray::Dec", SplatRayGlsl);
   Replace(fragment, "//Splat::Outline::Dec", SplatOutlineGlsl);

@@ -52,6 +52,7 @@ struct ShaderText
   bool DrawsEdges = false;   // lines are drawn there
   bool ColorsBySide = false; // each side has one colour, whatever the coloring says
   bool HasBackface = false;  // the inward side has a property of its own
+  bool HasGhosts = false;    // pixels whose strongest particle is a ghost are left to another rank
   bool HasCoat = false;      // the material has a coat, whose normal VTK asks for
   int SelectionPass = -1;    // pass of vtkHardwareSelector; -1: nothing is selected
 

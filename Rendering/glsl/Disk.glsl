@@ -8,7 +8,7 @@
 
 uniform samplerBuffer splatCentreRadius; // xyz: centre (MC), w: radius, 0 = draw nothing
 // xyz: outward unit normal (MC); w: twice the number of the isovalue, plus 1 if the particle is translucent, plus 0.5 if
-// its layer of the surface ends beside another one
+// its layer of the surface ends beside another one, plus 0.25 if it is a ghost
 uniform samplerBuffer splatNormal;
 // splatClipTexels texels a particle. First and second: xyz: unit normal of a plane (MC), w: distance (MC). Third: xy:
 // overlaps, see splatOverlaps(); zw: curvatures (1 / MC), within the surface, of the curves that the planes touch,
@@ -24,6 +24,7 @@ uniform int splatFacesViewer;  // 1: the particles have no normals, their disks 
 uniform int splatStride;       // every splatStride-th particle is drawn
 uniform int splatKind;         // which particles are drawn, see DrawnKind: 2 stands for all
 uniform int splatIsovalue;        // number of the isovalue whose particles are drawn; less than 0: all are
+uniform int splatGhosts;       // 0: ghosts are not drawn
 uniform float splatHiddenSide; // particles seen from this side are not drawn, see CulledSide
 uniform vec4 splatEyeMC;       // position of the eye, or, with w = 0, the direction to it
 
@@ -36,6 +37,7 @@ struct SplatDisk
   float seenFrom;   // 1: from outward (the normal points at the eye), -1: from inward
   int isovalue;     // its number
   bool besideLayer; // another layer of the surface is near
+  bool ghost;       // another rank draws where it is the strongest particle
 };
 
 vec3 splatTangent(vec3 normal)
@@ -58,9 +60,12 @@ SplatDisk splatDiskOf(int particle)
   disk.seenFrom = dot(disk.normalMC, toEyeMC) < 0.0 ? -1.0 : 1.0;
   int tag = int(normal.w);
   disk.isovalue = tag / 2;
-  disk.besideLayer = normal.w - float(tag) > 0.25;
+  float marks = normal.w - float(tag);
+  disk.besideLayer = marks >= 0.5;
+  disk.ghost = mod(marks, 0.5) >= 0.25;
   bool drawn = (splatKind == 2 || tag % 2 == splatKind) &&
-    (splatIsovalue < 0 || disk.isovalue == splatIsovalue) && disk.seenFrom != splatHiddenSide;
+    (splatIsovalue < 0 || disk.isovalue == splatIsovalue) && disk.seenFrom != splatHiddenSide &&
+    (splatGhosts == 1 || !disk.ghost);
   float radius = drawn ? centreRadius.w * splatRadiusScale : 0.0;
   disk.tangentMC = radius * splatTangent(disk.normalMC);
   disk.bitangentMC = cross(disk.normalMC, disk.tangentMC);

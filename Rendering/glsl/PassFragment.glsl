@@ -3,6 +3,7 @@
 //   SPLAT_HAS_CLIP          1: particles have clip planes
 //   SPLAT_GAP_SHARE         factor on the weight beyond a clip plane, see SplatPrimitives::GapShare
 //   SPLAT_OTHER_SHARE       factor on the weight of colours beyond the particle's cell
+//   SPLAT_GHOST_SHARE       factor on the weight of ghosts where the strongest particle is looked for
 //   SPLAT_CLIPPING_PLANES   number of the mapper's clipping planes
 
 #if SPLAT_POINTS
@@ -47,6 +48,9 @@ flat in float splatDepthToRadii;
 #endif
 flat in float splatMark;
 flat in int splatParticle;
+#if SPLAT_GHOSTS
+flat in int splatGhost;
+#endif
 
 uniform vec3 splatFalloff; // sharpness; the Gaussian at the rim; squared reach (radii^2), see SplatProfile
 uniform vec4 splatClippingPlane[6]; // MC

@@ -9,6 +9,7 @@
 //   SPLAT_CLIP_PLANES    largest number of clip planes of a particle, at least 1
 //   SPLAT_HAS_BORDERS    1: it matters where cells end
 //   SPLAT_BORDERS        number of borders that a particle may have
+//   SPLAT_GHOSTS         1: there are ghosts
 //   SPLAT_LEAST_PIXELS   smallest radius of a splat, pixels
 //   SPLAT_LEAST_COSINE   smallest cosine by which the push of a point is divided
 // Drawing/SplatPrimitives.cxx explains the last two.
@@ -61,6 +62,9 @@ flat out float splatDepthToRadii; // takes a difference in z to radii along the 
 #endif
 flat out float splatMark; // tells sides and isovalues apart: g of splatSeen
 flat out int splatParticle;
+#if SPLAT_GHOSTS
+flat out int splatGhost; // 1: the particle is a ghost
+#endif
 
 #if SPLAT_CURVED
 uniform samplerBuffer splatShape; // shape operator (1 / MC), two texels a particle: xx, yy, zz | xy, yz, xz
@@ -108,6 +112,9 @@ void main()
 {
   splatParticle = gl_VertexID / (SPLAT_POINTS == 1 ? 1 : 3) * splatStride;
   SplatDisk disk = splatDiskOf(splatParticle);
+#if SPLAT_GHOSTS
+  splatGhost = disk.ghost ? 1 : 0;
+#endif
   splatSeenFromSide = disk.seenFrom;
   splatMark = (float(disk.isovalue) + (disk.seenFrom > 0.0 ? 128.0 : 0.0)) / 255.0;
   splatNormalVC = normalize(splatNormalMatrix * disk.normalMC);

@@ -5,6 +5,7 @@
 //   SPLAT_BACK_LAYER   1: the back layer is drawn
 //   SPLAT_CLIPS_COLORS 1: colours have weights of their own, as they end where cells end
 //   SPLAT_EDGES        1: lines are drawn where cells end
+//   SPLAT_GHOSTS       1: there are ghosts; the rank that has the strongest particle of a pixel draws it
 
 //Splat::Ray::Dec
 
@@ -13,8 +14,15 @@ uniform sampler2D splatOffsetDepth;  // sums of weight * offset from the particl
 uniform sampler2D splatColorSum;     // sums of weight * colour or lookup coordinates
 uniform sampler2D splatBorderSum;    // sums of the weight that colours have, this weight * coverage by edges
 uniform sampler2D splatSeen;         // r: 1 where there is surface; g: above 0.5 where it is seen from outward
-uniform usampler2D splatStrongest; // number of the particle with the largest weight, from 1 on
+uniform usampler2D splatStrongest; // number of the particle with the largest weight, see StrongestFS.glsl
 uniform float splatLeastWeight; // pixels with surface have a larger summed weight than this; others have none
+
+#if SPLAT_GHOSTS
+bool splatIsDrawnElsewhere(ivec2 texel)
+{
+  return texelFetch(splatStrongest, texel, 0).r >= 0x80000000u;
+}
+#endif
 
 bool splatHasSurface(ivec2 texel)
 {
@@ -75,6 +83,11 @@ SplatSurface splatResolve()
   surface.coverage = inside ? 1.0 : 0.0;
 #endif
   surface.covered = surface.coverage > 0.0;
+#if SPLAT_GHOSTS && SPLAT_FOLDS
+  surface.covered = surface.covered && !splatIsDrawnElsewhere(own);
+#elif SPLAT_GHOSTS
+  surface.covered = surface.covered && !splatIsDrawnElsewhere(surface.texel);
+#endif
   vec4 normalWeight = texelFetch(splatNormalWeight, surface.texel, 0);
   surface.weight = surface.covered ? normalWeight.w : 1.0;
   surface.positionVC = vec3(0.0, 0.0, -1.0);
@@ -135,7 +148,7 @@ float splatEdgeShare(SplatSurface surface)
 
 int splatStrongestAt(ivec2 texel)
 {
-  return int(texelFetch(splatStrongest, texel, 0).r) - 1;
+  return int(texelFetch(splatStrongest, texel, 0).r & 0x7fffffffu) - 1;
 }
 
 // The place of the mean scalar's colour in VTK's colour texture. The lower one of its two rows is the lookup table,
