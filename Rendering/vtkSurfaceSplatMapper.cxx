@@ -95,6 +95,12 @@ void GetFiniteBounds(vtkPolyData* input, double bounds[6])
     input->GetPoints()->GetData()->GetFiniteRange(bounds + 2 * axis, axis);
   }
 }
+
+bool HasNormals(vtkPolyData* input)
+{
+  return hop::ParticleArrays::IfComplete(
+           input->GetPointData()->GetNormals(), input->GetNumberOfPoints()) != nullptr;
+}
 }
 
 // What is seen of one isovalue, or of all together.
@@ -239,13 +245,16 @@ void vtkSurfaceSplatMapper::ShallowCopy(vtkAbstractMapper* mapper)
 //------------------------------------------------------------------------------
 vtkDataArray* vtkSurfaceSplatMapper::GetRadiusArray(vtkPolyData* input)
 {
-  return this->RadiusArrayName ? input->GetPointData()->GetArray(this->RadiusArrayName) : nullptr;
+  return this->RadiusArrayName
+    ? hop::ParticleArrays::IfComplete(
+        input->GetPointData()->GetArray(this->RadiusArrayName), input->GetNumberOfPoints())
+    : nullptr;
 }
 
 //------------------------------------------------------------------------------
 hop::ParticleArrays vtkSurfaceSplatMapper::DescribeArrays(vtkPolyData* input)
 {
-  auto arrays = hop::ParticleArrays::FromPointData(input->GetPointData());
+  auto arrays = hop::ParticleArrays::FromPointData(input->GetPointData(), input->GetNumberOfPoints());
   arrays.Radii = this->GetRadiusArray(input);
   return arrays;
 }
@@ -357,7 +366,7 @@ void vtkSurfaceSplatMapper::BuildBufferObjects(vtkRenderer* renderer, vtkActor* 
 void vtkSurfaceSplatMapper::WarnOfMissingArrays(vtkPolyData* input)
 {
   const bool empty = input->GetNumberOfPoints() == 0;
-  const bool noNormals = !empty && !input->GetPointData()->GetNormals();
+  const bool noNormals = !empty && !HasNormals(input);
   const bool noRadius = !empty && !this->GetRadiusArray(input);
   if (noNormals && !this->Internal->SaidNoNormals)
   {
@@ -416,7 +425,8 @@ void vtkSurfaceSplatMapper::UploadParticles(vtkRenderer* renderer, vtkPolyData* 
 vtkDataArray* vtkSurfaceSplatMapper::GetCellColors(vtkPolyData* input)
 {
   vtkDataArray* colors = input && this->CellColorArrayName
-    ? input->GetCellData()->GetArray(this->CellColorArrayName)
+    ? hop::ParticleArrays::IfComplete(
+        input->GetCellData()->GetArray(this->CellColorArrayName), input->GetNumberOfVerts())
     : nullptr;
   return colors && colors->GetNumberOfComponents() == 4 && colors->GetNumberOfTuples() > 0
     ? colors
@@ -446,11 +456,12 @@ bool vtkSurfaceSplatMapper::HasTranslucentCells(vtkPolyData* input)
 void vtkSurfaceSplatMapper::UploadColors(vtkRenderer* renderer, vtkActor* actor)
 {
   // Colours are looked up between particles only, so that disks and points need none of it. Cells' own colours are
-  // no numbers to be looked up.
+  // no numbers to be looked up; and the shaders of the base class want coordinates wherever it has a texture for them.
   vtkDataArray* cellColors =
     this->Internal->CellIds.empty() ? nullptr : this->GetCellColors(this->CurrentInput);
   const vtkTypeBool interpolate = this->InterpolateScalarsBeforeMapping;
-  this->InterpolateScalarsBeforeMapping = interpolate && this->DrawsSplats() && !cellColors;
+  this->InterpolateScalarsBeforeMapping =
+    interpolate && this->DrawsSplats() && !cellColors && this->HasScalars(this->CurrentInput);
   int source = 0;
   vtkUnsignedCharArray* colors = this->MapScalars(this->CurrentInput, 1.0, source);
   this->InterpolateScalarsBeforeMapping = interpolate;
@@ -462,7 +473,8 @@ void vtkSurfaceSplatMapper::UploadColors(vtkRenderer* renderer, vtkActor* actor)
   coloring.OfScalars = colors || this->ColorCoordinates;
   if (this->ColorCoordinates)
   {
-    coloring.From = this->UploadLookupCoordinates(renderer) ? Source::Lookup : Source::Property;
+    this->UploadLookupCoordinates(renderer);
+    coloring.From = Source::Lookup;
   }
   else if (this->UploadMappedColors(
              renderer, actor, this->MappedColors(colors, source), cellColors, source == Cells))
@@ -536,19 +548,18 @@ void vtkSurfaceSplatMapper::AddGradients(std::vector<float>& lookupTexels)
 }
 
 //------------------------------------------------------------------------------
-// False if there are no lookup coordinates.
-bool vtkSurfaceSplatMapper::UploadLookupCoordinates(vtkRenderer* renderer)
+bool vtkSurfaceSplatMapper::HasScalars(vtkPolyData* input)
 {
-  const vtkIdType count = this->Internal->Buffers.GetNumberOfParticles();
-  auto* coordinates = vtkFloatArray::SafeDownCast(this->ColorCoordinates);
-  if (!coordinates || coordinates->GetNumberOfComponents() != 2 || count == 0)
-  {
-    return false;
-  }
-  std::vector<float> texels = hop::LookupTexels(coordinates, this->Internal->PointIds, count);
-  this->AddGradients(texels);
-  this->Internal->Buffers.UploadColors(WindowOf(renderer), texels);
+  int cells = 0;
+  vtkAbstractArray* scalars = vtkAbstractMapper::GetAbstractScalars(
+    input, this->ScalarMode, this->ArrayAccessMode, this->ArrayId, this->ArrayName, cells);
+  return scalars && scalars->GetNumberOfTuples() > 0 &&
+    this->Internal->Buffers.GetNumberOfParticles() > 0;
+}
 
+//------------------------------------------------------------------------------
+void vtkSurfaceSplatMapper::UploadLookupCoordinates(vtkRenderer* renderer)
+{
   // The base class binds this texture, of one colour a column, whenever there is a ColorTextureMap.
   if (!this->InternalColorTexture)
   {
@@ -556,7 +567,11 @@ bool vtkSurfaceSplatMapper::UploadLookupCoordinates(vtkRenderer* renderer)
     this->InternalColorTexture->RepeatOff();
   }
   this->InternalColorTexture->SetInputData(this->ColorTextureMap);
-  return true;
+  std::vector<float> texels =
+    hop::LookupTexels(vtkFloatArray::SafeDownCast(this->ColorCoordinates),
+      this->Internal->PointIds, this->Internal->Buffers.GetNumberOfParticles());
+  this->AddGradients(texels);
+  this->Internal->Buffers.UploadColors(WindowOf(renderer), texels);
 }
 
 //------------------------------------------------------------------------------
@@ -669,7 +684,7 @@ hop::SplatDrawing vtkSurfaceSplatMapper::DescribeDrawing(vtkRenderer* renderer, 
   drawing.RadiusScale = this->GetDrawnRadiusScale();
   drawing.Sharpness = this->Sharpness;
   drawing.Stride = this->Stride;
-  drawing.FacesViewer = !this->CurrentInput->GetPointData()->GetNormals();
+  drawing.FacesViewer = !HasNormals(this->CurrentInput);
   drawing.Colors = source == Source::Colors || source == Source::Lookup;
   drawing.Ghosts = this->Internal->HasGhosts;
   drawing.Strongest =

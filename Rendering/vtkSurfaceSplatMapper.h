@@ -288,7 +288,8 @@ private:
   vtkDataArray* GetCellColors(vtkPolyData* input);
   bool HasTranslucentCells(vtkPolyData* input);
   std::vector<unsigned char> MappedColors(vtkUnsignedCharArray* colors, int source);
-  bool UploadLookupCoordinates(vtkRenderer* renderer);
+  bool HasScalars(vtkPolyData* input);
+  void UploadLookupCoordinates(vtkRenderer* renderer);
   bool UploadMappedColors(vtkRenderer* renderer, vtkActor* actor, std::vector<unsigned char> rgba,
     vtkDataArray* cellColors, bool ofCells);
   void AddGradients(std::vector<float>& lookupTexels);

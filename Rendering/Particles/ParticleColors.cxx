@@ -61,11 +61,12 @@ void ReplaceColors(std::vector<unsigned char>& rgba, vtkDataArray* cellColors,
 std::vector<float> LookupTexels(
   vtkFloatArray* coordinates, const std::vector<vtkIdType>& pointIds, vtkIdType count)
 {
+  const vtkIdType last = coordinates->GetNumberOfTuples() - 1;
   std::vector<float> texels(4 * count, 0.f);
   for (vtkIdType i = 0; i < count; ++i)
   {
     float coordinate[2] = { 0.f, 0.f };
-    coordinates->GetTypedTuple(pointIds[i], coordinate);
+    coordinates->GetTypedTuple(std::min(pointIds[i], last), coordinate);
     if (coordinate[1] < NoNumber)
     {
       texels[4 * i] = coordinate[0];

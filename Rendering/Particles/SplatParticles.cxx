@@ -54,7 +54,9 @@ struct Overlap
  */
 constexpr double SameNormal = 1e-10;
 
-void CollectIds(vtkPolyData* input, SplatParticles& particles)
+// Writes the points and the cells of the particles. Returns the particles whose point is not there; they have the first
+// point.
+std::vector<vtkIdType> CollectIds(vtkPolyData* input, SplatParticles& particles)
 {
   vtkCellArray* vertices = input->GetVerts();
   const vtkIdType cells = vertices ? vertices->GetNumberOfCells() : 0;
@@ -62,7 +64,7 @@ void CollectIds(vtkPolyData* input, SplatParticles& particles)
   {
     particles.PointIds.resize(input->GetNumberOfPoints());
     std::iota(particles.PointIds.begin(), particles.PointIds.end(), vtkIdType(0));
-    return;
+    return {};
   }
   particles.PointIds.reserve(vertices->GetNumberOfConnectivityIds());
   particles.CellIds.reserve(vertices->GetNumberOfConnectivityIds());
@@ -74,6 +76,16 @@ void CollectIds(vtkPolyData* input, SplatParticles& particles)
     particles.PointIds.insert(particles.PointIds.end(), points, points + size);
     particles.CellIds.insert(particles.CellIds.end(), size, cell);
   }
+  std::vector<vtkIdType> lost;
+  for (vtkIdType i = 0; i < particles.GetNumberOfParticles(); ++i)
+  {
+    if (particles.PointIds[i] < 0 || particles.PointIds[i] >= input->GetNumberOfPoints())
+    {
+      particles.PointIds[i] = 0;
+      lost.push_back(i);
+    }
+  }
+  return lost;
 }
 
 std::array<double, 3> MiddleOfFinitePoints(vtkPoints* points)
@@ -121,16 +133,12 @@ bool ReadParticle(vtkPoints* points, vtkIdType id, double radius, vtkDataArray* 
   return true;
 }
 
-// Reads the shape operator. It stays zero, which is flat, if it is not finite.
 void ReadShape(vtkDataArray* shapes, vtkIdType id, float shape[8])
 {
   double tensor[6];
   shapes->GetTuple(id, tensor);
-  if (std::all_of(tensor, tensor + 6, [](double value) { return std::isfinite(value); }))
-  {
-    std::copy_n(tensor, 3, shape);
-    std::copy_n(tensor + 3, 3, shape + 4);
-  }
+  std::copy_n(tensor, 3, shape);
+  std::copy_n(tensor + 3, 3, shape + 4);
 }
 
 // Whether enough particles bend so much that disks would show, see StrongBend. Measured by the Frobenius norm of the
@@ -213,7 +221,7 @@ void ReadClipPlanes(const ParticleArrays& arrays, vtkIdType id, int count, float
   }
 }
 
-// Reads the borders of a particle's cell. A border that is missing or not finite is none.
+// Reads the borders of a particle's cell. A border that is missing is none.
 void ReadBorders(vtkDataArray* borders, vtkIdType id, float* read)
 {
   const int count =
@@ -221,13 +229,6 @@ void ReadBorders(vtkDataArray* borders, vtkIdType id, float* read)
   for (int component = 0; component < 4 * count; ++component)
   {
     read[component] = static_cast<float>(borders->GetComponent(id, component));
-  }
-  for (int border = 0; border < count; ++border, read += 4)
-  {
-    if (!std::all_of(read, read + 4, [](float value) { return std::isfinite(value); }))
-    {
-      std::fill_n(read, 4, 0.f);
-    }
   }
 }
 
@@ -292,6 +293,45 @@ void Carry(const LinearMap& map, const ParticleArrays& arrays, vtkIdType id,
 int GhostTypeOf(const ParticleArrays& arrays, vtkIdType id)
 {
   return arrays.Ghosts ? static_cast<int>(arrays.Ghosts->GetComponent(id, 0)) : 0;
+}
+
+void ZeroUnlessFinite(float* first, int count)
+{
+  if (!std::all_of(first, first + count, [](float value) { return std::isfinite(value); }))
+  {
+    std::fill_n(first, count, 0.f);
+  }
+}
+
+// Forgets what float32 does not hold, or what an affine map has made infinite: a particle is not drawn then, or drawn
+// flat, or not cut.
+void ForgetInfinities(SplatParticles& particles, vtkIdType i)
+{
+  float* const normal = &particles.Normal[4 * i];
+  float* const centreRadius = &particles.CentreRadius[4 * i];
+  ZeroUnlessFinite(centreRadius, 4);
+  if (!std::isfinite(normal[0] + normal[1] + normal[2]))
+  {
+    std::fill_n(normal, 3, 0.f);
+    centreRadius[3] = 0.f;
+  }
+  if (centreRadius[3] == 0.f)
+  {
+    normal[2] = 1.f; // any direction: shaders need not mind a zero one
+  }
+  if (!particles.Shape.empty())
+  {
+    ZeroUnlessFinite(&particles.Shape[8 * i], 8);
+  }
+  if (particles.ClipStride > 0)
+  {
+    ZeroUnlessFinite(&particles.Clip[particles.ClipStride * i], particles.ClipStride);
+  }
+  constexpr int borders = SplatParticles::MaximumNumberOfBorders;
+  for (int border = 0; border < borders && !particles.Borders.empty(); ++border)
+  {
+    ZeroUnlessFinite(&particles.Borders[4 * (borders * i + border)], 4);
+  }
 }
 
 // The fourth number of a particle's normal, see SplatParticles::Normal.
@@ -376,10 +416,11 @@ vtkSmartPointer<vtkDataArray> ColumnsOf(vtkDataArray* all, int first, int compon
 }
 
 // The array with a name, or the columns that stand for it.
-vtkDataArray* FindArray(vtkPointData* data, const std::string& name, ParticleArrays& owner)
+vtkDataArray* FindArray(
+  vtkPointData* data, vtkIdType points, const std::string& name, ParticleArrays& owner)
 {
-  vtkDataArray* packed = data->GetArray(SplatColumnsArray);
-  vtkDataArray* found = data->GetArray(name.c_str());
+  vtkDataArray* packed = ParticleArrays::IfComplete(data->GetArray(SplatColumnsArray), points);
+  vtkDataArray* found = ParticleArrays::IfComplete(data->GetArray(name.c_str()), points);
   int first = 0;
   for (const SplatColumn& column : SplatColumns)
   {
@@ -395,11 +436,17 @@ vtkDataArray* FindArray(vtkPointData* data, const std::string& name, ParticleArr
 }
 
 //------------------------------------------------------------------------------
-ParticleArrays ParticleArrays::FromPointData(vtkPointData* data)
+vtkDataArray* ParticleArrays::IfComplete(vtkDataArray* array, vtkIdType rows)
+{
+  return array && array->GetNumberOfTuples() >= rows ? array : nullptr;
+}
+
+//------------------------------------------------------------------------------
+ParticleArrays ParticleArrays::FromPointData(vtkPointData* data, vtkIdType points)
 {
   ParticleArrays arrays;
-  const auto find = [&](const char* name) { return FindArray(data, name, arrays); };
-  arrays.Normals = data->GetNormals();
+  const auto find = [&](const char* name) { return FindArray(data, points, name, arrays); };
+  arrays.Normals = IfComplete(data->GetNormals(), points);
   arrays.ClipNormals = find("Clip_Normal");
   arrays.ClipDistances = find("Clip_Distance");
   arrays.ClipAngles = find("Clip_Angle");
@@ -407,8 +454,8 @@ ParticleArrays ParticleArrays::FromPointData(vtkPointData* data)
   arrays.ShapeOperators = find("Shape_Operator");
   arrays.Placements = find("Original_Placement");
   arrays.CellBorders = find("Cell_Borders");
-  arrays.Isovalues = data->GetArray("Isovalue");
-  arrays.Ghosts = data->GetArray(vtkDataSetAttributes::GhostArrayName());
+  arrays.Isovalues = IfComplete(data->GetArray("Isovalue"), points);
+  arrays.Ghosts = IfComplete(data->GetArray(vtkDataSetAttributes::GhostArrayName()), points);
   return arrays;
 }
 
@@ -447,7 +494,7 @@ SplatParticles SplatParticles::FromPolyData(vtkPolyData* input, const ParticleAr
   {
     return particles;
   }
-  CollectIds(input, particles);
+  const std::vector<vtkIdType> lost = CollectIds(input, particles);
   particles.Origin = MiddleOfFinitePoints(input->GetPoints());
 
   const ParticleMotion motion(input->GetPoints(), arrays.Placements);
@@ -481,7 +528,6 @@ SplatParticles SplatParticles::FromPolyData(vtkPolyData* input, const ParticleAr
         if (!ReadParticle(input->GetPoints(), id, radius, arrays.Normals, particles.Origin,
               &particles.CentreRadius[4 * i], &particles.Normal[4 * i]))
         {
-          particles.Normal[4 * i + 2] = 1.f; // any direction: shaders need not mind a zero one
           ++skipped;
         }
         particles.Normal[4 * i + 3] = TagOf(arrays, particles, isovalues, i);
@@ -501,8 +547,14 @@ SplatParticles SplatParticles::FromPolyData(vtkPolyData* input, const ParticleAr
         {
           Carry(*map, arrays, id, particles, i);
         }
+        ForgetInfinities(particles, i);
       }
     });
+  for (vtkIdType i : lost)
+  {
+    particles.CentreRadius[4 * i + 3] = 0.f;
+    ++skipped;
+  }
   particles.Skipped = skipped;
   particles.HasGhosts =
     std::any_of(particles.PointIds.begin(), particles.PointIds.end(), [&](vtkIdType id)

@@ -6,8 +6,9 @@
  * 1e-2 at coordinates of 1e6.
  *
  * There is one particle per point of a vertex cell, in the order of the cells; without vertex cells there is one per
- * point. A particle that cannot be drawn (position or normal not finite, normal zero, radius not positive) keeps its
- * place with radius 0, so that the numbers of particles stay the numbers of the cells.
+ * point. A particle that cannot be drawn (position, normal or radius not finite in float32, normal zero, radius not
+ * positive, a point that is not there) keeps its place with radius 0, so that the numbers of particles stay the numbers
+ * of the cells.
  */
 
 #pragma once
@@ -77,7 +78,10 @@ struct ParticleArrays
   std::vector<vtkSmartPointer<vtkDataArray>> Columns;
 
   /** The arrays with the names that vtkSurfaceSplatMapper lists, without radii and colours. */
-  static ParticleArrays FromPointData(vtkPointData* data);
+  static ParticleArrays FromPointData(vtkPointData* data, vtkIdType points);
+
+  /** The array, or nullptr if it has fewer rows than it needs: nobody knows what the missing ones would say. */
+  static vtkDataArray* IfComplete(vtkDataArray* array, vtkIdType rows);
 };
 
 struct SplatParticles

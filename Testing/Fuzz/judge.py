@@ -15,6 +15,7 @@ import recipes
 import support
 from highorderparticles import vtkHighOrderParticleIsosurface
 from vtkmodules.vtkCommonCore import vtkObject
+from vtkmodules.vtkCommonDataModel import vtkDataObject
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter
 
 # Particles whose position and value are compared with those of VTK's own cells; more take longer.
@@ -39,7 +40,12 @@ class Session:
         self.filter.SetInputArrayToProcess(0, 0, 0, 0, "f")
         self.set_properties(recipe["properties"])
         self.set_isovalues(recipe["isovalues"])
-        self.filter.SetInputDataObject(self.grid)
+        self.give_grid()
+
+    def give_grid(self):
+        """Lets the filter have the grid, in one piece or several."""
+        whole, self.pieces = recipes.in_pieces(self.grid, self.recipe.get("pieces", 1))
+        self.filter.SetInputDataObject(whole)
 
     def read(self, grid):
         """The grid as it comes back from a file, which may be damaged."""
@@ -66,7 +72,7 @@ class Session:
 
     def set_properties(self, properties):
         for name, value in properties.items():
-            if name == "Spacing":
+            if name in ("Spacing", "SmallestSpacing"):
                 value = value * side_of(self.grid)
             getattr(self.filter, "Set" + name)(value)
 
@@ -100,7 +106,6 @@ class Session:
             self.grid.Modified()
         elif kind == "other grid":
             self.grid = recipes.make_grid(recipes.random_recipe(change["seed"]) | {"bad": [], "blocks": 1, "order": 2})
-            self.filter.SetInputDataObject(self.grid)
         elif kind in ("values", "points"):
             other = recipes.make_grid(self.recipe, change["seed"])
             if other.GetNumberOfPoints() != self.grid.GetNumberOfPoints():
@@ -111,7 +116,9 @@ class Session:
                 self.grid.GetPointData().AddArray(other.GetPointData().GetArray("f"))
             self.grid.Modified()
         elif kind == "abort":
-            self.filter.Modified()
+            self.filter.SetSeed(change["seed"])  # else the output of the run before would be kept
+        if kind in ("no array", "other grid", "values", "points"):
+            self.give_grid()
 
     def run(self):
         """What is wrong with the output; an empty list if nothing is."""
@@ -120,7 +127,16 @@ class Session:
         self.progress()
         failed = [text for text in self.messages.errors if "the run failed" in text]
         silent = [f"no question for {self.silence:.2f} s"] if self.silence > LONGEST_SILENCE else []
-        return failed + silent + complaints(self.filter, self.grid)
+        output = self.filter.GetOutputDataObject(0)
+        parts = [output]
+        if output.IsA("vtkCompositeDataSet"):
+            parts = [leaf for _, _, leaf in support.leaves_of(output)]
+        return failed + silent + [
+            text
+            for part, grid in zip(parts, self.pieces)
+            if part and part.GetNumberOfPoints() > 0
+            for text in complaints(self.filter, grid, part, len(self.pieces) > 1)
+        ]
 
 
 def side_of(grid):
@@ -133,12 +149,8 @@ def side_of_points(points):
     return float(np.ptp(points, axis=0).max()) if len(points) else 1.0
 
 
-def complaints(contour, grid):
-    """What is wrong with an output."""
-    output = contour.GetOutputDataObject(0)
-    count = output.GetNumberOfPoints()
-    if count == 0:
-        return []
+def complaints(contour, grid, output, is_part):
+    """What is wrong with an output, or with the output of one of several blocks."""
     found = []
     columns = {"points": support.points_of(output)}
     columns |= {name: support.array_of(output, name).astype(float) for name in support.own_arrays(0)}
@@ -153,7 +165,47 @@ def complaints(contour, grid):
     places = columns["ParametricCoordinates"]
     found += ["a place is outside its cell"] * bool(places.min() < -1e-9 or places.max() > 1 + 1e-9)
     found += ["a radius is not positive"] * bool(columns["Radius"].min() <= 0)
+    if contour.GetOutputType() != contour.PARTICLES:
+        found += mesh_faults(output)
+        # Corners may be at home in another block, and nodes of curved triangles off the surface, with a warning.
+        if is_part or support.reported(output, "MeshStraightNodes") > 0:
+            return found
     return found or misplaced(contour, grid, output)
+
+
+def mesh_faults(mesh):
+    """What keeps a mesh, of flat or curved triangles, from being an oriented manifold with boundary."""
+    cells = mesh.GetPolys() if mesh.IsA("vtkPolyData") else mesh.GetCells()
+    count = cells.GetNumberOfCells()
+    ids = support.vtk_to_numpy(cells.GetConnectivityArray()).reshape(count, -1)
+    if ids.min() < 0 or ids.max() >= mesh.GetNumberOfPoints():
+        return ["a triangle has a corner that is not there"]
+    found = ["a triangle has a node twice"] * bool((np.diff(np.sort(ids, axis=1), axis=1) == 0).any())
+    found += ["a point has no triangle"] * (len(np.unique(ids)) != mesh.GetNumberOfPoints())
+    corners = ids[:, :3]
+    edges = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]])
+    found += ["two triangles are on one side of an edge"] * (len(np.unique(edges, axis=0)) != len(edges))
+    return found + ["two fans of triangles touch in a corner"] * (has_touching_fans(corners))
+
+
+def has_touching_fans(corners):
+    """Whether the triangles at some corner are not all joined by edges at that corner."""
+    # Each triangle leads, around each of its corners, from one neighbour to the next.
+    steps = {(c[i], c[(i + 1) % 3]): c[(i + 2) % 3] for c in corners.tolist() for i in range(3)}
+    starts = {}
+    for corner, neighbor in steps:
+        starts.setdefault(corner, []).append(neighbor)
+    for corner, neighbors in starts.items():
+        # A fan that ends begins where no triangle leads to.
+        reached = {steps[corner, n] for n in neighbors}
+        first = next((n for n in neighbors if n not in reached), neighbors[0])
+        place, length = first, 0
+        while (corner, place) in steps and (length == 0 or place != first):
+            place = steps[corner, place]
+            length += 1
+        if length != len(neighbors):
+            return True
+    return False
 
 
 def misplaced(contour, grid, output):
@@ -228,7 +280,7 @@ def main():
         for change in recipe["changes"]:
             session.change(change)
             found += session.run()
-        particles = session.filter.GetOutputDataObject(0).GetNumberOfPoints()
+        particles = session.filter.GetOutputDataObject(0).GetNumberOfElements(vtkDataObject.POINT)
         answer({"complaints": found, "particles": particles, "silence": session.silence})
 
 

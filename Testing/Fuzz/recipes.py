@@ -8,10 +8,12 @@ import numpy as np
 import cells
 import support
 from vtkmodules.vtkCommonCore import vtkIdList
+from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet
 
 CELLS = [*cells.OF_THE_SOURCE, *cells.BY_HAND, *cells.ARBITRARY_ORDER]
 FIELDS = ["linear", "sphere", "gyroid", "noise", "steps", "constant", "product", "spike"]
 CLASSIC, FAST = 0, 1  # of the filter
+PARTICLES, TRIANGLES, CURVED_TRIANGLES = 0, 1, 2
 # Powers of ten: units that files of solvers come in, and the ends of what doubles hold.
 EXPONENTS = [0] * 6 + [-3, 3, -9, 9, -30, 30, -150, 150, -200, 200, -300]
 
@@ -33,7 +35,7 @@ def random_recipe(seed):
     if field in ("noise", "steps", "spike") and order:
         # To isolate the surface of higher degrees takes longer than the limit; a magnitude has twice the degree.
         order = min(order, 3 if components > 1 else 6)
-    return {
+    recipe = {
         "seed": seed,
         "cell": cell,
         "order": order,
@@ -55,6 +57,25 @@ def random_recipe(seed):
         "properties": random_properties(dice, pick, seldom),
         "changes": [random_change(dice, pick, seldom) for _ in range(seldom(int(dice.integers(1, 4)), 0, 0.4))],
         "file": seldom({"cut": seldom(float(dice.random()), 1), "flips": int(dice.integers(0, 6))}, None),
+    }
+    return recipe | later_choices(recipe, seed)
+
+
+def later_choices(recipe, seed):
+    """What recipes know since seeds were first written down, by dice of its own, so that a seed is still what it was."""
+    dice = np.random.default_rng([seed, 1])
+
+    def mesh():
+        return {"OutputType": int(dice.choice([PARTICLES, TRIANGLES, CURVED_TRIANGLES])), "Order": int(dice.integers(2, 5))}
+
+    # In units of the longest side.
+    smallest = float(dice.choice([0, 0, 0, 0.01, 0.1]))
+    properties = {**recipe["properties"], "SmallestSpacing": smallest, **(mesh() if dice.random() < 0.5 else {})}
+    changes = [{"kind": "property", "properties": mesh()}] if dice.random() < 0.15 else []
+    return {
+        "pieces": int(dice.choice([1, 1, 1, 2, 5])),
+        "properties": properties,
+        "changes": recipe["changes"] + changes,
     }
 
 
@@ -180,16 +201,42 @@ def with_bad_ids(grid, dice):
     return broken
 
 
+def in_pieces(grid, count):
+    """The grid's cells in several blocks that share all points, and a block that is empty; the grid itself if count is
+    1. The second value lists what stands at each place of the composite."""
+    if count == 1:
+        return grid, [grid]
+    pieces = []
+    ids = vtkIdList()
+    for some in np.array_split(np.arange(grid.GetNumberOfCells()), count):
+        piece = grid.NewInstance()
+        piece.SetPoints(grid.GetPoints())
+        piece.GetPointData().ShallowCopy(grid.GetPointData())
+        piece.GetCellData().CopyAllOn()
+        piece.GetCellData().CopyAllocate(grid.GetCellData(), len(some))
+        for row, cell in enumerate(map(int, some)):
+            grid.GetCellPoints(cell, ids)
+            piece.InsertNextCell(grid.GetCellType(cell), ids)
+            piece.GetCellData().CopyData(grid.GetCellData(), cell, row)
+        pieces.append(piece)
+    composite = vtkMultiBlockDataSet()
+    composite.SetNumberOfBlocks(count + 1)
+    for place, piece in enumerate(pieces):
+        composite.SetBlock(place, piece)
+    return composite, pieces
+
+
 # Smaller recipes
 
 
 PLAIN = {
     "length": 0, "offset": 0, "warp": 0, "scatter": 0, "flat": 1, "value": 0, "shift": 0, "number": "float64",
     "components": 1, "bad": [], "weights": None, "ghosts": 0, "changes": [], "file": None, "isovalues": [0.5],
+    "pieces": 1,
 }  # fmt: skip
 PLAIN_PROPERTIES = {
     "Spacing": 0, "AngularDensity": 7, "Tolerance": 1e-10, "NumberOfParticles": 0, "Quality": 1, "Method": FAST,
-    "NodeSpacing": 0, "Component": 0, "WarmStart": 1, "Seed": 1,
+    "NodeSpacing": 0, "Component": 0, "WarmStart": 1, "Seed": 1, "OutputType": PARTICLES, "Order": 2, "SmallestSpacing": 0,
 }  # fmt: skip
 
 
@@ -200,12 +247,12 @@ def simpler(recipe):
         return {**copy.deepcopy(recipe), **changes}
 
     for name, plain in PLAIN.items():
-        if recipe[name] != plain:
+        if recipe.get(name, plain) != plain:
             yield changed(**{name: plain})
     for n in range(len(recipe["changes"])):
         yield changed(changes=recipe["changes"][:n] + recipe["changes"][n + 1 :])
     for name, plain in PLAIN_PROPERTIES.items():
-        if recipe["properties"][name] != plain:
+        if recipe["properties"].get(name, plain) != plain:
             yield changed(properties={**recipe["properties"], name: plain})
     if recipe["blocks"] > 1:
         yield changed(blocks=recipe["blocks"] - 1)
