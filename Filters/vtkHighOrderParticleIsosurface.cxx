@@ -267,7 +267,7 @@ std::uint64_t vtkHighOrderParticleIsosurface::HashOfRequest(vtkDataObject* input
   }
   for (const vtkIdType number : { vtkIdType(this->Component), vtkIdType(this->FindQuantity()),
          vtkIdType(this->NodeSpacing), vtkIdType(this->Method), vtkIdType(this->Quality),
-         vtkIdType(this->Seed), this->NumberOfParticles, vtkIdType(this->WarmStart),
+         vtkIdType(this->Seed), this->NumberOfParticles, this->ParticlesPerWorker, vtkIdType(this->WarmStart),
          vtkIdType(this->PassDiagnostics), vtkIdType(this->OutputType), vtkIdType(this->Order) })
   {
     hash.addWord(static_cast<std::uint64_t>(number));
@@ -321,6 +321,7 @@ hop::RunProperties vtkHighOrderParticleIsosurface::PropertiesOfRun()
   properties.quality = static_cast<hop::Quality>(this->Quality);
   properties.seed = static_cast<std::uint64_t>(this->Seed);
   properties.numberOfParticles = this->NumberOfParticles;
+  properties.particlesPerWorker = this->ParticlesPerWorker;
   properties.isClassic = this->Method == CLASSIC;
   properties.isWarmStart = this->WarmStart;
   properties.passesDiagnostics = this->PassDiagnostics;
@@ -389,6 +390,7 @@ void vtkHighOrderParticleIsosurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Quality: " << this->Quality << "\n";
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "NumberOfParticles: " << this->NumberOfParticles << "\n";
+  os << indent << "ParticlesPerWorker: " << this->ParticlesPerWorker << "\n";
   os << indent << "WarmStart: " << (this->WarmStart ? "On" : "Off") << "\n";
   os << indent << "PassDiagnostics: " << (this->PassDiagnostics ? "On" : "Off") << "\n";
   os << indent << "OutputType: " << this->OutputType << "\n";

@@ -229,6 +229,17 @@ public:
 
   ///@{
   /**
+   * Number of particles that a worker is worth: an isosurface that takes several times as many is distributed by several
+   * workers, each in a slab across one direction, on different MPI ranks where there are some. How many workers there
+   * are, and so where particles stand, depends on the surface alone and not on the number of ranks. One worker makes
+   * meshes, given numbers and Classic, and goes on from a previous run. 0: one worker always. Default 0.
+   */
+  vtkSetClampMacro(ParticlesPerWorker, vtkIdType, 0, VTK_ID_MAX);
+  vtkGetMacro(ParticlesPerWorker, vtkIdType);
+  ///@}
+
+  ///@{
+  /**
    * If positive, the number of particles for each isovalue, over all blocks and ranks; the spacing then
    * follows. Blocks that share cells are isosurfaces of their own. 0 lets Spacing decide. Default 0.
    */
@@ -359,6 +370,7 @@ private:
   int Quality = STANDARD;
   int Seed = 1;
   vtkIdType NumberOfParticles = 0;
+  vtkIdType ParticlesPerWorker = 0;
   bool WarmStart = false;
   bool PassDiagnostics = false;
   int OutputType = PARTICLES;

@@ -4,6 +4,9 @@
 #include "Conversion/GridElements.h"
 #include "Elements/CornerNumbers.h"
 #include "Elements/GatheredMesh.h"
+#include "Fast/SlabMeshes.h"
+#include "Fast/SlabPlan.h"
+#include "Fast/SlabWorkers.h"
 #include "Input/BlockGroups.h"
 #include "Output/ParticlePacker.h"
 #include "Run/RankBlocks.h"
@@ -16,6 +19,7 @@
 
 #include "vtkPolyData.h"
 
+#include <exception>
 #include <functional>
 #include <new>
 #include <optional>
@@ -84,6 +88,16 @@ private:
   bool gather(GridElements& elements);
   std::vector<IsovalueParticles> distribute(const GridElements& elements, const Work& work);
   bool bringHome(std::vector<IsovalueParticles>& particles, const ParallelFor& parallelFor);
+  bool distributeAtWorkers(
+    GridElements& elements, const Work& work, std::vector<IsovalueParticles>& particles);
+  bool plan(const GridElements& elements, const Work& work);
+  bool distributeInSlabs(
+    GridElements& elements, const Work& work, std::vector<IsovalueParticles>& particles);
+  void distributeSlabsOf(const SlabMeshes& meshes, double fieldIsovalue, const Work& work,
+    IsovalueParticles& some);
+  bool bringSlabsHome(const SlabMeshes& meshes, std::vector<Distribution>& ofSlabs,
+    const ParallelFor& parallelFor, Distribution& home);
+  void attemptAgain(const std::exception_ptr& failure);
 
   Exchange& Ranks;
   const InputBlocks& Blocks;
@@ -95,6 +109,8 @@ private:
   PreviousRun& Previous;
   /// Of all ranks' elements.
   std::vector<MeshSize> Sizes;
+  /// Of each isosurface.
+  std::vector<Slab> Slabs;
   /// On workers: the elements of all ranks.
   GatheredMesh All;
   /// Whether nothing has failed on this rank, and nobody has asked it to stop.
@@ -139,16 +155,18 @@ bool GroupRun::isWorker(int rank) const
 bool GroupRun::run(const Work& work, std::vector<std::int64_t>& counts)
 {
   std::optional<GridElements> elements = this->convert(work);
-  if (!elements || !this->gather(*elements))
+  if (!elements || !this->plan(*elements, work))
   {
     return false;
   }
-  std::vector<IsovalueParticles> particles = this->distribute(*elements, work);
-  if (!this->bringHome(particles, work.parallelFor))
+  std::vector<IsovalueParticles> particles;
+  const bool isDone = this->Slabs.size() > 1
+    ? this->distributeInSlabs(*elements, work, particles)
+    : this->distributeAtWorkers(*elements, work, particles);
+  if (!isDone)
   {
     return false;
   }
-  this->All = {};
   std::vector<ForeignCorners> foreign;
   this->attempt(
     [&]()
@@ -199,6 +217,146 @@ std::optional<GridElements> GroupRun::convert(const Work& work)
   return this->areAllSound() ? std::move(elements) : std::nullopt;
 }
 
+/// Finds out how many workers an isosurface has. More than one make neither meshes nor given numbers, and remember
+/// nothing for the next run.
+/// \return false, on all ranks, where one of them has failed
+bool GroupRun::plan(const GridElements& elements, const Work& work)
+{
+  const RunProperties& asked = this->Properties;
+  this->Slabs.assign(1, Slab());
+  if (asked.particlesPerWorker == 0 || asked.isClassic || asked.numberOfParticles > 0 ||
+    asked.isWarmStart || asked.outputType != OutputType::Particles)
+  {
+    return true;
+  }
+  std::vector<double> isovalues;
+  for (const double isovalue : asked.isovalues)
+  {
+    if (elements.canBe(isovalue))
+    {
+      isovalues.push_back(elements.fieldIsovalue(isovalue));
+    }
+  }
+  const SurfaceWorker worker(
+    elements.mesh, this->AllBlocks, asked, this->Scale, this->Caller, this->Previous);
+  if (!isovalues.empty())
+  {
+    // An abort is asked for later: all ranks have to come to the same plan.
+    SlabPlan slabs = planSlabs(this->Ranks, elements.mesh, isovalues,
+      worker.parametersOf(0.0).sizing, static_cast<double>(asked.particlesPerWorker),
+      work.parallelFor);
+    this->attemptAgain(slabs.failure);
+    this->Slabs = std::move(slabs.slabs);
+  }
+  return this->areAllSound();
+}
+
+/// Passes on what went wrong in a step that all ranks took together.
+void GroupRun::attemptAgain(const std::exception_ptr& failure)
+{
+  this->attempt(
+    [&]()
+    {
+      if (failure)
+      {
+        std::rethrow_exception(failure);
+      }
+    });
+}
+
+/// Distributes the particles of all isovalues in slabs, and brings them home.
+/// \return false, on all ranks, where one of them has failed
+bool GroupRun::distributeInSlabs(
+  GridElements& elements, const Work& work, std::vector<IsovalueParticles>& particles)
+{
+  Interruptible loops(work.monitor, work.parallelFor);
+  loops.raiseFraction(ProgressAt::Converted);
+  const SlabMeshes meshes = gatherSlabs(this->Ranks, elements.mesh, this->Blocks.cellCount(),
+    this->Slabs, this->Scale.spacing, this->IsSound, std::ref(loops));
+  this->attemptAgain(meshes.failure);
+  elements.mesh.coefficients = {};
+  elements.mesh.weights = {};
+  if (!meshes.isComplete)
+  {
+    return false;
+  }
+  this->Sizes = gatherFromAll(this->Ranks, sizeOf(elements.mesh, this->Blocks.cellCount()));
+  const std::vector<double>& isovalues = this->Properties.isovalues;
+  const double share =
+    (ProgressAt::Distributed - ProgressAt::Joined) / static_cast<double>(isovalues.size());
+  for (std::size_t i = 0; i < isovalues.size(); ++i)
+  {
+    particles.emplace_back().isovalue = isovalues[i];
+    if (elements.canBe(isovalues[i]))
+    {
+      const double begin = ProgressAt::Joined + static_cast<double>(i) * share;
+      this->distributeSlabsOf(meshes, elements.fieldIsovalue(isovalues[i]),
+        work.part(begin, begin + share), particles[i]);
+    }
+    if (!this->areAllSound())
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Distributes the particles of one isovalue, and brings them home.
+void GroupRun::distributeSlabsOf(const SlabMeshes& meshes, double fieldIsovalue, const Work& work,
+  IsovalueParticles& some)
+{
+  const auto workerOn = [&](const ElementMesh& mesh)
+  {
+    return SurfaceWorker(
+      mesh, this->AllBlocks, this->Properties, this->Scale, this->Caller, this->Previous);
+  };
+  SlabResult result = hop::distributeInSlabs(this->Ranks, this->Slabs, meshes.meshes,
+    { nullptr, fieldIsovalue, this->Scale.tolerance },
+    workerOn(meshes.meshes[0].mesh).parametersOf(some.isovalue), this->IsSound, work.monitor,
+    work.parallelFor);
+  this->attemptAgain(result.failure);
+  this->attempt(
+    [&]()
+    {
+      for (std::size_t slab = 0; slab < this->Slabs.size(); ++slab)
+      {
+        workerOn(meshes.meshes[slab].mesh)
+          .review(some.isovalue, fieldIsovalue, result.distributions[slab], work.part(1.0, 1.0));
+      }
+    });
+  this->IsSound = this->IsSound && result.isComplete && !this->Caller.isAborted();
+  if (!this->bringSlabsHome(meshes, result.distributions, work.parallelFor, some.distribution))
+  {
+    this->IsSound = false;
+  }
+}
+
+/// \param home receives this rank's particles, and the sums of the reports of all slabs
+/// \return false, on all ranks, where one of them has failed
+bool GroupRun::bringSlabsHome(const SlabMeshes& meshes, std::vector<Distribution>& ofSlabs,
+  const ParallelFor& parallelFor, Distribution& home)
+{
+  bool isComplete = true;
+  for (std::size_t slab = 0; slab < ofSlabs.size(); ++slab)
+  {
+    HomeParticles part = hop::bringHome(this->Ranks,
+      rankOfSlab(slab, ofSlabs.size(), this->Ranks.size()), ofSlabs[slab], this->IsSound,
+      meshes.meshes[slab], this->Sizes, parallelFor);
+    isComplete = isComplete && part.isComplete;
+    this->attempt(
+      [&]()
+      {
+        if (part.lacksMemory)
+        {
+          throw std::bad_alloc();
+        }
+        add(part.distribution, home);
+      });
+    ofSlabs[slab] = {};
+  }
+  return isComplete;
+}
+
 /// Sends this rank's elements to the workers; their coefficients are not needed here any more.
 /// \return false, on all ranks, where a worker has no memory for the elements
 bool GroupRun::gather(GridElements& elements)
@@ -226,6 +384,21 @@ bool GroupRun::gather(GridElements& elements)
   elements.mesh.coefficients = {};
   elements.mesh.weights = {};
   return true;
+}
+
+/// Distributes the particles of isovalues with one worker each, and brings them home.
+/// \return false, on all ranks, where one of them has failed
+bool GroupRun::distributeAtWorkers(
+  GridElements& elements, const Work& work, std::vector<IsovalueParticles>& particles)
+{
+  if (!this->gather(elements))
+  {
+    return false;
+  }
+  particles = this->distribute(elements, work);
+  const bool isDone = this->bringHome(particles, work.parallelFor);
+  this->All = {};
+  return isDone;
 }
 
 /// Distributes the particles of the isovalues that this rank is the worker of.

@@ -31,6 +31,8 @@ struct RunProperties
   /// 0: the spacing decides.
   std::int64_t numberOfParticles = 0;
   bool isClassic = false;
+  /// That a worker of a slab is worth; 0: an isosurface has one worker.
+  std::int64_t particlesPerWorker = 0;
   /// Whether particles of the previous run go on where they can.
   bool isWarmStart = true;
   /// Whether the output tells more than pictures need.
@@ -62,8 +64,9 @@ struct RunResult
 
 /// The road of one request, from checked blocks to their particles. Blocks that share cells are put into different
 /// groups. For each group, every rank converts its own cells to elements and sends those that can hold surface to the
-/// workers: for each isosurface one rank, which distributes the particles as if it were alone. Particles go home to the
-/// rank of their cell, which packs them into the outputs of its blocks.
+/// workers: for each isosurface one rank, which distributes the particles as if it were alone, or, where there are many
+/// particles, one a slab of it (Fast/SlabWorkers.h). Particles go home to the rank of their cell, which packs them into
+/// the outputs of its blocks.
 ///
 /// Where the run is interrupted or memory runs out on one rank, the group's blocks stay without particles on all.
 class ParticleRun

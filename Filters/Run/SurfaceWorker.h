@@ -30,11 +30,19 @@ public:
   void distribute(
     double fieldIsovalue, std::size_t number, const Work& work, IsovalueParticles& some) const;
 
+  /// What particles on an isosurface are asked for.
+  DistributionParameters parametersOf(double isovalue) const
+  {
+    return this->makeOrigin(isovalue).parameters;
+  }
+
+  /// Tells of what could not be done.
+  void review(double isovalue, double fieldIsovalue, const Distribution& distribution,
+    const Work& work) const;
+
 private:
   SizingFunction sizingAt(double spacing) const;
   RunOrigin makeOrigin(double isovalue) const;
-  void review(double isovalue, double fieldIsovalue, const Distribution& distribution,
-    const Work& work) const;
   void reviewSpacing(double isovalue, double fieldIsovalue, const Distribution& distribution,
     const Work& work) const;
 

@@ -202,6 +202,12 @@ cases = {
     "warm": lambda: warm(scattered(grid)),
     "halves": lambda: run(filter_of(halves(grid))),
     "two results": lambda: run(filter_of(two_results(scattered(grid)))),
+    "workers": lambda: run(filter_of(scattered(grid), Spacing=0.025, ParticlesPerWorker=2000)),
+    "one worker": lambda: run(filter_of(scattered(grid), Spacing=0.025)),
+    "workers and jumps": lambda: run(filter_of(
+        scattered(whole(jumps)), "rho", [0.3], Spacing=0.004, ParticlesPerWorker=2000)),
+    "workers aborted": lambda: run(
+        filter_of(scattered(grid), Spacing=0.025, ParticlesPerWorker=2000), abort_on=ranks - 1),
     "triangles": lambda: run(filter_of(scattered(grid), OutputType="Triangles")),
     "curved triangles": lambda: run(filter_of(scattered(grid), OutputType="Curved Triangles", Order=3)),
     "triangles of halves": lambda: run(filter_of(halves(grid), OutputType="Triangles")),
@@ -319,7 +325,8 @@ class Run:
 
 
 CASES = ["in pieces", "scattered", "on one rank", "with ghosts", "with wrong ghosts", "read in pieces", "redistributed",
-         "classic", "number", "three values", "jumps", "hanging", "rational", "warm", "halves", "two results"]
+         "classic", "number", "three values", "jumps", "hanging", "rational", "warm", "halves", "two results",
+         "workers", "workers and jumps"]
 
 
 @pytest.mark.parametrize("case", CASES)
@@ -357,9 +364,17 @@ def test_a_given_number_is_that_of_all_ranks(runs, ranks):
     assert len(runs[ranks].particles("number")) == len(VALUES) * NUMBER
 
 
+@pytest.mark.parametrize("case", ["aborted", "workers aborted"])
 @pytest.mark.parametrize("ranks", RANKS)
-def test_an_abort_on_one_rank_ends_the_run_on_all(runs, ranks):
-    assert runs[ranks].counts("aborted") == [0] * ranks
+def test_an_abort_on_one_rank_ends_the_run_on_all(runs, case, ranks):
+    assert runs[ranks].counts(case) == [0] * ranks
+
+
+def test_several_workers_have_about_as_many_particles_as_one(runs):
+    several, one = runs[1].particles("workers"), runs[1].particles("one worker")
+    assert len(several) == pytest.approx(len(one), rel=0.005)
+    # They are no copy of the one worker's.
+    assert len(several) != len(one) or not np.array_equal(several, one)
 
 
 @pytest.mark.parametrize("ranks", RANKS[1:])

@@ -157,12 +157,13 @@ class BoundarySampler
 {
 public:
   BoundarySampler(const Isosurface& surface, const FaceJumps& jumps, const SurfaceProxy& proxy,
-    const SizingFunction& sizing, const Slab& slab)
+    const SizingFunction& sizing, const Slab& slab, const Slab& reach)
     : Surface(surface)
     , Jumps(jumps)
     , Proxy(proxy)
     , Sizing(sizing)
     , Part(slab)
+    , Reach(reach)
     , Samples(*surface.mesh, proxy)
     , Tracer(roughly(surface, proxy.smallestSpacing()), BoundaryTracer::Points::Rough)
     , Walker(surface.endingWhereItMay())
@@ -174,6 +175,12 @@ public:
 private:
   std::vector<std::vector<BoundaryHint>> findHints(const ParallelFor& parallelFor) const;
   void follow(const BoundaryHint& hint, const ParallelFor& parallelFor);
+  bool isInReach(const Location& place) const
+  {
+    return this->Reach.isEverything() ||
+      this->Reach.holds(
+        glm::dvec3(evaluateGradient(this->Surface.mesh->form(place.element), place.u).value));
+  }
   void cutAtPlane(double plane, BoundaryTrace& trace);
   std::optional<BoundaryPoint> passageBetween(
     const BoundaryPoint& from, const BoundaryPoint& to, double plane);
@@ -192,6 +199,7 @@ private:
   const SurfaceProxy& Proxy;
   SizingFunction Sizing;
   Slab Part;
+  Slab Reach;
   SampleComparison Samples;
   BoundaryTracer Tracer;
   SurfaceWalker Walker;
@@ -244,7 +252,7 @@ void BoundarySampler::follow(const BoundaryHint& hint, const ParallelFor& parall
 {
   const FaceCrossing& crossing = hint.crossing;
   const double nearby = hint.spacing;
-  if (this->Tracer.isTraced(crossing) ||
+  if (!this->isInReach(crossing.location) || this->Tracer.isTraced(crossing) ||
     this->Tracer.goesOnAt(crossing, Tracing::CrossingReach * nearby))
   {
     return;
@@ -681,9 +689,9 @@ BoundaryCurves BoundarySampler::run(const ParallelFor& parallelFor)
 
 BoundaryCurves findBoundaryCurves(const Isosurface& surface, const FaceJumps& jumps,
   const SurfaceProxy& proxy, const SizingFunction& sizing, const ParallelFor& parallelFor,
-  const Slab& slab)
+  const Slab& slab, const Slab& reach)
 {
-  return BoundarySampler(surface, jumps, proxy, sizing, slab).run(parallelFor);
+  return BoundarySampler(surface, jumps, proxy, sizing, slab, reach).run(parallelFor);
 }
 
 } // namespace hop

@@ -61,8 +61,9 @@ struct BoundaryCurves
 /// \param surface with the jump tolerances of `jumps`
 /// \param slab where a curve passes one of its planes a particle stands, unless a corner is near: the worker on the
 ///   other side of the plane has one there, too
+/// \param reach where curves are sought: the mesh may end outside of it where the surface does not
 BoundaryCurves findBoundaryCurves(const Isosurface& surface, const FaceJumps& jumps,
   const SurfaceProxy& proxy, const SizingFunction& sizing, const ParallelFor& parallelFor,
-  const Slab& slab = {});
+  const Slab& slab = {}, const Slab& reach = {});
 
 } // namespace hop

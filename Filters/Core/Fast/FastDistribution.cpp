@@ -438,9 +438,10 @@ void FastSystem::startMoving()
 
 void FastSystem::traceBoundaryCurves()
 {
+  const Slab inReach = this->Part.widened(this->overlap(SlabOverlap::Reach));
   this->Curves = findBoundaryCurves(
-    this->Surface, this->Jumps, *this->Proxy, this->Sizing, this->Parallel, this->Part);
-  this->keepCurvesIn(this->Part.widened(this->overlap(SlabOverlap::Reach)));
+    this->Surface, this->Jumps, *this->Proxy, this->Sizing, this->Parallel, this->Part, inReach);
+  this->keepCurvesIn(inReach);
   this->BoundaryPatches.clear();
   for (const BoundaryParticle& boundary : this->Curves.particles)
   {

@@ -29,6 +29,24 @@ Buffer<BoundaryParticle> heldBy(const Slab& slab, const Buffer<BoundaryParticle>
   return held;
 }
 
+/// Particles on boundary curves without those that are too near to the ones of the slab before.
+Buffer<BoundaryParticle> apartFrom(const Buffer<BoundaryParticle>& before,
+  const Buffer<BoundaryParticle>& behind, const ParallelFor& parallelFor)
+{
+  const auto patchesOf = [](const Buffer<BoundaryParticle>& particles)
+  {
+    Buffer<Patch> patches;
+    for (const BoundaryParticle& some : particles)
+    {
+      patches.push_back(some.patch);
+    }
+    return patches;
+  };
+  return marked(behind,
+    areFarFrom(
+      patchesOf(behind), behind.size(), patchesOf(before), SlabOverlap::OnCurves, parallelFor));
+}
+
 } // namespace
 
 class SlabDistribution::System : public FastSystem
@@ -46,7 +64,7 @@ public:
 private:
   /// The part of space between two places.
   Slab between(double from, double to) const { return { this->Part.direction, from, to }; }
-  void replaceCurves(const Slab& where, const SlabParticles& by);
+  void replaceCurves(const Slab& where, bool isBehind, const SlabParticles& by);
   void relaxStrip(const Slab& strip);
   void arrangeCanonically(const SlabParticles& before);
 
@@ -108,20 +126,23 @@ SlabParticles SlabDistribution::System::lastParticles() const
   return result;
 }
 
-/// Takes another worker's particles on boundary curves instead of one's own, in a part of space.
-void SlabDistribution::System::replaceCurves(const Slab& where, const SlabParticles& by)
+/// Takes another worker's particles on boundary curves instead of one's own, behind the slab or before it. Of two
+/// particles that are too near to each other the one in the slab before stays.
+void SlabDistribution::System::replaceCurves(const Slab& where, bool isBehind, const SlabParticles& by)
 {
-  const auto replace = [&](Buffer<BoundaryParticle>& mine, const Buffer<BoundaryParticle>& others)
-  {
-    mine.erase(std::remove_if(mine.begin(), mine.end(),
-                 [&](const BoundaryParticle& some) { return where.holds(some.patch.position); }),
-      mine.end());
-    mine.insert(mine.end(), others.begin(), others.end());
-  };
-  replace(this->Curves.particles, by.onBoundary);
-  replace(this->Curves.thinned, by.thinned);
+  const auto isReplaced = [&](const BoundaryParticle& some)
+  { return where.holds(some.patch.position); };
+  Buffer<BoundaryParticle>& mine = this->Curves.particles;
+  Buffer<BoundaryParticle>& thinned = this->Curves.thinned;
+  mine.erase(std::remove_if(mine.begin(), mine.end(), isReplaced), mine.end());
+  thinned.erase(std::remove_if(thinned.begin(), thinned.end(), isReplaced), thinned.end());
+  Buffer<BoundaryParticle> others = by.onBoundary;
+  (isBehind ? others : mine) = isBehind ? apartFrom(mine, others, this->Parallel)
+                                        : apartFrom(others, mine, this->Parallel);
+  mine.insert(mine.end(), others.begin(), others.end());
+  thinned.insert(thinned.end(), by.thinned.begin(), by.thinned.end());
   this->BoundaryPatches.clear();
-  for (const BoundaryParticle& some : this->Curves.particles)
+  for (const BoundaryParticle& some : mine)
   {
     this->BoundaryPatches.push_back(some.patch);
   }
@@ -138,7 +159,7 @@ void SlabDistribution::System::settleEnd(const SlabParticles& next)
   const double width = this->overlap(SlabOverlap::Strip);
   const Slab strip = this->between(end - width, end + width);
   this->replaceCurves(
-    this->between(end + this->overlap(SlabOverlap::OnPlane), everything), next);
+    this->between(end + this->overlap(SlabOverlap::OnPlane), everything), true, next);
   this->keepIn(this->between(-everything, end));
   this->Moving->add(next.anchors, next.patches);
   this->Next = this->particlesIn(strip.end, everything);
@@ -218,7 +239,8 @@ Distribution SlabDistribution::System::finishAmong(const SlabParticles& before)
     constexpr double everything = std::numeric_limits<double>::infinity();
     this->keepIn(this->between(this->Part.begin + width, everything));
     this->replaceCurves(
-      this->between(-everything, this->Part.begin + this->overlap(SlabOverlap::OnPlane)), before);
+      this->between(-everything, this->Part.begin + this->overlap(SlabOverlap::OnPlane)), false,
+      before);
     this->arrangeCanonically(before);
     this->coverBoxes(this->Part.shifted(width));
     this->IsOwn.resize(this->Moving->count(), 1);

@@ -26,6 +26,12 @@ struct Estimate
   static constexpr double SmallestSpacing = 0.3;
   /// Counts are integers, so that sums do not depend on their order: this many to a particle.
   static constexpr double Units = 64.0;
+  /// Largest count of a piece: integers hold the sum of any number of them.
+  static constexpr double MostUnits = 1e9;
+  /// Size of the pieces of elements that are looked at, in units of the spacing, and how many there are along each axis
+  /// at most. Smaller pieces, and more: the estimate is better, and takes longer.
+  static constexpr double PieceSize = 8.0;
+  static constexpr double MostPerAxis = 4.0;
 };
 
 /// Sums over all elements.
@@ -37,18 +43,23 @@ struct WorkSums
   std::vector<std::int64_t> ofIsovalues;
 };
 
-/// The smallest and the largest value of an element's control points.
-std::array<double, 2> valueRange(const BernsteinForm& form)
+/// What the middle of a piece of an element tells of the surfaces in the piece.
+struct Piece
 {
-  std::array<double, 2> range{ controlPoint(form, 0).w, controlPoint(form, 0).w };
-  const int count = static_cast<int>(coefficientCount(form.domain, form.degrees));
-  for (int i = 1; i < count; ++i)
+  /// F, and half the range of F, taken as linear.
+  double value = 0.0;
+  double halfRange = 0.0;
+  /// The same along the sweep, world units.
+  double place = 0.0;
+  double halfExtent = 0.0;
+  /// Particles, in units, of a surface that passes.
+  std::int64_t count = 0;
+
+  bool holds(double isovalue) const
   {
-    const double value = controlPoint(form, i).w;
-    range = { std::min(range[0], value), std::max(range[1], value) };
+    return std::abs(this->value - isovalue) <= this->halfRange;
   }
-  return range;
-}
+};
 
 double referenceVolume(Domain domain)
 {
@@ -64,72 +75,103 @@ double referenceVolume(Domain domain)
   unknownDomain();
 }
 
-/// Number of particles, in units, that surfaces take in an element that they pass.
-std::int64_t countIn(const BernsteinForm& form, double range, const SizingFunction& sizing)
+/// Places in the middle of equal pieces of a domain, so many along each axis.
+std::vector<ReferencePoint> middlesOf(Domain domain, int perAxis)
 {
-  const ReferencePoint middle = middleOf(facts(form.domain));
+  std::vector<ReferencePoint> middles;
+  const auto middle = [&](int i) { return (i + 0.5) / perAxis; };
+  for (int i = 0; i < perAxis * perAxis * perAxis && perAxis > 1; ++i)
+  {
+    const ReferencePoint u{ glm::dvec3(
+      middle(i % perAxis), middle(i / perAxis % perAxis), middle(i / perAxis / perAxis)) };
+    if (insideMargin(domain, u) >= 0.0)
+    {
+      middles.push_back(u);
+    }
+  }
+  return middles.empty() ? std::vector<ReferencePoint>{ middleOf(facts(domain)) } : middles;
+}
+
+/// \param volume of the piece in reference space
+Piece pieceAt(const BernsteinForm& form, const ReferencePoint& middle, double volume,
+  const glm::dvec3& direction, const SizingFunction& sizing)
+{
   const Jet jet = evaluateHessian(form, middle);
   const FieldPoint point = fieldPoint(jet, 0.0);
+  const double side = std::cbrt(volume);
+  Piece piece;
+  piece.value = point.value;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const glm::dvec3& column = point.map.jacobian[axis];
+    piece.halfRange += 0.5 * side * std::abs(jet.first[axis].w);
+    piece.halfExtent += 0.5 * side * std::abs(glm::dot(column, direction));
+  }
+  piece.place = glm::dot(point.map.position.xyz, direction);
+  const double size = std::abs(glm::determinant(point.map.jacobian)) * volume;
   const double slope = length(point.gradient);
   if (point.map.singular || !(slope > 0.0) || !std::isfinite(slope))
   {
-    return 1;
+    return piece;
   }
-  const double volume =
-    std::abs(glm::determinant(point.map.jacobian)) * referenceVolume(form.domain);
   const double bend = curvature(point.gradient, worldHessian(jet, point)).magnitude;
   const double h = std::max(
     std::isfinite(bend) ? sizing.at(bend) : 0.0, Estimate::SmallestSpacing * sizing.spacing);
-  const double area = volume * slope / range;
-  // More than a face of a cube of the same volume, times a few, is an error of the estimate.
-  constexpr double mostFaces = 4.0;
-  const double most = mostFaces * std::cbrt(volume) * std::cbrt(volume);
-  const double count = std::min(area, most) * 2.0 / (std::sqrt(3.0) * h * h);
-  // Integers hold it on any number of elements.
-  constexpr double mostUnits = 1e9;
-  return 1 + std::llround(std::min(Estimate::Units * count, mostUnits));
+  const double area = 0.5 * size * slope / piece.halfRange;
+  const double count = area * 2.0 / (std::sqrt(3.0) * h * h);
+  piece.count = std::llround(std::min(Estimate::Units * count, Estimate::MostUnits));
+  return piece;
+}
+
+std::vector<Piece> piecesOf(
+  const BernsteinForm& form, const glm::dvec3& direction, const SizingFunction& sizing)
+{
+  const auto [first, last] = extentAlong(form, direction);
+  const double wanted = (last - first) / (Estimate::PieceSize * sizing.spacing);
+  const int perAxis = static_cast<int>(std::clamp(wanted, 1.0, Estimate::MostPerAxis));
+  const std::vector<ReferencePoint> middles = middlesOf(form.domain, perAxis);
+  const double volume = referenceVolume(form.domain) / static_cast<double>(middles.size());
+  std::vector<Piece> pieces;
+  for (const ReferencePoint& middle : middles)
+  {
+    pieces.push_back(pieceAt(form, middle, volume, direction, sizing));
+  }
+  return pieces;
 }
 
 /// Spreads a count over the parts of the sweep between two places, in units of the parts.
 void spread(std::int64_t count, double first, double last, std::vector<std::int64_t>& parts)
 {
-  const int most = static_cast<int>(parts.size()) - 1;
-  const int from = std::clamp(static_cast<int>(first), 0, most);
-  const int to = std::clamp(static_cast<int>(last), from, most);
-  const std::int64_t share = count / (to - from + 1);
-  for (int part = from; part <= to; ++part)
+  const double most = static_cast<double>(parts.size()) - 1.0;
+  const auto from = static_cast<std::size_t>(std::clamp(first, 0.0, most));
+  const auto to = static_cast<std::size_t>(std::clamp(last, static_cast<double>(from), most));
+  const auto number = static_cast<std::int64_t>(to - from + 1);
+  for (std::size_t part = from; part <= to; ++part)
   {
-    parts[part] += share;
+    parts[part] += count / number;
   }
-  parts[from] += count - share * (to - from + 1);
+  parts[from] += count % number;
 }
 
-WorkSums sumOver(const ElementMesh& mesh, const std::vector<double>& isovalues,
-  const SizingFunction& sizing, const std::vector<std::array<double, 2>>& extents,
-  const std::array<double, 2>& whole, const ParallelFor& parallelFor)
+WorkSums sumOver(const std::vector<std::vector<Piece>>& pieces,
+  const std::vector<double>& isovalues, const std::array<double, 2>& whole)
 {
-  const std::size_t count = mesh.elements.size();
-  std::vector<std::array<double, 2>> ranges(count);
-  std::vector<std::int64_t> counts(count);
-  forAll(parallelFor, count,
-    [&](std::size_t e)
-    {
-      const BernsteinForm form = mesh.form(static_cast<int>(e));
-      ranges[e] = valueRange(form);
-      counts[e] = countIn(form, ranges[e][1] - ranges[e][0], sizing);
-    });
   WorkSums sums;
+  sums.ofIsovalues.resize(isovalues.size());
   const double perPart = (whole[1] - whole[0]) / Estimate::Parts;
-  for (const double isovalue : isovalues)
+  for (const std::vector<Piece>& ofElement : pieces)
   {
-    std::int64_t& sum = sums.ofIsovalues.emplace_back(0);
-    for (std::size_t e = 0; e < count; ++e)
+    for (const Piece& piece : ofElement)
     {
-      if (ranges[e][0] <= isovalue && isovalue <= ranges[e][1])
+      for (std::size_t i = 0; i < isovalues.size(); ++i)
       {
-        sum += counts[e];
-        spread(counts[e], (extents[e][0] - whole[0]) / perPart,
-          (extents[e][1] - whole[0]) / perPart, sums.ofParts);
+        if (piece.holds(isovalues[i]))
+        {
+          sums.ofIsovalues[i] += piece.count;
+          const double place = (piece.place - whole[0]) / perPart;
+          const double half = piece.halfExtent / perPart;
+          spread(piece.count, place - half, place + half, sums.ofParts);
+        }
       }
     }
   }
@@ -194,56 +236,81 @@ bool areThick(const std::vector<double>& cuts, double thickness)
   return true;
 }
 
-/// The box around all elements, along the sweep.
-std::array<double, 2> extentOfAll(
-  Exchange& exchange, const std::vector<std::array<double, 2>>& extents)
+/// What a rank knows of its own elements, along the sweep.
+struct OwnWork
 {
-  std::array<double, 2> whole{ std::numeric_limits<double>::infinity(),
+  std::array<double, 2> extent{ std::numeric_limits<double>::infinity(),
     -std::numeric_limits<double>::infinity() };
-  const auto include = [&](const std::array<double, 2>& extent)
-  { whole = { std::min(whole[0], extent[0]), std::max(whole[1], extent[1]) }; };
-  std::for_each(extents.begin(), extents.end(), include);
-  const auto all = gatherFromAll(exchange, whole);
-  std::for_each(all.begin(), all.end(), include);
-  return whole;
+  std::vector<std::vector<Piece>> pieces;
+};
+
+OwnWork ownWork(
+  const ElementMesh& mesh, const SizingFunction& sizing, const ParallelFor& parallelFor)
+{
+  OwnWork work;
+  const glm::dvec3 direction = sweepDirection();
+  work.pieces.resize(mesh.elements.size());
+  std::vector<std::array<double, 2>> extents(mesh.elements.size());
+  forAll(parallelFor, extents.size(),
+    [&](std::size_t e)
+    {
+      const BernsteinForm form = mesh.form(static_cast<int>(e));
+      extents[e] = extentAlong(form, direction);
+      work.pieces[e] = piecesOf(form, direction, sizing);
+    });
+  for (const auto& [first, last] : extents)
+  {
+    work.extent = { std::min(work.extent[0], first), std::max(work.extent[1], last) };
+  }
+  return work;
 }
 
 } // namespace
 
-std::vector<Slab> planSlabs(Exchange& exchange, const ElementMesh& mine,
+SlabPlan planSlabs(Exchange& exchange, const ElementMesh& mine,
   const std::vector<double>& isovalues, const SizingFunction& sizing, double particles,
   const ParallelFor& parallelFor)
 {
-  const glm::dvec3 direction = sweepDirection();
-  std::vector<std::array<double, 2>> extents(mine.elements.size());
-  forAll(parallelFor, extents.size(),
-    [&](std::size_t e) { extents[e] = extentAlong(mine.form(static_cast<int>(e)), direction); });
-  const std::array<double, 2> whole = extentOfAll(exchange, extents);
+  SlabPlan plan;
+  OwnWork own;
+  try
+  {
+    own = ownWork(mine, sizing, parallelFor);
+  }
+  catch (...)
+  {
+    plan.failure = std::current_exception();
+    own = {};
+  }
+  std::array<double, 2> whole = own.extent;
+  for (const auto& [first, last] : gatherFromAll(exchange, own.extent))
+  {
+    whole = { std::min(whole[0], first), std::max(whole[1], last) };
+  }
+  plan.slabs.assign(1, Slab{ sweepDirection() });
   if (!(whole[0] < whole[1]))
   {
-    return { { direction } };
+    return plan;
   }
-  const WorkSums sums = sumOfAll(
-    exchange, sumOver(mine, isovalues, sizing, extents, whole, parallelFor));
+  const WorkSums sums = sumOfAll(exchange, sumOver(own.pieces, isovalues, whole));
   const double most = static_cast<double>(
     *std::max_element(sums.ofIsovalues.begin(), sums.ofIsovalues.end()));
-  // Even thin slabs are no more than this.
   const double thickness = SlabOverlap::Thickness * sizing.spacing;
-  const double thinnest = std::max(1.0, (whole[1] - whole[0]) / thickness);
+  const double mostSlabs = std::max(1.0, (whole[1] - whole[0]) / thickness);
   auto slabs = static_cast<std::size_t>(
-    std::clamp(most / (Estimate::Units * particles), 1.0, std::min(thinnest, 1e6)));
+    std::clamp(most / (Estimate::Units * particles), 1.0, std::min(mostSlabs, 1e6)));
   std::vector<double> cuts = cutsFor(slabs, sums.ofParts, whole);
   while (!areThick(cuts, thickness))
   {
     cuts = cutsFor(--slabs, sums.ofParts, whole);
   }
-  std::vector<Slab> result(slabs, Slab{ direction });
+  plan.slabs.resize(slabs, plan.slabs[0]);
   for (std::size_t n = 0; n < cuts.size(); ++n)
   {
-    result[n].end = cuts[n];
-    result[n + 1].begin = cuts[n];
+    plan.slabs[n].end = cuts[n];
+    plan.slabs[n + 1].begin = cuts[n];
   }
-  return result;
+  return plan;
 }
 
 } // namespace hop

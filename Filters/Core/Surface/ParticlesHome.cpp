@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <iterator>
 #include <optional>
 
 namespace hop
@@ -240,6 +241,26 @@ HomeParticles bringHome(Exchange& exchange, int worker, Distribution& distributi
   }
   home.isComplete = allAgree(exchange, isHere && !home.lacksMemory);
   return home;
+}
+
+void add(const Distribution& part, Distribution& sum)
+{
+  sum.particles.insert(sum.particles.end(), part.particles.begin(), part.particles.end());
+  const DistributionReport& more = part.report;
+  DistributionReport& report = sum.report;
+  report.evaluations += more.evaluations;
+  report.iterations += more.iterations;
+  report.boxes += more.boxes;
+  report.boxesUndecided += more.boxesUndecided;
+  report.singularPoints += more.singularPoints;
+  report.particlesRejected += more.particlesRejected;
+  report.particlesUndersampled += more.particlesUndersampled;
+  report.converged = report.converged && more.converged;
+  report.aborted = report.aborted || more.aborted;
+  std::vector<std::int64_t> cells;
+  std::set_union(report.undecidedCells.begin(), report.undecidedCells.end(),
+    more.undecidedCells.begin(), more.undecidedCells.end(), std::back_inserter(cells));
+  report.undecidedCells = std::move(cells);
 }
 
 } // namespace hop

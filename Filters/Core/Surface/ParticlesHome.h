@@ -29,4 +29,7 @@ struct HomeParticles
 HomeParticles bringHome(Exchange& exchange, int worker, Distribution& distribution, bool isDone,
   const GatheredMesh& all, const std::vector<MeshSize>& sizes, const ParallelFor& parallelFor);
 
+/// Adds what one of several workers has distributed to what others have: their particles, and the sums of their reports.
+void add(const Distribution& part, Distribution& sum);
+
 } // namespace hop
