@@ -426,7 +426,9 @@ BoundaryTracer::Ahead BoundaryTracer::passEdge(
     return {};
   }
   BoundaryVertex vertex{ { *at, from.face }, *beyond, false };
-  vertex.corner =
+  const auto isCut = [this](const BoundaryPoint& point)
+  { return this->Surface.isCutAt(point.at.location.element, point.face); };
+  vertex.corner = isCut(vertex.arriving) || isCut(vertex.leaving) ||
     dot(this->tangent(vertex.arriving), this->tangent(vertex.leaving)) < TraceAngles::CornerCosine;
   return { vertex, false };
 }

@@ -24,7 +24,7 @@ struct BoundaryVertex
 {
   BoundaryPoint arriving;
   BoundaryPoint leaving;
-  /// The boundary curve has a corner here.
+  /// The boundary curve has a corner here, or passes an edge of the mesh and is a cut before or behind it.
   bool corner = false;
 
   const glm::dvec3& position() const { return this->arriving.at.point.map.position.xyz; }

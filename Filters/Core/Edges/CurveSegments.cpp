@@ -7,28 +7,38 @@ namespace hop
 namespace
 {
 
-/// Adds a segment from particle to particle, along one curve.
+/// Pairs of particles along one curve.
+struct CurvePairs
+{
+  std::vector<std::array<int, 2>> segments, creases;
+};
+
+/// Adds a pair from particle to particle, along one curve.
 class Chain
 {
 public:
-  explicit Chain(std::vector<std::array<int, 2>>& segments)
-    : Segments(segments)
+  explicit Chain(CurvePairs& pairs)
+    : Pairs(pairs)
   {
   }
 
-  void goOn(int particle)
+  /// \param beginsCrease of the particle's place
+  void goOn(int particle, bool beginsCrease)
   {
     if (this->Last >= 0)
     {
-      this->Segments.push_back({ this->Last, particle });
+      (this->IsCrease ? this->Pairs.creases : this->Pairs.segments)
+        .push_back({ this->Last, particle });
     }
     this->Last = particle;
+    this->IsCrease = beginsCrease;
   }
   void breakOff() { this->Last = -1; }
 
 private:
-  std::vector<std::array<int, 2>>& Segments;
+  CurvePairs& Pairs;
   int Last = -1;
+  bool IsCrease = false;
 };
 
 /// The places of a curve, a closed one from a place with a particle on and once round to it.
@@ -44,6 +54,46 @@ std::vector<CurvePlace> unrolled(const std::vector<CurvePlace>& places, const Cu
     result.push_back(result.front());
   }
   return result;
+}
+
+CurvePairs pairsOf(const std::vector<CurvePlace>& places, const std::vector<CurveRange>& curves)
+{
+  CurvePairs pairs;
+  for (const CurveRange& curve : curves)
+  {
+    const std::vector<CurvePlace> way = unrolled(places, curve);
+    const auto hasParticle = [&way](std::size_t n)
+    { return n < way.size() && way[n].particle >= 0; };
+    Chain chain(pairs);
+    for (std::size_t n = 0; n < way.size(); ++n)
+    {
+      const bool isBetweenTwo = n > 0 && hasParticle(n - 1) && hasParticle(n + 1);
+      if (way[n].isGap)
+      {
+        chain.breakOff();
+      }
+      else if (hasParticle(n))
+      {
+        chain.goOn(way[n].particle, way[n].beginsCrease);
+      }
+      else if (way[n].standIn >= 0 && !isBetweenTwo)
+      {
+        chain.goOn(way[n].standIn, way[n].beginsCrease);
+      }
+    }
+  }
+  return pairs;
+}
+
+/// The indices that are left of a row after some have been dropped.
+std::vector<int> numbersOf(const std::vector<char>& kept)
+{
+  std::vector<int> numbers(kept.size());
+  for (std::size_t i = 1; i < kept.size(); ++i)
+  {
+    numbers[i] = numbers[i - 1] + (kept[i - 1] != 0);
+  }
+  return numbers;
 }
 
 } // namespace
@@ -64,32 +114,31 @@ void sortPairs(std::vector<std::array<int, 2>>& pairs)
 std::vector<std::array<int, 2>> segmentsOf(
   const std::vector<CurvePlace>& places, const std::vector<CurveRange>& curves)
 {
-  std::vector<std::array<int, 2>> segments;
-  for (const CurveRange& curve : curves)
-  {
-    const std::vector<CurvePlace> way = unrolled(places, curve);
-    const auto hasParticle = [&way](std::size_t n)
-    { return n < way.size() && way[n].particle >= 0; };
-    Chain chain(segments);
-    for (std::size_t n = 0; n < way.size(); ++n)
-    {
-      const bool isBetweenTwo = n > 0 && hasParticle(n - 1) && hasParticle(n + 1);
-      if (way[n].isGap)
-      {
-        chain.breakOff();
-      }
-      else if (hasParticle(n))
-      {
-        chain.goOn(way[n].particle);
-      }
-      else if (way[n].standIn >= 0 && !isBetweenTwo)
-      {
-        chain.goOn(way[n].standIn);
-      }
-    }
-  }
+  std::vector<std::array<int, 2>> segments = pairsOf(places, curves).segments;
   sortPairs(segments);
   return segments;
+}
+
+std::vector<std::array<int, 2>> creaseSidesOf(
+  const std::vector<CurvePlace>& places, const std::vector<CurveRange>& curves)
+{
+  std::vector<std::array<int, 2>> sides = pairsOf(places, curves).creases;
+  for (std::array<int, 2>& side : sides)
+  {
+    std::swap(side[0], side[1]);
+  }
+  std::sort(sides.begin(), sides.end());
+  sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+  return sides;
+}
+
+void renumber(std::vector<std::array<int, 2>>& pairs, const std::vector<char>& kept)
+{
+  const std::vector<int> numbers = numbersOf(kept);
+  for (std::array<int, 2>& pair : pairs)
+  {
+    pair = { numbers[pair[0]], numbers[pair[1]] };
+  }
 }
 
 std::vector<std::array<int, 2>> withoutDropped(
@@ -120,11 +169,7 @@ std::vector<std::array<int, 2>> withoutDropped(
     }
     neighbors[i].clear();
   }
-  std::vector<int> numbers(kept.size());
-  for (std::size_t i = 1; i < kept.size(); ++i)
-  {
-    numbers[i] = numbers[i - 1] + (kept[i - 1] != 0);
-  }
+  const std::vector<int> numbers = numbersOf(kept);
   std::vector<std::array<int, 2>> result;
   for (std::size_t i = 0; i < kept.size(); ++i)
   {

@@ -20,6 +20,7 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <utility>
 
 namespace hop
@@ -146,6 +147,26 @@ std::vector<int> sweepsOfRounds(Quality quality, bool isWarm)
   return isWarm ? std::vector<int>{ 12, 22 } : std::vector<int>{ 7, 13 };
 }
 
+/// Marks the particles on curves that the relaxation sees: of those in one place one a sheet, as several would repel
+/// others several times.
+std::vector<char> onePerSheet(const BoundaryCurves& curves)
+{
+  std::vector<char> seen(curves.particles.size(), 1);
+  std::map<int, std::vector<int>> inPlace;
+  for (const auto& [first, other] : curves.edges.coincident)
+  {
+    std::vector<int>& chosen = inPlace.emplace(first, std::vector<int>{ first }).first->second;
+    const WorldVector& normal = curves.particles[other].particle.normal;
+    seen[other] = std::none_of(chosen.begin(), chosen.end(),
+      [&](int one) { return dot(curves.particles[one].particle.normal, normal) > SheetCosine; });
+    if (seen[other])
+    {
+      chosen.push_back(other);
+    }
+  }
+  return seen;
+}
+
 /// A part of the run, between two values of its progress.
 struct Section
 {
@@ -216,6 +237,8 @@ private:
   BoundaryCurves Curves;
   /// Patches of the particles on these curves.
   Buffer<Patch> BoundaryPatches;
+  /// The number of particles for which they count.
+  double BoundaryCount = 0.0;
   std::unique_ptr<MovingParticles> Moving;
   /// Whether particles of the previous run go on.
   bool IsWarm = false;
@@ -313,7 +336,7 @@ void FastSystem::prepareSurface()
 double FastSystem::targetCount() const
 {
   return this->Proxy->particleCount() +
-    OnBoundary::Count * static_cast<double>(this->BoundaryPatches.size());
+    this->BoundaryCount;
 }
 
 /// Finds the spacing that goes with a given number of particles: first on a rough proxy, then on the surface itself. What
@@ -375,9 +398,10 @@ void FastSystem::keepOnBoundary(std::size_t most)
   }
   keepMarked(this->Curves.particles, kept);
   keepMarked(this->BoundaryPatches, kept);
+  this->BoundaryCount = OnBoundary::Count * static_cast<double>(left);
   if (left < count)
   {
-    this->Curves.segments = withoutDropped(this->Curves.segments, kept);
+    this->Curves.edges.segments = withoutDropped(this->Curves.edges.segments, kept);
   }
 }
 
@@ -460,12 +484,20 @@ void FastSystem::startMoving()
 
 void FastSystem::traceBoundaryCurves()
 {
-  this->Curves =
-    findBoundaryCurves(this->Surface, this->Jumps, *this->Proxy, this->Sizing, this->Parallel);
+  const bool withCreases = this->Parameters.onCreases && !this->countIsGiven();
+  this->Curves = findBoundaryCurves(this->Surface, this->Jumps, *this->Proxy, this->Sizing,
+    withCreases ? SampledCurves::BoundaryAndCreases : SampledCurves::Boundary, this->Parallel);
   this->BoundaryPatches.clear();
-  for (const BoundaryParticle& boundary : this->Curves.particles)
+  this->BoundaryCount = 0.0;
+  const std::vector<char> seen = onePerSheet(this->Curves);
+  for (std::size_t n = 0; n < seen.size(); ++n)
   {
-    this->BoundaryPatches.push_back(boundary.patch);
+    const BoundaryParticle& boundary = this->Curves.particles[n];
+    if (seen[n])
+    {
+      this->BoundaryPatches.push_back(boundary.patch);
+      this->BoundaryCount += boundary.side.exists() || !boundary.isOnCrease ? OnBoundary::Count : 0.0;
+    }
   }
 }
 
@@ -547,10 +579,18 @@ void FastSystem::finish()
   const ParticleGrid all(particles, this->Curves.particles, this->Parallel);
   markClipPlanes(this->Surface, all, this->Curves.thinned, this->Parallel);
   const int first = static_cast<int>(particles.size());
-  for (const auto& [a, b] : this->Curves.segments)
+  const auto addAll = [first](const std::vector<std::array<int, 2>>& pairs)
   {
-    this->Result.edges.segments.push_back({ first + a, first + b });
-  }
+    std::vector<std::array<int, 2>> result;
+    for (const auto& [a, b] : pairs)
+    {
+      result.push_back({ first + a, first + b });
+    }
+    return result;
+  };
+  const SurfaceEdges& edges = this->Curves.edges;
+  this->Result.edges = { addAll(edges.segments), addAll(edges.creaseSides),
+    addAll(edges.coincident) };
   for (const BoundaryParticle& boundary : this->Curves.particles)
   {
     particles.push_back(boundary.particle);

@@ -81,6 +81,8 @@ ConstrainedEdges::ConstrainedEdges(const Distribution& distribution)
       direct(distribution.particles, segment, [&](const Edge& edge) { edges.push_back(edge); });
     }
   }
+  edges.insert(edges.end(), distribution.edges.creaseSides.begin(),
+    distribution.edges.creaseSides.end());
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   if (!edges.empty())

@@ -43,9 +43,12 @@ bool dropExtraFans(const Distribution& distribution, const ConstrainedEdges& edg
     vertices.insert(vertices.end(), loop.particles.begin(), loop.particles.end());
   }
   // The surface may touch itself at its end.
-  for (const auto& segment : distribution.edges.segments)
+  for (const auto* edgesOf : { &distribution.edges.segments, &distribution.edges.creaseSides })
   {
-    vertices.insert(vertices.end(), segment.begin(), segment.end());
+    for (const std::array<int, 2>& edge : *edgesOf)
+    {
+      vertices.insert(vertices.end(), edge.begin(), edge.end());
+    }
   }
   return keepOneFan(vertices, fans);
 }

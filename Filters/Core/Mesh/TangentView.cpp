@@ -163,7 +163,9 @@ void TangentView::makeSectors()
     for (const int last : all)
     {
       const FlatNeighbor other = this->flat(last);
-      const double turn = last == first ? fullTurn : turnFrom(start.place, other.place);
+      // Where a crease fades, its two sides are in the same place.
+      const bool isAllAround = last == first || other.place == start.place;
+      const double turn = isAllAround ? fullTurn : turnFrom(start.place, other.place);
       if (turn < width)
       {
         width = turn;

@@ -19,7 +19,8 @@ namespace
 constexpr double spacing = 0.06;
 constexpr double tolerance = 1e-9;
 
-BoundaryCurves curvesOf(const ElementMesh& mesh, const ParallelFor& parallelFor = {})
+BoundaryCurves curvesOf(const ElementMesh& mesh, const ParallelFor& parallelFor = {},
+  SampledCurves sampled = SampledCurves::Boundary)
 {
   const SizingFunction sizing{ spacing, 0.0 };
   Isosurface surface{ &mesh, 0.0, tolerance };
@@ -27,7 +28,7 @@ BoundaryCurves curvesOf(const ElementMesh& mesh, const ParallelFor& parallelFor 
     surface, sizing, findSurfaceBoxes(mesh, 0.0, 6.0 * spacing, parallelFor), parallelFor);
   const FaceJumps jumps = findFaceJumps(surface, proxy, parallelFor);
   surface.jumpTolerances = &jumps.jumpTolerances;
-  return findBoundaryCurves(surface, jumps, proxy, sizing, parallelFor);
+  return findBoundaryCurves(surface, jumps, proxy, sizing, sampled, parallelFor);
 }
 
 /// Distances of neighbours on a closed curve around the origin.
@@ -108,7 +109,7 @@ TEST_P(BoundaryCurvesIn, OfASphereAreChainsOfParticles)
   recipe.field = sphere({ 0, 0, 0 }, 1.2).field;
   const BoundaryCurves curves = curvesOf(makeMesh(recipe));
   std::vector<int> neighbors(curves.particles.size());
-  for (const auto& [a, b] : curves.segments)
+  for (const auto& [a, b] : curves.edges.segments)
   {
     ++neighbors[a];
     ++neighbors[b];
