@@ -75,16 +75,25 @@ Isosurface seamless(Isosurface surface)
   return surface;
 }
 
-/// Jump tolerances with which the surface is cut along creases: at joined faces without a jump.
+/// Jump tolerances with which the surface is cut along creases, unless the field is discontinuous: pieces of surface that
+/// end at creases here and at jumps there would not close.
 std::vector<float> cutAlongCreases(const ElementMesh& mesh, const FaceJumps& jumps)
 {
   std::vector<float> tolerances = jumps.jumpTolerances;
+  const auto isJoined = [&mesh](std::size_t slot)
+  {
+    return mesh.neighbor(static_cast<int>(slot / MaximumFaces), slot % MaximumFaces).element >= 0;
+  };
   for (std::size_t slot = 0; slot < tolerances.size(); ++slot)
   {
-    const auto element = static_cast<int>(slot / MaximumFaces);
-    const auto face = static_cast<int>(slot % MaximumFaces);
-    if (jumps.dihedralAngles[slot] > CreaseAngle && mesh.neighbor(element, face).element >= 0 &&
-      !std::isfinite(tolerances[slot]))
+    if (std::isfinite(tolerances[slot]) && isJoined(slot))
+    {
+      return jumps.jumpTolerances;
+    }
+  }
+  for (std::size_t slot = 0; slot < tolerances.size(); ++slot)
+  {
+    if (jumps.dihedralAngles[slot] > CreaseAngle && isJoined(slot))
     {
       tolerances[slot] = -1.0f;
     }
@@ -196,6 +205,7 @@ private:
   std::vector<std::vector<BoundaryHint>> findHints(const ParallelFor& parallelFor) const;
   void follow(const BoundaryHint& hint, const ParallelFor& parallelFor);
   void followOtherSide(std::size_t stretch, const ParallelFor& parallelFor);
+  bool standsStill(const BoundaryTrace& trace, double spacing) const;
   void keep(BoundaryTrace trace, double spacing);
   bool isCutAt(const BoundaryPoint& point) const
   {
@@ -207,6 +217,8 @@ private:
   BoundaryPlace startOf(const CurveStretch& stretch, const BoundaryPlace& sampled) const;
   std::vector<BoundaryPlace> mirrored(
     const CurveStretch& stretch, Span<BoundaryPlace> other) const;
+  std::vector<int> findPartners() const;
+  void dropOneSided();
   void place(const ParallelFor& parallelFor);
   void joinSides(const std::vector<std::size_t>& starts, const std::vector<int>& partners);
   double spacingAt(const BoundaryPoint& point);
@@ -318,6 +330,17 @@ void BoundarySampler::followOtherSide(std::size_t stretch, const ParallelFor& pa
   }
 }
 
+/// Whether the curve stands still at the place on an edge of the mesh from which it was traced, before it goes along a
+/// crease.
+bool BoundarySampler::standsStill(const BoundaryTrace& trace, double spacing) const
+{
+  const BoundaryVertex& first = trace.vertices[0];
+  const BoundaryVertex& second = trace.vertices[1];
+  return trace.closed && trace.vertices.size() > 2 && second.corner &&
+    (this->isCutAt(second.arriving) || this->isCutAt(second.leaving)) &&
+    glm::distance(first.position(), second.position()) <= Tracing::Tolerance * spacing;
+}
+
 /// Cuts a boundary curve at its corners.
 void BoundarySampler::keep(BoundaryTrace trace, double spacing)
 {
@@ -325,6 +348,10 @@ void BoundarySampler::keep(BoundaryTrace trace, double spacing)
   if (vertices.size() < 2)
   {
     return;
+  }
+  if (this->standsStill(trace, spacing))
+  {
+    vertices.erase(vertices.begin());
   }
   if (trace.closed)
   {
@@ -343,7 +370,7 @@ void BoundarySampler::keep(BoundaryTrace trace, double spacing)
     }
     const bool isLast = stretch.last + 1 == vertices.size();
     stretch.withEnd = isLast && !trace.closed;
-    stretch.isRing = isLast && first == 0 && trace.closed && !vertices.front().corner;
+    stretch.isRing = isLast && first == 0 && trace.closed;
     const BoundaryPoint& start = vertices[first].leaving;
     stretch.creaseFace = this->isCutAt(start) ? start.face : -1;
     this->Stretches.push_back(stretch);
@@ -483,19 +510,42 @@ std::vector<BoundaryPlace> BoundarySampler::mirrored(
   return places;
 }
 
+/// Leaves out creases that were seen from one side alone, but for parts of longer curves: where the surface is all but
+/// tangent to a face.
+void BoundarySampler::dropOneSided()
+{
+  const std::vector<int> partners = this->findPartners();
+  std::vector<char> isKept(this->Traces.size(), 0);
+  for (std::size_t s = 0; s < this->Stretches.size(); ++s)
+  {
+    const CurveStretch& stretch = this->Stretches[s];
+    isKept[stretch.trace] |= stretch.creaseFace < 0 || partners[s] >= 0;
+  }
+  this->Stretches.erase(std::remove_if(this->Stretches.begin(), this->Stretches.end(),
+                          [&](const CurveStretch& stretch) { return !isKept[stretch.trace]; }),
+    this->Stretches.end());
+}
+
+std::vector<int> BoundarySampler::findPartners() const
+{
+  return partnersOf(*this->Surface.mesh, this->Traces, this->Stretches,
+    Tracing::SamePlace * this->Proxy.smallestSpacing());
+}
+
 /// Places particles on all curves.
 void BoundarySampler::place(const ParallelFor& parallelFor)
 {
-  const std::vector<int> partners = partnersOf(*this->Surface.mesh, this->Traces, this->Stretches,
-    Tracing::SamePlace * this->Proxy.smallestSpacing());
+  const std::vector<int> partners = this->findPartners();
   const auto isMirror = [&](std::size_t s)
   { return partners[s] >= 0 && partners[s] < static_cast<int>(s); };
   std::vector<std::size_t> starts;
-  std::vector<std::size_t> firsts(this->Traces.size() + 1, this->Stretches.size());
+  std::vector<std::size_t> firsts(this->Traces.size(), this->Stretches.size());
+  std::vector<std::size_t> stretchCounts(this->Traces.size(), 0);
   for (std::size_t s = 0; s < this->Stretches.size(); ++s)
   {
     const CurveStretch& stretch = this->Stretches[s];
     firsts[stretch.trace] = std::min(firsts[stretch.trace], s);
+    stretchCounts[stretch.trace] += 1;
     starts.push_back(this->Places.size());
     std::vector<BoundaryPlace> places;
     if (isMirror(s))
@@ -519,7 +569,7 @@ void BoundarySampler::place(const ParallelFor& parallelFor)
   for (std::size_t t = 0; t < this->Traces.size(); ++t)
   {
     const std::size_t first = starts[firsts[t]];
-    this->Ranges.push_back({ first, starts[firsts[t + 1]] - first, this->Traces[t].closed });
+    this->Ranges.push_back({ first, starts[firsts[t] + stretchCounts[t]] - first, this->Traces[t].closed });
   }
   this->joinSides(starts, partners);
 }
@@ -820,8 +870,8 @@ void BoundarySampler::connect(const std::vector<char>& kept, const std::vector<i
                    }),
     segments.end());
   edges.segments = withoutDropped(segments, kept);
-  edges.creaseSides = creaseSidesOf(this->Outcomes, this->Ranges);
-  renumber(edges.creaseSides, kept);
+  edges.directed = directedEdgesOf(this->Outcomes, this->Ranges);
+  renumber(edges.directed, kept);
   renumber(edges.coincident, kept);
 }
 
@@ -853,6 +903,7 @@ BoundaryCurves BoundarySampler::run(const ParallelFor& parallelFor)
     askCaller(parallelFor);
     this->followOtherSide(s, parallelFor);
   }
+  this->dropOneSided();
   this->place(parallelFor);
   this->finish(parallelFor);
   this->thinOut(parallelFor);

@@ -171,9 +171,14 @@ private:
 
   bool follow(const BoundaryPoint& start, double step, double direction,
     std::vector<BoundaryVertex>& vertices, const ParallelFor& parallelFor);
+  bool isCutAt(const BoundaryPoint& point) const
+  {
+    return this->Surface.isCutAt(point.at.location.element, point.face);
+  }
   std::optional<BoundaryVertex> advanceAtMost(double& chord, double step, const Heading& heading);
   Ahead advance(const Heading& heading, double step);
   ReferenceVector predict(const Heading& heading, double step) const;
+  bool staysOnFace(const BoundaryPoint& from, const BoundaryPoint& to) const;
   Ahead passEdge(const BoundaryPoint& from, const ReferencePoint& u, int otherFace, double step);
   std::optional<Evaluated> projectAlongEdge(
     const Location& start, int faceA, int faceB, double maximumTravel);

@@ -15,7 +15,7 @@ struct CurveStretch
   std::size_t trace = 0, first = 0, last = 0;
   /// Whether nothing follows its last vertex: the trace is open, and ends there.
   bool withEnd = false;
-  /// Whether it is a closed curve without a corner.
+  /// Whether it is a closed curve with no more than one corner.
   bool isRing = false;
   /// Face of its element if the surface is cut along it, else -1.
   int creaseFace = -1;

@@ -7,38 +7,50 @@ namespace hop
 namespace
 {
 
-/// Pairs of particles along one curve.
+/// Pairs of particles along curves: on boundary curves, and in the order of curves of which a part is a crease.
 struct CurvePairs
 {
-  std::vector<std::array<int, 2>> segments, creases;
+  std::vector<std::array<int, 2>> segments, ordered;
 };
 
 /// Adds a pair from particle to particle, along one curve.
 class Chain
 {
 public:
-  explicit Chain(CurvePairs& pairs)
+  Chain(CurvePairs& pairs, bool hasCrease)
     : Pairs(pairs)
+    , HasCrease(hasCrease)
   {
   }
 
-  /// \param beginsCrease of the particle's place
-  void goOn(int particle, bool beginsCrease)
+  /// \param place whose particle, or stand-in, is next
+  void goOn(const CurvePlace& place)
   {
+    const int particle = place.particle >= 0 ? place.particle : place.standIn;
+    const bool isOwn = place.particle >= 0;
     if (this->Last >= 0)
     {
-      (this->IsCrease ? this->Pairs.creases : this->Pairs.segments)
-        .push_back({ this->Last, particle });
+      if (!this->IsCrease)
+      {
+        this->Pairs.segments.push_back({ this->Last, particle });
+      }
+      if (this->HasCrease && isOwn && this->IsOwn)
+      {
+        this->Pairs.ordered.push_back({ this->Last, particle });
+      }
     }
     this->Last = particle;
-    this->IsCrease = beginsCrease;
+    this->IsCrease = place.beginsCrease;
+    this->IsOwn = isOwn;
   }
   void breakOff() { this->Last = -1; }
 
 private:
   CurvePairs& Pairs;
+  bool HasCrease;
   int Last = -1;
   bool IsCrease = false;
+  bool IsOwn = false;
 };
 
 /// The places of a curve, a closed one from a place with a particle on and once round to it.
@@ -64,7 +76,7 @@ CurvePairs pairsOf(const std::vector<CurvePlace>& places, const std::vector<Curv
     const std::vector<CurvePlace> way = unrolled(places, curve);
     const auto hasParticle = [&way](std::size_t n)
     { return n < way.size() && way[n].particle >= 0; };
-    Chain chain(pairs);
+    Chain chain(pairs, std::any_of(way.begin(), way.end(), [](const CurvePlace& place) { return place.beginsCrease; }));
     for (std::size_t n = 0; n < way.size(); ++n)
     {
       const bool isBetweenTwo = n > 0 && hasParticle(n - 1) && hasParticle(n + 1);
@@ -74,11 +86,11 @@ CurvePairs pairsOf(const std::vector<CurvePlace>& places, const std::vector<Curv
       }
       else if (hasParticle(n))
       {
-        chain.goOn(way[n].particle, way[n].beginsCrease);
+        chain.goOn(way[n]);
       }
       else if (way[n].standIn >= 0 && !isBetweenTwo)
       {
-        chain.goOn(way[n].standIn, way[n].beginsCrease);
+        chain.goOn(way[n]);
       }
     }
   }
@@ -119,17 +131,17 @@ std::vector<std::array<int, 2>> segmentsOf(
   return segments;
 }
 
-std::vector<std::array<int, 2>> creaseSidesOf(
+std::vector<std::array<int, 2>> directedEdgesOf(
   const std::vector<CurvePlace>& places, const std::vector<CurveRange>& curves)
 {
-  std::vector<std::array<int, 2>> sides = pairsOf(places, curves).creases;
-  for (std::array<int, 2>& side : sides)
+  std::vector<std::array<int, 2>> edges = pairsOf(places, curves).ordered;
+  for (std::array<int, 2>& edge : edges)
   {
-    std::swap(side[0], side[1]);
+    std::swap(edge[0], edge[1]);
   }
-  std::sort(sides.begin(), sides.end());
-  sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
-  return sides;
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
 }
 
 void renumber(std::vector<std::array<int, 2>>& pairs, const std::vector<char>& kept)

@@ -35,9 +35,9 @@ struct CurveRange
 std::vector<std::array<int, 2>> segmentsOf(
   const std::vector<CurvePlace>& places, const std::vector<CurveRange>& curves);
 
-/// Pairs of particles that follow each other on creases, from the second to the first: curves are followed with the
-/// surface to their right.
-std::vector<std::array<int, 2>> creaseSidesOf(
+/// Pairs of particles that follow each other on curves of which a part is a crease, from the second to the first: curves
+/// are followed with the surface to their right.
+std::vector<std::array<int, 2>> directedEdgesOf(
   const std::vector<CurvePlace>& places, const std::vector<CurveRange>& curves);
 
 /// Pairs of particles after some have been dropped, with the indices of the ones that are left. Where a particle with

@@ -589,7 +589,7 @@ void FastSystem::finish()
     return result;
   };
   const SurfaceEdges& edges = this->Curves.edges;
-  this->Result.edges = { addAll(edges.segments), addAll(edges.creaseSides),
+  this->Result.edges = { addAll(edges.segments), addAll(edges.directed),
     addAll(edges.coincident) };
   for (const BoundaryParticle& boundary : this->Curves.particles)
   {

@@ -43,7 +43,7 @@ bool dropExtraFans(const Distribution& distribution, const ConstrainedEdges& edg
     vertices.insert(vertices.end(), loop.particles.begin(), loop.particles.end());
   }
   // The surface may touch itself at its end.
-  for (const auto* edgesOf : { &distribution.edges.segments, &distribution.edges.creaseSides })
+  for (const auto* edgesOf : { &distribution.edges.segments, &distribution.edges.directed })
   {
     for (const std::array<int, 2>& edge : *edgesOf)
     {

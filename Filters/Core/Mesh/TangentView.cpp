@@ -163,9 +163,7 @@ void TangentView::makeSectors()
     for (const int last : all)
     {
       const FlatNeighbor other = this->flat(last);
-      // Where a crease fades, its two sides are in the same place.
-      const bool isAllAround = last == first || other.place == start.place;
-      const double turn = isAllAround ? fullTurn : turnFrom(start.place, other.place);
+      const double turn = last == first ? fullTurn : turnAround(start.place, other.place);
       if (turn < width)
       {
         width = turn;
