@@ -75,11 +75,12 @@ Isosurface seamless(Isosurface surface)
   return surface;
 }
 
-/// Jump tolerances with which the surface is cut along creases, unless the field is discontinuous: pieces of surface that
-/// end at creases here and at jumps there would not close.
-std::vector<float> cutAlongCreases(const ElementMesh& mesh, const FaceJumps& jumps)
+/// Sets jump tolerances with which the surface is cut along creases, unless the field is discontinuous: pieces of surface
+/// that end at creases here and at jumps there would not close.
+/// \return whether there are creases to cut along
+bool cutAlongCreases(
+  const ElementMesh& mesh, const FaceJumps& jumps, std::vector<float>& tolerances)
 {
-  std::vector<float> tolerances = jumps.jumpTolerances;
   const auto isJoined = [&mesh](std::size_t slot)
   {
     return mesh.neighbor(static_cast<int>(slot / MaximumFaces), slot % MaximumFaces).element >= 0;
@@ -88,17 +89,19 @@ std::vector<float> cutAlongCreases(const ElementMesh& mesh, const FaceJumps& jum
   {
     if (std::isfinite(tolerances[slot]) && isJoined(slot))
     {
-      return jumps.jumpTolerances;
+      return false;
     }
   }
+  bool isCut = false;
   for (std::size_t slot = 0; slot < tolerances.size(); ++slot)
   {
     if (jumps.dihedralAngles[slot] > CreaseAngle && isJoined(slot))
     {
       tolerances[slot] = -1.0f;
+      isCut = true;
     }
   }
-  return tolerances;
+  return isCut;
 }
 
 /// Where the surface may end, as far as the samples on both sides tell.
@@ -199,7 +202,22 @@ public:
   {
   }
 
-  BoundaryCurves run(const ParallelFor& parallelFor);
+  /// For a surface that is cut along creases.
+  /// \param looksForMore whether trace() is to find further ones
+  void sampleCreases(bool looksForMore)
+  {
+    this->HasCuts = true;
+    if (looksForMore)
+    {
+      this->Tracer.lookForCreases();
+    }
+  }
+  /// Traces all curves.
+  /// \return slots of faces along which the surface ought to be cut
+  std::vector<std::size_t> trace(const ParallelFor& parallelFor);
+  /// Places particles on the curves that were traced.
+  BoundaryCurves sample(const ParallelFor& parallelFor);
+  std::int64_t evaluations() const { return this->Tracer.evaluations() + this->Walker.evaluations(); }
 
 private:
   std::vector<std::vector<BoundaryHint>> findHints(const ParallelFor& parallelFor) const;
@@ -212,7 +230,7 @@ private:
     return this->Surface.isCutAt(point.at.location.element, point.face);
   }
   std::int64_t leastIntervals(std::size_t stretch) const;
-  std::vector<BoundaryPlace> sample(
+  std::vector<BoundaryPlace> sampleStretch(
     const CurveStretch& stretch, std::int64_t leastIntervals, const ParallelFor& parallelFor);
   BoundaryPlace startOf(const CurveStretch& stretch, const BoundaryPlace& sampled) const;
   std::vector<BoundaryPlace> mirrored(
@@ -237,6 +255,7 @@ private:
   SampleComparison Samples;
   BoundaryTracer Tracer;
   SurfaceWalker Walker;
+  bool HasCuts = false;
   std::vector<BoundaryTrace> Traces;
   /// Wanted near each trace, world units.
   std::vector<double> TraceSpacings;
@@ -418,7 +437,7 @@ std::int64_t BoundarySampler::leastIntervals(std::size_t stretch) const
 }
 
 /// Places along a stretch, at equal distances in units of the spacing wanted there, the first one on the first vertex.
-std::vector<BoundaryPlace> BoundarySampler::sample(
+std::vector<BoundaryPlace> BoundarySampler::sampleStretch(
   const CurveStretch& stretch, std::int64_t leastIntervals, const ParallelFor& parallelFor)
 {
   // Places between two questions whether to end early: fewer cost more calls, more delay an abort. Chosen by experiment.
@@ -430,11 +449,17 @@ std::vector<BoundaryPlace> BoundarySampler::sample(
   double spacing = 0.0;
   for (std::size_t v = 1; v < vertices.size(); ++v)
   {
+    const double before = v > 1 ? spacing : this->HasCuts ? this->spacingAt(vertices[0].leaving) : 0.0;
     spacing = this->spacingAt(vertices[v].arriving);
-    sums.push_back(
-      sums.back() + glm::distance(vertices[v - 1].position(), vertices[v].position()) / spacing);
+    const double length = glm::distance(vertices[v - 1].position(), vertices[v].position());
+    sums.push_back(sums.back() + length / (this->HasCuts ? std::min(before, spacing) : spacing));
   }
-  const auto count = std::max<std::int64_t>(leastIntervals, std::llround(sums.back()));
+  // Beyond the chords of a coarser crease particles beside it would stand.
+  constexpr double longestInterval = 1.1;
+  const std::int64_t wanted = stretch.creaseFace < 0
+    ? std::llround(sums.back())
+    : static_cast<std::int64_t>(std::ceil(sums.back() / longestInterval));
+  const std::int64_t count = std::max(leastIntervals, wanted);
   std::size_t v = 1;
   for (std::int64_t n = 0; n < count + stretch.withEnd; ++n)
   {
@@ -442,15 +467,15 @@ std::vector<BoundaryPlace> BoundarySampler::sample(
     {
       askCaller(parallelFor);
     }
-    const double wanted = sums.back() * static_cast<double>(n) / static_cast<double>(count);
-    while (v + 1 < vertices.size() && sums[v] < wanted)
+    const double place = sums.back() * static_cast<double>(n) / static_cast<double>(count);
+    while (v + 1 < vertices.size() && sums[v] < place)
     {
       ++v;
     }
     const BoundaryPoint& from = vertices[v - 1].leaving;
     const BoundaryPoint& to = vertices[v].arriving;
     const double chord = sums[v] - sums[v - 1];
-    const double t = chord > 0.0 ? std::clamp((wanted - sums[v - 1]) / chord, 0.0, 1.0) : 0.0;
+    const double t = chord > 0.0 ? std::clamp((place - sums[v - 1]) / chord, 0.0, 1.0) : 0.0;
     if (from.at.location.element == to.at.location.element)
     {
       const ReferencePoint u = this->between(from, to, t);
@@ -459,9 +484,9 @@ std::vector<BoundaryPlace> BoundarySampler::sample(
     else
     {
       const WorldVector step = t * (to.at.point.map.position - from.at.point.map.position);
-      const Location place = this->Walker.move(from.at, step);
-      const bool stays = place.element == from.at.location.element;
-      places.push_back({ place, stays ? from.face : -1, spacing });
+      const Location moved = this->Walker.move(from.at, step);
+      const bool stays = moved.element == from.at.location.element;
+      places.push_back({ moved, stays ? from.face : -1, spacing });
     }
   }
   places.front() = this->startOf(stretch, places.front());
@@ -560,7 +585,7 @@ void BoundarySampler::place(const ParallelFor& parallelFor)
       const std::int64_t least = partners[s] < 0
         ? this->leastIntervals(s)
         : std::max(this->leastIntervals(s), this->leastIntervals(partners[s]));
-      places = this->sample(stretch, least, parallelFor);
+      places = this->sampleStretch(stretch, least, parallelFor);
     }
     this->Places.insert(this->Places.end(), places.begin(), places.end());
     this->BeginsCrease.resize(this->Places.size(), stretch.creaseFace >= 0);
@@ -888,7 +913,7 @@ void BoundarySampler::addOtherSides()
   }
 }
 
-BoundaryCurves BoundarySampler::run(const ParallelFor& parallelFor)
+std::vector<std::size_t> BoundarySampler::trace(const ParallelFor& parallelFor)
 {
   for (const std::vector<BoundaryHint>& hintsOfBox : this->findHints(parallelFor))
   {
@@ -903,12 +928,17 @@ BoundaryCurves BoundarySampler::run(const ParallelFor& parallelFor)
     askCaller(parallelFor);
     this->followOtherSide(s, parallelFor);
   }
+  return this->Tracer.overlookedCreases();
+}
+
+BoundaryCurves BoundarySampler::sample(const ParallelFor& parallelFor)
+{
   this->dropOneSided();
   this->place(parallelFor);
   this->finish(parallelFor);
   this->thinOut(parallelFor);
   this->addOtherSides();
-  this->Result.evaluations += this->Tracer.evaluations() + this->Walker.evaluations();
+  this->Result.evaluations += this->evaluations();
   return std::move(this->Result);
 }
 
@@ -918,14 +948,37 @@ BoundaryCurves findBoundaryCurves(const Isosurface& surface, const FaceJumps& ju
   const SurfaceProxy& proxy, const SizingFunction& sizing, SampledCurves sampled,
   const ParallelFor& parallelFor)
 {
-  Isosurface ending = surface;
-  std::vector<float> tolerances;
-  if (sampled == SampledCurves::BoundaryAndCreases)
+  Isosurface cut = surface;
+  std::vector<float> tolerances = jumps.jumpTolerances;
+  const bool isCut =
+    sampled == SampledCurves::BoundaryAndCreases && cutAlongCreases(*surface.mesh, jumps, tolerances);
+  if (isCut)
   {
-    tolerances = cutAlongCreases(*surface.mesh, jumps);
-    ending.jumpTolerances = &tolerances;
+    cut.jumpTolerances = &tolerances;
   }
-  return BoundarySampler(ending, jumps, proxy, sizing).run(parallelFor);
+  // Each time creases may show further ones beside them, where the surface passes corners of faces.
+  constexpr int mostTimes = 8;
+  std::int64_t evaluations = 0;
+  for (int n = 1;; ++n)
+  {
+    BoundarySampler sampler(cut, jumps, proxy, sizing);
+    if (isCut)
+    {
+      sampler.sampleCreases(n < mostTimes);
+    }
+    const std::vector<std::size_t> overlooked = sampler.trace(parallelFor);
+    if (overlooked.empty())
+    {
+      BoundaryCurves curves = sampler.sample(parallelFor);
+      curves.evaluations += evaluations;
+      return curves;
+    }
+    evaluations += sampler.evaluations();
+    for (const std::size_t slot : overlooked)
+    {
+      tolerances[slot] = -1.0f;
+    }
+  }
 }
 
 } // namespace hop

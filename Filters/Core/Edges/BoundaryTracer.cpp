@@ -1,5 +1,6 @@
 #include "Edges/BoundaryTracer.h"
 
+#include "Edges/FaceJumps.h"
 #include "Edges/TraceLimits.h"
 
 #include <algorithm>
@@ -369,7 +370,12 @@ std::optional<BoundaryPoint> BoundaryTracer::crossAtEdge(EdgeWalk& walk)
   else
   {
     walk.here.reset();
-    walk.location = crossFace(*this->Surface.mesh, walk.location, walk.face);
+    const Location next = crossFace(*this->Surface.mesh, walk.location, walk.face);
+    if (this->LooksForCreases)
+    {
+      this->lookAtCrease(walk.location, walk.face, next);
+    }
+    walk.location = next;
   }
   if (neighbor.element >= 0)
   {
@@ -384,6 +390,20 @@ std::optional<BoundaryPoint> BoundaryTracer::crossAtEdge(EdgeWalk& walk)
     walk.corners = this->edgeBetween(walk.location, entry, walk.face);
   }
   return std::nullopt;
+}
+
+/// Remembers a face at which the surface turns: where it passes a corner of the face, no box need show that.
+/// \param there the place behind the face
+void BoundaryTracer::lookAtCrease(const Location& here, int face, const Location& there)
+{
+  const WorldVector before = this->Walker.evaluate(here).point.gradient;
+  const WorldVector after = this->Walker.evaluate(there).point.gradient;
+  if (angleBetween(before, after) > CreaseAngle)
+  {
+    const FaceNeighbor& behind = this->Surface.mesh->neighbor(here.element, face);
+    this->OverlookedCreases.push_back(faceSlot(here.element, face));
+    this->OverlookedCreases.push_back(faceSlot(behind.element, behind.face));
+  }
 }
 
 /// From a boundary face across an edge to the next boundary face: that of the same element, or the one to which the

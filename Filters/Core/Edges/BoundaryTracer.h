@@ -87,6 +87,11 @@ public:
   {
   }
 
+  /// Lets walks around edges of the mesh look for creases along which the surface is not cut.
+  void lookForCreases() { this->LooksForCreases = true; }
+  /// The slots of their faces, both sides.
+  const std::vector<std::size_t>& overlookedCreases() const { return this->OverlookedCreases; }
+
   /// Whether the surface goes on at a crossing. Costs two evaluations at most.
   /// \param farthest distance from the surface, world units, within which the crossing tells
   /// \return false also for crossings farther off
@@ -184,6 +189,7 @@ private:
     const Location& start, int faceA, int faceB, double maximumTravel);
   std::optional<BoundaryPoint> walkAroundEdge(const Evaluated& at, int boundaryFace, int face);
   std::optional<BoundaryPoint> crossAtEdge(EdgeWalk& walk);
+  void lookAtCrease(const Location& here, int face, const Location& there);
   Evaluated polished(Evaluated at, const ActiveFaces& held);
   std::vector<std::int64_t> cornersOf(const Location& location, int face) const;
   std::vector<std::int64_t> edgeBetween(const Location& location, int faceA, int faceB) const;
@@ -201,6 +207,8 @@ private:
   /// Passes boundary faces where the surface goes on, and so tells where it ends.
   SurfaceWalker Passer;
   BoundaryChords Chords;
+  bool LooksForCreases = false;
+  std::vector<std::size_t> OverlookedCreases;
 };
 
 } // namespace hop
