@@ -177,9 +177,13 @@ void measureTriangles(
       inner.push_back(angles.back());
     }
   }
-  for (const auto& [a, b] : coincident)
+  // All pairs of a place have its first particle.
+  for (int n = 0; n < 2; ++n)
   {
-    isUsed[a] = isUsed[b] = isUsed[a] | isUsed[b];
+    for (const auto& [a, b] : coincident)
+    {
+      isUsed[a] = isUsed[b] = isUsed[a] | isUsed[b];
+    }
   }
   measures.unusedParticles = std::count(isUsed.begin(), isUsed.end(), 0);
   measures.worstMinAngle = angles.empty() ? 0.0 : *std::min_element(angles.begin(), angles.end());

@@ -4,6 +4,7 @@
 #include "Mesh/LooseParticles.h"
 #include "Mesh/ManifoldVertices.h"
 #include "Mesh/ParticleStars.h"
+#include "Support/DisjointSets.h"
 #include "Support/Interruptible.h"
 
 #include <functional>
@@ -12,6 +13,29 @@ namespace hop
 {
 namespace
 {
+
+/// Particles without a triangle, those in one place taken for one.
+std::int64_t countUnused(const Distribution& distribution, const TriangleFans& fans)
+{
+  DisjointSets places(distribution.particles.size());
+  for (const auto& [a, b] : distribution.edges.coincident)
+  {
+    places.unite(a, b);
+  }
+  std::vector<char> isUsed(distribution.particles.size(), 0);
+  for (std::size_t i = 0; i < isUsed.size(); ++i)
+  {
+    const int particle = static_cast<int>(i);
+    isUsed[places.root(particle)] |= fans.hasTriangles(particle) ? 1 : 0;
+  }
+  std::int64_t unused = 0;
+  for (std::size_t i = 0; i < isUsed.size(); ++i)
+  {
+    const int particle = static_cast<int>(i);
+    unused += places.root(particle) == particle && !isUsed[i];
+  }
+  return unused;
+}
 
 /// What is open, and which particles have no triangle.
 void countOpen(const Distribution& distribution, const ConstrainedEdges& edges,
@@ -27,10 +51,7 @@ void countOpen(const Distribution& distribution, const ConstrainedEdges& edges,
       mesh.openLength += length(particles[next].position - particles[loop.particles[n]].position);
     }
   }
-  for (std::size_t i = 0; i < particles.size(); ++i)
-  {
-    mesh.unusedParticles += !fans.hasTriangles(static_cast<int>(i));
-  }
+  mesh.unusedParticles = countUnused(distribution, fans);
 }
 
 /// \return whether triangles were removed

@@ -347,5 +347,63 @@ TEST(BoundaryCurves, DoNotDependOnThreads)
   }
 }
 
+/// A roof with a ridge of a right angle over x = 0.
+ElementMesh ridge()
+{
+  MeshRecipe left, right;
+  left.field = [](const glm::dvec3& x) { return x.z - 0.1 - x.x; };
+  right.field = [](const glm::dvec3& x) { return x.z - 0.1 + x.x; };
+  ElementMesh mesh;
+  appendBox(mesh, left, { -1, -1, -1 }, { 0, 1, 1 });
+  appendBox(mesh, right, { 0, -1, -1 }, { 1, 1, 1 });
+  findFaceNeighbors(mesh, 1e-9);
+  return mesh;
+}
+
+TEST(BoundaryCurves, LeaveCreasesOutUnlessAskedFor)
+{
+  const BoundaryCurves curves = curvesOf(ridge());
+  EXPECT_TRUE(curves.edges.coincident.empty());
+  EXPECT_TRUE(curves.edges.directed.empty());
+  for (const BoundaryParticle& p : curves.particles)
+  {
+    EXPECT_FALSE(p.isOnCrease);
+  }
+}
+
+TEST(BoundaryCurves, OfBothSidesOfACreaseMeetInTheSamePlaces)
+{
+  const BoundaryCurves curves = curvesOf(ridge(), {}, SampledCurves::BoundaryAndCreases);
+  // The ridge is 2 long, and has particles at both ends.
+  EXPECT_EQ(curves.edges.coincident.size(),
+    static_cast<std::size_t>(std::ceil(2.0 / (1.1 * spacing))) + 1);
+  for (const auto& [a, b] : curves.edges.coincident)
+  {
+    const Particle& first = curves.particles[a].particle;
+    const Particle& second = curves.particles[b].particle;
+    EXPECT_EQ(first.position.xyz, second.position.xyz);
+    EXPECT_NE(first.location.element, second.location.element);
+    EXPECT_NEAR(dot(first.normal, second.normal), 0.0, 1e-9);
+    EXPECT_LT(std::abs(first.position.xyz.x), tolerance);
+  }
+}
+
+TEST(BoundaryCurves, OfOneSideOfACreaseHaveItsSurfaceToTheirLeft)
+{
+  const BoundaryCurves curves = curvesOf(ridge(), {}, SampledCurves::BoundaryAndCreases);
+  // Both halves are rectangles, so that their middles are to the left of all edges.
+  EXPECT_GT(curves.edges.directed.size(), curves.particles.size() - 1);
+  for (const auto& [a, b] : curves.edges.directed)
+  {
+    const Particle& first = curves.particles[a].particle;
+    const Particle& second = curves.particles[b].particle;
+    const double side = first.normal.xyz.x > 0.0 ? 0.5 : -0.5;
+    const glm::dvec3 middle(side, 0.0, 0.1 - std::abs(side));
+    const glm::dvec3 left =
+      glm::cross(first.normal.xyz, (second.position - first.position).xyz);
+    EXPECT_GT(glm::dot(left, middle - first.position.xyz), 0.0);
+  }
+}
+
 } // namespace
 } // namespace hop::testing
