@@ -254,7 +254,8 @@ vtkDataArray* vtkSurfaceSplatMapper::GetRadiusArray(vtkPolyData* input)
 //------------------------------------------------------------------------------
 hop::ParticleArrays vtkSurfaceSplatMapper::DescribeArrays(vtkPolyData* input)
 {
-  auto arrays = hop::ParticleArrays::FromPointData(input->GetPointData(), input->GetNumberOfPoints());
+  auto arrays =
+    hop::ParticleArrays::FromPointData(input->GetPointData(), input->GetNumberOfPoints());
   arrays.Radii = this->GetRadiusArray(input);
   return arrays;
 }
@@ -567,9 +568,8 @@ void vtkSurfaceSplatMapper::UploadLookupCoordinates(vtkRenderer* renderer)
     this->InternalColorTexture->RepeatOff();
   }
   this->InternalColorTexture->SetInputData(this->ColorTextureMap);
-  std::vector<float> texels =
-    hop::LookupTexels(vtkFloatArray::SafeDownCast(this->ColorCoordinates),
-      this->Internal->PointIds, this->Internal->Buffers.GetNumberOfParticles());
+  std::vector<float> texels = hop::LookupTexels(vtkFloatArray::SafeDownCast(this->ColorCoordinates),
+    this->Internal->PointIds, this->Internal->Buffers.GetNumberOfParticles());
   this->AddGradients(texels);
   this->Internal->Buffers.UploadColors(WindowOf(renderer), texels);
 }

@@ -22,7 +22,7 @@ bool sameRequest(const DistributionParameters& a, const DistributionParameters& 
 {
   return a.sizing.angularDensity == b.sizing.angularDensity &&
     a.sizing.smallestSpacing == b.sizing.smallestSpacing && a.quality == b.quality &&
-    a.seed == b.seed && a.particleCount == b.particleCount;
+    a.seed == b.seed && a.particleCount == b.particleCount && a.onCreases == b.onCreases;
 }
 
 bool sameSpacing(const RunOrigin& a, const RunOrigin& b)

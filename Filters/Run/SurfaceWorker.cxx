@@ -75,6 +75,7 @@ RunOrigin SurfaceWorker::makeOrigin(double isovalue) const
   origin.parameters.sizing = this->sizingAt(this->Scale.spacing);
   origin.parameters.quality = this->Properties.quality;
   origin.parameters.seed = this->Properties.seed;
+  origin.parameters.onCreases = this->Properties.outputType != OutputType::Particles;
   origin.parameters.particleCount = this->Properties.numberOfParticles;
   origin.parameters.particleLimit = particlesThatFit();
   return origin;

@@ -153,8 +153,7 @@ std::string Definitions(const SplatDrawing& drawing, const SplatPrimitives::Styl
     ShaderDefine("SPLAT_SKIPS_HIDDEN", style.SkipsHidden && drawing.DrawsPoints()) +
     ShaderDefine("SPLAT_APART", drawing.TellsDepthsApart()) +
     ShaderDefine("SPLAT_LAYERS", drawing.TellsLayersApart()) +
-    ShaderDefine("SPLAT_GHOSTS", drawing.Ghosts) +
-    ShaderDefine("SPLAT_GHOST_SHARE", GhostShare) +
+    ShaderDefine("SPLAT_GHOSTS", drawing.Ghosts) + ShaderDefine("SPLAT_GHOST_SHARE", GhostShare) +
     ShaderDefine("SPLAT_CLIPPING_PLANES", drawing.NumberOfClippingPlanes);
 }
 }

@@ -556,9 +556,8 @@ SplatParticles SplatParticles::FromPolyData(vtkPolyData* input, const ParticleAr
     ++skipped;
   }
   particles.Skipped = skipped;
-  particles.HasGhosts =
-    std::any_of(particles.PointIds.begin(), particles.PointIds.end(), [&](vtkIdType id)
-      { return GhostTypeOf(arrays, id) & vtkDataSetAttributes::DUPLICATEPOINT; });
+  particles.HasGhosts = std::any_of(particles.PointIds.begin(), particles.PointIds.end(),
+    [&](vtkIdType id) { return GhostTypeOf(arrays, id) & vtkDataSetAttributes::DUPLICATEPOINT; });
   particles.IsovalueRanges = RangesOf(particles, std::max<std::size_t>(1, isovalues.size()));
   if (shaped && IsStronglyBent(particles))
   {

@@ -72,7 +72,8 @@ struct ParticleArrays
   vtkDataArray* Isovalues =
     nullptr; ///< one a point; particles of different values are not averaged
   vtkDataArray* CellColors = nullptr; ///< see vtkSurfaceSplatMapper::SetCellColorArrayName()
-  vtkDataArray* Ghosts = nullptr;     ///< vtkGhostType of points: duplicate ones are ghosts, hidden ones not drawn
+  vtkDataArray* Ghosts =
+    nullptr; ///< vtkGhostType of points: duplicate ones are ghosts, hidden ones not drawn
 
   /** Arrays made of columns, see Common/SplatColumns.h. */
   std::vector<vtkSmartPointer<vtkDataArray>> Columns;
@@ -96,7 +97,8 @@ struct SplatParticles
   bool HasLayers = false; ///< whether a particle has LayerMark
   /** A share of 1, so that tags are still whole numbers after rounding down. */
   static constexpr float LayerMark = 0.5f;
-  bool HasGhosts = false; ///< whether a particle has GhostMark: it is blended with others, which is all
+  bool HasGhosts =
+    false; ///< whether a particle has GhostMark: it is blended with others, which is all
   static constexpr float GhostMark = 0.25f; ///< as LayerMark
   /**
    * ClipStride a particle: normal and distance of one plane, the same of another; two overlaps in radii, see

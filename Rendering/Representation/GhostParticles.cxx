@@ -217,7 +217,8 @@ vtkSmartPointer<vtkPolyData> Extract(vtkPolyData* particles, const std::vector<v
 void FillUnknown(vtkAbstractArray* array, vtkIdType begin, vtkIdType end)
 {
   auto* numbers = vtkDataArray::SafeDownCast(array);
-  const bool real = numbers && (numbers->GetDataType() == VTK_DOUBLE || numbers->GetDataType() == VTK_FLOAT);
+  const bool real =
+    numbers && (numbers->GetDataType() == VTK_DOUBLE || numbers->GetDataType() == VTK_FLOAT);
   for (vtkIdType i = begin; i < end && numbers; ++i)
   {
     for (int c = 0; c < numbers->GetNumberOfComponents(); ++c)

@@ -160,8 +160,9 @@ private:
   hop::SplatInput::Blocks Blocks;
   // Of this process, empty where it has no data; with the ghosts that other ranks have for it.
   vtkSmartPointer<vtkPolyData> Particles;
-  vtkSmartPointer<vtkPolyData> ArraysToColorBy; // without ghosts, and without arrays that are not for users
-  double DiskBounds[6];                         // without ghosts
+  vtkSmartPointer<vtkPolyData>
+    ArraysToColorBy;    // without ghosts, and without arrays that are not for users
+  double DiskBounds[6]; // without ghosts
 };
 
 #endif

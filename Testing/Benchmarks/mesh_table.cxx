@@ -77,6 +77,7 @@ struct Options
   std::string only;
   Case single;
   std::string surface;
+  bool creases = true;
   std::vector<std::filesystem::path> folders;
 };
 
@@ -130,6 +131,7 @@ void measure(const Options& options, const Case& which, const std::filesystem::p
   const hop::Isosurface surface{ &elements.mesh, elements.fieldIsovalue(which.isovalue),
     tolerancePerDiagonal * bounds.GetDiagonalLength() };
   hop::DistributionParameters parameters;
+  parameters.onCreases = options.creases;
   parameters.sizing = { 0.01 * bounds.GetMaxLength() / options.finer, options.density };
   hop::Distribution distribution = hop::distributeFast(surface, parameters, {}, {});
   const auto count = static_cast<double>(std::max<std::size_t>(1, distribution.particles.size()));
@@ -192,6 +194,10 @@ Options parse(int argc, char* argv[])
     else if (key == "file")
     {
       options.single.file = value;
+    }
+    else if (key == "creases")
+    {
+      options.creases = std::stoi(value) != 0;
     }
     else if (key == "array")
     {

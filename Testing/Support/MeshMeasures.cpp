@@ -151,8 +151,9 @@ bool isNearEdge(const Particle& particle)
     [&](const ClipPlane& plane) { return plane.exists() && plane.distance < particle.spacing; });
 }
 
-void measureTriangles(
-  const Buffer<Particle>& particles, const std::vector<Corners>& triangles, MeshMeasures& measures)
+void measureTriangles(const Buffer<Particle>& particles,
+  const std::vector<std::array<int, 2>>& coincident, const std::vector<Corners>& triangles,
+  MeshMeasures& measures)
 {
   std::vector<double> angles, inner;
   std::vector<char> isUsed(particles.size(), 0);
@@ -176,6 +177,14 @@ void measureTriangles(
       inner.push_back(angles.back());
     }
   }
+  // All pairs of a place have its first particle.
+  for (int n = 0; n < 2; ++n)
+  {
+    for (const auto& [a, b] : coincident)
+    {
+      isUsed[a] = isUsed[b] = isUsed[a] | isUsed[b];
+    }
+  }
   measures.unusedParticles = std::count(isUsed.begin(), isUsed.end(), 0);
   measures.worstMinAngle = angles.empty() ? 0.0 : *std::min_element(angles.begin(), angles.end());
   measures.medianMinAngle = quantile(angles, 0.5);
@@ -188,7 +197,7 @@ MeshMeasures measureMesh(const Distribution& distribution, const std::vector<Cor
 {
   MeshMeasures measures;
   WeldedMesh(distribution, triangles).measure(measures);
-  measureTriangles(distribution.particles, triangles, measures);
+  measureTriangles(distribution.particles, distribution.edges.coincident, triangles, measures);
   return measures;
 }
 

@@ -2,11 +2,13 @@
 
 #include "Edges/BoundaryTracer.h"
 #include "Edges/CellBorders.h"
+#include "Edges/CreaseArcs.h"
 #include "Edges/CurveSegments.h"
 #include "Edges/FaceCrossings.h"
 #include "Edges/FacePlanes.h"
 #include "Edges/ParticleGrid.h"
 #include "Edges/SampleComparison.h"
+#include "Support/DisjointSets.h"
 #include "Support/KeepFirst.h"
 #include "Support/KeepMarked.h"
 #include "Support/SpacingGrid.h"
@@ -38,6 +40,9 @@ struct Tracing
   static constexpr double MeetingJump = 0.25;
   /// Largest distance on the way from a hint to the curve. A larger one may lead to another curve.
   static constexpr double LongestWay = 4.0;
+  /// Largest distance of the ends of a crease as its two sides see it. Vertices on edges of the mesh are much nearer to
+  /// each other; a larger one may take one crease for another.
+  static constexpr double SamePlace = 0.1;
 };
 
 /// When two particles are too near to each other, in units of the spacing of the later one. Chosen by experiment.
@@ -68,6 +73,34 @@ Isosurface seamless(Isosurface surface)
 {
   surface.jumpTolerances = nullptr;
   return surface;
+}
+
+/// Sets jump tolerances with which the surface is cut along creases, unless the field is discontinuous: pieces of surface
+/// that end at creases here and at jumps there would not close.
+/// \return whether there are creases to cut along
+bool cutAlongCreases(
+  const ElementMesh& mesh, const FaceJumps& jumps, std::vector<float>& tolerances)
+{
+  const auto isJoined = [&mesh](std::size_t slot) {
+    return mesh.neighbor(static_cast<int>(slot / MaximumFaces), slot % MaximumFaces).element >= 0;
+  };
+  for (std::size_t slot = 0; slot < tolerances.size(); ++slot)
+  {
+    if (std::isfinite(tolerances[slot]) && isJoined(slot))
+    {
+      return false;
+    }
+  }
+  bool isCut = false;
+  for (std::size_t slot = 0; slot < tolerances.size(); ++slot)
+  {
+    if (jumps.dihedralAngles[slot] > CreaseAngle && isJoined(slot))
+    {
+      tolerances[slot] = -1.0f;
+      isCut = true;
+    }
+  }
+  return isCut;
 }
 
 /// Where the surface may end, as far as the samples on both sides tell.
@@ -170,7 +203,25 @@ public:
   {
   }
 
-  BoundaryCurves run(const ParallelFor& parallelFor);
+  /// For a surface that is cut along creases.
+  /// \param looksForMore whether trace() is to find further ones
+  void sampleCreases(bool looksForMore)
+  {
+    this->HasCuts = true;
+    if (looksForMore)
+    {
+      this->Tracer.lookForCreases();
+    }
+  }
+  /// Traces all curves.
+  /// \return slots of faces along which the surface ought to be cut
+  std::vector<std::size_t> trace(const ParallelFor& parallelFor);
+  /// Places particles on the curves that were traced.
+  BoundaryCurves sample(const ParallelFor& parallelFor);
+  std::int64_t evaluations() const
+  {
+    return this->Tracer.evaluations() + this->Walker.evaluations();
+  }
 
 private:
   std::vector<std::vector<BoundaryHint>> findHints(const ParallelFor& parallelFor) const;
@@ -184,11 +235,26 @@ private:
   void cutAtPlane(double plane, BoundaryTrace& trace);
   std::optional<BoundaryPoint> passageBetween(
     const BoundaryPoint& from, const BoundaryPoint& to, double plane);
-  void sample(BoundaryTrace trace, const ParallelFor& parallelFor);
-  void sampleStretch(Span<BoundaryVertex> vertices, bool withEnd, const ParallelFor& parallelFor);
+  void followOtherSide(std::size_t stretch, const ParallelFor& parallelFor);
+  bool standsStill(const BoundaryTrace& trace, double spacing) const;
+  void keep(BoundaryTrace trace, double spacing);
+  bool isCutAt(const BoundaryPoint& point) const
+  {
+    return this->Surface.isCutAt(point.at.location.element, point.face);
+  }
+  std::int64_t leastIntervals(std::size_t stretch) const;
+  std::vector<BoundaryPlace> sampleStretch(
+    const CurveStretch& stretch, std::int64_t leastIntervals, const ParallelFor& parallelFor);
+  BoundaryPlace startOf(const CurveStretch& stretch, const BoundaryPlace& sampled) const;
+  std::vector<BoundaryPlace> mirrored(const CurveStretch& stretch, Span<BoundaryPlace> other) const;
+  std::vector<int> findPartners() const;
+  void dropOneSided();
+  void place(const ParallelFor& parallelFor);
+  void joinSides(const std::vector<std::size_t>& starts, const std::vector<int>& partners);
   double spacingAt(const BoundaryPoint& point);
   ReferencePoint between(const BoundaryPoint& from, const BoundaryPoint& to, double t) const;
   void finish(const ParallelFor& parallelFor);
+  void meet(std::vector<char>& found);
   bool isTooNear(std::size_t i, std::size_t j) const;
   void thinOut(const ParallelFor& parallelFor);
   void connect(const std::vector<char>& kept, const std::vector<int>& standIns);
@@ -203,8 +269,16 @@ private:
   SampleComparison Samples;
   BoundaryTracer Tracer;
   SurfaceWalker Walker;
+  bool HasCuts = false;
+  std::vector<BoundaryTrace> Traces;
+  /// Wanted near each trace, world units.
+  std::vector<double> TraceSpacings;
+  std::vector<CurveStretch> Stretches;
   std::vector<BoundaryPlace> Places;
   std::vector<CurveRange> Ranges;
+  /// Marks the places that begin a crease; pairs of places that are one, inside creases and at their ends.
+  std::vector<char> BeginsCrease;
+  std::vector<std::array<int, 2>> Twins, Corners;
   /// What became of the places: at first with the particles before they are thinned out.
   std::vector<CurvePlace> Outcomes;
   BoundaryCurves Result;
@@ -237,7 +311,8 @@ std::vector<std::vector<BoundaryHint>> BoundarySampler::findHints(
         mesh, box, [&](int face) { return this->Surface.mayEnd(box.middle.element, face); },
         [&](const FaceCrossing& crossing)
         {
-          if (!this->Samples.meet(crossing, sample, Tracing::MeetingJump))
+          if (this->Surface.isCutAt(box.middle.element, crossing.face) ||
+            !this->Samples.meet(crossing, sample, Tracing::MeetingJump))
           {
             hints[b].push_back(
               { crossing, sample.found ? sample.patch.spacing : this->Sizing.spacing });
@@ -247,7 +322,7 @@ std::vector<std::vector<BoundaryHint>> BoundarySampler::findHints(
   return hints;
 }
 
-/// Traces the curve that a hint leads to, unless there is none or it is traced, and places particles on it.
+/// Traces the curve that a hint leads to, unless there is none or it is traced.
 void BoundarySampler::follow(const BoundaryHint& hint, const ParallelFor& parallelFor)
 {
   const FaceCrossing& crossing = hint.crossing;
@@ -263,7 +338,7 @@ void BoundarySampler::follow(const BoundaryHint& hint, const ParallelFor& parall
   {
     return;
   }
-  this->sample(this->Tracer.trace(*start, Tracing::Chord * nearby, parallelFor), parallelFor);
+  this->keep(this->Tracer.trace(*start, Tracing::Chord * nearby, parallelFor), nearby);
 }
 
 /// Where a chord of a boundary curve passes a plane of the slab.
@@ -337,8 +412,41 @@ void BoundarySampler::cutAtPlane(double plane, BoundaryTrace& trace)
   vertices = std::move(cut);
 }
 
-/// Cuts a boundary curve at its corners, and samples stretch by stretch.
-void BoundarySampler::sample(BoundaryTrace trace, const ParallelFor& parallelFor)
+/// Traces a crease from its other side, unless it is traced.
+void BoundarySampler::followOtherSide(std::size_t stretch, const ParallelFor& parallelFor)
+{
+  const CurveStretch& crease = this->Stretches[stretch];
+  if (crease.creaseFace < 0)
+  {
+    return;
+  }
+  const double nearby = this->TraceSpacings[crease.trace];
+  const std::vector<BoundaryVertex>& vertices = this->Traces[crease.trace].vertices;
+  const std::size_t middle = (crease.first + crease.last) / 2;
+  Location place = vertices[middle].leaving.at.location;
+  place.u = place.u + 0.5 * (vertices[middle + 1].arriving.at.location.u - place.u);
+  const FaceNeighbor& behind = this->Surface.mesh->neighbor(place.element, crease.creaseFace);
+  const auto start = this->Tracer.project(
+    crossFace(*this->Surface.mesh, place, crease.creaseFace), behind.face, nearby);
+  if (start && !this->Tracer.isTraced(*start))
+  {
+    this->keep(this->Tracer.trace(*start, Tracing::Chord * nearby, parallelFor), nearby);
+  }
+}
+
+/// Whether the curve stands still at the place on an edge of the mesh from which it was traced, before it goes along a
+/// crease.
+bool BoundarySampler::standsStill(const BoundaryTrace& trace, double spacing) const
+{
+  const BoundaryVertex& first = trace.vertices[0];
+  const BoundaryVertex& second = trace.vertices[1];
+  return trace.closed && trace.vertices.size() > 2 && second.corner &&
+    (this->isCutAt(second.arriving) || this->isCutAt(second.leaving)) &&
+    glm::distance(first.position(), second.position()) <= Tracing::Tolerance * spacing;
+}
+
+/// Cuts a boundary curve at its corners.
+void BoundarySampler::keep(BoundaryTrace trace, double spacing)
 {
   for (const double plane : { this->Part.begin, this->Part.end })
   {
@@ -348,7 +456,14 @@ void BoundarySampler::sample(BoundaryTrace trace, const ParallelFor& parallelFor
     }
   }
   std::vector<BoundaryVertex>& vertices = trace.vertices;
-  const std::size_t firstPlace = this->Places.size();
+  if (vertices.size() < 2)
+  {
+    return;
+  }
+  if (this->standsStill(trace, spacing))
+  {
+    vertices.erase(vertices.begin());
+  }
   if (trace.closed)
   {
     const auto corner = std::find_if(
@@ -359,16 +474,21 @@ void BoundarySampler::sample(BoundaryTrace trace, const ParallelFor& parallelFor
   }
   for (std::size_t first = 0; first + 1 < vertices.size();)
   {
-    std::size_t last = first + 1;
-    while (last + 1 < vertices.size() && !vertices[last].corner)
+    CurveStretch stretch{ this->Traces.size(), first, first + 1 };
+    while (stretch.last + 1 < vertices.size() && !vertices[stretch.last].corner)
     {
-      ++last;
+      ++stretch.last;
     }
-    const bool end = last + 1 == vertices.size();
-    this->sampleStretch({ &vertices[first], last + 1 - first }, end && !trace.closed, parallelFor);
-    first = last;
+    const bool isLast = stretch.last + 1 == vertices.size();
+    stretch.withEnd = isLast && !trace.closed;
+    stretch.isRing = isLast && first == 0 && trace.closed;
+    const BoundaryPoint& start = vertices[first].leaving;
+    stretch.creaseFace = this->isCutAt(start) ? start.face : -1;
+    this->Stretches.push_back(stretch);
+    first = stretch.last;
   }
-  this->Ranges.push_back({ firstPlace, this->Places.size() - firstPlace, trace.closed });
+  this->Traces.push_back(std::move(trace));
+  this->TraceSpacings.push_back(spacing);
 }
 
 /// A place on Hermite's cubic between two points of a boundary curve in one element, or on the line between the points
@@ -391,50 +511,218 @@ ReferencePoint BoundarySampler::between(
   return from.face == to.face && insideMargin(domain, onCubic) > -OnFace ? onCubic : onLine;
 }
 
-/// Places particles along a stretch without corners, at equal distances in units of the spacing wanted there, the first
-/// one on the first vertex.
-/// \param withEnd also one on the last vertex
-void BoundarySampler::sampleStretch(
-  Span<BoundaryVertex> vertices, bool withEnd, const ParallelFor& parallelFor)
+/// So many intervals a crease needs that its side of the surface is no line: a closed curve through three places.
+std::int64_t BoundarySampler::leastIntervals(std::size_t stretch) const
+{
+  const CurveStretch& curve = this->Stretches[stretch];
+  if (curve.creaseFace < 0 || !this->Traces[curve.trace].closed)
+  {
+    return 1;
+  }
+  const auto isOfCurve = [&](std::size_t s)
+  { return s < this->Stretches.size() && this->Stretches[s].trace == curve.trace; };
+  const bool hasTwo = isOfCurve(stretch + 1) || (stretch > 0 && isOfCurve(stretch - 1));
+  const bool hasThree = (isOfCurve(stretch + 1) && isOfCurve(stretch + 2)) ||
+    (stretch > 0 && isOfCurve(stretch - 1) && isOfCurve(stretch + 1)) ||
+    (stretch > 1 && isOfCurve(stretch - 2));
+  return hasThree ? 1 : hasTwo ? 2 : 3;
+}
+
+/// Places along a stretch, at equal distances in units of the spacing wanted there, the first one on the first vertex.
+std::vector<BoundaryPlace> BoundarySampler::sampleStretch(
+  const CurveStretch& stretch, std::int64_t leastIntervals, const ParallelFor& parallelFor)
 {
   // Places between two questions whether to end early: fewer cost more calls, more delay an abort. Chosen by experiment.
   constexpr std::int64_t placesAtOnce = 4096;
+  const Span<BoundaryVertex> vertices(
+    &this->Traces[stretch.trace].vertices[stretch.first], stretch.last + 1 - stretch.first);
+  std::vector<BoundaryPlace> places;
   std::vector<double> sums{ 0.0 };
   double spacing = 0.0;
   for (std::size_t v = 1; v < vertices.size(); ++v)
   {
+    const double before = v > 1 ? spacing
+      : this->HasCuts           ? this->spacingAt(vertices[0].leaving)
+                                : 0.0;
     spacing = this->spacingAt(vertices[v].arriving);
-    sums.push_back(
-      sums.back() + glm::distance(vertices[v - 1].position(), vertices[v].position()) / spacing);
+    const double length = glm::distance(vertices[v - 1].position(), vertices[v].position());
+    sums.push_back(sums.back() + length / (this->HasCuts ? std::min(before, spacing) : spacing));
   }
-  const auto count = std::max<std::int64_t>(1, std::llround(sums.back()));
+  // Beyond the chords of a coarser crease particles beside it would stand.
+  constexpr double longestInterval = 1.1;
+  const std::int64_t wanted = stretch.creaseFace < 0
+    ? std::llround(sums.back())
+    : static_cast<std::int64_t>(std::ceil(sums.back() / longestInterval));
+  const std::int64_t count = std::max(leastIntervals, wanted);
   std::size_t v = 1;
-  for (std::int64_t n = 0; n < count + withEnd; ++n)
+  for (std::int64_t n = 0; n < count + stretch.withEnd; ++n)
   {
     if (n % placesAtOnce == placesAtOnce - 1)
     {
       askCaller(parallelFor);
     }
-    const double wanted = sums.back() * static_cast<double>(n) / static_cast<double>(count);
-    while (v + 1 < vertices.size() && sums[v] < wanted)
+    const double place = sums.back() * static_cast<double>(n) / static_cast<double>(count);
+    while (v + 1 < vertices.size() && sums[v] < place)
     {
       ++v;
     }
     const BoundaryPoint& from = vertices[v - 1].leaving;
     const BoundaryPoint& to = vertices[v].arriving;
     const double chord = sums[v] - sums[v - 1];
-    const double t = chord > 0.0 ? std::clamp((wanted - sums[v - 1]) / chord, 0.0, 1.0) : 0.0;
+    const double t = chord > 0.0 ? std::clamp((place - sums[v - 1]) / chord, 0.0, 1.0) : 0.0;
     if (from.at.location.element == to.at.location.element)
     {
       const ReferencePoint u = this->between(from, to, t);
-      this->Places.push_back({ { from.at.location.element, u }, from.face, spacing });
+      places.push_back({ { from.at.location.element, u }, from.face, spacing });
     }
     else
     {
       const WorldVector step = t * (to.at.point.map.position - from.at.point.map.position);
-      const Location place = this->Walker.move(from.at, step);
-      const bool stays = place.element == from.at.location.element;
-      this->Places.push_back({ place, stays ? from.face : -1, spacing });
+      const Location moved = this->Walker.move(from.at, step);
+      const bool stays = moved.element == from.at.location.element;
+      places.push_back({ moved, stays ? from.face : -1, spacing });
+    }
+  }
+  places.front() = this->startOf(stretch, places.front());
+  return places;
+}
+
+/// The first place of a stretch. Where a boundary curve goes over into a crease, the particle is one of the boundary
+/// curve.
+BoundaryPlace BoundarySampler::startOf(
+  const CurveStretch& stretch, const BoundaryPlace& sampled) const
+{
+  const BoundaryVertex& vertex = this->Traces[stretch.trace].vertices[stretch.first];
+  const bool isEndOfBoundary =
+    vertex.corner && this->isCutAt(vertex.leaving) && !this->isCutAt(vertex.arriving);
+  return isEndOfBoundary
+    ? BoundaryPlace{ vertex.arriving.at.location, vertex.arriving.face, sampled.spacing }
+    : sampled;
+}
+
+/// The places of a crease that was sampled from its other side.
+/// \param other places in the order of the other side, the one at its end left out
+std::vector<BoundaryPlace> BoundarySampler::mirrored(
+  const CurveStretch& stretch, Span<BoundaryPlace> other) const
+{
+  const ElementMesh& mesh = *this->Surface.mesh;
+  const auto behind = [&](const BoundaryPlace& place)
+  {
+    return BoundaryPlace{ crossFace(mesh, place.location, place.face),
+      mesh.neighbor(place.location.element, place.face).face, place.spacing };
+  };
+  const std::vector<BoundaryVertex>& vertices = this->Traces[stretch.trace].vertices;
+  const auto placeOf = [&](const BoundaryPoint& point) {
+    return BoundaryPlace{ point.at.location, point.face, other[0].spacing };
+  };
+  std::vector<BoundaryPlace> places;
+  places.push_back(stretch.isRing
+      ? behind(other[0])
+      : this->startOf(stretch, placeOf(vertices[stretch.first].leaving)));
+  for (std::size_t n = other.size() - 1; n > 0; --n)
+  {
+    places.push_back(behind(other[n]));
+  }
+  if (stretch.withEnd)
+  {
+    places.push_back(placeOf(vertices[stretch.last].arriving));
+  }
+  return places;
+}
+
+/// Leaves out creases that were seen from one side alone, but for parts of longer curves: where the surface is all but
+/// tangent to a face.
+void BoundarySampler::dropOneSided()
+{
+  const std::vector<int> partners = this->findPartners();
+  std::vector<char> isKept(this->Traces.size(), 0);
+  for (std::size_t s = 0; s < this->Stretches.size(); ++s)
+  {
+    const CurveStretch& stretch = this->Stretches[s];
+    isKept[stretch.trace] |= stretch.creaseFace < 0 || partners[s] >= 0;
+  }
+  this->Stretches.erase(std::remove_if(this->Stretches.begin(), this->Stretches.end(),
+                          [&](const CurveStretch& stretch) { return !isKept[stretch.trace]; }),
+    this->Stretches.end());
+}
+
+std::vector<int> BoundarySampler::findPartners() const
+{
+  return partnersOf(*this->Surface.mesh, this->Traces, this->Stretches,
+    Tracing::SamePlace * this->Proxy.smallestSpacing());
+}
+
+/// Places particles on all curves.
+void BoundarySampler::place(const ParallelFor& parallelFor)
+{
+  const std::vector<int> partners = this->findPartners();
+  const auto isMirror = [&](std::size_t s)
+  { return partners[s] >= 0 && partners[s] < static_cast<int>(s); };
+  std::vector<std::size_t> starts;
+  std::vector<std::size_t> firsts(this->Traces.size(), this->Stretches.size());
+  std::vector<std::size_t> stretchCounts(this->Traces.size(), 0);
+  for (std::size_t s = 0; s < this->Stretches.size(); ++s)
+  {
+    const CurveStretch& stretch = this->Stretches[s];
+    firsts[stretch.trace] = std::min(firsts[stretch.trace], s);
+    stretchCounts[stretch.trace] += 1;
+    starts.push_back(this->Places.size());
+    std::vector<BoundaryPlace> places;
+    if (isMirror(s))
+    {
+      const std::size_t begin = starts[partners[s]];
+      const std::size_t end =
+        starts[partners[s] + 1] - (this->Stretches[partners[s]].withEnd ? 1 : 0);
+      places = this->mirrored(stretch, { &this->Places[begin], end - begin });
+    }
+    else
+    {
+      const std::int64_t least = partners[s] < 0
+        ? this->leastIntervals(s)
+        : std::max(this->leastIntervals(s), this->leastIntervals(partners[s]));
+      places = this->sampleStretch(stretch, least, parallelFor);
+    }
+    this->Places.insert(this->Places.end(), places.begin(), places.end());
+    this->BeginsCrease.resize(this->Places.size(), stretch.creaseFace >= 0);
+  }
+  starts.push_back(this->Places.size());
+  for (std::size_t t = 0; t < this->Traces.size(); ++t)
+  {
+    const std::size_t first = starts[firsts[t]];
+    this->Ranges.push_back(
+      { first, starts[firsts[t] + stretchCounts[t]] - first, this->Traces[t].closed });
+  }
+  this->joinSides(starts, partners);
+}
+
+/// Finds out which places on the two sides of creases are one.
+/// \param starts number of the first place of each stretch, and of all places
+void BoundarySampler::joinSides(
+  const std::vector<std::size_t>& starts, const std::vector<int>& partners)
+{
+  const auto endOf = [&](std::size_t s)
+  {
+    const CurveStretch& stretch = this->Stretches[s];
+    const CurveRange& curve = this->Ranges[stretch.trace];
+    const bool isLast = starts[s + 1] == curve.first + curve.count;
+    return stretch.withEnd ? starts[s + 1] - 1 : isLast ? curve.first : starts[s + 1];
+  };
+  const auto add = [](std::vector<std::array<int, 2>>& pairs, std::size_t a, std::size_t b) {
+    pairs.push_back({ static_cast<int>(a), static_cast<int>(b) });
+  };
+  for (std::size_t s = 0; s < partners.size(); ++s)
+  {
+    if (partners[s] < static_cast<int>(s))
+    {
+      continue;
+    }
+    const auto other = static_cast<std::size_t>(partners[s]);
+    const std::size_t count = starts[s + 1] - starts[s] - (this->Stretches[s].withEnd ? 1 : 0);
+    add(this->Corners, starts[s], endOf(other));
+    add(this->Corners, endOf(s), starts[other]);
+    for (std::size_t n = 1; n < count; ++n)
+    {
+      add(this->Twins, starts[s] + n, starts[other] + count - n);
     }
   }
 }
@@ -465,6 +753,11 @@ PlaceKind BoundaryFinisher::finish(const BoundaryPlace& place, BoundaryParticle&
   markCellBorders(*this->Surface.mesh, jet, field.map, result.particle);
   result.side = this->sideAt(point->face, point->at, jet);
   result.otherSide = this->sideAt(beyond->otherFace, point->at, jet);
+  if (this->Surface.isCutAt(point->at.location.element, point->face))
+  {
+    result.side = result.otherSide;
+    result.otherSide = {};
+  }
   return PlaceKind::OnCurve;
 }
 
@@ -497,7 +790,8 @@ std::optional<BoundaryFinisher::Beyond> BoundaryFinisher::lookBehind(const Bound
       continue;
     }
     const auto behind = this->Passer.behind(point.at, f);
-    result.jump = behind ? behind->at.point.value : result.jump;
+    const bool isCut = this->Surface.isCutAt(location.element, f);
+    result.jump = behind && !isCut ? behind->at.point.value : result.jump;
     result.otherFace = behind || f == point.face ? result.otherFace : f;
     if (!behind || f != point.face)
     {
@@ -532,21 +826,67 @@ void BoundarySampler::finish(const ParallelFor& parallelFor)
       evaluations += finisher.evaluations();
     });
   std::vector<char> found(particles.size());
+  for (std::size_t n = 0; n < particles.size(); ++n)
+  {
+    found[n] = kinds[n] == PlaceKind::OnCurve;
+    particles[n].isOnCrease = this->BeginsCrease[n] != 0;
+  }
+  this->meet(found);
   this->Outcomes.resize(particles.size());
   int count = 0;
   for (std::size_t n = 0; n < particles.size(); ++n)
   {
-    found[n] = kinds[n] == PlaceKind::OnCurve;
-    this->Outcomes[n] = { found[n] ? count++ : -1, -1, kinds[n] == PlaceKind::Inside };
+    this->Outcomes[n] = { found[n] ? count++ : -1, -1, kinds[n] == PlaceKind::Inside,
+      this->BeginsCrease[n] != 0 };
   }
   keepMarked(particles, found);
   this->Result.evaluations += evaluations;
+}
+
+/// Puts the particles of all sides of a place on creases into the same place, to the last bit. Inside a crease there is
+/// one on each side or none.
+/// \param found marks the places with particles
+void BoundarySampler::meet(std::vector<char>& found)
+{
+  Buffer<BoundaryParticle>& particles = this->Result.particles;
+  DisjointSets places(particles.size());
+  for (const auto& [a, b] : this->Twins)
+  {
+    found[a] = found[b] = found[a] && found[b];
+    places.unite(a, b);
+  }
+  for (const auto& [a, b] : this->Corners)
+  {
+    places.unite(a, b);
+    particles[a].isOnCrease = particles[b].isOnCrease = true;
+  }
+  std::vector<int> first(particles.size(), -1);
+  for (std::size_t n = 0; n < particles.size(); ++n)
+  {
+    int& one = first[places.root(static_cast<int>(n))];
+    if (!found[n])
+    {
+      continue;
+    }
+    if (one >= 0)
+    {
+      particles[n].particle.position = particles[one].particle.position;
+      particles[n].patch.position = particles[one].patch.position;
+      this->Result.edges.coincident.push_back({ one, static_cast<int>(n) });
+    }
+    one = one < 0 ? static_cast<int>(n) : one;
+  }
+  renumber(this->Result.edges.coincident, found);
 }
 
 bool BoundarySampler::isTooNear(std::size_t i, std::size_t j) const
 {
   const BoundaryParticle& a = this->Result.particles[i];
   const BoundaryParticle& b = this->Result.particles[j];
+  if (a.isOnCrease || b.isOnCrease)
+  {
+    return false; // the other side has one here
+  }
   const double cosine = dot(a.particle.normal, b.particle.normal);
   const double near = cosine > SheetCosine ? Nearness::OnOneSheet : Nearness::AtSharpEdge;
   return cosine > 0.0 && glm::distance(a.patch.position, b.patch.position) < near * a.patch.spacing;
@@ -646,13 +986,18 @@ void BoundarySampler::connect(const std::vector<char>& kept, const std::vector<i
       place.particle = -1;
     }
   }
+  const auto hasNoEnd = [](const BoundaryParticle& particle)
+  { return !particle.side.exists() && !particle.isOnCrease; };
+  SurfaceEdges& edges = this->Result.edges;
   std::vector<std::array<int, 2>> segments = segmentsOf(this->Outcomes, this->Ranges);
   segments.erase(std::remove_if(segments.begin(), segments.end(),
-                   [&](const std::array<int, 2>& pair) {
-                     return !particles[pair[0]].side.exists() && !particles[pair[1]].side.exists();
-                   }),
+                   [&](const std::array<int, 2>& pair)
+                   { return hasNoEnd(particles[pair[0]]) && hasNoEnd(particles[pair[1]]); }),
     segments.end());
-  this->Result.segments = withoutDropped(segments, kept);
+  edges.segments = withoutDropped(segments, kept);
+  edges.directed = directedEdgesOf(this->Outcomes, this->Ranges);
+  renumber(edges.directed, kept);
+  renumber(edges.coincident, kept);
 }
 
 /// Corners tell of both curves that meet there.
@@ -668,7 +1013,7 @@ void BoundarySampler::addOtherSides()
   }
 }
 
-BoundaryCurves BoundarySampler::run(const ParallelFor& parallelFor)
+std::vector<std::size_t> BoundarySampler::trace(const ParallelFor& parallelFor)
 {
   for (const std::vector<BoundaryHint>& hintsOfBox : this->findHints(parallelFor))
   {
@@ -678,20 +1023,62 @@ BoundaryCurves BoundarySampler::run(const ParallelFor& parallelFor)
       this->follow(hint, parallelFor);
     }
   }
+  for (std::size_t s = 0; s < this->Stretches.size(); ++s)
+  {
+    askCaller(parallelFor);
+    this->followOtherSide(s, parallelFor);
+  }
+  return this->Tracer.overlookedCreases();
+}
+
+BoundaryCurves BoundarySampler::sample(const ParallelFor& parallelFor)
+{
+  this->dropOneSided();
+  this->place(parallelFor);
   this->finish(parallelFor);
   this->thinOut(parallelFor);
   this->addOtherSides();
-  this->Result.evaluations += this->Tracer.evaluations() + this->Walker.evaluations();
+  this->Result.evaluations += this->evaluations();
   return std::move(this->Result);
 }
 
 } // namespace
 
 BoundaryCurves findBoundaryCurves(const Isosurface& surface, const FaceJumps& jumps,
-  const SurfaceProxy& proxy, const SizingFunction& sizing, const ParallelFor& parallelFor,
-  const Slab& slab, const Slab& reach)
+  const SurfaceProxy& proxy, const SizingFunction& sizing, SampledCurves sampled,
+  const ParallelFor& parallelFor, const Slab& slab, const Slab& reach)
 {
-  return BoundarySampler(surface, jumps, proxy, sizing, slab, reach).run(parallelFor);
+  Isosurface cut = surface;
+  std::vector<float> tolerances = jumps.jumpTolerances;
+  const bool isCut = sampled == SampledCurves::BoundaryAndCreases &&
+    cutAlongCreases(*surface.mesh, jumps, tolerances);
+  if (isCut)
+  {
+    cut.jumpTolerances = &tolerances;
+  }
+  // Each time creases may show further ones beside them, where the surface passes corners of faces.
+  constexpr int mostTimes = 8;
+  std::int64_t evaluations = 0;
+  for (int n = 1;; ++n)
+  {
+    BoundarySampler sampler(cut, jumps, proxy, sizing, slab, reach);
+    if (isCut)
+    {
+      sampler.sampleCreases(n < mostTimes);
+    }
+    const std::vector<std::size_t> overlooked = sampler.trace(parallelFor);
+    if (overlooked.empty())
+    {
+      BoundaryCurves curves = sampler.sample(parallelFor);
+      curves.evaluations += evaluations;
+      return curves;
+    }
+    evaluations += sampler.evaluations();
+    for (const std::size_t slot : overlooked)
+    {
+      tolerances[slot] = -1.0f;
+    }
+  }
 }
 
 } // namespace hop

@@ -29,7 +29,7 @@ inline bool lookAtEachOther(const BoundarySide& a, const BoundarySide& b)
   return dot(a.outward, b.outward) < -0.5;
 }
 
-/// A particle on a boundary curve of the surface.
+/// A particle on a boundary curve of the surface, or on one side of a crease.
 struct BoundaryParticle
 {
   Particle particle;
@@ -38,6 +38,16 @@ struct BoundaryParticle
   BoundarySide side;
   /// In a corner of the boundary curve, at the other boundary face, if that is one of the same element.
   BoundarySide otherSide;
+  /// On one side of a crease.
+  bool isOnCrease = false;
+};
+
+/// What is to be sampled.
+enum class SampledCurves
+{
+  Boundary,
+  /// Creases, too (CreaseAngle), on both sides.
+  BoundaryAndCreases
 };
 
 /// Particles on the boundary curves {F = c} of the surface, which run on the faces at which it ends. The curves pass
@@ -50,20 +60,22 @@ struct BoundaryCurves
   /// Places of the curves that are too near to particles to be particles, as on a strip of the surface narrower than a
   /// spacing; and corners as seen from the second curve there. They tell where splats are to be cut off.
   Buffer<BoundaryParticle> thinned;
-  /// Pairs of particles that follow each other on a curve, see CurveSegments.h.
-  std::vector<std::array<int, 2>> segments;
+  /// By the numbers of the particles; see CurveSegments.h, too.
+  SurfaceEdges edges;
   std::int64_t evaluations = 0;
 };
 
 /// Follows every boundary curve that the boxes of the proxy show, and places particles on it: one on each of its
 /// corners, and between corners evenly at the spacing that the surface wants. Where two curves run side by side (on the
 /// two sides of a jump hardly wider than the largest that the surface passes), only one keeps its particles.
+/// Where creases are asked for, too, the surface is cut along them: each side has a curve of its own. The particles of
+/// both sides, and of all sides where creases meet, stand in the same places.
 /// \param surface with the jump tolerances of `jumps`
 /// \param slab where a curve passes one of its planes a particle stands, unless a corner is near: the worker on the
 ///   other side of the plane has one there, too
 /// \param reach where curves are sought: the mesh may end outside of it where the surface does not
 BoundaryCurves findBoundaryCurves(const Isosurface& surface, const FaceJumps& jumps,
-  const SurfaceProxy& proxy, const SizingFunction& sizing, const ParallelFor& parallelFor,
-  const Slab& slab = {}, const Slab& reach = {});
+  const SurfaceProxy& proxy, const SizingFunction& sizing, SampledCurves sampled,
+  const ParallelFor& parallelFor, const Slab& slab = {}, const Slab& reach = {});
 
 } // namespace hop

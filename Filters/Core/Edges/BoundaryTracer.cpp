@@ -1,5 +1,6 @@
 #include "Edges/BoundaryTracer.h"
 
+#include "Edges/FaceJumps.h"
 #include "Edges/TraceLimits.h"
 
 #include <algorithm>
@@ -369,7 +370,12 @@ std::optional<BoundaryPoint> BoundaryTracer::crossAtEdge(EdgeWalk& walk)
   else
   {
     walk.here.reset();
-    walk.location = crossFace(*this->Surface.mesh, walk.location, walk.face);
+    const Location next = crossFace(*this->Surface.mesh, walk.location, walk.face);
+    if (this->LooksForCreases)
+    {
+      this->lookAtCrease(walk.location, walk.face, next);
+    }
+    walk.location = next;
   }
   if (neighbor.element >= 0)
   {
@@ -384,6 +390,20 @@ std::optional<BoundaryPoint> BoundaryTracer::crossAtEdge(EdgeWalk& walk)
     walk.corners = this->edgeBetween(walk.location, entry, walk.face);
   }
   return std::nullopt;
+}
+
+/// Remembers a face at which the surface turns: where it passes a corner of the face, no box need show that.
+/// \param there the place behind the face
+void BoundaryTracer::lookAtCrease(const Location& here, int face, const Location& there)
+{
+  const WorldVector before = this->Walker.evaluate(here).point.gradient;
+  const WorldVector after = this->Walker.evaluate(there).point.gradient;
+  if (angleBetween(before, after) > CreaseAngle)
+  {
+    const FaceNeighbor& behind = this->Surface.mesh->neighbor(here.element, face);
+    this->OverlookedCreases.push_back(faceSlot(here.element, face));
+    this->OverlookedCreases.push_back(faceSlot(behind.element, behind.face));
+  }
 }
 
 /// From a boundary face across an edge to the next boundary face: that of the same element, or the one to which the
@@ -426,7 +446,7 @@ BoundaryTracer::Ahead BoundaryTracer::passEdge(
     return {};
   }
   BoundaryVertex vertex{ { *at, from.face }, *beyond, false };
-  vertex.corner =
+  vertex.corner = this->isCutAt(vertex.arriving) || this->isCutAt(vertex.leaving) ||
     dot(this->tangent(vertex.arriving), this->tangent(vertex.leaving)) < TraceAngles::CornerCosine;
   return { vertex, false };
 }
@@ -448,6 +468,41 @@ ReferenceVector BoundaryTracer::predict(const Heading& heading, double step) con
   return (heading.direction * step) * (now + weight * change);
 }
 
+/// Whether a curve along a cut keeps to the face between two points: the distances from the face's edges are cubics, by
+/// their values and slopes at both points. A curve that leaves the face and comes back has two vertices more, which its
+/// other side may see.
+bool BoundaryTracer::staysOnFace(const BoundaryPoint& from, const BoundaryPoint& to) const
+{
+  if (to.at.location.element != from.at.location.element || to.face != from.face)
+  {
+    return false;
+  }
+  const ReferenceVector chord = to.at.location.u - from.at.location.u;
+  const double length = glm::distance(from.at.point.map.position.xyz, to.at.point.map.position.xyz);
+  const ReferenceVector start = this->velocity(from);
+  const ReferenceVector end = this->velocity(to);
+  const double way = dot(chord, start + end) < 0.0 ? -length : length;
+  const auto& faces = facts(this->Surface.mesh->elements[from.at.location.element].domain).faces;
+  for (int f = 0; f < static_cast<int>(faces.size()); ++f)
+  {
+    const ReferenceVector inward{ faces[f].inward };
+    const double first = faceMargin(faces[f], from.at.location.u);
+    const double last = faceMargin(faces[f], to.at.location.u);
+    const double ahead = way * dot(inward, start) - (last - first);
+    const double behind = way * dot(inward, end) - (last - first);
+    for (const double t : { 0.25, 0.5, 0.75 })
+    {
+      const double margin =
+        first + t * (last - first) + t * (1.0 - t) * ((1.0 - t) * ahead - t * behind);
+      if (f != from.face && margin < -OnFace)
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
 /// The next vertex, `step` ahead or on the next edge of the mesh.
 BoundaryTracer::Ahead BoundaryTracer::advance(const Heading& heading, double step)
 {
@@ -463,7 +518,8 @@ BoundaryTracer::Ahead BoundaryTracer::advance(const Heading& heading, double ste
     return this->passEdge(from, u, exit.face, step);
   }
   const auto next = this->project({ from.at.location.element, u }, from.face, step);
-  if (!next || dot(this->tangent(*next), this->tangent(from)) < TraceAngles::LeastCosine)
+  if (!next || dot(this->tangent(*next), this->tangent(from)) < TraceAngles::LeastCosine ||
+    (this->isCutAt(from) && !this->staysOnFace(from, *next)))
   {
     return {};
   }
@@ -510,6 +566,7 @@ bool BoundaryTracer::follow(const BoundaryPoint& start, double step, double dire
     }
   };
   double chord = step;
+  double firstChord = 0.0;
   int standstills = 0;
   TraceLimits limits(*this->Surface.mesh);
   bool isPossible = true;
@@ -524,6 +581,7 @@ bool BoundaryTracer::follow(const BoundaryPoint& start, double step, double dire
     }
     const WorldPoint& position = here.at.point.map.position;
     const double moved = glm::distance(position.xyz, next->position());
+    firstChord = lastChord ? firstChord : moved;
     standstills = moved < ChordLengths::Standstill * step ? standstills + 1 : 0;
     isPossible = limits.admit(here.at.location, here.face, next->arriving.at.location);
     // The last chord ends where this one begins, and is added only now: it would be met at once.
@@ -534,8 +592,15 @@ bool BoundaryTracer::follow(const BoundaryPoint& start, double step, double dire
     {
       addLast();
       // A trace that meets another boundary curve, not its own start, is open.
-      return distanceToSegment(start.at.point.map.position.xyz, position.xyz, next->position()) <
-        0.5 * moved;
+      const glm::dvec3& begin = start.at.point.map.position.xyz;
+      const bool isClosed = distanceToSegment(begin, position.xyz, next->position()) <
+        std::max(0.5 * moved, ChordLengths::PassShare * firstChord);
+      if (isClosed && direction > 0.0 && next->corner &&
+        (this->isCutAt(next->arriving) || this->isCutAt(next->leaving)))
+      {
+        vertices.front() = *next; // the start lies on the edge, or right behind it
+      }
+      return isClosed;
     }
     vertices.push_back(*next);
     before = Passed{ here.at.location.element, here.face, position, velocity };

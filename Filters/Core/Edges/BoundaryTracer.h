@@ -24,7 +24,7 @@ struct BoundaryVertex
 {
   BoundaryPoint arriving;
   BoundaryPoint leaving;
-  /// The boundary curve has a corner here.
+  /// The boundary curve has a corner here, or passes an edge of the mesh and is a cut before or behind it.
   bool corner = false;
 
   const glm::dvec3& position() const { return this->arriving.at.point.map.position.xyz; }
@@ -86,6 +86,11 @@ public:
     , Passer(surface)
   {
   }
+
+  /// Lets walks around edges of the mesh look for creases along which the surface is not cut.
+  void lookForCreases() { this->LooksForCreases = true; }
+  /// The slots of their faces, both sides.
+  const std::vector<std::size_t>& overlookedCreases() const { return this->OverlookedCreases; }
 
   /// Whether the surface goes on at a crossing. Costs two evaluations at most.
   /// \param farthest distance from the surface, world units, within which the crossing tells
@@ -171,14 +176,20 @@ private:
 
   bool follow(const BoundaryPoint& start, double step, double direction,
     std::vector<BoundaryVertex>& vertices, const ParallelFor& parallelFor);
+  bool isCutAt(const BoundaryPoint& point) const
+  {
+    return this->Surface.isCutAt(point.at.location.element, point.face);
+  }
   std::optional<BoundaryVertex> advanceAtMost(double& chord, double step, const Heading& heading);
   Ahead advance(const Heading& heading, double step);
   ReferenceVector predict(const Heading& heading, double step) const;
+  bool staysOnFace(const BoundaryPoint& from, const BoundaryPoint& to) const;
   Ahead passEdge(const BoundaryPoint& from, const ReferencePoint& u, int otherFace, double step);
   std::optional<Evaluated> projectAlongEdge(
     const Location& start, int faceA, int faceB, double maximumTravel);
   std::optional<BoundaryPoint> walkAroundEdge(const Evaluated& at, int boundaryFace, int face);
   std::optional<BoundaryPoint> crossAtEdge(EdgeWalk& walk);
+  void lookAtCrease(const Location& here, int face, const Location& there);
   Evaluated polished(Evaluated at, const ActiveFaces& held);
   std::vector<std::int64_t> cornersOf(const Location& location, int face) const;
   std::vector<std::int64_t> edgeBetween(const Location& location, int faceA, int faceB) const;
@@ -196,6 +207,8 @@ private:
   /// Passes boundary faces where the surface goes on, and so tells where it ends.
   SurfaceWalker Passer;
   BoundaryChords Chords;
+  bool LooksForCreases = false;
+  std::vector<std::size_t> OverlookedCreases;
 };
 
 } // namespace hop

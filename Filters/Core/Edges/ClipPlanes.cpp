@@ -290,7 +290,7 @@ void markClipPlanes(const Isosurface& surface, const ParticleGrid& all,
   forAll(parallelFor, onBoundary.size(),
     [&](std::size_t i)
     {
-      auto& [particle, patch, side, other] = onBoundary[i];
+      auto& [particle, patch, side, other, isOnCrease] = onBoundary[i];
       if (side.exists() && other.exists())
       {
         offerPlane(particle, { other.outward, 0.0, other.edgeCurvature, static_cast<float>(Pi) });

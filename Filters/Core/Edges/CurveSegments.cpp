@@ -7,28 +7,50 @@ namespace hop
 namespace
 {
 
-/// Adds a segment from particle to particle, along one curve.
+/// Pairs of particles along curves: on boundary curves, and in the order of curves of which a part is a crease.
+struct CurvePairs
+{
+  std::vector<std::array<int, 2>> segments, ordered;
+};
+
+/// Adds a pair from particle to particle, along one curve.
 class Chain
 {
 public:
-  explicit Chain(std::vector<std::array<int, 2>>& segments)
-    : Segments(segments)
+  Chain(CurvePairs& pairs, bool hasCrease)
+    : Pairs(pairs)
+    , HasCrease(hasCrease)
   {
   }
 
-  void goOn(int particle)
+  /// \param place whose particle, or stand-in, is next
+  void goOn(const CurvePlace& place)
   {
+    const int particle = place.particle >= 0 ? place.particle : place.standIn;
+    const bool isOwn = place.particle >= 0;
     if (this->Last >= 0)
     {
-      this->Segments.push_back({ this->Last, particle });
+      if (!this->IsCrease)
+      {
+        this->Pairs.segments.push_back({ this->Last, particle });
+      }
+      if (this->HasCrease && isOwn && this->IsOwn)
+      {
+        this->Pairs.ordered.push_back({ this->Last, particle });
+      }
     }
     this->Last = particle;
+    this->IsCrease = place.beginsCrease;
+    this->IsOwn = isOwn;
   }
   void breakOff() { this->Last = -1; }
 
 private:
-  std::vector<std::array<int, 2>>& Segments;
+  CurvePairs& Pairs;
+  bool HasCrease;
   int Last = -1;
+  bool IsCrease = false;
+  bool IsOwn = false;
 };
 
 /// The places of a curve, a closed one from a place with a particle on and once round to it.
@@ -44,6 +66,48 @@ std::vector<CurvePlace> unrolled(const std::vector<CurvePlace>& places, const Cu
     result.push_back(result.front());
   }
   return result;
+}
+
+CurvePairs pairsOf(const std::vector<CurvePlace>& places, const std::vector<CurveRange>& curves)
+{
+  CurvePairs pairs;
+  for (const CurveRange& curve : curves)
+  {
+    const std::vector<CurvePlace> way = unrolled(places, curve);
+    const auto hasParticle = [&way](std::size_t n)
+    { return n < way.size() && way[n].particle >= 0; };
+    Chain chain(pairs,
+      std::any_of(
+        way.begin(), way.end(), [](const CurvePlace& place) { return place.beginsCrease; }));
+    for (std::size_t n = 0; n < way.size(); ++n)
+    {
+      const bool isBetweenTwo = n > 0 && hasParticle(n - 1) && hasParticle(n + 1);
+      if (way[n].isGap)
+      {
+        chain.breakOff();
+      }
+      else if (hasParticle(n))
+      {
+        chain.goOn(way[n]);
+      }
+      else if (way[n].standIn >= 0 && !isBetweenTwo)
+      {
+        chain.goOn(way[n]);
+      }
+    }
+  }
+  return pairs;
+}
+
+/// The indices that are left of a row after some have been dropped.
+std::vector<int> numbersOf(const std::vector<char>& kept)
+{
+  std::vector<int> numbers(kept.size());
+  for (std::size_t i = 1; i < kept.size(); ++i)
+  {
+    numbers[i] = numbers[i - 1] + (kept[i - 1] != 0);
+  }
+  return numbers;
 }
 
 } // namespace
@@ -64,32 +128,31 @@ void sortPairs(std::vector<std::array<int, 2>>& pairs)
 std::vector<std::array<int, 2>> segmentsOf(
   const std::vector<CurvePlace>& places, const std::vector<CurveRange>& curves)
 {
-  std::vector<std::array<int, 2>> segments;
-  for (const CurveRange& curve : curves)
-  {
-    const std::vector<CurvePlace> way = unrolled(places, curve);
-    const auto hasParticle = [&way](std::size_t n)
-    { return n < way.size() && way[n].particle >= 0; };
-    Chain chain(segments);
-    for (std::size_t n = 0; n < way.size(); ++n)
-    {
-      const bool isBetweenTwo = n > 0 && hasParticle(n - 1) && hasParticle(n + 1);
-      if (way[n].isGap)
-      {
-        chain.breakOff();
-      }
-      else if (hasParticle(n))
-      {
-        chain.goOn(way[n].particle);
-      }
-      else if (way[n].standIn >= 0 && !isBetweenTwo)
-      {
-        chain.goOn(way[n].standIn);
-      }
-    }
-  }
+  std::vector<std::array<int, 2>> segments = pairsOf(places, curves).segments;
   sortPairs(segments);
   return segments;
+}
+
+std::vector<std::array<int, 2>> directedEdgesOf(
+  const std::vector<CurvePlace>& places, const std::vector<CurveRange>& curves)
+{
+  std::vector<std::array<int, 2>> edges = pairsOf(places, curves).ordered;
+  for (std::array<int, 2>& edge : edges)
+  {
+    std::swap(edge[0], edge[1]);
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+void renumber(std::vector<std::array<int, 2>>& pairs, const std::vector<char>& kept)
+{
+  const std::vector<int> numbers = numbersOf(kept);
+  for (std::array<int, 2>& pair : pairs)
+  {
+    pair = { numbers[pair[0]], numbers[pair[1]] };
+  }
 }
 
 std::vector<std::array<int, 2>> withoutDropped(
@@ -120,11 +183,7 @@ std::vector<std::array<int, 2>> withoutDropped(
     }
     neighbors[i].clear();
   }
-  std::vector<int> numbers(kept.size());
-  for (std::size_t i = 1; i < kept.size(); ++i)
-  {
-    numbers[i] = numbers[i - 1] + (kept[i - 1] != 0);
-  }
+  const std::vector<int> numbers = numbersOf(kept);
   std::vector<std::array<int, 2>> result;
   for (std::size_t i = 0; i < kept.size(); ++i)
   {

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace hop
@@ -142,6 +143,26 @@ std::vector<int> sweepsOfRounds(Quality quality, bool isWarm)
   return isWarm ? std::vector<int>{ 12, 22 } : std::vector<int>{ 7, 13 };
 }
 
+/// Marks the particles on curves that the relaxation sees: of those in one place one a sheet, as several would repel
+/// others several times.
+std::vector<char> onePerSheet(const BoundaryCurves& curves)
+{
+  std::vector<char> seen(curves.particles.size(), 1);
+  std::map<int, std::vector<int>> inPlace;
+  for (const auto& [first, other] : curves.edges.coincident)
+  {
+    std::vector<int>& chosen = inPlace.emplace(first, std::vector<int>{ first }).first->second;
+    const WorldVector& normal = curves.particles[other].particle.normal;
+    seen[other] = std::none_of(chosen.begin(), chosen.end(),
+      [&](int one) { return dot(curves.particles[one].particle.normal, normal) > SheetCosine; });
+    if (seen[other])
+    {
+      chosen.push_back(other);
+    }
+  }
+  return seen;
+}
+
 } // namespace
 
 /// Whether one sample tells enough about the surface in a box. It tells less where the gradient of the field vanishes
@@ -233,8 +254,7 @@ void FastSystem::prepareSurface()
 /// Number of particles that the surface takes at the sizing function.
 double FastSystem::targetCount() const
 {
-  return this->Proxy->particleCount() +
-    OnBoundary::Count * static_cast<double>(this->BoundaryPatches.size());
+  return this->Proxy->particleCount() + this->BoundaryCount;
 }
 
 /// Finds the spacing that goes with a given number of particles: first on a rough proxy, then on the surface itself. What
@@ -296,9 +316,10 @@ void FastSystem::keepOnBoundary(std::size_t most)
   }
   keepMarked(this->Curves.particles, kept);
   keepMarked(this->BoundaryPatches, kept);
+  this->BoundaryCount = OnBoundary::Count * static_cast<double>(left);
   if (left < count)
   {
-    this->Curves.segments = withoutDropped(this->Curves.segments, kept);
+    this->Curves.edges.segments = withoutDropped(this->Curves.edges.segments, kept);
   }
 }
 
@@ -439,13 +460,23 @@ void FastSystem::startMoving()
 void FastSystem::traceBoundaryCurves()
 {
   const Slab inReach = this->Part.widened(this->overlap(SlabOverlap::Reach));
-  this->Curves = findBoundaryCurves(
-    this->Surface, this->Jumps, *this->Proxy, this->Sizing, this->Parallel, this->Part, inReach);
+  const bool withCreases = this->Parameters.onCreases && !this->countIsGiven();
+  this->Curves = findBoundaryCurves(this->Surface, this->Jumps, *this->Proxy, this->Sizing,
+    withCreases ? SampledCurves::BoundaryAndCreases : SampledCurves::Boundary, this->Parallel,
+    this->Part, inReach);
   this->keepCurvesIn(inReach);
   this->BoundaryPatches.clear();
-  for (const BoundaryParticle& boundary : this->Curves.particles)
+  this->BoundaryCount = 0.0;
+  const std::vector<char> seen = onePerSheet(this->Curves);
+  for (std::size_t n = 0; n < seen.size(); ++n)
   {
-    this->BoundaryPatches.push_back(boundary.patch);
+    const BoundaryParticle& boundary = this->Curves.particles[n];
+    if (seen[n])
+    {
+      this->BoundaryPatches.push_back(boundary.patch);
+      this->BoundaryCount +=
+        boundary.side.exists() || !boundary.isOnCrease ? OnBoundary::Count : 0.0;
+    }
   }
 }
 
@@ -463,7 +494,7 @@ void FastSystem::keepCurvesIn(const Slab& slab)
     some->erase(std::remove_if(some->begin(), some->end(), isOutside), some->end());
   }
   // Segments are for meshes, which are not made of slabs.
-  this->Curves.segments.clear();
+  this->Curves.edges = {};
 }
 
 /// Drops particles that are too near to one on a boundary curve: these are sampled first and stay.
@@ -557,10 +588,17 @@ void FastSystem::finish()
   const ParticleGrid all(particles, this->Curves.particles, this->Parallel);
   markClipPlanes(this->Surface, all, this->Curves.thinned, this->Parallel);
   const int first = static_cast<int>(particles.size());
-  for (const auto& [a, b] : this->Curves.segments)
+  const auto addAll = [first](const std::vector<std::array<int, 2>>& pairs)
   {
-    this->Result.edges.segments.push_back({ first + a, first + b });
-  }
+    std::vector<std::array<int, 2>> result;
+    for (const auto& [a, b] : pairs)
+    {
+      result.push_back({ first + a, first + b });
+    }
+    return result;
+  };
+  const SurfaceEdges& edges = this->Curves.edges;
+  this->Result.edges = { addAll(edges.segments), addAll(edges.directed), addAll(edges.coincident) };
   for (const BoundaryParticle& boundary : this->Curves.particles)
   {
     particles.push_back(boundary.particle);
@@ -600,8 +638,7 @@ std::vector<SurfaceBox> FastSystem::undecidedBoxes()
     {
       return sample.found
         ? sample.patch.position
-        : glm::dvec3(
-            evaluateGradient(this->Mesh.form(box.middle.element), box.middle.u).value);
+        : glm::dvec3(evaluateGradient(this->Mesh.form(box.middle.element), box.middle.u).value);
     };
     if (!box.certified && this->Part.holds(position()))
     {
@@ -628,8 +665,7 @@ bool FastSystem::relax()
     this->prepareSurface();
   }
   reportUndecided(this->Surface,
-    this->Part.isEverything() ? this->Proxy->boxes() : this->undecidedBoxes(),
-    this->Result.report);
+    this->Part.isEverything() ? this->Proxy->boxes() : this->undecidedBoxes(), this->Result.report);
   this->Result.report.boxes = static_cast<std::int64_t>(this->Proxy->boxes().size());
   this->reach(ProgressAt::Prepared);
   const double count = this->Proxy->particleCount();

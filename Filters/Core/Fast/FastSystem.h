@@ -98,6 +98,8 @@ protected:
   BoundaryCurves Curves;
   /// Patches of the particles on these curves.
   Buffer<Patch> BoundaryPatches;
+  /// The number of particles for which they count.
+  double BoundaryCount = 0.0;
   std::unique_ptr<MovingParticles> Moving;
   /// In a slab, and in the strip at its end, the number of particles that are to move.
   double TargetInSlab = 0.0;

@@ -128,7 +128,8 @@ SlabParticles SlabDistribution::System::lastParticles() const
 
 /// Takes another worker's particles on boundary curves instead of one's own, behind the slab or before it. Of two
 /// particles that are too near to each other the one in the slab before stays.
-void SlabDistribution::System::replaceCurves(const Slab& where, bool isBehind, const SlabParticles& by)
+void SlabDistribution::System::replaceCurves(
+  const Slab& where, bool isBehind, const SlabParticles& by)
 {
   const auto isReplaced = [&](const BoundaryParticle& some)
   { return where.holds(some.patch.position); };
@@ -137,8 +138,8 @@ void SlabDistribution::System::replaceCurves(const Slab& where, bool isBehind, c
   mine.erase(std::remove_if(mine.begin(), mine.end(), isReplaced), mine.end());
   thinned.erase(std::remove_if(thinned.begin(), thinned.end(), isReplaced), thinned.end());
   Buffer<BoundaryParticle> others = by.onBoundary;
-  (isBehind ? others : mine) = isBehind ? apartFrom(mine, others, this->Parallel)
-                                        : apartFrom(others, mine, this->Parallel);
+  (isBehind ? others : mine) =
+    isBehind ? apartFrom(mine, others, this->Parallel) : apartFrom(others, mine, this->Parallel);
   mine.insert(mine.end(), others.begin(), others.end());
   thinned.insert(thinned.end(), by.thinned.begin(), by.thinned.end());
   this->BoundaryPatches.clear();
@@ -188,8 +189,8 @@ void SlabDistribution::System::relaxStrip(const Slab& strip)
   this->Moving = std::make_unique<MovingParticles>(
     this->Surface, *this->Proxy, std::move(around), this->Parallel);
   this->Moving->add(inside.anchors, inside.patches);
-  this->Moving->keep(thinOut(this->Moving->patches(),
-    std::vector<char>(this->Moving->count(), 1), MinimumSeparation, this->Parallel));
+  this->Moving->keep(thinOut(this->Moving->patches(), std::vector<char>(this->Moving->count(), 1),
+    MinimumSeparation, this->Parallel));
   this->TargetInSlab = this->TargetInStrip;
   this->relaxInRounds();
   if (this->Parameters.quality != Quality::Draft)

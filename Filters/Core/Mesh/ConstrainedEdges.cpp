@@ -73,10 +73,16 @@ void group(const std::vector<std::array<int, 2>>& edges, int by, std::size_t par
 
 ConstrainedEdges::ConstrainedEdges(const Distribution& distribution)
 {
-  std::vector<Edge> edges;
+  std::vector<Edge> edges = distribution.edges.directed;
+  std::sort(edges.begin(), edges.end());
+  const auto isDirected = [known = edges](const Edge& segment)
+  {
+    return std::binary_search(known.begin(), known.end(), segment) ||
+      std::binary_search(known.begin(), known.end(), Edge{ segment[1], segment[0] });
+  };
   for (const Edge& segment : distribution.edges.segments)
   {
-    if (segment[0] != segment[1])
+    if (segment[0] != segment[1] && !isDirected(segment))
     {
       direct(distribution.particles, segment, [&](const Edge& edge) { edges.push_back(edge); });
     }

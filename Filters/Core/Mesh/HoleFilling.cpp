@@ -23,6 +23,9 @@ struct Hole
   static constexpr std::size_t MostEdges = 96;
   /// Largest circumradius of a triangle that needs no further particle, see ParticleNeighbors::LargestRadius.
   static constexpr double LargestRadius = ParticleNeighbors::LargestRadius;
+  /// Least distance of a further particle from others. Larger: triangles stay large; smaller: narrow strips are filled
+  /// with particles that stand too close.
+  static constexpr double Room = 0.5;
   /// Largest distance between the middle of a triangle and the surface, and between that middle and where a walk along
   /// the surface towards it ends. Larger: the surface's end is covered where it has no particles; smaller: strongly bent
   /// surface stays open.
@@ -249,7 +252,7 @@ private:
     const Particle& middle = this->Particles[loop[corner]];
     const TangentPlane plane(middle.position.xyz, glm::vec3(middle.normal.xyz), middle.spacing);
     const glm::dvec2 first = plane.flat(this->at(after));
-    return turnFrom(first, plane.flat(place)) < turnFrom(first, plane.flat(this->at(before)));
+    return turnFrom(first, plane.flat(place)) < turnAround(first, plane.flat(this->at(before)));
   }
 
   /// The shortest edge from a hole's border to a loop inside of the hole.
@@ -412,6 +415,16 @@ private:
       [&](int a, int b) { return this->mayJoin(a, b) && borderEdges.count(pairOf(a, b)) == 0; });
   }
 
+  /// Whether a particle in the middle of a triangle would not stand too near to a corner, as in the narrow ones beside
+  /// creases.
+  bool hasRoom(const Triangle& triangle) const
+  {
+    const glm::dvec3 middle = this->shapeOf(triangle).middle;
+    const double least = Hole::Room * this->spacingOf(triangle);
+    return std::all_of(triangle.begin(), triangle.end(),
+      [&](int corner) { return glm::distance(this->at(corner), middle) > least; });
+  }
+
   /// Adds a particle in the middle of the largest triangle, if that is too large.
   std::optional<int> addParticle(const std::vector<Triangle>& triangles)
   {
@@ -420,7 +433,7 @@ private:
     for (const Triangle& triangle : triangles)
     {
       const double radius = this->shapeOf(triangle).circumradius() / this->spacingOf(triangle);
-      if (radius > most)
+      if (radius > most && this->hasRoom(triangle))
       {
         most = radius;
         largest = &triangle;

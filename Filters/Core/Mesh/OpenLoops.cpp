@@ -113,7 +113,7 @@ private:
     const TangentPlane plane(here.position.xyz, glm::vec3(here.normal.xyz), here.spacing);
     const glm::dvec2 back = plane.flat(this->Particles[before].position.xyz);
     const auto turn = [&](int end)
-    { return turnFrom(plane.flat(this->Particles[end].position.xyz), back); };
+    { return turnAround(plane.flat(this->Particles[end].position.xyz), back); };
     return std::min_element(
       ends.begin(), ends.end(), [&](int a, int b) { return turn(a) < turn(b); });
   }

@@ -87,7 +87,8 @@ private:
   {
     const glm::dvec2 q = this->Neighbors[at].place;
     const glm::dvec2 last = this->Neighbors[end].place;
-    // Nobody beyond the end, once it is less than half a turn away.
+    // Nobody beyond the end, once it is less than half a turn away; nor in the same place, as the beginning is where a
+    // crease fades.
     const bool endIsNear = sense * crossOf(q, last) > 0.0;
     int best = -1;
     double least = std::numeric_limits<double>::infinity();
@@ -98,8 +99,8 @@ private:
       const double inside = glm::dot(c, c - q);
       if (cross > 0.0 && inside < least * cross)
       {
-        const bool isBeyond =
-          endIsNear && static_cast<int>(n) != end && sense * crossOf(c, last) <= 0.0;
+        const bool isBeyond = static_cast<int>(n) != end &&
+          (c == last || (endIsNear && sense * crossOf(c, last) <= 0.0));
         if (!isBeyond && cross * cross > leastSine * leastSine * glm::dot(q, q) * glm::dot(c, c))
         {
           least = inside / cross;
@@ -117,10 +118,30 @@ private:
   std::vector<LinkEdge>& Fan;
 };
 
+/// Drops edges that begin or end where an earlier edge of the same star does: sectors overlap by rounding where edges of
+/// the surface leave a particle in the same direction.
+void dropOverlaps(std::size_t first, std::vector<LinkEdge>& fan)
+{
+  std::size_t kept = first;
+  for (std::size_t n = first; n < fan.size(); ++n)
+  {
+    const LinkEdge& edge = fan[n];
+    const auto begin = fan.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto end = fan.begin() + static_cast<std::ptrdiff_t>(kept);
+    if (std::none_of(begin, end,
+          [&](const LinkEdge& other) { return other.from == edge.from || other.to == edge.to; }))
+    {
+      fan[kept++] = edge;
+    }
+  }
+  fan.resize(kept);
+}
+
 /// Appends the edges opposite to a particle in its star.
 void addStar(
   const ParticleNeighbors& neighbors, int particle, TangentView& view, std::vector<LinkEdge>& fan)
 {
+  const std::size_t before = fan.size();
   view.lookFrom(particle, neighbors.of(particle));
   if (view.sectors().empty())
   {
@@ -130,6 +151,7 @@ void addStar(
   {
     Star(sector.neighbors, fan).fill(sector.first, sector.last);
   }
+  dropOverlaps(before, fan);
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "Mesh/LooseParticles.h"
 #include "Mesh/ManifoldVertices.h"
 #include "Mesh/ParticleStars.h"
+#include "Support/DisjointSets.h"
 #include "Support/Interruptible.h"
 
 #include <functional>
@@ -12,6 +13,29 @@ namespace hop
 {
 namespace
 {
+
+/// Particles without a triangle, those in one place taken for one.
+std::int64_t countUnused(const Distribution& distribution, const TriangleFans& fans)
+{
+  DisjointSets places(distribution.particles.size());
+  for (const auto& [a, b] : distribution.edges.coincident)
+  {
+    places.unite(a, b);
+  }
+  std::vector<char> isUsed(distribution.particles.size(), 0);
+  for (std::size_t i = 0; i < isUsed.size(); ++i)
+  {
+    const int particle = static_cast<int>(i);
+    isUsed[places.root(particle)] |= fans.hasTriangles(particle) ? 1 : 0;
+  }
+  std::int64_t unused = 0;
+  for (std::size_t i = 0; i < isUsed.size(); ++i)
+  {
+    const int particle = static_cast<int>(i);
+    unused += places.root(particle) == particle && !isUsed[i];
+  }
+  return unused;
+}
 
 /// What is open, and which particles have no triangle.
 void countOpen(const Distribution& distribution, const ConstrainedEdges& edges,
@@ -34,10 +58,7 @@ void countOpen(const Distribution& distribution, const ConstrainedEdges& edges,
       mesh.onLongestLoop = loop.particles[0];
     }
   }
-  for (std::size_t i = 0; i < particles.size(); ++i)
-  {
-    mesh.unusedParticles += !fans.hasTriangles(static_cast<int>(i));
-  }
+  mesh.unusedParticles = countUnused(distribution, fans);
 }
 
 /// \return whether triangles were removed
@@ -50,9 +71,12 @@ bool dropExtraFans(const Distribution& distribution, const ConstrainedEdges& edg
     vertices.insert(vertices.end(), loop.particles.begin(), loop.particles.end());
   }
   // The surface may touch itself at its end.
-  for (const auto& segment : distribution.edges.segments)
+  for (const auto* edgesOf : { &distribution.edges.segments, &distribution.edges.directed })
   {
-    vertices.insert(vertices.end(), segment.begin(), segment.end());
+    for (const std::array<int, 2>& edge : *edgesOf)
+    {
+      vertices.insert(vertices.end(), edge.begin(), edge.end());
+    }
   }
   return keepOneFan(vertices, fans);
 }

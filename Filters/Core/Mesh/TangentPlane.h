@@ -23,6 +23,14 @@ inline double turnFrom(const glm::dvec2& from, const glm::dvec2& to)
   return angle < 0.0 ? angle + fullTurn : angle;
 }
 
+/// The same in (0, 2 pi]: all around from one place to the same one, as around a particle at which a crease fades, which
+/// has the crease's two sides in the same place.
+inline double turnAround(const glm::dvec2& from, const glm::dvec2& to)
+{
+  constexpr double fullTurn = 6.283185307179586;
+  return from == to ? fullTurn : turnFrom(from, to);
+}
+
 /// The tangent plane of a particle. Places around it are laid into the plane at their distance in space, and measured
 /// in units of the particle's spacing.
 struct TangentPlane

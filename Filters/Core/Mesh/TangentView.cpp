@@ -168,7 +168,7 @@ void TangentView::makeSectors()
     for (const int last : all)
     {
       const FlatNeighbor other = this->flat(last);
-      const double turn = last == first ? fullTurn : turnFrom(start.place, other.place);
+      const double turn = last == first ? fullTurn : turnAround(start.place, other.place);
       if (turn < width)
       {
         width = turn;

@@ -4,6 +4,7 @@
 
 #include <exception>
 #include <limits>
+#include <map>
 #include <optional>
 
 namespace hop
@@ -19,6 +20,7 @@ struct Header
   std::int64_t components = 0;
   std::int64_t nodes = 0;
   std::int64_t foreign = 0;
+  std::int64_t twins = 0;
   bool isDone = false;
 };
 
@@ -30,6 +32,8 @@ struct Part
   std::vector<int> nodes;
   Buffer<Particle> copies;
   std::vector<ElementHome> foreign;
+  /// Pairs of particles in the same place.
+  std::vector<std::array<int, 2>> twins;
 };
 
 /// Takes the worker's mesh apart, rank by rank.
@@ -60,6 +64,18 @@ public:
       firstNodes[c] = mesh.nodes[c * mesh.nodesPerCell];
     }
     this->Cells = groupedBy(firstNodes, ranks, [&](int node) { return this->homeOf(node).rank; });
+    std::vector<int> counts(whole.particles.size(), 0);
+    for (const int vertex : mesh.vertices)
+    {
+      ++counts[vertex];
+    }
+    for (std::size_t p = 0; p < mesh.vertices.size(); ++p)
+    {
+      if (counts[mesh.vertices[p]] > 1)
+      {
+        this->Shared.push_back(static_cast<int>(p));
+      }
+    }
   }
 
   Part partOf(int rank)
@@ -88,6 +104,7 @@ public:
         part.nodes.push_back(copy);
       }
     }
+    this->addTwins(rank, own, copied, part);
     for (const int particle : copied)
     {
       part.copies.push_back(this->Whole.particles[particle]);
@@ -98,12 +115,38 @@ public:
     part.components = this->Mesh.parts;
     part.header = { this->Mesh, static_cast<std::int64_t>(part.components.size()),
       static_cast<std::int64_t>(part.nodes.size()), static_cast<std::int64_t>(part.foreign.size()),
-      true };
+      static_cast<std::int64_t>(part.twins.size()), true };
     return part;
   }
 
 private:
   static constexpr int none = -1;
+
+  /// Pairs each particle with the first one in its place on a rank.
+  /// \param own number of particles that are at home there; copies follow them
+  void addTwins(int rank, int own, const std::vector<int>& copied, Part& part) const
+  {
+    std::map<int, int> firstAt;
+    const auto add = [&](int particle, int place)
+    {
+      const auto [first, isNew] = firstAt.emplace(this->Mesh.vertices[particle], place);
+      if (!isNew)
+      {
+        part.twins.push_back({ first->second, place });
+      }
+    };
+    for (const int particle : this->Shared)
+    {
+      if (this->homeOf(particle).rank == rank)
+      {
+        add(particle, this->PlaceAtHome[particle]);
+      }
+    }
+    for (std::size_t n = 0; n < copied.size() && !this->Shared.empty(); ++n)
+    {
+      add(copied[n], own + static_cast<int>(n));
+    }
+  }
 
   const ElementHome& homeOf(int particle) const
   {
@@ -119,6 +162,8 @@ private:
   /// Of each rank, summed up.
   std::vector<int> OwnCount;
   Grouping Cells;
+  /// Particles that are not alone in their places.
+  std::vector<int> Shared;
   /// The index of each particle's copy on the rank at hand.
   std::vector<int> Copy;
 };
@@ -130,6 +175,7 @@ void send(Exchange& exchange, const Part& part, int to)
   sendArray(exchange, part.nodes.data(), part.nodes.size(), to);
   sendArray(exchange, part.copies.data(), part.copies.size(), to);
   sendArray(exchange, part.foreign.data(), part.foreign.size(), to);
+  sendArray(exchange, part.twins.data(), part.twins.size(), to);
 }
 
 /// \return nothing where there is none, or memory does not hold it
@@ -144,6 +190,7 @@ std::optional<Part> receive(Exchange& exchange, int from)
     part.nodes.resize(part.header.nodes);
     part.copies.resize(part.header.foreign);
     part.foreign.resize(part.header.foreign);
+    part.twins.resize(part.header.twins);
   }
   catch (const std::exception&)
   {
@@ -153,6 +200,7 @@ std::optional<Part> receive(Exchange& exchange, int from)
   receiveArray(exchange, fits ? part.nodes.data() : nullptr, part.header.nodes, from);
   receiveArray(exchange, fits ? part.copies.data() : nullptr, part.header.foreign, from);
   receiveArray(exchange, fits ? part.foreign.data() : nullptr, part.header.foreign, from);
+  receiveArray(exchange, fits ? part.twins.data() : nullptr, part.header.twins, from);
   return fits && part.header.isDone ? std::move(part) : std::optional<Part>();
 }
 
@@ -199,6 +247,10 @@ void take(Part&& part, ParticleMesh& mesh, Distribution& home)
   for (std::size_t p = 0; p < home.particles.size(); ++p)
   {
     mesh.vertices.push_back(static_cast<int>(p));
+  }
+  for (const auto& [first, other] : part.twins)
+  {
+    mesh.vertices[other] = first;
   }
 }
 

@@ -20,7 +20,7 @@ struct Isosurface
   const FaceLocator* locator = nullptr;
   /// MaximumFaces entries an element: largest distance along the face between the curves in which the two elements'
   /// surfaces meet it, up to which the surface goes on there (SurfaceWalker::jumpBetween), world units. Infinite where
-  /// the field is known to be continuous. nullptr: infinite everywhere.
+  /// the field is known to be continuous; negative where the surface is cut. nullptr: infinite everywhere.
   const std::vector<float>* jumpTolerances = nullptr;
   /// Whether every face at which the surface may end counts as a boundary face.
   bool endsWhereItMay = false;
@@ -71,6 +71,9 @@ struct Isosurface
     return !this->locator || this->mesh->neighbor(element, face).element >= 0 ||
       this->locator->mayMeet(element, face);
   }
+
+  /// Whether the surface is cut along a face: it ends at all places of the face, though it goes on behind them.
+  bool isCutAt(int element, int face) const { return this->jumpTolerance(element, face) < 0.0; }
 
   /// Whether there may be places on a face at which the surface ends.
   bool mayEnd(int element, int face) const

@@ -19,7 +19,8 @@ namespace
 constexpr double spacing = 0.06;
 constexpr double tolerance = 1e-9;
 
-BoundaryCurves curvesOf(const ElementMesh& mesh, const ParallelFor& parallelFor = {})
+BoundaryCurves curvesOf(const ElementMesh& mesh, const ParallelFor& parallelFor = {},
+  SampledCurves sampled = SampledCurves::Boundary)
 {
   const SizingFunction sizing{ spacing, 0.0 };
   Isosurface surface{ &mesh, 0.0, tolerance };
@@ -27,7 +28,7 @@ BoundaryCurves curvesOf(const ElementMesh& mesh, const ParallelFor& parallelFor 
     surface, sizing, findSurfaceBoxes(mesh, 0.0, 6.0 * spacing, parallelFor), parallelFor);
   const FaceJumps jumps = findFaceJumps(surface, proxy, parallelFor);
   surface.jumpTolerances = &jumps.jumpTolerances;
-  return findBoundaryCurves(surface, jumps, proxy, sizing, parallelFor);
+  return findBoundaryCurves(surface, jumps, proxy, sizing, sampled, parallelFor);
 }
 
 /// Distances of neighbours on a closed curve around the origin.
@@ -108,7 +109,7 @@ TEST_P(BoundaryCurvesIn, OfASphereAreChainsOfParticles)
   recipe.field = sphere({ 0, 0, 0 }, 1.2).field;
   const BoundaryCurves curves = curvesOf(makeMesh(recipe));
   std::vector<int> neighbors(curves.particles.size());
-  for (const auto& [a, b] : curves.segments)
+  for (const auto& [a, b] : curves.edges.segments)
   {
     ++neighbors[a];
     ++neighbors[b];
@@ -343,6 +344,63 @@ TEST(BoundaryCurves, DoNotDependOnThreads)
   for (std::size_t i = 0; i < serial.particles.size(); ++i)
   {
     EXPECT_EQ(threaded.particles[i].patch.position, serial.particles[i].patch.position);
+  }
+}
+
+/// A roof with a ridge of a right angle over x = 0.
+ElementMesh ridge()
+{
+  MeshRecipe left, right;
+  left.field = [](const glm::dvec3& x) { return x.z - 0.1 - x.x; };
+  right.field = [](const glm::dvec3& x) { return x.z - 0.1 + x.x; };
+  ElementMesh mesh;
+  appendBox(mesh, left, { -1, -1, -1 }, { 0, 1, 1 });
+  appendBox(mesh, right, { 0, -1, -1 }, { 1, 1, 1 });
+  findFaceNeighbors(mesh, 1e-9);
+  return mesh;
+}
+
+TEST(BoundaryCurves, LeaveCreasesOutUnlessAskedFor)
+{
+  const BoundaryCurves curves = curvesOf(ridge());
+  EXPECT_TRUE(curves.edges.coincident.empty());
+  EXPECT_TRUE(curves.edges.directed.empty());
+  for (const BoundaryParticle& p : curves.particles)
+  {
+    EXPECT_FALSE(p.isOnCrease);
+  }
+}
+
+TEST(BoundaryCurves, OfBothSidesOfACreaseMeetInTheSamePlaces)
+{
+  const BoundaryCurves curves = curvesOf(ridge(), {}, SampledCurves::BoundaryAndCreases);
+  // The ridge is 2 long, and has particles at both ends.
+  EXPECT_EQ(
+    curves.edges.coincident.size(), static_cast<std::size_t>(std::ceil(2.0 / (1.1 * spacing))) + 1);
+  for (const auto& [a, b] : curves.edges.coincident)
+  {
+    const Particle& first = curves.particles[a].particle;
+    const Particle& second = curves.particles[b].particle;
+    EXPECT_EQ(first.position.xyz, second.position.xyz);
+    EXPECT_NE(first.location.element, second.location.element);
+    EXPECT_NEAR(dot(first.normal, second.normal), 0.0, 1e-9);
+    EXPECT_LT(std::abs(first.position.xyz.x), tolerance);
+  }
+}
+
+TEST(BoundaryCurves, OfOneSideOfACreaseHaveItsSurfaceToTheirLeft)
+{
+  const BoundaryCurves curves = curvesOf(ridge(), {}, SampledCurves::BoundaryAndCreases);
+  // Both halves are rectangles, so that their middles are to the left of all edges.
+  EXPECT_GT(curves.edges.directed.size(), curves.particles.size() - 1);
+  for (const auto& [a, b] : curves.edges.directed)
+  {
+    const Particle& first = curves.particles[a].particle;
+    const Particle& second = curves.particles[b].particle;
+    const double side = first.normal.xyz.x > 0.0 ? 0.5 : -0.5;
+    const glm::dvec3 middle(side, 0.0, 0.1 - std::abs(side));
+    const glm::dvec3 left = glm::cross(first.normal.xyz, (second.position - first.position).xyz);
+    EXPECT_GT(glm::dot(left, middle - first.position.xyz), 0.0);
   }
 }
 

@@ -62,5 +62,24 @@ TEST(CurveSegments, JoinTheNeighboursOfDroppedParticles)
   EXPECT_EQ(withoutDropped({ { 0, 1 }, { 1, 2 } }, { 0, 1, 1 }), (Pairs{ { 0, 1 } }));
 }
 
+TEST(CurveSegments, AreDirectedOnCurvesOfWhichAPartIsACrease)
+{
+  // A triangle of one crease and two pieces of boundary curve; then a curve without creases.
+  std::vector<CurvePlace> places{ withParticle(0), withParticle(1), withParticle(2),
+    withParticle(3), withParticle(4), withParticle(5) };
+  places[1].beginsCrease = true;
+  const std::vector<CurveRange> curves{ { 0, 3, true }, { 3, 3, true } };
+  EXPECT_EQ(directedEdgesOf(places, curves), (Pairs{ { 0, 2 }, { 1, 0 }, { 2, 1 } }));
+  EXPECT_EQ(
+    segmentsOf(places, curves), (Pairs{ { 0, 1 }, { 0, 2 }, { 3, 4 }, { 3, 5 }, { 4, 5 } }));
+}
+
+TEST(CurveSegments, AreRenumberedWithoutDroppedParticles)
+{
+  Pairs pairs{ { 4, 2 }, { 0, 4 } };
+  renumber(pairs, { 1, 0, 1, 0, 1 });
+  EXPECT_EQ(pairs, (Pairs{ { 2, 1 }, { 0, 2 } }));
+}
+
 } // namespace
 } // namespace hop::testing

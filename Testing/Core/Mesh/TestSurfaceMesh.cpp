@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 
 namespace hop::testing
@@ -124,6 +125,86 @@ TEST(SurfaceMesh, EndsAtTheEndOfTheDomain)
   expectBorders(meshOf(sphere({ 0, 0, 0 }, 1.2).field, 4, 0.06), 6, -4);
   expectBorders(
     meshOf(plane(glm::normalize(glm::dvec3(1.0, 0.3, 0.05)), 0.1).field, 2, 0.06), 1, 1);
+}
+
+/// With particles on creases.
+Meshed meshWithCreases(
+  const ElementMesh& elements, double spacing, const ParallelFor& parallelFor = {})
+{
+  Meshed result;
+  result.elements = elements;
+  const Isosurface surface{ &result.elements, 0.0, 1e-9 };
+  DistributionParameters parameters;
+  parameters.sizing = { spacing, 0.0 };
+  parameters.onCreases = true;
+  result.distribution = distributeFast(surface, parameters, {}, parallelFor);
+  result.mesh = meshSurface(surface, result.distribution, {}, parallelFor);
+  return result;
+}
+
+/// A roof, z = 0.1 - |x|, whose ridge is a right angle.
+ElementMesh rightAngledRoof()
+{
+  MeshRecipe left, right;
+  left.field = [](const glm::dvec3& x) { return x.z - 0.1 - x.x; };
+  right.field = [](const glm::dvec3& x) { return x.z - 0.1 + x.x; };
+  ElementMesh elements;
+  appendBox(elements, left, { -1, -1, -1 }, { 0, 1, 1 });
+  appendBox(elements, right, { 0, -1, -1 }, { 1, 1, 1 });
+  findFaceNeighbors(elements, 1e-9);
+  return elements;
+}
+
+TEST(SurfaceMesh, FoldsAtARidge)
+{
+  const Meshed meshed = meshWithCreases(rightAngledRoof(), 0.07);
+  expectBorders(meshed, 1, 1);
+  const double area = measureMesh(meshed.distribution, meshed.mesh.triangles).area;
+  EXPECT_NEAR(area, 4.0 * std::sqrt(2.0), 1e-9); // no triangle cuts the ridge off
+}
+
+/// A polyhedron: a sphere as linear tetrahedra have it, with creases in all of their faces.
+ElementMesh polyhedron()
+{
+  MeshRecipe recipe;
+  recipe.domain = Domain::Tetrahedron;
+  recipe.degrees = { 1, 1, 1 };
+  recipe.cells = 3;
+  recipe.field = [](const glm::dvec3& x)
+  { return glm::length(x - glm::dvec3(0.05, 0.02, 0.01)) - 0.7; };
+  return makeMesh(recipe);
+}
+
+TEST(SurfaceMesh, ClosesOverCreasesThatMeet)
+{
+  const ElementMesh elements = polyhedron();
+  std::vector<double> areas;
+  for (const double spacing : { 0.03, 0.05, 0.08 })
+  {
+    const Meshed meshed = meshWithCreases(elements, spacing);
+    expectBorders(meshed, 0, 2);
+    const MeshMeasures measures = measureMesh(meshed.distribution, meshed.mesh.triangles);
+    EXPECT_EQ(measures.components, 1);
+    EXPECT_EQ(measures.openEdges, 0);
+    areas.push_back(measures.area);
+  }
+  // Facets are flat, so that nothing is lost but at edges below 10 degrees.
+  EXPECT_NEAR(areas[1] / areas[0], 1.0, 1e-4);
+  EXPECT_NEAR(areas[2] / areas[0], 1.0, 1e-4);
+}
+
+TEST(SurfaceMesh, IsTheSameOverCreasesForAnyNumberOfThreads)
+{
+  const ElementMesh elements = polyhedron();
+  const Meshed one = meshWithCreases(elements, 0.06);
+  const Meshed three = meshWithCreases(elements, 0.06, threadedFor(3));
+  EXPECT_EQ(one.mesh.triangles, three.mesh.triangles);
+  ASSERT_EQ(one.distribution.particles.size(), three.distribution.particles.size());
+  for (std::size_t p = 0; p < one.distribution.particles.size(); ++p)
+  {
+    EXPECT_EQ(
+      one.distribution.particles[p].position.xyz, three.distribution.particles[p].position.xyz);
+  }
 }
 
 TEST(SurfaceMesh, ClosesThinBodies)
