@@ -236,6 +236,23 @@ std::vector<double> onCube(
   return result;
 }
 
+/// Makes coefficients positive that are zero to rounding, as at corners and in faces that the surface passes. Elements
+/// that share a corner or a face share the coefficients there, and so they see one field still, which differs from the
+/// given one by less than rounding may.
+/// \return whether there are some
+bool liftZeros(std::vector<double>& values, double slack)
+{
+  const auto isZero = [slack](double value) { return std::abs(value) <= slack; };
+  const auto count = std::count_if(values.begin(), values.end(), isZero);
+  // Where all are, the field is the isovalue all over the element.
+  if (count == 0 || count == static_cast<std::ptrdiff_t>(values.size()))
+  {
+    return false;
+  }
+  std::replace_if(values.begin(), values.end(), isZero, 2.0 * slack);
+  return true;
+}
+
 } // namespace
 
 bool ElementCube::isFinite() const
@@ -301,6 +318,7 @@ ElementCube elementCube(const ElementMesh& mesh, int element, double isovalue)
     largest = std::max({ largest, std::abs(cube.values.back()), std::abs(isovalue) * weight });
   }
   cube.slack = BisectionRounding * largest;
+  cube.isLifted = liftZeros(cube.values, cube.slack);
   CubeShape& shape = cube.shape;
   if (form.domain != Domain::Hexahedron)
   {

@@ -37,10 +37,13 @@ struct ElementCube
 {
   CubeShape shape;
   Degrees degrees{ 1, 1, 1 };
-  /// Bernstein coefficients of F - c, or of w (F - c) if the element is rational; the first axis runs fastest.
+  /// Bernstein coefficients of F - c, or of w (F - c) if the element is rational; the first axis runs fastest. Those
+  /// that are zero to rounding are lifted to twice the slack, unless all are.
   std::vector<double> values;
   /// Rounding errors of what bisection makes of the values.
   double slack = 0.0;
+  /// Whether values were lifted: the surface, or an end of it, is in a corner, an edge or a face.
+  bool isLifted = false;
 
   bool isFinite() const;
 };

@@ -57,6 +57,8 @@ struct ElementSurface
   std::vector<int> pieceOfLeaf;
   /// Whether there are leaves of which nothing is proven.
   bool isResolved = true;
+  /// ElementCube::isLifted: the surface in a face may be found in the element behind alone.
+  bool isLifted = false;
 
   /// The leaf at a place or, if there is none, the nearest one; -1 if there is no surface at all.
   /// \param t in the cube

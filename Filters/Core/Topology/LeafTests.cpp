@@ -147,6 +147,16 @@ bool isOneSided(const std::vector<double>& values, const std::vector<int>& point
     points.begin(), points.end(), [&](int point) { return sign * values[point] > slack; });
 }
 
+/// The field as it was before zeros were lifted (ElementCube.h): where it stands still at a zero, it is singular there.
+std::vector<double> withoutLift(std::vector<double> values, double slack)
+{
+  // Rounding leaves the lift of two slacks below this.
+  const double mostLifted = 2.5 * slack;
+  std::replace_if(
+    values.begin(), values.end(), [=](double value) { return std::abs(value) <= mostLifted; }, 0.0);
+  return values;
+}
+
 } // namespace
 
 const std::array<CubeEdge, 12>& cubeEdges()
@@ -218,9 +228,11 @@ LeafSurface LeafTests::examine(
       return LeafSurface::Undecided;
     }
   }
-  if (!this->Monotone.rises(values) ||
+  const std::vector<double> given = withoutLift(values, slack);
+  if (!this->Monotone.rises(given) ||
     !std::all_of(this->Faces.begin(), this->Faces.end(),
-      [&](const Face& face) { return this->isOneArc(face, values, slack); }))
+      [&](const Face& face)
+      { return isOneSided(values, face.points, slack) || this->isOneArc(face, given); }))
   {
     return LeafSurface::Undecided;
   }
@@ -228,12 +240,8 @@ LeafSurface LeafTests::examine(
 }
 
 /// Whether the zeros in a face are one arc at most, and no closed curve.
-bool LeafTests::isOneArc(const Face& face, const std::vector<double>& values, double slack) const
+bool LeafTests::isOneArc(const Face& face, const std::vector<double>& values) const
 {
-  if (isOneSided(values, face.points, slack))
-  {
-    return true;
-  }
   std::vector<double> onFace;
   onFace.reserve(face.points.size());
   for (const int point : face.points)

@@ -49,7 +49,7 @@ private:
     std::vector<int> points;
   };
 
-  bool isOneArc(const Face& face, const std::vector<double>& values, double slack) const;
+  bool isOneArc(const Face& face, const std::vector<double>& values) const;
 
   Degrees ItsDegrees;
   MonotoneTest Monotone;

@@ -34,6 +34,7 @@ std::vector<ElementSurface> elementSurfaces(
           tests.emplace(cube.degrees);
         }
         surfaces[e] = joinLeaves(cube.shape, findLeaves(cube, *tests));
+        surfaces[e].isLifted = cube.isLifted;
       }
     });
   return surfaces;
@@ -418,7 +419,11 @@ int SurfaceTopology::componentAt(const Location& location) const
 {
   const ElementSurface& surface = this->surfaces[location.element];
   const int piece = surface.pieceAt(surface.shape.inCube(location.u));
-  return piece < 0 ? -1 : this->componentOfPiece[location.element][piece];
+  if (piece < 0)
+  {
+    return surface.isLifted ? AnyComponent : NoComponent;
+  }
+  return this->componentOfPiece[location.element][piece];
 }
 
 SurfaceTopology findTopology(const ElementMesh& mesh, double isovalue, const FaceLocator* locator,

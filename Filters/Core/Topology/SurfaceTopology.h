@@ -35,7 +35,12 @@ struct SurfaceTopology
   /// Whether every component is proven, and none may be missing.
   bool isProven() const;
 
-  /// The component that passes a place, or the one in the nearest leaf of the element; -1 if the element has none.
+  /// The element has no component.
+  static constexpr int NoComponent = -1;
+  /// The same, but what lies in its corners, edges and faces belongs to the elements around.
+  static constexpr int AnyComponent = -2;
+
+  /// The component that passes a place, or the one in the nearest leaf of the element.
   int componentAt(const Location& location) const;
 };
 

@@ -182,20 +182,20 @@ std::vector<int> findCounterparts(const std::vector<int>& surfaceComponents,
   std::set<std::pair<int, int>> pairs; // of components of surface and mesh
   for (ComponentComparison& component : components)
   {
-    component.component = surfaceComponents[component.vertex];
-    pairs.emplace(component.component, componentOfVertex[component.vertex]);
+    component.component = SurfaceTopology::AnyComponent;
   }
   for (std::size_t vertex = 0; vertex < surfaceComponents.size(); ++vertex)
   {
-    if (componentOfVertex[vertex] < 0)
+    const int mesh = componentOfVertex[vertex];
+    const int surface = surfaceComponents[vertex];
+    if (mesh >= 0 && surface != SurfaceTopology::AnyComponent)
     {
-      continue;
-    }
-    ComponentComparison& component = components[componentOfVertex[vertex]];
-    if (component.component != surfaceComponents[vertex])
-    {
-      component.component = -1;
-      pairs.emplace(surfaceComponents[vertex], componentOfVertex[vertex]);
+      int& known = components[mesh].component;
+      if (known != surface)
+      {
+        known = known == SurfaceTopology::AnyComponent ? surface : SurfaceTopology::NoComponent;
+        pairs.emplace(surface, mesh);
+      }
     }
   }
   std::vector<int> meshesOn(componentCount, 0);

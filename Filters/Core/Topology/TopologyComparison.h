@@ -11,7 +11,7 @@ namespace hop
 /// A component of a triangle mesh, and the component of the surface that it stands for.
 struct ComponentComparison
 {
-  /// Index in SurfaceTopology::components of the component on which all its vertices lie; -1 if there is none.
+  /// Index in SurfaceTopology::components of the component on which all its vertices lie; negative if there is none.
   int component = -1;
   /// Of the mesh.
   std::int64_t eulerCharacteristic = 0;

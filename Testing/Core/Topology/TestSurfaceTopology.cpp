@@ -140,6 +140,35 @@ TEST(SurfaceTopology, SpheresThatNearlyTouch)
     Numbers({ { 2, 0 }, { 2, 0 } }));
 }
 
+TEST(SurfaceTopology, SurfacesThroughCornersOfElements)
+{
+  const glm::dvec3 middle(0.131, 0.072, 0.213);
+  for (const glm::dvec3 corner : { glm::dvec3(0.5, 0.5, 0.0), glm::dvec3(0.0, -0.5, 0.5) })
+  {
+    expectEverywhere(sphere(middle, glm::length(corner - middle)).field, 2, 4, { { 2, 0 } });
+  }
+  // Through corners, through edges, and in faces.
+  expectEverywhere([](const glm::dvec3& x) { return x.x + x.y + x.z; }, 2, 2, { { 1, 1 } });
+  expectEverywhere([](const glm::dvec3& x) { return x.x - x.y; }, 2, 2, { { 1, 1 } });
+  expectEverywhere([](const glm::dvec3& x) { return -x.z; }, 2, 2, { { 1, 1 } });
+}
+
+TEST(SurfaceTopology, SingularPlacesInCornersEdgesAndFacesAreNotProven)
+{
+  const Field cone = [](const glm::dvec3& x) { return x.z * x.z - x.x * x.x - 0.7 * x.y * x.y; };
+  const Field point = [](const glm::dvec3& x) { return -glm::dot(x, x); };
+  // Two sheets that cross in a face, and in an edge of elements.
+  const Field inFace = [](const glm::dvec3& x) { return x.x * (x.y - 0.3); };
+  const Field inEdge = [](const glm::dvec3& x) { return x.x * x.y; };
+  for (const Domain domain : allDomains)
+  {
+    EXPECT_FALSE(topologyOf(recipeFor(domain, 2, 2, cone)).isProven()) << domain;
+    EXPECT_FALSE(topologyOf(recipeFor(domain, 2, 2, point)).isProven()) << domain;
+    EXPECT_FALSE(topologyOf(recipeFor(domain, 2, 2, inFace)).isProven()) << domain;
+    EXPECT_FALSE(topologyOf(recipeFor(domain, 2, 2, inEdge)).isProven()) << domain;
+  }
+}
+
 TEST(SurfaceTopology, SingularPlacesAreNotProven)
 {
   const Field cone = [](const glm::dvec3& at)
