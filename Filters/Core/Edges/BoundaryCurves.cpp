@@ -538,6 +538,7 @@ std::vector<BoundaryPlace> BoundarySampler::sampleStretch(
     &this->Traces[stretch.trace].vertices[stretch.first], stretch.last + 1 - stretch.first);
   std::vector<BoundaryPlace> places;
   std::vector<double> sums{ 0.0 };
+  std::vector<double> spacings{ 0.0 };
   double spacing = 0.0;
   for (std::size_t v = 1; v < vertices.size(); ++v)
   {
@@ -545,6 +546,7 @@ std::vector<BoundaryPlace> BoundarySampler::sampleStretch(
       : this->HasCuts           ? this->spacingAt(vertices[0].leaving)
                                 : 0.0;
     spacing = this->spacingAt(vertices[v].arriving);
+    spacings.push_back(spacing);
     const double length = glm::distance(vertices[v - 1].position(), vertices[v].position());
     sums.push_back(sums.back() + length / (this->HasCuts ? std::min(before, spacing) : spacing));
   }
@@ -568,6 +570,7 @@ std::vector<BoundaryPlace> BoundarySampler::sampleStretch(
     }
     const BoundaryPoint& from = vertices[v - 1].leaving;
     const BoundaryPoint& to = vertices[v].arriving;
+    spacing = this->HasCuts ? spacings[v] : spacing;
     const double chord = sums[v] - sums[v - 1];
     const double t = chord > 0.0 ? std::clamp((place - sums[v - 1]) / chord, 0.0, 1.0) : 0.0;
     if (from.at.location.element == to.at.location.element)

@@ -33,6 +33,8 @@ struct ChordLengths
   /// A boundary curve that cannot be followed by chords this short ends: all but tangent to its face it is not known to
   /// be there. Shorter ones cost evaluations at every dead end; longer ones give up at sharp bends.
   static constexpr double Shortest = 1.0 / 32.0;
+  /// The same along a cut, which ends nowhere: it may bend within far less than the spacing where spacings are small.
+  static constexpr double ShortestOnCut = 1.0 / 1024.0;
   /// Where the surface goes on beyond its face, a boundary curve ends within this distance of the place at which the
   /// surface begins to go on. Shorter ones cost evaluations.
   static constexpr double ShortestAtFade = 1.0 / 4.0;
@@ -536,7 +538,9 @@ std::optional<BoundaryVertex> BoundaryTracer::advanceAtMost(
   double& chord, double step, const Heading& heading)
 {
   // A step of zero, where single precision has no spacing as small, would be halved for ever.
-  for (double shortest = ChordLengths::Shortest * step; chord > 0.0 && chord >= shortest;
+  const double least =
+    this->isCutAt(heading.here) ? ChordLengths::ShortestOnCut : ChordLengths::Shortest;
+  for (double shortest = least * step; chord > 0.0 && chord >= shortest;
        chord *= 0.5)
   {
     const Ahead ahead = this->advance(heading, chord);
