@@ -1,6 +1,5 @@
 #include "Run/RunMessages.h"
 
-#include "Output/ParticlePacker.h"
 #include "Run/Ranks.h"
 
 #include "vtkBoundingBox.h"
@@ -159,9 +158,9 @@ UserMessage describeFailure(const std::exception& failure, std::int64_t numberOf
       "). If that is for want of memory, choose " + fewerParticles(numberOfParticles) + "." };
 }
 
-UserMessages reviewArrays(const std::vector<InputBlock>& blocks)
+UserMessages reviewArrays(const std::vector<InputBlock>& blocks, const PassedArrays& passed)
 {
-  const std::vector<std::string> names = replacedArrays(blocks);
+  const std::vector<std::string> names = replacedArrays(blocks, passed);
   if (names.empty())
   {
     return {};

@@ -190,7 +190,8 @@ bool vanishesInSomeFace(const ScaledPolynomial& polynomial)
     [&](const SimplexFactor& factor)
     {
       return factor.dimension == 1 &&
-        (vanishesAt(polynomial, { factor.axis, false }) || vanishesAt(polynomial, { factor.axis, true }));
+        (vanishesAt(polynomial, { factor.axis, false }) ||
+          vanishesAt(polynomial, { factor.axis, true }));
     });
 }
 
@@ -493,8 +494,7 @@ DerivedElement Derivation::element() const
   // In a collapsed face numerator and denominator have to vanish alike.
   const bool isCollapsed = vanishesInSomeFace(determinant);
   determinant = isCollapsed ? std::move(determinant) : trimmed(std::move(determinant));
-  ScaledPolynomial numerator =
-    this->numerator(this->gradientNumerators(adjugate, !isCollapsed));
+  ScaledPolynomial numerator = this->numerator(this->gradientNumerators(adjugate, !isCollapsed));
   ScaledPolynomial denominator =
     orderOf(this->ItsQuantity) == 2 ? determinant * determinant : std::move(determinant);
   if (isCollapsed)
