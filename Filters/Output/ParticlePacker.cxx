@@ -103,6 +103,8 @@ BlockReport reportOf(const std::vector<IsovalueParticles>& isovalues, const Cell
     undecided.insert(report.undecidedCells.begin(), report.undecidedCells.end());
     sum.particlesRejected += report.particlesRejected;
     sum.particlesUndersampled += report.particlesUndersampled;
+    sum.facesReached += report.facesReached;
+    sum.facesEnded += report.facesEnded;
   }
   const auto last = undecided.lower_bound(end);
   for (auto cell = undecided.lower_bound(begin); cell != last; ++cell)

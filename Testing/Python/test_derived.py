@@ -59,7 +59,7 @@ def test_agrees_with_vtk_on_a_flow(quantity, data):
     grid = support.output_of(reader)
     values = in_cells(grid, "velocity", quantity)
     isovalue = np.quantile(values, 0.8)
-    particles, messages = support.run(reader, "velocity", isovalue, Quantity=quantity)
+    particles, messages = support.run(reader, "velocity", isovalue, Quantity=quantity, Spacing=0.04)
     assert messages.errors == []
     assert particles.GetNumberOfPoints() > 1000
     error = np.abs(at_particles(grid, "velocity", quantity, particles) - isovalue)
@@ -158,6 +158,14 @@ def test_a_scalar_has_no_q_criterion(data):
     particles, messages = support.run(reader, "pressure", 1.0, Quantity="Q Criterion")
     assert particles.GetNumberOfPoints() == 0
     assert any("three components" in text for text in messages.errors)
+
+
+def test_tells_of_gaps_between_cells(data):
+    reader = support.read(data(FLOW))
+    particles, messages = support.run(reader, "velocity", 10.0, Quantity="Q Criterion", Spacing=0.02)
+    share = support.reported(particles, "FacesEnded") / support.reported(particles, "FacesReached")
+    assert 0.1 < share < 1.0
+    assert any(f"at {share:.0%} of the faces of cells" in text for text in messages.warnings)
 
 
 def test_says_that_no_cell_takes_the_value(data):

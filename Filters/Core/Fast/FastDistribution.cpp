@@ -555,6 +555,10 @@ void FastSystem::finish()
   {
     particles.push_back(boundary.particle);
   }
+  const FacePassages faces =
+    countFacePassages(this->Mesh, *this->Proxy, this->Jumps, this->Parallel);
+  report.facesReached = faces.reached;
+  report.facesEnded = faces.ended;
   report.particlesUndersampled = std::count_if(
     particles.begin(), particles.end(), [](const Particle& p) { return p.isUndersampled(); });
   fitSmallComponents(*this->Proxy, all, particles, this->Parallel);
