@@ -237,7 +237,7 @@ void vtkHighOrderParticleIsosurface::Run(vtkDataObject* input, vtkDataObject* ou
   const auto quantity = static_cast<hop::Quantity>(this->FindQuantity());
   const hop::CheckedBlocks checked = hop::checkQuantity(this->FindScalars(gathered), quantity);
   this->Tell(checked.messages);
-  this->Tell(hop::reviewArrays(checked.sound));
+  this->Tell(hop::reviewArrays(checked.sound, properties.passed));
   bool hasTold = !checked.messages.empty();
   hop::RunCaller caller = this->CallerOfRun();
   caller.tell = [&](const hop::UserMessages& messages)
@@ -269,7 +269,8 @@ std::uint64_t vtkHighOrderParticleIsosurface::HashOfRequest(vtkDataObject* input
     { vtkIdType(this->Component), vtkIdType(this->FindQuantity()), vtkIdType(this->NodeSpacing),
       vtkIdType(this->Method), vtkIdType(this->Quality), vtkIdType(this->Seed),
       this->NumberOfParticles, this->ParticlesPerWorker, vtkIdType(this->WarmStart),
-      vtkIdType(this->PassDiagnostics), vtkIdType(this->OutputType), vtkIdType(this->Order) })
+      vtkIdType(this->PassDiagnostics), vtkIdType(this->PassDerivatives),
+      vtkIdType(this->OutputType), vtkIdType(this->Order) })
   {
     hash.addWord(static_cast<std::uint64_t>(number));
   }
@@ -325,7 +326,7 @@ hop::RunProperties vtkHighOrderParticleIsosurface::PropertiesOfRun()
   properties.particlesPerWorker = this->ParticlesPerWorker;
   properties.isClassic = this->Method == CLASSIC;
   properties.isWarmStart = this->WarmStart;
-  properties.passesDiagnostics = this->PassDiagnostics;
+  properties.passed = { this->PassDiagnostics, this->PassDerivatives };
   properties.outputType = static_cast<hop::OutputType>(this->OutputType);
   properties.order = this->Order;
   return properties;
@@ -394,6 +395,7 @@ void vtkHighOrderParticleIsosurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ParticlesPerWorker: " << this->ParticlesPerWorker << "\n";
   os << indent << "WarmStart: " << (this->WarmStart ? "On" : "Off") << "\n";
   os << indent << "PassDiagnostics: " << (this->PassDiagnostics ? "On" : "Off") << "\n";
+  os << indent << "PassDerivatives: " << (this->PassDerivatives ? "On" : "Off") << "\n";
   os << indent << "OutputType: " << this->OutputType << "\n";
   os << indent << "Order: " << this->Order << "\n";
   os << indent << "ContourValues:\n";

@@ -295,6 +295,17 @@ public:
   vtkBooleanMacro(PassDiagnostics, bool);
   ///@}
 
+  ///@{
+  /**
+   * Whether the output has derivatives of the contoured array at the particles, in world space, by the polynomials of
+   * their own cells: Gradient, three numbers a component (du_i/dx_j, j running fastest), and of vectors of three
+   * components Vorticity and Q_Criterion. Default off.
+   */
+  vtkSetMacro(PassDerivatives, bool);
+  vtkGetMacro(PassDerivatives, bool);
+  vtkBooleanMacro(PassDerivatives, bool);
+  ///@}
+
   /**
    * Whether the filter keeps a name for a point array of its own, whatever arrays the input has.
    */
@@ -373,6 +384,7 @@ private:
   vtkIdType ParticlesPerWorker = 0;
   bool WarmStart = false;
   bool PassDiagnostics = false;
+  bool PassDerivatives = false;
   int OutputType = PARTICLES;
   int Order = 2;
   std::unique_ptr<hop::PreviousRun> Previous;

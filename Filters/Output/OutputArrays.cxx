@@ -238,6 +238,14 @@ std::vector<ReportArray> makeReportArrays()
       "Particles at which the surface bends faster than their spacing can follow: curvature times "
       "spacing above 2.",
       [](const BlockReport& report) { return oneValue(report.sum.particlesUndersampled); } },
+    { "FacesReached",
+      "Faces of cells that the surface reaches, counted from each side. Of method Fast.",
+      [](const BlockReport& report) { return oneValue(report.sum.facesReached); } },
+    { "FacesEnded",
+      "Faces, of those that FacesReached counts, at which the surface ends: at a jump of the "
+      "field, or "
+      "where the mesh or the surface in the next cell ends.",
+      [](const BlockReport& report) { return oneValue(report.sum.facesEnded); } },
     { "UnresolvedCellIds", "Cells of the block with the parts that BoxesUnresolved counts.",
       [](const BlockReport& report) { return report.undecidedCells; } },
   };

@@ -1,5 +1,6 @@
 #include "Output/ParticlePacker.h"
 
+#include "Output/DerivativeArrays.h"
 #include "Output/OutputArrays.h"
 #include "Output/PointArrays.h"
 
@@ -47,23 +48,23 @@ bool isField(vtkPointData* data, vtkDataArray* array)
 }
 
 /// Whether the output has an array of its own in the place of a point array.
-bool isReplaced(const InputBlock& block, vtkDataArray* array)
+bool isReplaced(const InputBlock& block, vtkDataArray* array, const PassedArrays& passed)
 {
   const std::string name = array->GetName();
   // The contoured array has the isovalue at every particle, which is what the output's own array holds.
   const bool isSame =
     array == block.scalars && array->GetNumberOfComponents() == 1 && name == IsovalueArray;
-  return isOwnPointArray(name) && !isSame;
+  return (isOwnPointArray(name) && !isSame) || (passed.derivatives && isDerivativeArray(name));
 }
 
 /// Adds the names of the block's arrays that are not passed on.
-void addReplaced(const InputBlock& block, std::set<std::string>& names)
+void addReplaced(const InputBlock& block, const PassedArrays& passed, std::set<std::string>& names)
 {
   vtkPointData* points = block.grid->GetPointData();
   for (int a = 0; a < points->GetNumberOfArrays(); ++a)
   {
     vtkDataArray* array = points->GetArray(a);
-    if (isField(points, array) && isReplaced(block, array))
+    if (isField(points, array) && isReplaced(block, array, passed))
     {
       names.insert(std::string("point array '") + array->GetName() + "'");
     }
@@ -107,6 +108,8 @@ BlockReport reportOf(const std::vector<IsovalueParticles>& isovalues, const Cell
     undecided.insert(report.undecidedCells.begin(), report.undecidedCells.end());
     sum.particlesRejected += report.particlesRejected;
     sum.particlesUndersampled += report.particlesUndersampled;
+    sum.facesReached += report.facesReached;
+    sum.facesEnded += report.facesEnded;
   }
   const auto last = undecided.lower_bound(end);
   for (auto cell = undecided.lower_bound(begin); cell != last; ++cell)
@@ -158,7 +161,7 @@ class Packer
 {
 public:
   Packer(const InputBlocks& blocks, std::size_t block, const GridElements& elements, BlockRows rows,
-    bool withDiagnostics, Interruptible& work)
+    const PassedArrays& passed, Interruptible& work)
     : Blocks(blocks)
     , Block(block)
     , Grid(blocks[block].grid)
@@ -167,7 +170,7 @@ public:
     , Elements(elements)
     , Cells(blocks, block, elements)
     , Census(elements.census[block])
-    , WithDiagnostics(withDiagnostics)
+    , Passed(passed)
     , Work(work)
     , Output(blocks[block].particles)
     , Content(std::move(rows))
@@ -207,7 +210,7 @@ private:
   const GridElements& Elements;
   const RowCells Cells;
   const CellCensus& Census;
-  bool WithDiagnostics;
+  const PassedArrays& Passed;
   Interruptible& Work;
   vtkPointSet* Output;
   const BlockRows Content;
@@ -233,6 +236,11 @@ void Packer::pack(const std::vector<IsovalueParticles>& isovalues)
   this->addPointArrays();
   this->addOwnArrays();
   this->fillRows();
+  if (this->Passed.derivatives)
+  {
+    addDerivatives(
+      this->Blocks, this->Elements, this->Rows, this->Output->GetPointData(), std::ref(this->Work));
+  }
   this->addCellArrays();
   this->addReport(isovalues);
   this->addMeshReport(isovalues);
@@ -392,7 +400,7 @@ void Packer::addOwnArrays()
   std::map<RowWriter<vtkIdType>, vtkSmartPointer<vtkIdTypeArray>> idsOf;
   for (const ParticleArray& array : particleArrays())
   {
-    if (array.use == ArrayUse::Diagnostic && !this->WithDiagnostics)
+    if (array.use == ArrayUse::Diagnostic && !this->Passed.diagnostics)
     {
       continue;
     }
@@ -427,14 +435,15 @@ void Packer::addPointArrays()
   for (int a = 0; a < source->GetNumberOfArrays(); ++a)
   {
     vtkDataArray* array = source->GetArray(a);
-    if (!isField(source, array) || isOwnPointArray(array->GetName()))
+    if (!isField(source, array) || isOwnPointArray(array->GetName()) ||
+      (this->Passed.derivatives && isDerivativeArray(array->GetName())))
     {
       continue;
     }
     const std::string name = array->GetName();
     const int components = array->GetNumberOfComponents();
     vtkSmartPointer<vtkDoubleArray> values;
-    if (array == this->Scalars && components == 1)
+    if (array == this->Scalars && components == 1 && !this->Blocks.isDerived())
     {
       // Contour does the same: the array holds the isovalue, without noise of the tolerance's size.
       values = this->addArray<vtkDoubleArray>(
@@ -515,7 +524,7 @@ void Packer::addReport(const std::vector<IsovalueParticles>& isovalues)
 {
   vtkFieldData* target = this->Output->GetFieldData();
   target->PassData(this->Grid->GetFieldData());
-  if (!this->WithDiagnostics)
+  if (!this->Passed.diagnostics)
   {
     for (const ReportArray& row : reportArrays())
     {
@@ -623,18 +632,19 @@ void Packer::addComponents(const std::vector<IsovalueParticles>& isovalues)
 
 } // namespace
 
-std::vector<std::string> replacedArrays(const std::vector<InputBlock>& blocks)
+std::vector<std::string> replacedArrays(
+  const std::vector<InputBlock>& blocks, const PassedArrays& passed)
 {
   std::set<std::string> names;
   for (const InputBlock& block : blocks)
   {
-    addReplaced(block, names);
+    addReplaced(block, passed, names);
   }
   return { names.begin(), names.end() };
 }
 
 std::vector<ForeignCorners> packParticles(const InputBlocks& blocks, const GridElements& elements,
-  const std::vector<IsovalueParticles>& isovalues, bool withDiagnostics, Interruptible& work)
+  const std::vector<IsovalueParticles>& isovalues, const PassedArrays& passed, Interruptible& work)
 {
   std::vector<BlockRows> rows = shareOutToBlocks(blocks, elements.mesh, isovalues, work);
   std::vector<ForeignCorners> foreign;
@@ -642,7 +652,7 @@ std::vector<ForeignCorners> packParticles(const InputBlocks& blocks, const GridE
   {
     work.raiseFraction(static_cast<double>(b) / static_cast<double>(blocks.size()));
     work.ask();
-    Packer packer(blocks, b, elements, std::move(rows[b]), withDiagnostics, work);
+    Packer packer(blocks, b, elements, std::move(rows[b]), passed, work);
     packer.pack(isovalues);
     foreign.push_back(packer.foreignCorners());
   }

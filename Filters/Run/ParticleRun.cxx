@@ -173,8 +173,7 @@ bool GroupRun::run(const Work& work, std::vector<std::int64_t>& counts)
     {
       const Work packing = work.part(ProgressAt::Distributed, 1.0);
       Interruptible loops(packing.monitor, packing.parallelFor);
-      foreign = packParticles(
-        this->Blocks, *elements, particles, this->Properties.passesDiagnostics, loops);
+      foreign = packParticles(this->Blocks, *elements, particles, this->Properties.passed, loops);
     });
   if (this->Properties.outputType != OutputType::Particles)
   {

@@ -3,6 +3,7 @@
 #include "Elements/NodalBasis.h"
 #include "Input/InputBlocks.h"
 #include "Input/UserMessage.h"
+#include "Output/ParticlePacker.h"
 #include "Run/PreviousRun.h"
 #include "Run/RunMesh.h"
 #include "Run/RunScale.h"
@@ -35,8 +36,7 @@ struct RunProperties
   std::int64_t particlesPerWorker = 0;
   /// Whether particles of the previous run go on where they can.
   bool isWarmStart = true;
-  /// Whether the output tells more than pictures need.
-  bool passesDiagnostics = false;
+  PassedArrays passed;
   OutputType outputType = OutputType::Particles;
   /// Of curved triangles.
   int order = 2;

@@ -1,6 +1,5 @@
 #include "Run/RunMessages.h"
 
-#include "Output/ParticlePacker.h"
 #include "Run/Ranks.h"
 
 #include "vtkBoundingBox.h"
@@ -28,6 +27,21 @@ std::string describeError(const DistributionReport& report, std::int64_t numberO
 {
   return report.error + ", which is what memory holds. Choose " +
     fewerParticles(numberOfParticles) + ".";
+}
+
+/// \param share of the faces of cells at which the surface ends
+std::string describeGaps(double share)
+{
+  std::ostringstream text;
+  text << "at " << std::lround(100.0 * share)
+       << "% of the faces of cells that the surface reaches it ends. Derivatives jump there from "
+          "cell to cell, so far "
+          "that its two sides miss each other by more than 0.4 of the spacing, or it leaves the "
+          "mesh. Gaps tell "
+          "where the mesh is too coarse for this Quantity; a finer mesh or a higher degree closes "
+          "them, another Spacing "
+          "does not.";
+  return text.str();
 }
 
 std::string describeUndecided(const RankBlocks& blocks, const DistributionReport& report)
@@ -168,9 +182,9 @@ UserMessage describeFailure(const std::exception& failure, std::int64_t numberOf
       "). If that is for want of memory, choose " + fewerParticles(numberOfParticles) + "." };
 }
 
-UserMessages reviewArrays(const std::vector<InputBlock>& blocks)
+UserMessages reviewArrays(const std::vector<InputBlock>& blocks, const PassedArrays& passed)
 {
-  const std::vector<std::string> names = replacedArrays(blocks);
+  const std::vector<std::string> names = replacedArrays(blocks, passed);
   if (names.empty())
   {
     return {};
@@ -221,6 +235,14 @@ UserMessages reviewDistribution(const RankBlocks& blocks, const Distribution& di
   if (report.boxesUndecided > 0)
   {
     add(UserMessage::Warning, describeUndecided(blocks, report));
+  }
+  // Share of the faces that is worth a warning: with fewer gaps the surface looks whole. Chosen by experiment.
+  constexpr double manyFaces = 0.1;
+  const double share = static_cast<double>(report.facesEnded) /
+    static_cast<double>(std::max<std::int64_t>(report.facesReached, 1));
+  if (blocks.origin().quantity != Quantity::Value && share > manyFaces)
+  {
+    add(UserMessage::Warning, describeGaps(share));
   }
   return messages;
 }

@@ -4,6 +4,7 @@
 #include "Input/InputBlocks.h"
 #include "Input/UserMessage.h"
 #include "Output/OutputRows.h"
+#include "Output/ParticlePacker.h"
 #include "Run/RankBlocks.h"
 #include "Run/SpacingAdvice.h"
 #include "Surface/Particles.h"
@@ -23,7 +24,7 @@ namespace hop
 UserMessage describeFailure(const std::exception& failure, std::int64_t numberOfParticles);
 
 /// Tells which arrays are not passed on.
-UserMessages reviewArrays(const std::vector<InputBlock>& blocks);
+UserMessages reviewArrays(const std::vector<InputBlock>& blocks, const PassedArrays& passed);
 
 /// Tells which cells are not as they should be.
 /// \param census one census a block

@@ -186,7 +186,7 @@ void runStages(const Request& request, Stages& stages)
       const hop::Monitor noMonitor;
       hop::Interruptible work(noMonitor, parallelFor);
       hop::packParticles(
-        blocks, stages.elements, { { request.isovalue, stages.distribution, {} } }, false, work);
+        blocks, stages.elements, { { request.isovalue, stages.distribution, {} } }, {}, work);
     });
 }
 

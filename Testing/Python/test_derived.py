@@ -59,7 +59,7 @@ def test_agrees_with_vtk_on_a_flow(quantity, data):
     grid = support.output_of(reader)
     values = in_cells(grid, "velocity", quantity)
     isovalue = np.quantile(values, 0.8)
-    particles, messages = support.run(reader, "velocity", isovalue, Quantity=quantity)
+    particles, messages = support.run(reader, "velocity", isovalue, Quantity=quantity, Spacing=0.04)
     assert messages.errors == []
     assert particles.GetNumberOfPoints() > 1000
     error = np.abs(at_particles(grid, "velocity", quantity, particles) - isovalue)
@@ -160,6 +160,14 @@ def test_a_scalar_has_no_q_criterion(data):
     assert any("three components" in text for text in messages.errors)
 
 
+def test_tells_of_gaps_between_cells(data):
+    reader = support.read(data(FLOW))
+    particles, messages = support.run(reader, "velocity", 10.0, Quantity="Q Criterion", Spacing=0.02)
+    share = support.reported(particles, "FacesEnded") / support.reported(particles, "FacesReached")
+    assert 0.1 < share < 1.0
+    assert any(f"at {share:.0%} of the faces of cells" in text for text in messages.warnings)
+
+
 def test_says_that_no_cell_takes_the_value(data):
     reader = support.read(data(FLOW))
     particles, messages = support.run(reader, "velocity", 1e9, Quantity="Q Criterion")
@@ -211,3 +219,49 @@ def test_threads_do_not_matter():
         vtkSMPTools.Initialize(threads)
         outputs.append(support.contents(support.run(grid, "u", 0.2, Quantity="Q Criterion", Seed=1)[0]))
     assert outputs[0] == outputs[1]
+
+
+# Derivatives to colour by.
+
+
+@pytest.mark.parametrize("output_type", ["Particles", "Triangles"])
+def test_passes_derivatives(output_type, data):
+    reader = support.read(data(FLOW))
+    grid = support.output_of(reader)
+    proxy, messages = support.make_filter(
+        reader, "velocity", 10.0, Quantity="Q Criterion", PassDerivatives=1, OutputType=output_type, Spacing=0.02
+    )
+    particles = support.output_of(proxy)
+    ids = support.array_of(particles, "vtkOriginalCellIds")
+    expected = gradients_at(grid, "velocity", ids, support.array_of(particles, "ParametricCoordinates"))
+    scale = np.abs(expected).max()
+    assert len(ids) > 500
+    gradients = support.array_of(particles, "Gradient").reshape(-1, 3, 3)
+    assert np.abs(gradients - expected).max() < 1e-6 * scale
+    vorticity = np.linalg.norm(support.array_of(particles, "Vorticity"), axis=1)
+    assert np.abs(vorticity - derived("Vorticity Magnitude", expected)).max() < 1e-6 * scale
+    assert np.abs(support.array_of(particles, "Q_Criterion") - 10.0).max() < 1e-6 * scale**2
+
+
+def test_scalars_have_a_gradient_and_keep_their_values(data):
+    reader = support.read(data(FLOW))
+    grid = support.output_of(reader)
+    particles, messages = support.run(
+        reader, "pressure", 5.0, Quantity="Gradient Magnitude", PassDerivatives=1, Spacing=0.05
+    )
+    assert messages.errors == []
+    gradient = support.array_of(particles, "Gradient")
+    assert np.abs(np.linalg.norm(gradient, axis=1) - 5.0).max() < 1e-6
+    _, values, by_vtk = support.evaluate_by_vtk(grid, particles, ["pressure"])
+    assert np.abs(gradient - by_vtk).max() < 1e-6 * np.abs(by_vtk).max()
+    assert np.abs(support.array_of(particles, "pressure") - values["pressure"]).max() < 1e-6
+    assert {"Vorticity", "Q_Criterion"}.isdisjoint(support.array_names(particles.GetPointData()))
+
+
+def test_says_that_its_gradient_replaces_the_inputs():
+    grid = bent_grid("LAGRANGE_TETRAHEDRON")
+    support.add_point_array(grid, "u", support.points_of(grid)[:, 0])
+    support.add_point_array(grid, "Gradient", support.points_of(grid))
+    particles, messages = support.run(grid, "u", 0.2, PassDerivatives=1)
+    assert np.abs(support.array_of(particles, "Gradient") - [1.0, 0.0, 0.0]).max() < 1e-9
+    assert any("'Gradient'" in text for text in messages.warnings)

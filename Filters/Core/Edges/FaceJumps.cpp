@@ -357,4 +357,34 @@ FaceJumps findFaceJumps(
   return JumpFinder(surface, proxy).run(parallelFor);
 }
 
+FacePassages countFacePassages(const ElementMesh& mesh, const SurfaceProxy& proxy,
+  const FaceJumps& jumps, const ParallelFor& parallelFor)
+{
+  std::atomic<std::int64_t> reached{ 0 };
+  std::atomic<std::int64_t> ended{ 0 };
+  runParallel(parallelFor, static_cast<std::ptrdiff_t>(mesh.elements.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      for (auto e = static_cast<int>(begin); e < end; ++e)
+      {
+        std::array<bool, MaximumFaces> seen{};
+        const auto [firstBox, lastBox] = proxy.boxesOf(e);
+        for (std::size_t b = firstBox; b < lastBox; ++b)
+        {
+          visitFaceCrossings(
+            mesh, proxy.boxes()[b], [&](int face) { return !seen[face]; },
+            [&](const FaceCrossing& crossing) { seen[crossing.face] = true; });
+        }
+        for (int face = 0; face < MaximumFaces; ++face)
+        {
+          reached += seen[face];
+          ended += seen[face] &&
+            (mesh.neighbor(e, face).element < 0 ||
+              std::isfinite(jumps.jumpTolerances[faceSlot(e, face)]));
+        }
+      }
+    });
+  return { reached, ended };
+}
+
 } // namespace hop

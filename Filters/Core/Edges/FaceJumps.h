@@ -37,4 +37,16 @@ constexpr double CreaseAngle = 0.17453293;
 FaceJumps findFaceJumps(
   const Isosurface& surface, const SurfaceProxy& proxy, const ParallelFor& parallelFor);
 
+/// How often the surface reaches a face of an element, counted from each side, and how often it ends there: at a jump,
+/// or because nothing is joined to the face, be it the end of the mesh or an element without surface.
+struct FacePassages
+{
+  std::int64_t reached = 0;
+  std::int64_t ended = 0;
+};
+
+/// \param jumps of the surface
+FacePassages countFacePassages(const ElementMesh& mesh, const SurfaceProxy& proxy,
+  const FaceJumps& jumps, const ParallelFor& parallelFor);
+
 } // namespace hop

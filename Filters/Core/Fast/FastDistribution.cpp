@@ -603,6 +603,10 @@ void FastSystem::finish()
   {
     particles.push_back(boundary.particle);
   }
+  const FacePassages faces =
+    countFacePassages(this->Mesh, *this->Proxy, this->Jumps, this->Parallel);
+  report.facesReached = faces.reached;
+  report.facesEnded = faces.ended;
   fitSmallComponents(*this->Proxy, all, particles, this->Parallel);
   this->dropOthers();
   report.particlesUndersampled = std::count_if(

@@ -126,6 +126,9 @@ struct DistributionReport
   std::int64_t particlesRejected = 0;
   /// Particles for which Particle::isUndersampled() holds.
   std::int64_t particlesUndersampled = 0;
+  /// Faces of elements that the surface reaches, counted from each side, and those of them at which it ends; Fast only.
+  std::int64_t facesReached = 0;
+  std::int64_t facesEnded = 0;
   bool converged = true;
   bool aborted = false;
   /// Why nothing was computed; empty if all is well.

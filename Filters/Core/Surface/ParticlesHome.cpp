@@ -25,6 +25,8 @@ struct Header
   std::int64_t singularPoints = 0;
   std::int64_t particlesRejected = 0;
   std::int64_t particlesUndersampled = 0;
+  std::int64_t facesReached = 0;
+  std::int64_t facesEnded = 0;
   bool converged = true;
   bool isDone = false;
 };
@@ -39,6 +41,8 @@ Header headerOf(const DistributionReport& report)
   header.singularPoints = report.singularPoints;
   header.particlesRejected = report.particlesRejected;
   header.particlesUndersampled = report.particlesUndersampled;
+  header.facesReached = report.facesReached;
+  header.facesEnded = report.facesEnded;
   header.converged = report.converged;
   header.isDone = !report.aborted;
   return header;
@@ -54,6 +58,8 @@ DistributionReport reportOf(const Header& header)
   report.singularPoints = header.singularPoints;
   report.particlesRejected = header.particlesRejected;
   report.particlesUndersampled = header.particlesUndersampled;
+  report.facesReached = header.facesReached;
+  report.facesEnded = header.facesEnded;
   report.converged = header.converged;
   report.aborted = !header.isDone;
   return report;

@@ -235,6 +235,23 @@ TEST(FaceJumps, KnowTheDihedralAngleWhereFacesDoNotMatch)
   EXPECT_EQ(found.otherAngles.most, 0.0f);
 }
 
+TEST(FaceJumps, CountWhereTheSurfaceEnds)
+{
+  const auto passages = [](double step)
+  {
+    const ElementMesh mesh = Halves{ 0.0, 0.0, step }.mesh(Domain::Hexahedron);
+    const Isosurface surface{ &mesh, 0.0, 1e-9 };
+    const SurfaceProxy proxy(
+      surface, { spacing, 0.0 }, findSurfaceBoxes(mesh, 0.0, 6.0 * spacing, {}), {});
+    return countFacePassages(mesh, proxy, findFaceJumps(surface, proxy, {}), threadedFor(3));
+  };
+  // A plane through two boxes: each has four sides with surface, of which one is joined to the other box.
+  EXPECT_EQ(passages(0.0).reached, 8);
+  EXPECT_EQ(passages(0.0).ended, 6);
+  EXPECT_EQ(passages(2.0).reached, 8);
+  EXPECT_EQ(passages(2.0).ended, 8);
+}
+
 TEST(FaceJumps, DoNotDependOnThreads)
 {
   const ElementMesh mesh = Halves{ 0.5, -0.5, 0.3 }.mesh(Domain::Tetrahedron);
