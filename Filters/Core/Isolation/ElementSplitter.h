@@ -37,15 +37,14 @@ public:
     std::vector<SurfaceBox>& boxes);
 
 private:
-  /// What becomes of a piece: nothing, boxes, an undecided box, or two halves, the first of which replaces the piece.
+  /// What becomes of a piece: nothing, boxes, an undecided box, or pieces of the next level.
   struct Outcome
   {
     std::vector<SurfaceBox> boxes;
-    bool isHalved = false;
     /// The box may be replaced by a part of the element.
     bool isUndecided = false;
-    /// The second half.
-    Piece second;
+    /// Two halves, or what a certified piece has left after its boxes so far.
+    std::vector<Piece> next;
   };
 
   void prepareFor(const BernsteinForm& form);
@@ -58,7 +57,7 @@ private:
   bool finishCertified(const Piece& piece, std::vector<SurfaceBox>& boxes) const;
   bool finishUndecided(const Piece& piece, const StopRule& rule, Outcome& outcome) const;
   std::optional<SheetPair> sheetPairIn(const Piece& piece, bool isLast) const;
-  void followToBoxes(Piece& piece, std::vector<SurfaceBox>& boxes) const;
+  std::vector<Piece> followToBoxes(Piece piece, std::vector<SurfaceBox>& boxes) const;
 
   const ElementMesh& Mesh;
   double Isovalue;

@@ -54,8 +54,15 @@ std::ptrdiff_t mostUndecided(const Piece& piece)
 StopRule stopRuleOf(const std::vector<Piece>& level, bool isCrossed, const PieceTests& tests)
 {
   StopRule rule;
-  rule.all = undecidedCount(level) > mostUndecided(level.front());
-  const int bisections = level.front().bisections;
+  // Undecided pieces of a level are of one size; certified ones may have been halved more often.
+  const auto undecided = std::find_if(
+    level.begin(), level.end(), [](const Piece& piece) { return !piece.certified(); });
+  if (undecided == level.end())
+  {
+    return rule;
+  }
+  rule.all = undecidedCount(level) > mostUndecided(*undecided);
+  const int bisections = undecided->bisections;
   if (bisections < TangencyTests::First || bisections % TangencyTests::Interval != 0)
   {
     return rule;
