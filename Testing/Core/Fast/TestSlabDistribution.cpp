@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <mutex>
@@ -32,6 +33,8 @@ namespace
 {
 
 constexpr double tolerance = 1e-9;
+/// Workers wait for each other longer than messages take.
+constexpr std::chrono::seconds longestWait{ 120 };
 
 /// A surface in a long bar, to be cut across.
 struct SlabCase
@@ -185,7 +188,8 @@ Together distributeTogether(const SlabCase& which, const ElementMesh& mesh, std:
           ofSlabs[slab] = std::move(result.distributions[slab]);
         }
       }
-    });
+    },
+    longestWait);
   for (const Distribution& some : ofSlabs)
   {
     together.particles.insert(
@@ -330,7 +334,8 @@ void runTwoRanks(const std::function<SlabResult(Exchange&, const std::vector<Sla
       {
         EXPECT_TRUE(some.particles.empty());
       }
-    });
+    },
+    longestWait);
 }
 
 TEST(SlabDistribution, EndsOnAllRanksWhereOneIsInterrupted)
