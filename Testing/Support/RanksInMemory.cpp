@@ -19,8 +19,9 @@ namespace
 class Mailbox
 {
 public:
-  explicit Mailbox(int count)
+  Mailbox(int count, std::chrono::seconds longest)
     : Count(count)
+    , Longest(longest)
   {
   }
 
@@ -59,8 +60,7 @@ private:
   template <class Condition>
   void wait(std::unique_lock<std::mutex>& lock, const Condition& isMet)
   {
-    constexpr std::chrono::seconds longest{ 10 };
-    if (!this->Change.wait_for(lock, longest, [&]() { return isMet() || this->Failure; }))
+    if (!this->Change.wait_for(lock, this->Longest, [&]() { return isMet() || this->Failure; }))
     {
       throw std::runtime_error("a rank waits for one that has left");
     }
@@ -71,6 +71,7 @@ private:
   }
 
   int Count;
+  std::chrono::seconds Longest;
   std::mutex Mutex;
   std::condition_variable Change;
   std::map<std::pair<int, int>, Bytes> Messages;
@@ -138,9 +139,9 @@ private:
 
 } // namespace
 
-void runRanks(int count, const std::function<void(Exchange&)>& work)
+void runRanks(int count, const std::function<void(Exchange&)>& work, std::chrono::seconds longest)
 {
-  Mailbox mailbox(count);
+  Mailbox mailbox(count, longest);
   std::vector<std::thread> threads;
   for (int rank = 0; rank < count; ++rank)
   {

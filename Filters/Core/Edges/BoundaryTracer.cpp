@@ -540,8 +540,7 @@ std::optional<BoundaryVertex> BoundaryTracer::advanceAtMost(
   // A step of zero, where single precision has no spacing as small, would be halved for ever.
   const double least =
     this->isCutAt(heading.here) ? ChordLengths::ShortestOnCut : ChordLengths::Shortest;
-  for (double shortest = least * step; chord > 0.0 && chord >= shortest;
-       chord *= 0.5)
+  for (double shortest = least * step; chord > 0.0 && chord >= shortest; chord *= 0.5)
   {
     const Ahead ahead = this->advance(heading, chord);
     if (ahead.vertex)

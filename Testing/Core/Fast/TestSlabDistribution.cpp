@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <iostream>
@@ -32,6 +33,8 @@ namespace
 {
 
 constexpr double tolerance = 1e-9;
+/// Workers wait for each other longer than messages take.
+constexpr std::chrono::seconds longestWait{ 120 };
 
 /// A surface in a long bar, to be cut across.
 struct SlabCase
@@ -164,7 +167,8 @@ Together distributeTogether(const SlabCase& which, const ElementMesh& mesh, std:
   Together together;
   std::vector<Distribution> ofSlabs(workers);
   std::mutex access;
-  runRanks(ranks,
+  runRanks(
+    ranks,
     [&](Exchange& exchange)
     {
       const ElementMesh& mine = parts[exchange.rank()];
@@ -183,7 +187,8 @@ Together distributeTogether(const SlabCase& which, const ElementMesh& mesh, std:
           ofSlabs[slab] = std::move(result.distributions[slab]);
         }
       }
-    });
+    },
+    longestWait);
   for (const Distribution& some : ofSlabs)
   {
     together.particles.insert(
@@ -322,7 +327,8 @@ void runTwoRanks(const std::function<SlabResult(
 {
   const SlabCase which = coarse(ellipsoidCase());
   const std::vector<ElementMesh> parts = scattered(meshOf(which), 2, 1);
-  runRanks(2,
+  runRanks(
+    2,
     [&](Exchange& exchange)
     {
       const ElementMesh& mine = parts[exchange.rank()];
@@ -336,7 +342,8 @@ void runTwoRanks(const std::function<SlabResult(
       {
         EXPECT_TRUE(some.particles.empty());
       }
-    });
+    },
+    longestWait);
 }
 
 TEST(SlabDistribution, EndsOnAllRanksWhereOneIsInterrupted)
