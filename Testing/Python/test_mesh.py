@@ -325,6 +325,20 @@ def test_slices_are_meshes_too(grid):
     assert area == pytest.approx(16.0, rel=1e-9)
 
 
+@pytest.mark.parametrize("origin, normal", [
+    ([2, 2, 2], [0, 0, 1]),  # in faces of elements
+    ([2, 2, 1], [0, 0, 1]),
+    ([2, 2, 2], [1, 1, 1]),  # through corners
+])
+def test_slices_in_faces_and_through_corners_are_proven(grid, origin, normal):
+    cut = simple.HighOrderParticleSlice(Input=support.source_of(grid), OutputType="Triangles", Spacing=SPACING)
+    cut.SliceType.Origin, cut.SliceType.Normal = origin, normal
+    mesh = output_of(cut)
+    assert support.reported(mesh, "TopologyProven") == 1
+    parts = components_of(mesh)
+    assert list(parts["EulerCharacteristic"]) == [1] and list(parts["BoundaryLoops"]) == [1]
+
+
 # Composites and ranks
 
 

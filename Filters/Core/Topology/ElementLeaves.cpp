@@ -17,9 +17,10 @@ struct SplitLimits
   static constexpr std::size_t FewestBoxes = 2048;
   static constexpr std::size_t MostBoxes = 16384;
   /// Size of a leaf, in units of the smallest one, from which it is not split because the field is the isovalue at
-  /// one of its corners, to rounding: all leaves at this corner would be like it. Smaller: fewer components pass
-  /// unresolved leaves, and surfaces in faces of elements take longer.
-  static constexpr int SizeAtZero = LeafGrid::Size / 8;
+  /// one of its corners, to rounding: where the surface is singular, all leaves at this corner would be like it. Smaller:
+  /// fewer components pass unresolved leaves, and elements that are singular along edges or in faces take longer: 2 ms
+  /// each at a 32nd, 0.1 s without this limit (topology_benchmark vtkdata_pyramid_quadratic.vtu DistanceToCenter 0.866).
+  static constexpr int SizeAtZero = LeafGrid::Size / 32;
 
   static std::size_t boxes(std::size_t coefficients)
   {

@@ -147,13 +147,18 @@ bool isOneSided(const std::vector<double>& values, const std::vector<int>& point
     points.begin(), points.end(), [&](int point) { return sign * values[point] > slack; });
 }
 
+/// The lift is two slacks; rounding leaves it below this.
+double mostLifted(double slack)
+{
+  return 2.5 * slack;
+}
+
 /// The field as it was before zeros were lifted (ElementCube.h): where it stands still at a zero, it is singular there.
 std::vector<double> withoutLift(std::vector<double> values, double slack)
 {
-  // Rounding leaves the lift of two slacks below this.
-  const double mostLifted = 2.5 * slack;
+  const double most = mostLifted(slack);
   std::replace_if(
-    values.begin(), values.end(), [=](double value) { return std::abs(value) <= mostLifted; }, 0.0);
+    values.begin(), values.end(), [=](double value) { return std::abs(value) <= most; }, 0.0);
   return values;
 }
 
@@ -205,6 +210,8 @@ LeafSurface LeafTests::examine(
     return LeafSurface::Empty;
   }
   signs = 0;
+  // Whether a corner is zero, but was lifted.
+  LeafSurface undecided = LeafSurface::Undecided;
   for (int corner = 0; corner < 8; ++corner)
   {
     const double value = values[this->Corners[corner]];
@@ -212,12 +219,16 @@ LeafSurface LeafTests::examine(
     {
       return LeafSurface::ZeroAtCorner;
     }
+    if (std::abs(value) <= mostLifted(slack))
+    {
+      undecided = LeafSurface::ZeroAtCorner;
+    }
     signs = static_cast<std::uint8_t>(signs | (value > 0.0) << corner);
   }
   const int curves = curvesOf(signs);
   if (curves != 0 && curves != 1)
   {
-    return LeafSurface::Undecided;
+    return undecided;
   }
   for (int e = 0; e < 12; ++e)
   {
@@ -225,7 +236,7 @@ LeafSurface LeafTests::examine(
                                              signs >> cubeEdges()[e].second & 1 ? 1.0 : -1.0)
                                          : !isOneSided(values, this->Edges[e], slack))
     {
-      return LeafSurface::Undecided;
+      return undecided;
     }
   }
   const std::vector<double> given = withoutLift(values, slack);
@@ -234,7 +245,7 @@ LeafSurface LeafTests::examine(
       [&](const Face& face)
       { return isOneSided(values, face.points, slack) || this->isOneArc(face, given); }))
   {
-    return LeafSurface::Undecided;
+    return undecided;
   }
   return curves == 0 ? LeafSurface::Empty : LeafSurface::Disc;
 }

@@ -15,7 +15,7 @@ enum class LeafSurface
   /// It is one disc. Its boundary crosses each edge of the leaf whose ends have different signs once, and no other
   /// edge; it is one arc in each face with two crossed edges, and there is nothing of it in the other faces.
   Disc,
-  /// Not decided, as the field at a corner is zero to rounding.
+  /// Not decided, and the field at a corner is zero to rounding, or was before it was lifted.
   ZeroAtCorner,
   Undecided
 };
