@@ -208,10 +208,7 @@ public:
   void sampleCreases(bool looksForMore)
   {
     this->HasCuts = true;
-    if (looksForMore)
-    {
-      this->Tracer.lookForCreases();
-    }
+    this->Tracer.followCuts(looksForMore);
   }
   /// Traces all curves.
   /// \return slots of faces along which the surface ought to be cut

@@ -33,7 +33,7 @@ struct ChordLengths
   /// A boundary curve that cannot be followed by chords this short ends: all but tangent to its face it is not known to
   /// be there. Shorter ones cost evaluations at every dead end; longer ones give up at sharp bends.
   static constexpr double Shortest = 1.0 / 32.0;
-  /// The same along a cut, which ends nowhere: it may bend within far less than the spacing where spacings are small.
+  /// The same on surfaces that are cut, where curves end nowhere: they may bend within far less than the spacing where spacings are small.
   static constexpr double ShortestOnCut = 1.0 / 1024.0;
   /// Where the surface goes on beyond its face, a boundary curve ends within this distance of the place at which the
   /// surface begins to go on. Shorter ones cost evaluations.
@@ -470,7 +470,7 @@ ReferenceVector BoundaryTracer::predict(const Heading& heading, double step) con
   return (heading.direction * step) * (now + weight * change);
 }
 
-/// Whether a curve along a cut keeps to the face between two points: the distances from the face's edges are cubics, by
+/// Whether a curve keeps to the face between two points: the distances from the face's edges are cubics, by
 /// their values and slopes at both points. A curve that leaves the face and comes back has two vertices more, which its
 /// other side may see.
 bool BoundaryTracer::staysOnFace(const BoundaryPoint& from, const BoundaryPoint& to) const
@@ -521,7 +521,7 @@ BoundaryTracer::Ahead BoundaryTracer::advance(const Heading& heading, double ste
   }
   const auto next = this->project({ from.at.location.element, u }, from.face, step);
   if (!next || dot(this->tangent(*next), this->tangent(from)) < TraceAngles::LeastCosine ||
-    (this->isCutAt(from) && !this->staysOnFace(from, *next)))
+    (this->HasCuts && !this->staysOnFace(from, *next)))
   {
     return {};
   }
@@ -538,8 +538,7 @@ std::optional<BoundaryVertex> BoundaryTracer::advanceAtMost(
   double& chord, double step, const Heading& heading)
 {
   // A step of zero, where single precision has no spacing as small, would be halved for ever.
-  const double least =
-    this->isCutAt(heading.here) ? ChordLengths::ShortestOnCut : ChordLengths::Shortest;
+  const double least = this->HasCuts ? ChordLengths::ShortestOnCut : ChordLengths::Shortest;
   for (double shortest = least * step; chord > 0.0 && chord >= shortest; chord *= 0.5)
   {
     const Ahead ahead = this->advance(heading, chord);

@@ -87,8 +87,13 @@ public:
   {
   }
 
-  /// Lets walks around edges of the mesh look for creases along which the surface is not cut.
-  void lookForCreases() { this->LooksForCreases = true; }
+  /// For a surface that is cut along creases: curves leave no face unnoticed, as the other side has to see the same.
+  /// \param looksForMore whether walks around edges of the mesh look for creases along which the surface is not cut
+  void followCuts(bool looksForMore)
+  {
+    this->HasCuts = true;
+    this->LooksForCreases = looksForMore;
+  }
   /// The slots of their faces, both sides.
   const std::vector<std::size_t>& overlookedCreases() const { return this->OverlookedCreases; }
 
@@ -207,6 +212,7 @@ private:
   /// Passes boundary faces where the surface goes on, and so tells where it ends.
   SurfaceWalker Passer;
   BoundaryChords Chords;
+  bool HasCuts = false;
   bool LooksForCreases = false;
   std::vector<std::size_t> OverlookedCreases;
 };

@@ -397,7 +397,7 @@ TEST(BoundaryCurves, OfOneSideOfACreaseHaveItsSurfaceToTheirLeft)
   {
     const Particle& first = curves.particles[a].particle;
     const Particle& second = curves.particles[b].particle;
-    const double side = first.normal.xyz.x > 0.0 ? 0.5 : -0.5;
+    const double side = first.normal.xyz.x > 0.0 ? -0.5 : 0.5;
     const glm::dvec3 middle(side, 0.0, 0.1 - std::abs(side));
     const glm::dvec3 left = glm::cross(first.normal.xyz, (second.position - first.position).xyz);
     EXPECT_GT(glm::dot(left, middle - first.position.xyz), 0.0);
