@@ -168,15 +168,16 @@ def complaints(contour, grid, output, is_part):
     found += ["a place is outside its cell"] * bool(places.min() < -1e-9 or places.max() > 1 + 1e-9)
     found += ["a radius is not positive"] * bool(columns["Radius"].min() <= 0)
     if contour.GetOutputType() != contour.PARTICLES:
-        found += mesh_faults(output)
+        found += mesh_faults(output, is_part)
         # Corners may be at home in another block, and nodes of curved triangles off the surface, with a warning.
         if is_part or support.reported(output, "MeshStraightNodes") > 0:
             return found
     return found or misplaced(contour, grid, output)
 
 
-def mesh_faults(mesh):
-    """What keeps a mesh, of flat or curved triangles, from being an oriented manifold with boundary."""
+def mesh_faults(mesh, is_part):
+    """What keeps a mesh, of flat or curved triangles, from being an oriented manifold with boundary. The part of a mesh
+    that lies in one block may touch itself in a corner."""
     cells = mesh.GetPolys() if mesh.IsA("vtkPolyData") else mesh.GetCells()
     count = cells.GetNumberOfCells()
     ids = support.vtk_to_numpy(cells.GetConnectivityArray()).reshape(count, -1)
@@ -187,7 +188,9 @@ def mesh_faults(mesh):
     corners = ids[:, :3]
     edges = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]])
     found += ["two triangles are on one side of an edge"] * (len(np.unique(edges, axis=0)) != len(edges))
-    return found + ["two fans of triangles touch in a corner"] * (count <= FANNED and has_touching_fans(corners))
+    return found + ["two fans of triangles touch in a corner"] * (
+        count <= FANNED and not is_part and has_touching_fans(corners)
+    )
 
 
 def has_touching_fans(corners):
