@@ -93,8 +93,8 @@ private:
   bool plan(const GridElements& elements, const Work& work);
   bool distributeInSlabs(
     GridElements& elements, const Work& work, std::vector<IsovalueParticles>& particles);
-  void distributeSlabsOf(const SlabMeshes& meshes, double fieldIsovalue, const Work& work,
-    IsovalueParticles& some);
+  void distributeSlabsOf(
+    const SlabMeshes& meshes, double fieldIsovalue, const Work& work, IsovalueParticles& some);
   bool bringSlabsHome(const SlabMeshes& meshes, std::vector<Distribution>& ofSlabs,
     const ParallelFor& parallelFor, Distribution& home);
   void attemptAgain(const std::exception_ptr& failure);
@@ -242,9 +242,9 @@ bool GroupRun::plan(const GridElements& elements, const Work& work)
   if (!isovalues.empty())
   {
     // An abort is asked for later: all ranks have to come to the same plan.
-    SlabPlan slabs = planSlabs(this->Ranks, elements.mesh, isovalues,
-      worker.parametersOf(0.0).sizing, static_cast<double>(asked.particlesPerWorker),
-      work.parallelFor);
+    SlabPlan slabs =
+      planSlabs(this->Ranks, elements.mesh, isovalues, worker.parametersOf(0.0).sizing,
+        static_cast<double>(asked.particlesPerWorker), work.parallelFor);
     this->attemptAgain(slabs.failure);
     this->Slabs = std::move(slabs.slabs);
   }
@@ -302,8 +302,8 @@ bool GroupRun::distributeInSlabs(
 }
 
 /// Distributes the particles of one isovalue, and brings them home.
-void GroupRun::distributeSlabsOf(const SlabMeshes& meshes, double fieldIsovalue, const Work& work,
-  IsovalueParticles& some)
+void GroupRun::distributeSlabsOf(
+  const SlabMeshes& meshes, double fieldIsovalue, const Work& work, IsovalueParticles& some)
 {
   const auto workerOn = [&](const ElementMesh& mesh)
   {
@@ -339,9 +339,9 @@ bool GroupRun::bringSlabsHome(const SlabMeshes& meshes, std::vector<Distribution
   bool isComplete = true;
   for (std::size_t slab = 0; slab < ofSlabs.size(); ++slab)
   {
-    HomeParticles part = hop::bringHome(this->Ranks,
-      rankOfSlab(slab, ofSlabs.size(), this->Ranks.size()), ofSlabs[slab], this->IsSound,
-      meshes.meshes[slab], this->Sizes, parallelFor);
+    HomeParticles part =
+      hop::bringHome(this->Ranks, rankOfSlab(slab, ofSlabs.size(), this->Ranks.size()),
+        ofSlabs[slab], this->IsSound, meshes.meshes[slab], this->Sizes, parallelFor);
     isComplete = isComplete && part.isComplete;
     this->attempt(
       [&]()

@@ -139,8 +139,7 @@ private:
 
 } // namespace
 
-void runRanks(
-  int count, const std::function<void(Exchange&)>& work, std::chrono::seconds longest)
+void runRanks(int count, const std::function<void(Exchange&)>& work, std::chrono::seconds longest)
 {
   Mailbox mailbox(count, longest);
   std::vector<std::thread> threads;

@@ -119,7 +119,8 @@ void gatherElements(Exchange& exchange, int worker, ElementMesh& part,
   std::vector<int> numbers(all.homes.size());
   for (int from = 0; from < exchange.size(); ++from)
   {
-    take(exchange, chosen, numbers.data() + sumOf(sizes, from).elements, sizes[from].elements, from);
+    take(
+      exchange, chosen, numbers.data() + sumOf(sizes, from).elements, sizes[from].elements, from);
   }
   for (std::size_t e = 0; e < numbers.size(); ++e)
   {
@@ -133,8 +134,7 @@ ElementMesh pickElements(const ElementMesh& mesh, const std::vector<int>& chosen
   for (const int e : chosen)
   {
     const BernsteinForm form = mesh.form(e);
-    const auto count =
-      static_cast<std::ptrdiff_t>(coefficientCount(form.domain, form.degrees));
+    const auto count = static_cast<std::ptrdiff_t>(coefficientCount(form.domain, form.degrees));
     Element element = mesh.elements[e];
     element.firstCoefficient = picked.coefficients.size();
     picked.elements.push_back(element);

@@ -154,6 +154,10 @@ bool FastSystem::isFineEnough(const SurfaceBox& box, const SizingFunction& sizin
     this->Parameters.quality == Quality::Draft ? BoxDiagonal::Draft : BoxDiagonal::of(domain);
   const double largest = perSpacing * sizing.spacing;
   const double smallest = (box.mayBeThin ? 1.0 : perSpacing) * sizing.smallest();
+  if (this->isOutOfReach(box))
+  {
+    return true;
+  }
   if (box.size > largest || box.size <= smallest ||
     (sizing.angularDensity == 0.0 && !box.mayBeThin))
   {
@@ -175,6 +179,15 @@ bool FastSystem::isFineEnough(const SurfaceBox& box, const SizingFunction& sizin
     : box.risesWeakly                 ? BoxDiagonal::Weak
                                       : perSpacing;
   return box.size <= perOwnSpacing * spacing;
+}
+
+/// Whether a box is so far from the slab that no particles are wanted in it.
+bool FastSystem::isOutOfReach(const SurfaceBox& box) const
+{
+  const int element = box.middle.element;
+  return !this->ReachesOut.empty() && this->ReachesOut[element] &&
+    !this->Part.widened(this->overlap(SlabOverlap::Reach) + box.size)
+       .holds(glm::dvec3(evaluateGradient(this->Mesh.form(element), box.middle.u).value));
 }
 
 /// \param sizing decides how fine the boxes are; the proxy's spacings follow the sizing function that is asked for
@@ -600,8 +613,7 @@ std::vector<SurfaceBox> FastSystem::undecidedBoxes()
     {
       return sample.found
         ? sample.patch.position
-        : glm::dvec3(
-            evaluateGradient(this->Mesh.form(box.middle.element), box.middle.u).value);
+        : glm::dvec3(evaluateGradient(this->Mesh.form(box.middle.element), box.middle.u).value);
     };
     if (!box.certified && this->Part.holds(position()))
     {
@@ -628,8 +640,7 @@ bool FastSystem::relax()
     this->prepareSurface();
   }
   reportUndecided(this->Surface,
-    this->Part.isEverything() ? this->Proxy->boxes() : this->undecidedBoxes(),
-    this->Result.report);
+    this->Part.isEverything() ? this->Proxy->boxes() : this->undecidedBoxes(), this->Result.report);
   this->Result.report.boxes = static_cast<std::int64_t>(this->Proxy->boxes().size());
   this->reach(ProgressAt::Prepared);
   const double count = this->Proxy->particleCount();

@@ -55,10 +55,7 @@ struct Piece
   /// Particles, in units, of a surface that passes.
   std::int64_t count = 0;
 
-  bool holds(double isovalue) const
-  {
-    return std::abs(this->value - isovalue) <= this->halfRange;
-  }
+  bool holds(double isovalue) const { return std::abs(this->value - isovalue) <= this->halfRange; }
 };
 
 double referenceVolume(Domain domain)
@@ -293,8 +290,8 @@ SlabPlan planSlabs(Exchange& exchange, const ElementMesh& mine,
     return plan;
   }
   const WorkSums sums = sumOfAll(exchange, sumOver(own.pieces, isovalues, whole));
-  const double most = static_cast<double>(
-    *std::max_element(sums.ofIsovalues.begin(), sums.ofIsovalues.end()));
+  const double most =
+    static_cast<double>(*std::max_element(sums.ofIsovalues.begin(), sums.ofIsovalues.end()));
   const double thickness = SlabOverlap::Thickness * sizing.spacing;
   const double mostSlabs = std::max(1.0, (whole[1] - whole[0]) / thickness);
   auto slabs = static_cast<std::size_t>(

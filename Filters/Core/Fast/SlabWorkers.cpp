@@ -106,8 +106,7 @@ Monitor SlabWorkers::monitorOf(std::size_t worker, const Monitor& monitor)
   return { [this, worker, &monitor](double fraction)
     {
       const auto count = static_cast<double>(this->Workers.size());
-      this->Reported =
-        std::max(this->Reported, (static_cast<double>(worker) + fraction) / count);
+      this->Reported = std::max(this->Reported, (static_cast<double>(worker) + fraction) / count);
       return monitor.proceed(this->Reported);
     } };
 }
@@ -230,13 +229,13 @@ SlabResult SlabWorkers::run(const std::vector<GatheredMesh>& meshes, const Isosu
       worker->distribution.reset();
     }
   };
-  this->Result.isComplete = this->attempt(
-                              [&]()
-                              {
-                                this->makeWorkers(
-                                  meshes, surface, parameters, monitor, parallelFor);
-                                this->relax();
-                              }) &&
+  this->Result.isComplete =
+    this->attempt(
+      [&]()
+      {
+        this->makeWorkers(meshes, surface, parameters, monitor, parallelFor);
+        this->relax();
+      }) &&
     this->tell(false) && this->attempt(settle) && this->tell(true) && this->attempt(finish);
   return std::move(this->Result);
 }

@@ -21,10 +21,7 @@ struct Slab
   bool hasEnd() const { return this->end < std::numeric_limits<double>::infinity(); }
   bool isEverything() const { return !this->hasBegin() && !this->hasEnd(); }
 
-  double placeOf(const glm::dvec3& position) const
-  {
-    return glm::dot(this->direction, position);
-  }
+  double placeOf(const glm::dvec3& position) const { return glm::dot(this->direction, position); }
   /// The first plane belongs to the slab before.
   bool holds(const glm::dvec3& position) const
   {

@@ -23,7 +23,6 @@
 #include <cmath>
 #include <functional>
 #include <mutex>
-#include <iostream>
 #include <ostream>
 #include <stdexcept>
 
@@ -90,9 +89,7 @@ ElementMesh meshOf(const SlabCase& which)
 SlabCase ellipsoidCase()
 {
   return { "Ellipsoid", Domain::Hexahedron,
-    [](const glm::dvec3& x) {
-      return x.x * x.x + x.y * x.y + x.z * x.z / 36.0 - 0.15 * 0.15;
-    },
+    [](const glm::dvec3& x) { return x.x * x.x + x.y * x.y + x.z * x.z / 36.0 - 0.15 * 0.15; },
     { 0.009, 0.0 } };
 }
 
@@ -169,7 +166,8 @@ Together distributeTogether(const SlabCase& which, const ElementMesh& mesh, std:
   Together together;
   std::vector<Distribution> ofSlabs(workers);
   std::mutex access;
-  runRanks(ranks,
+  runRanks(
+    ranks,
     [&](Exchange& exchange)
     {
       const ElementMesh& mine = parts[exchange.rank()];
@@ -255,7 +253,6 @@ TEST_P(Slabs, FitTogether)
     std::vector<glm::dvec3> probesNear;
     std::copy_if(probes.begin(), probes.end(), std::back_inserter(probesNear),
       [&](const glm::dvec3& probe) { return together.isBesideCut(probe, near); });
-    std::cout << which.name << ' ' << workers << " least " << evenness.minSpacing << " of " << promised.minSpacing << " var " << evenness.variation << " of " << promised.variation << " cover " << coverageRadius(together.particles, probesNear) << " of " << covered << " ratio " << static_cast<double>(together.particles.size()) / static_cast<double>(alone.particles.size()) << " of " << alone.particles.size() << " boundary " << boundaryCount(together.particles) << " of " << boundaryCount(alone.particles) << "\n";
     EXPECT_GE(evenness.minSpacing, std::min(0.80, promised.minSpacing));
     EXPECT_LE(evenness.variation, std::max(0.035, 1.3 * promised.variation));
     EXPECT_LE(coverageRadius(together.particles, probesNear), std::max(0.80, covered));
@@ -315,12 +312,13 @@ TEST(SlabDistribution, SharesTheWork)
 }
 
 /// Three workers on two ranks. One rank changes what it does.
-void runTwoRanks(const std::function<SlabResult(Exchange&, const std::vector<Slab>&,
-    const SlabMeshes&, const DistributionParameters&)>& work)
+void runTwoRanks(const std::function<SlabResult(
+    Exchange&, const std::vector<Slab>&, const SlabMeshes&, const DistributionParameters&)>& work)
 {
   const SlabCase which = coarse(ellipsoidCase());
   const std::vector<ElementMesh> parts = scattered(meshOf(which), 2, 1);
-  runRanks(2,
+  runRanks(
+    2,
     [&](Exchange& exchange)
     {
       const ElementMesh& mine = parts[exchange.rank()];
@@ -418,8 +416,7 @@ TEST(SlabPlan, MakesNoThinSlabs)
   EXPECT_GT(slabs.size(), 4u);
   for (std::size_t n = 1; n + 1 < slabs.size(); ++n)
   {
-    EXPECT_GE(
-      slabs[n].end - slabs[n].begin, SlabOverlap::Thickness * which.sizing.spacing);
+    EXPECT_GE(slabs[n].end - slabs[n].begin, SlabOverlap::Thickness * which.sizing.spacing);
   }
 }
 
