@@ -1,10 +1,10 @@
 // What workers on several ranks cost: a table in Markdown.
 //
-//   rank_scaling [particles=N] [cells=C] [density=D]
+//   rank_scaling [particles=N] [cells=C] [density=D] [most=R]
 //
 // Ranks are threads of this process, one worker each, and messages go through memory. A wavy sheet and a sphere in C^3
 // cubic hexahedra (default 24, each on a rank by chance) take about N particles (default 1,000,000) at the angular density
-// D (default 0): strong scaling has all N for any number of ranks, weak scaling a quarter of N for each. Columns: the
+// D (default 0), on up to R ranks (default 4): strong scaling has all N for any number of ranks, weak scaling N/R for each. Columns: the
 // processor time of the busiest rank, from elements to particles at home, seconds (waiting does not count, so that the
 // machine may be busy otherwise); the time of one rank over it; particles, and those of the busiest rank; megabytes
 // that all ranks sent.
@@ -195,12 +195,13 @@ double numberAfter(const char* argument, const char* name, double otherwise)
 
 int main(int argc, char** argv)
 {
-  double particles = 1e6, cells = 24, density = 0.0;
+  double particles = 1e6, cells = 24, density = 0.0, most = 4;
   for (int n = 1; n < argc; ++n)
   {
     particles = numberAfter(argv[n], "particles", particles);
     cells = numberAfter(argv[n], "cells", cells);
     density = numberAfter(argv[n], "density", density);
+    most = numberAfter(argv[n], "most", most);
   }
   const ElementMesh mesh = surfaceMesh(static_cast<int>(cells));
   // The sheet and the sphere have an area of about 7.
@@ -215,14 +216,13 @@ int main(int argc, char** argv)
   std::printf(
     "| scaling | ranks | seconds of the busiest | ratio | particles | of the busiest | MB "
     "sent |\n|---|---|---|---|---|---|---|\n");
-  constexpr double largest = 4.0;
   for (const bool isStrong : { true, false })
   {
     double alone = 0.0;
-    for (const int ranks : { 1, 2, 4 })
+    for (int ranks = 1; ranks <= most; ranks *= 2)
     {
       const Measured some =
-        measure(mesh, parametersFor(isStrong ? particles : particles * ranks / largest), ranks);
+        measure(mesh, parametersFor(isStrong ? particles : particles * ranks / most), ranks);
       alone = ranks == 1 ? some.seconds : alone;
       std::printf("| %s | %d | %.2f | %.2f | %zu | %zu | %.1f |\n", isStrong ? "strong" : "weak",
         ranks, some.seconds, alone / some.seconds, some.particles, some.most,

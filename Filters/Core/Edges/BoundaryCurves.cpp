@@ -52,6 +52,10 @@ struct Nearness
   /// other, and curves that run side by side. More drops particles of short stretches between corners, less leaves
   /// pairs.
   static constexpr double OnOneSheet = 0.6;
+  /// Largest distance of a corner that serves as well as the place where the curve passes a plane between two workers.
+  /// Short stretches are sampled unevenly: a smaller one leaves stretches of less than two spacings; a larger one lets
+  /// the two workers' particles beside the plane differ more.
+  static constexpr double OfCorner = 1.6;
   /// Where two sheets meet at a sharp edge, and each has a curve of its own.
   static constexpr double AtSharpEdge = 0.3;
   /// Largest distance of places of one corner, far above rounding and far below the distance of different corners.
@@ -398,7 +402,7 @@ void BoundarySampler::cutAtPlane(double plane, BoundaryTrace& trace)
     const auto isNear = [&](const glm::dvec3& corner)
     {
       return glm::distance(corner, point->at.point.map.position.xyz) <
-        Nearness::OnOneSheet * this->spacingAt(*point);
+        Nearness::OfCorner * this->spacingAt(*point);
     };
     if (point && std::none_of(corners.begin(), corners.end(), isNear))
     {

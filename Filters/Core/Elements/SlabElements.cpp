@@ -3,6 +3,7 @@
 #include "Support/KeepMarked.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace hop
 {
@@ -31,6 +32,19 @@ std::vector<int> elementsIn(
       marks[e] = slab.begin <= last && first <= slab.end;
     });
   return markedIndices(marks, marks.size());
+}
+
+std::vector<char> reachingOutOf(
+  const ElementMesh& mesh, const Slab& slab, const ParallelFor& parallelFor)
+{
+  std::vector<char> marks(mesh.elements.size());
+  forAll(parallelFor, marks.size(),
+    [&](std::size_t e)
+    {
+      const auto [first, last] = extentAlong(mesh.form(static_cast<int>(e)), slab.direction);
+      marks[e] = first < slab.begin || slab.end < last;
+    });
+  return marks;
 }
 
 } // namespace hop

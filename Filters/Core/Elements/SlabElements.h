@@ -16,4 +16,8 @@ std::array<double, 2> extentAlong(const BernsteinForm& form, const glm::dvec3& d
 std::vector<int> elementsIn(
   const ElementMesh& mesh, const Slab& slab, const ParallelFor& parallelFor);
 
+/// Marks the elements of which a part may lie outside of a slab.
+std::vector<char> reachingOutOf(
+  const ElementMesh& mesh, const Slab& slab, const ParallelFor& parallelFor);
+
 } // namespace hop

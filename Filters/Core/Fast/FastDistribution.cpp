@@ -175,6 +175,10 @@ bool FastSystem::isFineEnough(const SurfaceBox& box, const SizingFunction& sizin
     this->Parameters.quality == Quality::Draft ? BoxDiagonal::Draft : BoxDiagonal::of(domain);
   const double largest = perSpacing * sizing.spacing;
   const double smallest = (box.mayBeThin ? 1.0 : perSpacing) * sizing.smallest();
+  if (this->isOutOfReach(box))
+  {
+    return true;
+  }
   if (box.size > largest || box.size <= smallest ||
     (sizing.angularDensity == 0.0 && !box.mayBeThin))
   {
@@ -196,6 +200,15 @@ bool FastSystem::isFineEnough(const SurfaceBox& box, const SizingFunction& sizin
     : box.risesWeakly                 ? BoxDiagonal::Weak
                                       : perSpacing;
   return box.size <= perOwnSpacing * spacing;
+}
+
+/// Whether a box is so far from the slab that no particles are wanted in it.
+bool FastSystem::isOutOfReach(const SurfaceBox& box) const
+{
+  const int element = box.middle.element;
+  return !this->ReachesOut.empty() && this->ReachesOut[element] &&
+    !this->Part.widened(this->overlap(SlabOverlap::Reach) + box.size)
+       .holds(glm::dvec3(evaluateGradient(this->Mesh.form(element), box.middle.u).value));
 }
 
 /// \param sizing decides how fine the boxes are; the proxy's spacings follow the sizing function that is asked for

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "Edges/BoundaryCurves.h"
+#include "Elements/SlabElements.h"
 #include "Fast/MovingParticles.h"
+#include "Fast/SlabDistribution.h"
 #include "Isolation/SurfaceProxy.h"
 #include "Support/Interruptible.h"
 #include "Support/Slab.h"
@@ -40,6 +42,11 @@ public:
     , Locator(this->Mesh, surface.isovalue, this->Parallel)
   {
     this->Surface.locator = &this->Locator;
+    if (!slab.isEverything())
+    {
+      this->ReachesOut =
+        reachingOutOf(this->Mesh, slab.widened(this->overlap(SlabOverlap::Reach)), this->Parallel);
+    }
   }
 
   Distribution run();
@@ -55,6 +62,7 @@ protected:
     this->Work.ask();
   }
   bool isFineEnough(const SurfaceBox& box, const SizingFunction& sizing);
+  bool isOutOfReach(const SurfaceBox& box) const;
   SurfaceProxy proxyOfBoxesAt(const SizingFunction& sizing, double shareOfRun);
   bool tooMany(double count);
   bool estimateCount();
@@ -90,6 +98,8 @@ protected:
   SizingFunction Sizing;
   /// Of the surface, what is wanted of this worker.
   Slab Part;
+  /// In a slab, marks the elements of which a part lies where no particles are wanted.
+  std::vector<char> ReachesOut;
   Interruptible Work;
   ParallelFor Parallel;
   FaceLocator Locator;

@@ -6,7 +6,6 @@
 #include "Support/KeepMarked.h"
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 
 namespace hop
@@ -66,6 +65,7 @@ private:
   Slab between(double from, double to) const { return { this->Part.direction, from, to }; }
   void replaceCurves(const Slab& where, bool isBehind, const SlabParticles& by);
   void relaxStrip(const Slab& strip);
+  std::vector<int> orderOf(const Buffer<Anchor>& anchors, std::size_t own) const;
   void arrangeCanonically(const SlabParticles& before);
 
   /// Particles of the next slab, which stay.
@@ -201,6 +201,41 @@ void SlabDistribution::System::relaxStrip(const Slab& strip)
   this->Moving = std::move(others);
 }
 
+/// The order of particles by their elements. In elements with particles of several workers it is that of their places.
+/// \param own number of the particles of this worker, which come first
+std::vector<int> SlabDistribution::System::orderOf(
+  const Buffer<Anchor>& anchors, std::size_t own) const
+{
+  std::vector<int> order = orderByElement(anchors, this->Mesh.elements.size(), this->Parallel);
+  std::vector<char> isShared(this->Mesh.elements.size(), 0);
+  for (std::size_t i = own; i < anchors.size(); ++i)
+  {
+    isShared[anchors[i].place.element] = 1;
+  }
+  const auto comesBefore = [&](int a, int b)
+  {
+    const glm::dvec3& u = anchors[a].place.u.xyz;
+    const glm::dvec3& v = anchors[b].place.u.xyz;
+    return std::make_tuple(u.x, u.y, u.z, a) < std::make_tuple(v.x, v.y, v.z, b);
+  };
+  for (std::size_t first = 0; first < order.size();)
+  {
+    const int element = anchors[order[first]].place.element;
+    std::size_t last = first + 1;
+    while (last < order.size() && anchors[order[last]].place.element == element)
+    {
+      ++last;
+    }
+    if (isShared[element])
+    {
+      std::sort(order.begin() + static_cast<std::ptrdiff_t>(first),
+        order.begin() + static_cast<std::ptrdiff_t>(last), comesBefore);
+    }
+    first = last;
+  }
+  return order;
+}
+
 /// Puts the particles of all workers around into an order on which they agree: which of two that are too near to each
 /// other stays depends on it.
 void SlabDistribution::System::arrangeCanonically(const SlabParticles& before)
@@ -212,16 +247,11 @@ void SlabDistribution::System::arrangeCanonically(const SlabParticles& before)
   const std::size_t own = anchors.size();
   append(anchors, patches, before);
   append(anchors, patches, this->Next);
-  std::vector<int> order(anchors.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto key = [&](int i)
-  {
-    const Location& place = anchors[i].place;
-    return std::make_tuple(place.element, place.u.xyz.x, place.u.xyz.y, place.u.xyz.z, i);
-  };
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
+  const std::vector<int> order = this->orderOf(anchors, own);
   Buffer<Anchor> sortedAnchors;
   Buffer<Patch> sortedPatches;
+  sortedAnchors.reserve(order.size());
+  sortedPatches.reserve(order.size());
   for (const int i : order)
   {
     sortedAnchors.push_back(anchors[i]);

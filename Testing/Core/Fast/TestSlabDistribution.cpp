@@ -22,7 +22,6 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
-#include <iostream>
 #include <mutex>
 #include <ostream>
 #include <stdexcept>
@@ -254,15 +253,6 @@ TEST_P(Slabs, FitTogether)
     std::vector<glm::dvec3> probesNear;
     std::copy_if(probes.begin(), probes.end(), std::back_inserter(probesNear),
       [&](const glm::dvec3& probe) { return together.isBesideCut(probe, near); });
-    std::cout << which.name << ' ' << workers << " least " << evenness.minSpacing << " of "
-              << promised.minSpacing << " var " << evenness.variation << " of "
-              << promised.variation << " cover " << coverageRadius(together.particles, probesNear)
-              << " of " << covered << " ratio "
-              << static_cast<double>(together.particles.size()) /
-        static_cast<double>(alone.particles.size())
-              << " of " << alone.particles.size() << " boundary "
-              << boundaryCount(together.particles) << " of " << boundaryCount(alone.particles)
-              << "\n";
     EXPECT_GE(evenness.minSpacing, std::min(0.80, promised.minSpacing));
     EXPECT_LE(evenness.variation, std::max(0.035, 1.3 * promised.variation));
     EXPECT_LE(coverageRadius(together.particles, probesNear), std::max(0.80, covered));
