@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 namespace hop
 {
@@ -82,16 +83,10 @@ class SplatFitter
 public:
   SplatFitter(const SurfaceProxy& proxy, const ParallelFor& parallelFor)
     : Proxy(proxy)
+    , Found(foundSamples(proxy))
     , Points(
-        proxy.samples().size(),
-        [&](std::size_t b)
-        { return proxy.samples()[b].found ? proxy.samples()[b].patch.position : glm::dvec3(0.0); },
-        [&](std::size_t b)
-        {
-          return proxy.samples()[b].found ? proxy.samples()[b].patch.spacing
-                                          : static_cast<float>(proxy.sizing().spacing);
-        },
-        parallelFor)
+        this->Found.size(), [this](std::size_t n) { return this->patch(n).position; },
+        [this](std::size_t n) { return this->patch(n).spacing; }, parallelFor)
     , Grid(this->Points.positions, this->Points.spacings, SmallComponent::Alone, CellsPerReach,
         parallelFor)
   {
@@ -107,13 +102,13 @@ public:
     bool hasBox = false;
     double count = 0.0;
     this->Grid.visit(particle.position.xyz, particle.spacing,
-      [&](int b)
+      [&](int n)
       {
-        if (glm::distance(this->Points.positions[b], particle.position.xyz) <
+        if (glm::distance(this->Points.positions[n], particle.position.xyz) <
           SmallComponent::Alone * particle.spacing)
         {
-          hasBox = hasBox || samples[b].found;
-          count += this->Proxy.particleCountOfBox(b);
+          hasBox = true;
+          count += this->Proxy.particleCountOfBox(this->Found[n]);
         }
       });
     if (isKnown && hasBox)
@@ -124,7 +119,24 @@ public:
   }
 
 private:
+  /// Boxes without a sample have neither a place nor a spacing.
+  static std::vector<int> foundSamples(const SurfaceProxy& proxy)
+  {
+    std::vector<int> found;
+    for (std::size_t b = 0; b < proxy.samples().size(); ++b)
+    {
+      if (proxy.samples()[b].found)
+      {
+        found.push_back(static_cast<int>(b));
+      }
+    }
+    return found;
+  }
+  const Patch& patch(std::size_t n) const { return this->Proxy.samples()[this->Found[n]].patch; }
+
   const SurfaceProxy& Proxy;
+  /// Boxes with a sample, and the samples.
+  std::vector<int> Found;
   SpacedPoints Points;
   SpacingGrid Grid;
 };

@@ -25,9 +25,10 @@ struct Exchange
   /// are wider count as equally wide. Larger: more time; smaller: worse places are used.
   static constexpr double Clearance = 1.0;
   /// Number of seeds of which the ones with most room are added: so many in all, and so many more for each particle
-  /// asked for. More of them find the middles of gaps more exactly, and take longer.
-  static constexpr std::int64_t LeastSeeds = 64;
-  static constexpr std::int64_t SeedsPerParticle = 1;
+  /// that is missing, but no more than there are to be particles. More of them find the middles of gaps more exactly,
+  /// and take longer.
+  static constexpr std::int64_t LeastSeeds = 1024;
+  static constexpr std::int64_t SeedsPerMissing = 64;
 };
 
 /// Indices of values, sorted; equal values keep their order.
@@ -104,7 +105,8 @@ Buffer<Patch> NumberMatcher::removeCrowded(std::int64_t count)
 Buffer<Patch> NumberMatcher::addInGaps(std::int64_t count)
 {
   MovingParticles seeds(this->Moving.surface(), this->Moving.proxy(), {}, this->Parallel);
-  seeds.draw(Exchange::LeastSeeds + Exchange::SeedsPerParticle * this->Parameters.particleCount,
+  seeds.draw(Exchange::LeastSeeds +
+      std::min(this->Parameters.particleCount, Exchange::SeedsPerMissing * count),
     this->Parameters.seed);
   const std::vector<double> room = clearances(
     seeds.patches(), seeds.count(), this->Moving.patches(), Exchange::Clearance, this->Parallel);

@@ -450,6 +450,40 @@ TEST(ClassicDistribution, SurvivesElementsThatAreFlatFoldedOrConstant)
   }
 }
 
+TEST(ClassicDistribution, CostsInProportionToItsParticlesInFlattenedElements)
+{
+  // The surface bends a thousand times as fast as the elements are long: no spacing can follow it.
+  MeshRecipe recipe;
+  recipe.cells = 3;
+  recipe.map = [](const glm::dvec3& x)
+  {
+    return glm::dvec3(x.x + 0.2 * std::sin(2.0 * x.y), x.y + 0.2 * std::sin(2.0 * x.z), 1e-3 * x.z);
+  };
+  recipe.field = [](const glm::dvec3& x)
+  {
+    const glm::dvec3 a(3.5 * x.x, 3.5 * x.y, 3.5e3 * x.z);
+    return std::sin(a.x) * std::cos(a.y) + std::sin(a.y) * std::cos(a.z) +
+      std::sin(a.z) * std::cos(a.x);
+  };
+  DistributionParameters parameters = withSpacing(0.3, 2.0);
+  const ElementMesh mesh = makeMesh(recipe);
+  const Distribution result = distributeClassic({ &mesh, 0.0, 1e-5 }, parameters, {}, {});
+  ASSERT_GT(result.particles.size(), 20u);
+  EXPECT_LT(static_cast<double>(result.report.evaluations),
+    15'000.0 * static_cast<double>(result.particles.size()));
+}
+
+TEST(ClassicDistribution, MakesNothingOfAFieldThatTouchesTheIsovalueInAPoint)
+{
+  MeshRecipe recipe;
+  recipe.cells = 3;
+  recipe.field = [](const glm::dvec3& x) { return glm::dot(x, x); };
+  const ElementMesh mesh = makeMesh(recipe);
+  // The tolerance is large beside the spacing: particles would fill a ball.
+  const Distribution result = distributeClassic({ &mesh, 0.0, 1e-3 }, withSpacing(1e-4), {}, {});
+  EXPECT_TRUE(result.particles.empty());
+}
+
 TEST(ClassicDistribution, DoesNotDependOnTheUnitOfLength)
 {
   const auto countAt = [](double scale)
