@@ -2,13 +2,16 @@
 
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPVCrossedCellsInformation.h"
 #include "vtkPVQuantileInformation.h"
 #include "vtkProcessModule.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMUncheckedPropertyHelper.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace
 {
@@ -59,13 +62,14 @@ int vtkSMIsovalueDomain::SetDefaultValues(vtkSMProperty* property, bool useUnche
   // ones let a few wrong values decide. Chosen by experiment.
   constexpr double leftOut = 0.01;
   vtkNew<vtkPVQuantileInformation> values;
-  this->LookAtValues(values);
+  this->Gather(values.Get());
   if (!values->HasValues())
   {
     return this->Superclass::SetDefaultValues(property, useUnchecked);
   }
-  const double isovalue =
-    isovalueBetween(values->GetQuantile(leftOut), values->GetQuantile(1.0 - leftOut));
+  const double low = values->GetQuantile(leftOut);
+  const double high = values->GetQuantile(1.0 - leftOut);
+  const double isovalue = this->ValueOfLargeSurface(low, high, isovalueBetween(low, high));
   vtkSMPropertyHelper isovalues(property);
   isovalues.SetUseUnchecked(useUnchecked);
   isovalues.SetNumberOfElements(1);
@@ -113,9 +117,10 @@ std::string vtkSMIsovalueDomain::GetChoice(bool useUnchecked)
   return std::to_string(component.GetAsInt()) + " " + (name ? name : "");
 }
 
-/// Gathers the values of the chosen array. Where every MPI rank runs the same script nothing is gathered: each rank
-/// would see only its own values and choose another isovalue.
-void vtkSMIsovalueDomain::LookAtValues(vtkPVQuantileInformation* values)
+/// Gathers what is to be known of the chosen array; false where nothing is gathered. Where every MPI rank runs the same
+/// script nothing is: each rank would see only its own values and choose another isovalue.
+template <class Information>
+bool vtkSMIsovalueDomain::Gather(Information* information)
 {
   vtkSMUncheckedPropertyHelper input(this->GetRequiredProperty("Input"));
   vtkSMUncheckedPropertyHelper choice(this->GetRequiredProperty("ArraySelection"));
@@ -125,10 +130,40 @@ void vtkSMIsovalueDomain::LookAtValues(vtkPVQuantileInformation* values)
   const char* array = choice.GetInputArrayNameToProcess();
   if (!source || !array || vtkProcessModule::GetProcessModule()->GetSymmetricMPIMode())
   {
-    return;
+    return false;
   }
-  values->SetPort(static_cast<int>(input.GetOutputPort(0)));
-  values->SetArrayName(array);
-  values->SetComponent(component.GetAsInt());
-  source->GatherInformation(values);
+  information->SetPort(static_cast<int>(input.GetOutputPort(0)));
+  information->SetArrayName(array);
+  information->SetComponent(component.GetAsInt());
+  return source->GatherInformation(information);
+}
+
+/// The isovalue, unless its surface is tiny beside those of other values: then the value nearest to the middle of the range
+/// whose surface is large.
+double vtkSMIsovalueDomain::ValueOfLargeSurface(double low, double high, double isovalue)
+{
+  // What is compared; without unit, chosen by experiment.
+  constexpr double tiny = 0.25; // share of the largest surface; a larger one leaves the middle where that shows enough
+  constexpr double large = 0.5; // share of it that is enough
+  const double range = high - low;
+  if (!(range > 0.0) || !std::isfinite(range))
+  {
+    return isovalue;
+  }
+  std::vector<double> candidates{ isovalue };
+  for (const double share : { 0.35, 0.65, 0.2, 0.8 }) // farther out surfaces are often small corners
+  {
+    candidates.push_back(roundedToRange(low + share * range, range));
+  }
+  vtkNew<vtkPVCrossedCellsInformation> crossed;
+  crossed->SetIsovalues(candidates);
+  if (!this->Gather(crossed.Get()) || crossed->GetSizes().size() != candidates.size())
+  {
+    return isovalue;
+  }
+  const std::vector<double>& sizes = crossed->GetSizes();
+  const double largest = *std::max_element(sizes.begin(), sizes.end());
+  const auto enough = std::find_if(
+    sizes.begin(), sizes.end(), [=](double size) { return size >= large * largest; });
+  return sizes.front() < tiny * largest ? candidates[enough - sizes.begin()] : isovalue;
 }

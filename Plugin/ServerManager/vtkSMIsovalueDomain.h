@@ -5,7 +5,8 @@
  * vtkSMArrayRangeDomain's default is the middle of the whole range, which one bad corner of a simulation
  * moves to where there is nothing to see. Here it is the middle of what remains without the lowest and the
  * highest hundredth of the nodal values, rounded to three digits of their range. Where that is 0 and values of both
- * signs exist, it is a twentieth of the range: fields that are symmetric about 0 often have a saddle at 0.
+ * signs exist, it is a twentieth of the range: fields that are symmetric about 0 often have a saddle at 0. Where the
+ * surface of that value is tiny beside others, as in the notch of a bar, one of a value beside it is taken.
  *
  * Where another array or component is chosen, an isovalue that is still the default of the last choice becomes the
  * default of the new one. In the panel, before Apply, this is the unchecked value.
@@ -18,8 +19,6 @@
 
 #include <string> // for the chosen array
 #include <vector> // for the default isovalue
-
-class vtkPVQuantileInformation;
 
 class VTKHIGHORDERPARTICLESERVERMANAGER_EXPORT vtkSMIsovalueDomain : public vtkSMArrayRangeDomain
 {
@@ -55,7 +54,10 @@ private:
   /// Array and component, as text.
   std::string GetChoice(bool useUnchecked);
   void FollowChoice(bool useUnchecked);
-  void LookAtValues(vtkPVQuantileInformation* values);
+  double ValueOfLargeSurface(double low, double high, double isovalue);
+
+  template <class Information>
+  bool Gather(Information* information);
 
   /// Of the property's values, and of its unchecked values.
   Default Checked;
