@@ -1,7 +1,7 @@
 #include "vtkPVQuantileInformation.h"
 
+#include "ComponentValue.h"
 #include "DerivedSamples.h"
-
 #include "vtkAlgorithm.h"
 #include "vtkClientServerStream.h"
 #include "vtkCompositeDataSet.h"
@@ -83,21 +83,9 @@ vtkPVQuantileInformation::~vtkPVQuantileInformation() = default;
 void vtkPVQuantileInformation::AddValues(
   vtkDataArray* array, vtkDataArray* spacings, vtkIdType step)
 {
-  const int components = array->GetNumberOfComponents();
   for (vtkIdType i = 0; i < array->GetNumberOfTuples(); i += step)
   {
-    double value = 0.0;
-    if (components == 1 || this->Component < components)
-    {
-      value = array->GetComponent(i, components == 1 ? 0 : this->Component);
-    }
-    else
-    {
-      for (int c = 0; c < components; ++c)
-      {
-        value = std::hypot(value, array->GetComponent(i, c));
-      }
-    }
+    const double value = ComponentValue(array, i, this->Component);
     const double spacing = spacings ? spacings->GetComponent(i, 0) : 1.0;
     if (std::isfinite(value) && std::isfinite(spacing) && spacing > 0.0)
     {

@@ -3,13 +3,16 @@
 #include "vtkHighOrderParticleIsosurface.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPVCrossedCellsInformation.h"
 #include "vtkPVQuantileInformation.h"
 #include "vtkProcessModule.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMUncheckedPropertyHelper.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace
 {
@@ -63,7 +66,8 @@ int vtkSMIsovalueDomain::SetDefaultValues(vtkSMProperty* property, bool useUnche
   // too, smaller ones the cores of the strongest vortices alone. Chosen by experiment.
   constexpr double inVortices = 0.05;
   vtkNew<vtkPVQuantileInformation> values;
-  this->LookAtValues(values);
+  values->SetQuantity(this->GetQuantity(true));
+  this->Gather(values.Get());
   if (!values->HasValues())
   {
     return this->Superclass::SetDefaultValues(property, useUnchecked);
@@ -72,9 +76,12 @@ int vtkSMIsovalueDomain::SetDefaultValues(vtkSMProperty* property, bool useUnche
   const double high = values->GetQuantile(1.0 - leftOut);
   const double vortices = values->GetQuantile(1.0 - inVortices);
   const bool isQ = this->GetQuantity(true) == vtkHighOrderParticleIsosurface::Q_CRITERION;
-  const double isovalue = isQ && vortices > 0.0 && vortices < high
-    ? roundedToRange(vortices, vortices)
-    : isovalueBetween(low, high);
+  double isovalue = isQ && vortices > 0.0 && vortices < high ? roundedToRange(vortices, vortices)
+                                                             : isovalueBetween(low, high);
+  if (this->GetQuantity(true) == vtkHighOrderParticleIsosurface::VALUE)
+  {
+    isovalue = this->ValueOfLargeSurface(low, high, isovalue);
+  }
   vtkSMPropertyHelper isovalues(property);
   isovalues.SetUseUnchecked(useUnchecked);
   isovalues.SetNumberOfElements(1);
@@ -130,9 +137,10 @@ int vtkSMIsovalueDomain::GetQuantity(bool useUnchecked)
   return quantity.GetAsInt();
 }
 
-/// Gathers the values of the chosen array. Where every MPI rank runs the same script nothing is gathered: each rank
-/// would see only its own values and choose another isovalue.
-void vtkSMIsovalueDomain::LookAtValues(vtkPVQuantileInformation* values)
+/// Gathers what is to be known of the chosen array; false where nothing is gathered. Where every MPI rank runs the same
+/// script nothing is: each rank would see only its own values and choose another isovalue.
+template <class Information>
+bool vtkSMIsovalueDomain::Gather(Information* information)
 {
   vtkSMUncheckedPropertyHelper input(this->GetRequiredProperty("Input"));
   vtkSMUncheckedPropertyHelper choice(this->GetRequiredProperty("ArraySelection"));
@@ -142,11 +150,40 @@ void vtkSMIsovalueDomain::LookAtValues(vtkPVQuantileInformation* values)
   const char* array = choice.GetInputArrayNameToProcess();
   if (!source || !array || vtkProcessModule::GetProcessModule()->GetSymmetricMPIMode())
   {
-    return;
+    return false;
   }
-  values->SetPort(static_cast<int>(input.GetOutputPort(0)));
-  values->SetArrayName(array);
-  values->SetComponent(component.GetAsInt());
-  values->SetQuantity(this->GetQuantity(true));
-  source->GatherInformation(values);
+  information->SetPort(static_cast<int>(input.GetOutputPort(0)));
+  information->SetArrayName(array);
+  information->SetComponent(component.GetAsInt());
+  return source->GatherInformation(information);
+}
+
+/// The isovalue, unless its surface is tiny beside those of other values: then the value nearest to the middle of the range
+/// whose surface is large.
+double vtkSMIsovalueDomain::ValueOfLargeSurface(double low, double high, double isovalue)
+{
+  // What is compared; without unit, chosen by experiment.
+  constexpr double tiny = 0.25; // share of the largest surface; a larger one leaves the middle where that shows enough
+  constexpr double large = 0.5; // share of it that is enough
+  const double range = high - low;
+  if (!(range > 0.0) || !std::isfinite(range))
+  {
+    return isovalue;
+  }
+  std::vector<double> candidates{ isovalue };
+  for (const double share : { 0.35, 0.65, 0.2, 0.8 }) // farther out surfaces are often small corners
+  {
+    candidates.push_back(roundedToRange(low + share * range, range));
+  }
+  vtkNew<vtkPVCrossedCellsInformation> crossed;
+  crossed->SetIsovalues(candidates);
+  if (!this->Gather(crossed.Get()) || crossed->GetSizes().size() != candidates.size())
+  {
+    return isovalue;
+  }
+  const std::vector<double>& sizes = crossed->GetSizes();
+  const double largest = *std::max_element(sizes.begin(), sizes.end());
+  const auto enough = std::find_if(
+    sizes.begin(), sizes.end(), [=](double size) { return size >= large * largest; });
+  return sizes.front() < tiny * largest ? candidates[enough - sizes.begin()] : isovalue;
 }

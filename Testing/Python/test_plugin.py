@@ -160,6 +160,23 @@ def test_the_default_isovalue_of_a_symmetric_field_is_beside_its_saddle(scale):
     assert reported(output, "SingularPoints") == 0
 
 
+@pytest.mark.parametrize("width, expected", [(1.0, 4.0), (0.1, 2.8)])  # the second: 0.35 of the range
+def test_the_default_isovalue_is_not_that_of_a_narrow_place(width, expected):
+    """A bar of eight cells, in the middle as wide as told; the field is the place along it."""
+    grid = output_of(simple.UnstructuredCellTypes(CellType="Hex", BlocksDimensions=[16, 4, 4]))
+    x = points_of(grid)
+    along = (x[:, 0] - x[:, 0].min()) / np.ptp(x[:, 0]) * 8
+    across = (x[:, 1:] - x[:, 1:].mean(axis=0)) / np.ptp(x[:, 1:], axis=0)
+    near_middle = np.abs(along - 4) < 0.9
+    grid.GetPoints().SetData(numpy_to_vtk(
+        np.c_[np.where(near_middle, 4 + (along - 4) * width, along), across * np.where(near_middle, width, 1)[:, None]],
+        deep=1))
+    add_point_array(grid, "u", along)
+    proxy = simple.HighOrderParticleIsosurface(Input=source_of(grid), ContourBy=["POINTS", "u"])
+    proxy.SMProxy.GetProperty("ContourValues").ResetToDomainDefaults()
+    assert list(proxy.Isosurfaces) == [expected]
+
+
 def choose(proxy, array, unchecked=False):
     """Contours by an array, or, as the panel does before Apply, chooses it unchecked."""
     if unchecked:
