@@ -151,9 +151,9 @@ bool isNearEdge(const Particle& particle)
     [&](const ClipPlane& plane) { return plane.exists() && plane.distance < particle.spacing; });
 }
 
-void measureTriangles(
-  const Buffer<Particle>& particles, const std::vector<std::array<int, 2>>& coincident,
-  const std::vector<Corners>& triangles, MeshMeasures& measures)
+void measureTriangles(const Buffer<Particle>& particles,
+  const std::vector<std::array<int, 2>>& coincident, const std::vector<Corners>& triangles,
+  MeshMeasures& measures)
 {
   std::vector<double> angles, inner;
   std::vector<char> isUsed(particles.size(), 0);

@@ -81,8 +81,7 @@ Isosurface seamless(Isosurface surface)
 bool cutAlongCreases(
   const ElementMesh& mesh, const FaceJumps& jumps, std::vector<float>& tolerances)
 {
-  const auto isJoined = [&mesh](std::size_t slot)
-  {
+  const auto isJoined = [&mesh](std::size_t slot) {
     return mesh.neighbor(static_cast<int>(slot / MaximumFaces), slot % MaximumFaces).element >= 0;
   };
   for (std::size_t slot = 0; slot < tolerances.size(); ++slot)
@@ -214,7 +213,10 @@ public:
   std::vector<std::size_t> trace(const ParallelFor& parallelFor);
   /// Places particles on the curves that were traced.
   BoundaryCurves sample(const ParallelFor& parallelFor);
-  std::int64_t evaluations() const { return this->Tracer.evaluations() + this->Walker.evaluations(); }
+  std::int64_t evaluations() const
+  {
+    return this->Tracer.evaluations() + this->Walker.evaluations();
+  }
 
 private:
   std::vector<std::vector<BoundaryHint>> findHints(const ParallelFor& parallelFor) const;
@@ -230,8 +232,7 @@ private:
   std::vector<BoundaryPlace> sampleStretch(
     const CurveStretch& stretch, std::int64_t leastIntervals, const ParallelFor& parallelFor);
   BoundaryPlace startOf(const CurveStretch& stretch, const BoundaryPlace& sampled) const;
-  std::vector<BoundaryPlace> mirrored(
-    const CurveStretch& stretch, Span<BoundaryPlace> other) const;
+  std::vector<BoundaryPlace> mirrored(const CurveStretch& stretch, Span<BoundaryPlace> other) const;
   std::vector<int> findPartners() const;
   void dropOneSided();
   void place(const ParallelFor& parallelFor);
@@ -439,15 +440,17 @@ std::vector<BoundaryPlace> BoundarySampler::sampleStretch(
 {
   // Places between two questions whether to end early: fewer cost more calls, more delay an abort. Chosen by experiment.
   constexpr std::int64_t placesAtOnce = 4096;
-  const Span<BoundaryVertex> vertices(&this->Traces[stretch.trace].vertices[stretch.first],
-    stretch.last + 1 - stretch.first);
+  const Span<BoundaryVertex> vertices(
+    &this->Traces[stretch.trace].vertices[stretch.first], stretch.last + 1 - stretch.first);
   std::vector<BoundaryPlace> places;
   std::vector<double> sums{ 0.0 };
   std::vector<double> spacings{ 0.0 };
   double spacing = 0.0;
   for (std::size_t v = 1; v < vertices.size(); ++v)
   {
-    const double before = v > 1 ? spacing : this->HasCuts ? this->spacingAt(vertices[0].leaving) : 0.0;
+    const double before = v > 1 ? spacing
+      : this->HasCuts           ? this->spacingAt(vertices[0].leaving)
+                                : 0.0;
     spacing = this->spacingAt(vertices[v].arriving);
     spacings.push_back(spacing);
     const double length = glm::distance(vertices[v - 1].position(), vertices[v].position());
@@ -518,8 +521,9 @@ std::vector<BoundaryPlace> BoundarySampler::mirrored(
       mesh.neighbor(place.location.element, place.face).face, place.spacing };
   };
   const std::vector<BoundaryVertex>& vertices = this->Traces[stretch.trace].vertices;
-  const auto placeOf = [&](const BoundaryPoint& point)
-  { return BoundaryPlace{ point.at.location, point.face, other[0].spacing }; };
+  const auto placeOf = [&](const BoundaryPoint& point) {
+    return BoundaryPlace{ point.at.location, point.face, other[0].spacing };
+  };
   std::vector<BoundaryPlace> places;
   places.push_back(stretch.isRing
       ? behind(other[0])
@@ -594,7 +598,8 @@ void BoundarySampler::place(const ParallelFor& parallelFor)
   for (std::size_t t = 0; t < this->Traces.size(); ++t)
   {
     const std::size_t first = starts[firsts[t]];
-    this->Ranges.push_back({ first, starts[firsts[t] + stretchCounts[t]] - first, this->Traces[t].closed });
+    this->Ranges.push_back(
+      { first, starts[firsts[t] + stretchCounts[t]] - first, this->Traces[t].closed });
   }
   this->joinSides(starts, partners);
 }
@@ -611,8 +616,9 @@ void BoundarySampler::joinSides(
     const bool isLast = starts[s + 1] == curve.first + curve.count;
     return stretch.withEnd ? starts[s + 1] - 1 : isLast ? curve.first : starts[s + 1];
   };
-  const auto add = [](std::vector<std::array<int, 2>>& pairs, std::size_t a, std::size_t b)
-  { pairs.push_back({ static_cast<int>(a), static_cast<int>(b) }); };
+  const auto add = [](std::vector<std::array<int, 2>>& pairs, std::size_t a, std::size_t b) {
+    pairs.push_back({ static_cast<int>(a), static_cast<int>(b) });
+  };
   for (std::size_t s = 0; s < partners.size(); ++s)
   {
     if (partners[s] < static_cast<int>(s))
@@ -890,9 +896,8 @@ void BoundarySampler::connect(const std::vector<char>& kept, const std::vector<i
   SurfaceEdges& edges = this->Result.edges;
   std::vector<std::array<int, 2>> segments = segmentsOf(this->Outcomes, this->Ranges);
   segments.erase(std::remove_if(segments.begin(), segments.end(),
-                   [&](const std::array<int, 2>& pair) {
-                     return hasNoEnd(particles[pair[0]]) && hasNoEnd(particles[pair[1]]);
-                   }),
+                   [&](const std::array<int, 2>& pair)
+                   { return hasNoEnd(particles[pair[0]]) && hasNoEnd(particles[pair[1]]); }),
     segments.end());
   edges.segments = withoutDropped(segments, kept);
   edges.directed = directedEdgesOf(this->Outcomes, this->Ranges);
@@ -950,8 +955,8 @@ BoundaryCurves findBoundaryCurves(const Isosurface& surface, const FaceJumps& ju
 {
   Isosurface cut = surface;
   std::vector<float> tolerances = jumps.jumpTolerances;
-  const bool isCut =
-    sampled == SampledCurves::BoundaryAndCreases && cutAlongCreases(*surface.mesh, jumps, tolerances);
+  const bool isCut = sampled == SampledCurves::BoundaryAndCreases &&
+    cutAlongCreases(*surface.mesh, jumps, tolerances);
   if (isCut)
   {
     cut.jumpTolerances = &tolerances;

@@ -538,10 +538,8 @@ std::optional<BoundaryVertex> BoundaryTracer::advanceAtMost(
   double& chord, double step, const Heading& heading)
 {
   // A step of zero, where single precision has no spacing as small, would be halved for ever.
-  const double least =
-    this->HasCuts ? ChordLengths::ShortestOnCut : ChordLengths::Shortest;
-  for (double shortest = least * step; chord > 0.0 && chord >= shortest;
-       chord *= 0.5)
+  const double least = this->HasCuts ? ChordLengths::ShortestOnCut : ChordLengths::Shortest;
+  for (double shortest = least * step; chord > 0.0 && chord >= shortest; chord *= 0.5)
   {
     const Ahead ahead = this->advance(heading, chord);
     if (ahead.vertex)

@@ -37,7 +37,8 @@ std::vector<int> partnersOf(const ElementMesh& mesh, const std::vector<BoundaryT
   { return traces[stretch.trace].vertices[stretch.first].leaving.at.location.element; };
   const auto ends = [&](int s) { return endsOf(traces[stretches[s].trace], stretches[s]); };
   std::vector<int> partners(stretches.size(), -1);
-  std::map<std::size_t, std::vector<int>> alongFace; // by the slot of the face, as its own side sees it
+  std::map<std::size_t, std::vector<int>>
+    alongFace; // by the slot of the face, as its own side sees it
   for (std::size_t s = 0; s < stretches.size(); ++s)
   {
     if (stretches[s].creaseFace >= 0)

@@ -76,7 +76,9 @@ CurvePairs pairsOf(const std::vector<CurvePlace>& places, const std::vector<Curv
     const std::vector<CurvePlace> way = unrolled(places, curve);
     const auto hasParticle = [&way](std::size_t n)
     { return n < way.size() && way[n].particle >= 0; };
-    Chain chain(pairs, std::any_of(way.begin(), way.end(), [](const CurvePlace& place) { return place.beginsCrease; }));
+    Chain chain(pairs,
+      std::any_of(
+        way.begin(), way.end(), [](const CurvePlace& place) { return place.beginsCrease; }));
     for (std::size_t n = 0; n < way.size(); ++n)
     {
       const bool isBetweenTwo = n > 0 && hasParticle(n - 1) && hasParticle(n + 1);

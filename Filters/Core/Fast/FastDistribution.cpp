@@ -335,8 +335,7 @@ void FastSystem::prepareSurface()
 /// Number of particles that the surface takes at the sizing function.
 double FastSystem::targetCount() const
 {
-  return this->Proxy->particleCount() +
-    this->BoundaryCount;
+  return this->Proxy->particleCount() + this->BoundaryCount;
 }
 
 /// Finds the spacing that goes with a given number of particles: first on a rough proxy, then on the surface itself. What
@@ -496,7 +495,8 @@ void FastSystem::traceBoundaryCurves()
     if (seen[n])
     {
       this->BoundaryPatches.push_back(boundary.patch);
-      this->BoundaryCount += boundary.side.exists() || !boundary.isOnCrease ? OnBoundary::Count : 0.0;
+      this->BoundaryCount +=
+        boundary.side.exists() || !boundary.isOnCrease ? OnBoundary::Count : 0.0;
     }
   }
 }
@@ -589,8 +589,7 @@ void FastSystem::finish()
     return result;
   };
   const SurfaceEdges& edges = this->Curves.edges;
-  this->Result.edges = { addAll(edges.segments), addAll(edges.directed),
-    addAll(edges.coincident) };
+  this->Result.edges = { addAll(edges.segments), addAll(edges.directed), addAll(edges.coincident) };
   for (const BoundaryParticle& boundary : this->Curves.particles)
   {
     particles.push_back(boundary.particle);

@@ -375,8 +375,8 @@ TEST(BoundaryCurves, OfBothSidesOfACreaseMeetInTheSamePlaces)
 {
   const BoundaryCurves curves = curvesOf(ridge(), {}, SampledCurves::BoundaryAndCreases);
   // The ridge is 2 long, and has particles at both ends.
-  EXPECT_EQ(curves.edges.coincident.size(),
-    static_cast<std::size_t>(std::ceil(2.0 / (1.1 * spacing))) + 1);
+  EXPECT_EQ(
+    curves.edges.coincident.size(), static_cast<std::size_t>(std::ceil(2.0 / (1.1 * spacing))) + 1);
   for (const auto& [a, b] : curves.edges.coincident)
   {
     const Particle& first = curves.particles[a].particle;
@@ -399,8 +399,7 @@ TEST(BoundaryCurves, OfOneSideOfACreaseHaveItsSurfaceToTheirLeft)
     const Particle& second = curves.particles[b].particle;
     const double side = first.normal.xyz.x > 0.0 ? -0.5 : 0.5;
     const glm::dvec3 middle(side, 0.0, 0.1 - std::abs(side));
-    const glm::dvec3 left =
-      glm::cross(first.normal.xyz, (second.position - first.position).xyz);
+    const glm::dvec3 left = glm::cross(first.normal.xyz, (second.position - first.position).xyz);
     EXPECT_GT(glm::dot(left, middle - first.position.xyz), 0.0);
   }
 }

@@ -70,7 +70,8 @@ TEST(CurveSegments, AreDirectedOnCurvesOfWhichAPartIsACrease)
   places[1].beginsCrease = true;
   const std::vector<CurveRange> curves{ { 0, 3, true }, { 3, 3, true } };
   EXPECT_EQ(directedEdgesOf(places, curves), (Pairs{ { 0, 2 }, { 1, 0 }, { 2, 1 } }));
-  EXPECT_EQ(segmentsOf(places, curves), (Pairs{ { 0, 1 }, { 0, 2 }, { 3, 4 }, { 3, 5 }, { 4, 5 } }));
+  EXPECT_EQ(
+    segmentsOf(places, curves), (Pairs{ { 0, 1 }, { 0, 2 }, { 3, 4 }, { 3, 5 }, { 4, 5 } }));
 }
 
 TEST(CurveSegments, AreRenumberedWithoutDroppedParticles)

@@ -170,7 +170,8 @@ ElementMesh polyhedron()
   recipe.domain = Domain::Tetrahedron;
   recipe.degrees = { 1, 1, 1 };
   recipe.cells = 3;
-  recipe.field = [](const glm::dvec3& x) { return glm::length(x - glm::dvec3(0.05, 0.02, 0.01)) - 0.7; };
+  recipe.field = [](const glm::dvec3& x)
+  { return glm::length(x - glm::dvec3(0.05, 0.02, 0.01)) - 0.7; };
   return makeMesh(recipe);
 }
 
@@ -201,7 +202,8 @@ TEST(SurfaceMesh, IsTheSameOverCreasesForAnyNumberOfThreads)
   ASSERT_EQ(one.distribution.particles.size(), three.distribution.particles.size());
   for (std::size_t p = 0; p < one.distribution.particles.size(); ++p)
   {
-    EXPECT_EQ(one.distribution.particles[p].position.xyz, three.distribution.particles[p].position.xyz);
+    EXPECT_EQ(
+      one.distribution.particles[p].position.xyz, three.distribution.particles[p].position.xyz);
   }
 }
 
