@@ -19,7 +19,8 @@
 class vtkDataArray;
 class vtkDataSet;
 
-class VTKHIGHORDERPARTICLESERVERMANAGER_EXPORT vtkPVCrossedCellsInformation : public vtkPVInformation
+class VTKHIGHORDERPARTICLESERVERMANAGER_EXPORT vtkPVCrossedCellsInformation
+  : public vtkPVInformation
 {
 public:
   static vtkPVCrossedCellsInformation* New();

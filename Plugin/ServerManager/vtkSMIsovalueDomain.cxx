@@ -163,7 +163,8 @@ bool vtkSMIsovalueDomain::Gather(Information* information)
 double vtkSMIsovalueDomain::ValueOfLargeSurface(double low, double high, double isovalue)
 {
   // What is compared; without unit, chosen by experiment.
-  constexpr double tiny = 0.25; // share of the largest surface; a larger one leaves the middle where that shows enough
+  constexpr double tiny =
+    0.25; // share of the largest surface; a larger one leaves the middle where that shows enough
   constexpr double large = 0.5; // share of it that is enough
   const double range = high - low;
   if (!(range > 0.0) || !std::isfinite(range))
@@ -171,7 +172,8 @@ double vtkSMIsovalueDomain::ValueOfLargeSurface(double low, double high, double 
     return isovalue;
   }
   std::vector<double> candidates{ isovalue };
-  for (const double share : { 0.35, 0.65, 0.2, 0.8 }) // farther out surfaces are often small corners
+  for (const double share :
+    { 0.35, 0.65, 0.2, 0.8 }) // farther out surfaces are often small corners
   {
     candidates.push_back(roundedToRange(low + share * range, range));
   }
@@ -183,7 +185,7 @@ double vtkSMIsovalueDomain::ValueOfLargeSurface(double low, double high, double 
   }
   const std::vector<double>& sizes = crossed->GetSizes();
   const double largest = *std::max_element(sizes.begin(), sizes.end());
-  const auto enough = std::find_if(
-    sizes.begin(), sizes.end(), [=](double size) { return size >= large * largest; });
+  const auto enough =
+    std::find_if(sizes.begin(), sizes.end(), [=](double size) { return size >= large * largest; });
   return sizes.front() < tiny * largest ? candidates[enough - sizes.begin()] : isovalue;
 }
