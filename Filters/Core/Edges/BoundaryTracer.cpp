@@ -596,7 +596,7 @@ bool BoundaryTracer::follow(const BoundaryPoint& start, double step, double dire
       // A trace that meets another boundary curve, not its own start, is open.
       const glm::dvec3& begin = start.at.point.map.position.xyz;
       const bool isClosed = distanceToSegment(begin, position.xyz, next->position()) <
-        std::max(0.5 * moved, ChordLengths::PassShare * firstChord);
+        (this->HasCuts ? std::max(0.5 * moved, ChordLengths::PassShare * firstChord) : 0.5 * moved);
       if (isClosed && direction > 0.0 && next->corner &&
         (this->isCutAt(next->arriving) || this->isCutAt(next->leaving)))
       {
