@@ -473,7 +473,7 @@ TEST(ClassicDistribution, CostsInProportionToItsParticlesInFlattenedElements)
     15'000.0 * static_cast<double>(result.particles.size()));
 }
 
-TEST(ClassicDistribution, MakesNothingOfAFieldThatTouchesTheIsovalueInAPoint)
+TEST(ClassicDistribution, MakesOneParticleAtMostWhereAFieldTouchesTheIsovalue)
 {
   MeshRecipe recipe;
   recipe.cells = 3;
@@ -481,7 +481,7 @@ TEST(ClassicDistribution, MakesNothingOfAFieldThatTouchesTheIsovalueInAPoint)
   const ElementMesh mesh = makeMesh(recipe);
   // The tolerance is large beside the spacing: particles would fill a ball.
   const Distribution result = distributeClassic({ &mesh, 0.0, 1e-3 }, withSpacing(1e-4), {}, {});
-  EXPECT_TRUE(result.particles.empty());
+  EXPECT_LE(result.particles.size(), 1u);
 }
 
 TEST(ClassicDistribution, DoesNotDependOnTheUnitOfLength)
