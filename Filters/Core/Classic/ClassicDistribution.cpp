@@ -50,6 +50,11 @@ struct Start
   static constexpr double BoxPerExtent = 1.0 / 400.0;
 };
 
+/// Largest tolerance, in units of the smallest spacing, whatever is asked for. Larger: where a field touches the isovalue
+/// in a point, all places of a ball around the point are on the surface to the tolerance, and particles fill it; smaller:
+/// nothing gets better.
+constexpr double largestTolerance = 1e-3;
+
 /// Largest relative change of the spacing at once, where it follows the energy. Chosen by experiment. Larger: the
 /// spacing overshoots while particles have not spread yet; smaller: more sweeps.
 constexpr double largestSpacingChange = 0.1;
@@ -62,7 +67,7 @@ public:
     : Work(monitor, parallelFor)
     , Parallel(std::ref(this->Work))
     , Locator(*surface.mesh, surface.isovalue, this->Parallel)
-    , Surface(located(surface, this->Locator))
+    , Surface(located(surface, parameters.sizing, this->Locator))
     , Parameters(parameters)
     , Particles(this->Surface, parameters.sizing, this->Parallel)
     , RandomNumbers(parameters.seed)
@@ -72,7 +77,8 @@ public:
   Distribution run();
 
 private:
-  static Isosurface located(Isosurface surface, const FaceLocator& locator);
+  static Isosurface located(
+    Isosurface surface, const SizingFunction& sizing, const FaceLocator& locator);
   std::vector<ClassicParticle> makeSeeds();
   bool countIsGiven() const { return this->Parameters.particleCount > 0; }
   double givenCount() const { return static_cast<double>(this->Parameters.particleCount); }
@@ -114,8 +120,10 @@ double extentOf(const std::vector<ClassicParticle>& movers)
   return glm::distance(lower, upper);
 }
 
-Isosurface ClassicSystem::located(Isosurface surface, const FaceLocator& locator)
+Isosurface ClassicSystem::located(
+  Isosurface surface, const SizingFunction& sizing, const FaceLocator& locator)
 {
+  surface.tolerance = std::min(surface.tolerance, largestTolerance * sizing.smallest());
   surface.locator = &locator;
   return surface;
 }

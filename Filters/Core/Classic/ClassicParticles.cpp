@@ -20,12 +20,6 @@ constexpr double listSlack = 1.25;
 /// experiment. Larger: seeds of other components; smaller: the line between two corners is searched more often.
 constexpr double seedTravelPerBox = 2.0;
 
-/// Radius to which the surface bends, in units of the tolerance, below which a place is none of a surface: where a field
-/// touches the isovalue in a point, places within two tolerances of the point count as on the surface, and bend to a
-/// radius of 1.4 tolerances or less. Larger: seeds of small components are lost; smaller: particles fill the ball around
-/// the point.
-constexpr double leastRadius = 2.0;
-
 /// Energy of the neighbours that hexagonal packing can have around a particle on a number of boundary faces: 6 inside,
 /// 4 on a face, 2 on an edge, 1 in a corner.
 double idealEnergyOnBoundary(int boundaryFaces)
@@ -78,20 +72,6 @@ bool ClassicParticles::displace(
     length(to.position() - from.position()) <= farthest && dot(to.normal, from.normal) > 0.0;
 }
 
-/// Whether the surface at a seed is larger than the tolerance. Certified boxes hold a sheet of it.
-bool ClassicParticles::isOnSheet(
-  const SurfaceBox& box, const ClassicParticle& mover, SurfaceWalker& walker) const
-{
-  if (box.certified)
-  {
-    return true;
-  }
-  const Evaluated curved = walker.evaluateCurved(mover.at.location);
-  return leastRadius * this->Surface.tolerance *
-    curvature(curved.point.gradient, curved.hessian).magnitude <
-    1.0;
-}
-
 /// Finds a point of the surface by Newton's method from the middle of the box or, if that leads away from the box, on
 /// the line between two of its corners.
 bool ClassicParticles::seed(
@@ -117,8 +97,7 @@ std::vector<ClassicParticle> ClassicParticles::seedsOf(const std::vector<Surface
       for (std::ptrdiff_t b = begin; b < end; ++b)
       {
         SurfaceWalker walker(this->Surface);
-        found[b] = this->seed(boxes[b], walker, seeds[b], cost[b]) &&
-          this->isOnSheet(boxes[b], seeds[b], walker);
+        found[b] = this->seed(boxes[b], walker, seeds[b], cost[b]);
         cost[b] += walker.evaluations();
       }
     });

