@@ -54,7 +54,8 @@ void vtkPVCrossedCellsInformation::AddCells(vtkDataSet* block, vtkDataArray* arr
     const double size = low < high ? std::pow(box.GetDiagonalLength(), 2) : 0.0;
     for (std::size_t i = 0; i < this->Isovalues.size(); ++i)
     {
-      if (low < this->Isovalues[i] && this->Isovalues[i] < high)
+      // Surfaces in faces between cells count, twice.
+      if (low <= this->Isovalues[i] && this->Isovalues[i] <= high)
       {
         this->Sizes[i] += static_cast<double>(step) * size;
       }
