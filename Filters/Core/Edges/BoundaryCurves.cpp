@@ -186,6 +186,14 @@ private:
   SurfaceWalker Passer;
 };
 
+/// Whether a curve is at the same corner, and goes on along the same face.
+bool isSame(const BoundaryVertex& a, const BoundaryVertex& b, double spacing)
+{
+  return a.corner && b.corner && a.leaving.at.location.element == b.leaving.at.location.element &&
+    a.leaving.face == b.leaving.face &&
+    glm::distance(a.position(), b.position()) <= Tracing::Tolerance * spacing;
+}
+
 class BoundarySampler
 {
 public:
@@ -370,6 +378,13 @@ void BoundarySampler::keep(BoundaryTrace trace, double spacing)
   {
     vertices.erase(vertices.begin());
   }
+  // A crease of one chord may have been followed several times.
+  const auto isBack = [&](const BoundaryVertex& vertex)
+  {
+    return trace.closed && this->isCutAt(vertex.leaving) &&
+      isSame(vertex, vertices.front(), spacing);
+  };
+  vertices.erase(std::find_if(vertices.begin() + 1, vertices.end(), isBack), vertices.end());
   if (trace.closed)
   {
     const auto corner = std::find_if(
