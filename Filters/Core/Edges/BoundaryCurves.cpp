@@ -359,10 +359,13 @@ void BoundarySampler::followOtherSide(std::size_t stretch, const ParallelFor& pa
 /// crease.
 bool BoundarySampler::standsStill(const BoundaryTrace& trace, double spacing) const
 {
+  if (!trace.closed || trace.vertices.size() < 3)
+  {
+    return false;
+  }
   const BoundaryVertex& first = trace.vertices[0];
   const BoundaryVertex& second = trace.vertices[1];
-  return trace.closed && trace.vertices.size() > 2 && second.corner &&
-    (this->isCutAt(second.arriving) || this->isCutAt(second.leaving)) &&
+  return second.corner && (this->isCutAt(second.arriving) || this->isCutAt(second.leaving)) &&
     glm::distance(first.position(), second.position()) <= Tracing::Tolerance * spacing;
 }
 
@@ -370,7 +373,7 @@ bool BoundarySampler::standsStill(const BoundaryTrace& trace, double spacing) co
 void BoundarySampler::keep(BoundaryTrace trace, double spacing)
 {
   std::vector<BoundaryVertex>& vertices = trace.vertices;
-  if (vertices.size() < 2)
+  if (vertices.size() < 2 && !trace.closed)
   {
     return;
   }
