@@ -190,6 +190,14 @@ private:
   SurfaceWalker Passer;
 };
 
+/// Whether a curve is at the same corner, and goes on along the same face.
+bool isSame(const BoundaryVertex& a, const BoundaryVertex& b, double spacing)
+{
+  return a.corner && b.corner && a.leaving.at.location.element == b.leaving.at.location.element &&
+    a.leaving.face == b.leaving.face &&
+    glm::distance(a.position(), b.position()) <= Tracing::Tolerance * spacing;
+}
+
 class BoundarySampler
 {
 public:
@@ -439,10 +447,13 @@ void BoundarySampler::followOtherSide(std::size_t stretch, const ParallelFor& pa
 /// crease.
 bool BoundarySampler::standsStill(const BoundaryTrace& trace, double spacing) const
 {
+  if (!trace.closed || trace.vertices.size() < 3)
+  {
+    return false;
+  }
   const BoundaryVertex& first = trace.vertices[0];
   const BoundaryVertex& second = trace.vertices[1];
-  return trace.closed && trace.vertices.size() > 2 && second.corner &&
-    (this->isCutAt(second.arriving) || this->isCutAt(second.leaving)) &&
+  return second.corner && (this->isCutAt(second.arriving) || this->isCutAt(second.leaving)) &&
     glm::distance(first.position(), second.position()) <= Tracing::Tolerance * spacing;
 }
 
@@ -457,7 +468,7 @@ void BoundarySampler::keep(BoundaryTrace trace, double spacing)
     }
   }
   std::vector<BoundaryVertex>& vertices = trace.vertices;
-  if (vertices.size() < 2)
+  if (vertices.size() < 2 && !trace.closed)
   {
     return;
   }
@@ -465,6 +476,13 @@ void BoundarySampler::keep(BoundaryTrace trace, double spacing)
   {
     vertices.erase(vertices.begin());
   }
+  // A crease of one chord may have been followed several times.
+  const auto isBack = [&](const BoundaryVertex& vertex)
+  {
+    return trace.closed && this->isCutAt(vertex.leaving) &&
+      isSame(vertex, vertices.front(), spacing);
+  };
+  vertices.erase(std::find_if(vertices.begin() + 1, vertices.end(), isBack), vertices.end());
   if (trace.closed)
   {
     const auto corner = std::find_if(
