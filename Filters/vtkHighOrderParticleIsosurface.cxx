@@ -11,6 +11,7 @@
 #include "Run/Ranks.h"
 #include "Run/RunMessages.h"
 #include "Run/RunScale.h"
+#include "Support/Exchange.h"
 
 #include "vtkContourValues.h"
 #include "vtkDataObjectTree.h"
@@ -22,6 +23,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
+#include <exception>
 #include <iterator>
 #include <string>
 #include <vector>
@@ -212,12 +214,32 @@ int vtkHighOrderParticleIsosurface::RequestData(
   }
   this->Kept->forget();
   this->HasFailed = false;
-  this->Run(input, output);
+  this->TryToRun(input, output);
   if (!this->HasFailed && !hop::isAborted(this))
   {
     this->Kept->keep(request, output);
   }
   return 1;
+}
+
+/// An exception, for want of memory as a rule, is told and leaves an empty output. On several ranks it goes on and ends
+/// the program, as the others would wait for ever for a rank that has left.
+void vtkHighOrderParticleIsosurface::TryToRun(vtkDataObject* input, vtkDataObject* output)
+{
+  try
+  {
+    this->Run(input, output);
+  }
+  catch (const std::exception& failure)
+  {
+    if (!hop::makeExchange()->isAlone())
+    {
+      throw;
+    }
+    output->Initialize();
+    this->Previous->forget();
+    this->Tell({ hop::describeFailure(failure, this->NumberOfParticles) });
+  }
 }
 
 void vtkHighOrderParticleIsosurface::Run(vtkDataObject* input, vtkDataObject* output)

@@ -534,9 +534,8 @@ void vtkSurfaceSplatMapper::UploadLookupCoordinates(vtkRenderer* renderer)
     this->InternalColorTexture->RepeatOff();
   }
   this->InternalColorTexture->SetInputData(this->ColorTextureMap);
-  std::vector<float> texels =
-    hop::LookupTexels(vtkFloatArray::SafeDownCast(this->ColorCoordinates),
-      this->Internal->PointIds, this->Internal->Buffers.GetNumberOfParticles());
+  std::vector<float> texels = hop::LookupTexels(vtkFloatArray::SafeDownCast(this->ColorCoordinates),
+    this->Internal->PointIds, this->Internal->Buffers.GetNumberOfParticles());
   this->AddGradients(texels);
   this->Internal->Buffers.UploadColors(WindowOf(renderer), texels);
 }

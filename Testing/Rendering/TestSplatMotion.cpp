@@ -94,8 +94,8 @@ vtkSmartPointer<vtkTransform> ThirdOfATurn()
 
 hop::SplatParticles Read(vtkPolyData* particles)
 {
-  auto arrays = hop::ParticleArrays::FromPointData(
-    particles->GetPointData(), particles->GetNumberOfPoints());
+  auto arrays =
+    hop::ParticleArrays::FromPointData(particles->GetPointData(), particles->GetNumberOfPoints());
   arrays.Radii = particles->GetPointData()->GetArray("Radius");
   return hop::SplatParticles::FromPolyData(particles, arrays);
 }

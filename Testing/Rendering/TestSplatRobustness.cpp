@@ -146,11 +146,12 @@ void AddOddArrays(vtkPolyData* particles, Dice& dice)
   {
     if (dice.Chance(0.3))
     {
-      const int tuples = static_cast<int>(dice.Pick<vtkIdType>({ 0, 1, count / 2, count, count + 5 }));
+      const int tuples =
+        static_cast<int>(dice.Pick<vtkIdType>({ 0, 1, count / 2, count, count + 5 }));
       const int size = dice.Chance(0.3) ? 1 + dice.Below(20) : components;
       using Add = void (*)(vtkFieldData*, const char*, int, vtkIdType, Dice&);
-      const auto add = dice.Pick<Add>({ AddOddArray<vtkDoubleArray>, AddOddArray<vtkFloatArray>,
-        AddOddArray<vtkIntArray> });
+      const auto add = dice.Pick<Add>(
+        { AddOddArray<vtkDoubleArray>, AddOddArray<vtkFloatArray>, AddOddArray<vtkIntArray> });
       add(particles->GetPointData(), name, size, tuples, dice);
     }
   }
@@ -204,8 +205,7 @@ bool ChooseProperties(SplatScene& scene, Dice& dice)
   mapper->SetMode(dice.Below(3));
   mapper->SetSharpness(dice.Pick({ 0.1, 2., 20. }));
   mapper->SetStride(dice.Chance(0.2) ? 1 + dice.Below(5000) : 1);
-  mapper->SetRadiusScale(
-    dice.Chance(0.8) ? 1. : dice.Pick({ 0., 1e-3, 3., 1e10, VTK_DOUBLE_MAX }));
+  mapper->SetRadiusScale(dice.Chance(0.8) ? 1. : dice.Pick({ 0., 1e-3, 3., 1e10, VTK_DOUBLE_MAX }));
   mapper->SetColorByNormalDirection(dice.Chance(0.2));
   property->SetOpacity(dice.Pick({ 1., 1., 1., 1., 0.5, 0.3, 0. }));
   property->SetInterpolation(dice.Below(4)); // flat to physically based
@@ -232,9 +232,10 @@ bool ChooseProperties(SplatScene& scene, Dice& dice)
   // Translucent disks of thrice the radius vanish where they are peeled: Documentation/reliability.md.
   const bool isPeeledAway = scale > 1. && mapper->GetMode() == vtkSurfaceSplatMapper::Disks &&
     property->GetOpacity() < 1. && scene.Renderer->GetUseDepthPeeling();
-  return !isPeeledAway && mapper->GetMode() != vtkSurfaceSplatMapper::Points && mapper->GetStride() == 1 &&
-    scale >= 1. && scale <= 3. && property->GetOpacity() > 0.2 && !property->GetBackfaceCulling() &&
-    !property->GetFrontfaceCulling() && mapper->GetNumberOfClippingPlanes() == 0;
+  return !isPeeledAway && mapper->GetMode() != vtkSurfaceSplatMapper::Points &&
+    mapper->GetStride() == 1 && scale >= 1. && scale <= 3. && property->GetOpacity() > 0.2 &&
+    !property->GetBackfaceCulling() && !property->GetFrontfaceCulling() &&
+    mapper->GetNumberOfClippingPlanes() == 0;
 }
 
 // Returns whether the sphere lies before the camera.

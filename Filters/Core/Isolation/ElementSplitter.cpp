@@ -188,8 +188,7 @@ std::optional<SheetPair> ElementSplitter::sheetPairIn(const Piece& piece, bool i
 
 /// Splits a certified piece until all of it has boxes that are small enough, or until that takes long.
 /// \return what is left to be split
-std::vector<Piece> ElementSplitter::followToBoxes(
-  Piece piece, std::vector<SurfaceBox>& boxes) const
+std::vector<Piece> ElementSplitter::followToBoxes(Piece piece, std::vector<SurfaceBox>& boxes) const
 {
   std::vector<Piece> left;
   left.push_back(std::move(piece));

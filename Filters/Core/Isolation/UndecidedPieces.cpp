@@ -55,8 +55,8 @@ StopRule stopRuleOf(const std::vector<Piece>& level, bool isCrossed, const Piece
 {
   StopRule rule;
   // Undecided pieces of a level are of one size; certified ones may have been halved more often.
-  const auto undecided = std::find_if(
-    level.begin(), level.end(), [](const Piece& piece) { return !piece.certified(); });
+  const auto undecided =
+    std::find_if(level.begin(), level.end(), [](const Piece& piece) { return !piece.certified(); });
   if (undecided == level.end())
   {
     return rule;
