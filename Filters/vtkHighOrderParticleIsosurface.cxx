@@ -199,36 +199,15 @@ int vtkHighOrderParticleIsosurface::RequestDataObject(
   return 1;
 }
 
+/// An exception, for want of memory as a rule, is told and leaves an empty output. On several ranks it goes on and ends
+/// the program, as the others would wait for ever for a rank that has left.
 int vtkHighOrderParticleIsosurface::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
   vtkDataObject* output = vtkDataObject::GetData(outputs, 0);
-  const std::uint64_t request = this->HashOfRequest(input);
-  const bool isKept = this->Kept->answers(request) && !hop::isAborted(this);
-  // A run takes all ranks: it is left out where none of them has anything new.
-  if (hop::largestOfRanks(isKept ? 0 : 1) == 0)
-  {
-    this->Kept->copyTo(output);
-    return 1;
-  }
-  this->Kept->forget();
-  this->HasFailed = false;
-  this->TryToRun(input, output);
-  if (!this->HasFailed && !hop::isAborted(this))
-  {
-    this->Kept->keep(request, output);
-  }
-  return 1;
-}
-
-/// An exception, for want of memory as a rule, is told and leaves an empty output. On several ranks it goes on and ends
-/// the program, as the others would wait for ever for a rank that has left.
-void vtkHighOrderParticleIsosurface::TryToRun(vtkDataObject* input, vtkDataObject* output)
-{
   try
   {
-    this->Run(input, output);
+    this->Answer(vtkDataObject::GetData(inputs[0], 0), output);
   }
   catch (const std::exception& failure)
   {
@@ -237,8 +216,30 @@ void vtkHighOrderParticleIsosurface::TryToRun(vtkDataObject* input, vtkDataObjec
       throw;
     }
     output->Initialize();
+    this->Kept->forget();
     this->Previous->forget();
     this->Tell({ hop::describeFailure(failure, this->NumberOfParticles) });
+  }
+  return 1;
+}
+
+/// The output of the run before, where nothing has changed, or a run.
+void vtkHighOrderParticleIsosurface::Answer(vtkDataObject* input, vtkDataObject* output)
+{
+  const std::uint64_t request = this->HashOfRequest(input);
+  const bool isKept = this->Kept->answers(request) && !hop::isAborted(this);
+  // A run takes all ranks: it is left out where none of them has anything new.
+  if (hop::largestOfRanks(isKept ? 0 : 1) == 0)
+  {
+    this->Kept->copyTo(output);
+    return;
+  }
+  this->Kept->forget();
+  this->HasFailed = false;
+  this->Run(input, output);
+  if (!this->HasFailed && !hop::isAborted(this))
+  {
+    this->Kept->keep(request, output);
   }
 }
 

@@ -316,7 +316,7 @@ private:
   void operator=(const vtkHighOrderParticleIsosurface&) = delete;
 
   bool IsAskedForMore(vtkInformationVector* outputs);
-  void TryToRun(vtkDataObject* input, vtkDataObject* output);
+  void Answer(vtkDataObject* input, vtkDataObject* output);
   void Run(vtkDataObject* input, vtkDataObject* output);
   int KindOfOutput() const;
   std::uint64_t HashOfRequest(vtkDataObject* input);
