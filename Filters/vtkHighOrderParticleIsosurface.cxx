@@ -11,6 +11,7 @@
 #include "Run/Ranks.h"
 #include "Run/RunMessages.h"
 #include "Run/RunScale.h"
+#include "Support/Exchange.h"
 
 #include "vtkContourValues.h"
 #include "vtkDataObjectTree.h"
@@ -22,6 +23,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
+#include <exception>
 #include <iterator>
 #include <string>
 #include <vector>
@@ -197,18 +199,40 @@ int vtkHighOrderParticleIsosurface::RequestDataObject(
   return 1;
 }
 
+/// An exception, for want of memory as a rule, is told and leaves an empty output. On several ranks it goes on and ends
+/// the program, as the others would wait for ever for a rank that has left.
 int vtkHighOrderParticleIsosurface::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
   vtkDataObject* output = vtkDataObject::GetData(outputs, 0);
+  try
+  {
+    this->Answer(vtkDataObject::GetData(inputs[0], 0), output);
+  }
+  catch (const std::exception& failure)
+  {
+    if (!hop::makeExchange()->isAlone())
+    {
+      throw;
+    }
+    output->Initialize();
+    this->Kept->forget();
+    this->Previous->forget();
+    this->Tell({ hop::describeFailure(failure, this->NumberOfParticles) });
+  }
+  return 1;
+}
+
+/// The output of the run before, where nothing has changed, or a run.
+void vtkHighOrderParticleIsosurface::Answer(vtkDataObject* input, vtkDataObject* output)
+{
   const std::uint64_t request = this->HashOfRequest(input);
   const bool isKept = this->Kept->answers(request) && !hop::isAborted(this);
   // A run takes all ranks: it is left out where none of them has anything new.
   if (hop::largestOfRanks(isKept ? 0 : 1) == 0)
   {
     this->Kept->copyTo(output);
-    return 1;
+    return;
   }
   this->Kept->forget();
   this->HasFailed = false;
@@ -217,7 +241,6 @@ int vtkHighOrderParticleIsosurface::RequestData(
   {
     this->Kept->keep(request, output);
   }
-  return 1;
 }
 
 void vtkHighOrderParticleIsosurface::Run(vtkDataObject* input, vtkDataObject* output)

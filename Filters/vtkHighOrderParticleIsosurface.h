@@ -360,6 +360,7 @@ private:
   void operator=(const vtkHighOrderParticleIsosurface&) = delete;
 
   bool IsAskedForMore(vtkInformationVector* outputs);
+  void Answer(vtkDataObject* input, vtkDataObject* output);
   void Run(vtkDataObject* input, vtkDataObject* output);
   int KindOfOutput() const;
   std::uint64_t HashOfRequest(vtkDataObject* input);

@@ -5,9 +5,9 @@
 
 Every .vtu file of the folders (default: Testing/Data and that of HOP_SHARED_DATA) and some random grids of noise are
 contoured by every kind of request below, on one thread: once to the end, and then N times with an abort at a moment
-chosen evenly in the time of the first run. Times are of the processor, so that other work on the machine does not count.
+chosen evenly in the time of the first run. Times are of the processor: other work on the machine does not count.
 What is measured is the time from that moment until the filter is back: the time until it asks whether to go on, and the
-time to leave. Progress must not fall. To be run by pvpython in the environment of the tests: `ctest -R Fuzz.aborts -V`.
+time to leave. Progress must not fall. To be run by pvpython in the environment that `ctest -R Fuzz.random -V` shows.
 """
 
 import argparse

@@ -62,11 +62,12 @@ def random_recipe(seed):
 
 
 def later_choices(recipe, seed):
-    """What recipes know since seeds were first written down, by dice of its own, so that a seed is still what it was."""
+    """What recipes know since seeds were first written down, by other dice, so that a seed is still what it was."""
     dice = np.random.default_rng([seed, 1])
 
     def mesh():
-        return {"OutputType": int(dice.choice([PARTICLES, TRIANGLES, CURVED_TRIANGLES])), "Order": int(dice.integers(2, 5))}
+        kind = int(dice.choice([PARTICLES, TRIANGLES, CURVED_TRIANGLES]))
+        return {"OutputType": kind, "Order": int(dice.integers(2, 5))}
 
     # In units of the longest side.
     smallest = float(dice.choice([0, 0, 0, 0.01, 0.1]))
@@ -236,7 +237,8 @@ PLAIN = {
 }  # fmt: skip
 PLAIN_PROPERTIES = {
     "Spacing": 0, "AngularDensity": 7, "Tolerance": 1e-10, "NumberOfParticles": 0, "Quality": 1, "Method": FAST,
-    "NodeSpacing": 0, "Component": 0, "WarmStart": 1, "Seed": 1, "OutputType": PARTICLES, "Order": 2, "SmallestSpacing": 0,
+    "NodeSpacing": 0, "Component": 0, "WarmStart": 1, "Seed": 1, "OutputType": PARTICLES, "Order": 2,
+    "SmallestSpacing": 0,
 }  # fmt: skip
 
 
