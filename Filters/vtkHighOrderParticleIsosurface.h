@@ -45,7 +45,7 @@
  *
  * Cell arrays are copied to the vertex cells. Field data of the output: those of the input, and with PassDiagnostics a
  * report of what the run cost and could not do: `Evaluations`, `Iterations`, `ElementsDropped`, `CellsSkipped`, `BoxesUnresolved`,
- * `SingularPoints`, `ParticlesRejected`, `ParticlesUndersampled` and `UnresolvedCellIds`. In a composite, cells are
+ * `SingularPoints`, `ParticlesRejected`, `ParticlesUndersampled`, `FacesReached`, `FacesEnded` and `UnresolvedCellIds`. In a composite, cells are
  * those of the block, and all other figures those of the whole mesh.
  *
  * GetOutputArrayDescription() says what each array of the filter's own means, with its unit. A point or field array of

@@ -109,7 +109,9 @@ FILTERS_PANEL = f"{PANEL}/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetCont
 EDITS = {
     "Contour By": ("SelectInputScalars", "ComboBox", "activated", "velocity"),
     "Component": ("Component", "ComboBox", "activated", "Y"),
+    "Quantity": ("Quantity", "ComboBox", "activated", "Divergence"),
     "Isosurfaces": ("ContourValues", "ScalarValueList/Add", "activate", ""),
+    "Pass Derivatives": ("PassDerivatives", "CheckBox", "set_boolean", "true"),
     "Spacing": ("Spacing", "DoubleRangeWidget/DoubleLineEdit", "set_string", "0.25"),
     "Angular Density": ("AngularDensity", "DoubleRangeWidget/DoubleLineEdit", "set_string", "3"),
     "Quality": ("Quality", "ComboBox", "activated", "High"),
@@ -120,6 +122,7 @@ EDITS = {
     "Method": ("Method", "ComboBox", "activated", "Classic"),
     "Seed": ("Seed", "LineEdit0", "set_string", "7"),
     "Number Of Particles": ("NumberOfParticles", "LineEdit0", "set_string", "400"),
+    "Particles Per Worker": ("ParticlesPerWorker", "LineEdit0", "set_string", "5000"),
     "Pass Diagnostics": ("PassDiagnostics", "CheckBox", "set_boolean", "true"),
     "Output Type": ("OutputType", "ComboBox", "activated", "Curved Triangles"),
     "Order": ("Order", "IntRangeWidget/LineEdit", "set_string", "3"),
@@ -127,7 +130,7 @@ EDITS = {
 # As the state file has them.
 EDITED = {
     "SelectInputScalars": ["", "", "", "0", "velocity"], "Component": ["1"], "Spacing": ["0.25"], "AngularDensity": ["3"],
-    "SmallestSpacing": ["0.125"],
+    "SmallestSpacing": ["0.125"], "Quantity": ["2"], "PassDerivatives": ["1"], "ParticlesPerWorker": ["5000"],
     "Quality": ["2"], "Tolerance": ["0.000001"], "NodeSpacing": ["1"], "WarmStart": ["1"], "Method": ["0"], "Seed": ["7"],
     "NumberOfParticles": ["400"], "PassDiagnostics": ["1"], "OutputType": ["2"], "Order": ["3"],
 }

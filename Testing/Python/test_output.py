@@ -210,7 +210,9 @@ def test_point_arrays_of_the_filters_names_give_way_and_are_named(channel, point
 def test_field_arrays_of_the_reports_names_give_way_and_are_named(channel):
     particles, messages = support.run(copy_with_arrays(channel, fields=REPORT), "pressure", 0.6, Spacing=0.04)
     assert support.reported(particles, "Iterations") != 99
-    assert len(messages.warnings) == 1 and all(f"field array '{name}'" in messages.warnings[0] for name in REPORT)
+    assert len(messages.warnings) == 1
+    named = [name for name in REPORT if f"field array '{name}'" in messages.warnings[0]]
+    assert len(named) == 10 and f"and {len(REPORT) - len(named)} more" in messages.warnings[0]
 
 
 def test_a_contoured_array_with_the_name_of_the_isovalues_is_what_it_was(channel):

@@ -123,7 +123,10 @@ double extentOf(const std::vector<ClassicParticle>& movers)
 Isosurface ClassicSystem::located(
   Isosurface surface, const SizingFunction& sizing, const FaceLocator& locator)
 {
-  surface.tolerance = std::min(surface.tolerance, largestTolerance * sizing.smallest());
+  SizingFunction unbounded = sizing;
+  unbounded.smallestSpacing = 0.0;
+  const double smallest = std::max(sizing.smallest(), unbounded.smallest());
+  surface.tolerance = std::min(surface.tolerance, largestTolerance * smallest);
   surface.locator = &locator;
   return surface;
 }

@@ -344,8 +344,8 @@ void runTwoRanks(const std::function<SlabResult(
 
 TEST(SlabDistribution, EndsOnAllRanksWhereOneIsInterrupted)
 {
-  // Questions after which the answer is to stop: at the beginning, and somewhere in the middle.
-  for (const int most : { 0, 3, 8 })
+  // Questions after which the answer is to stop: at the beginning, and later. Quick runs ask few.
+  for (const int most : { 0, 1, 2 })
   {
     runTwoRanks(
       [&](Exchange& exchange, const std::vector<Slab>& slabs, const SlabMeshes& meshes,
