@@ -86,11 +86,7 @@ CurvePairs pairsOf(const std::vector<CurvePlace>& places, const std::vector<Curv
       {
         chain.breakOff();
       }
-      else if (hasParticle(n))
-      {
-        chain.goOn(way[n]);
-      }
-      else if (way[n].standIn >= 0 && !isBetweenTwo)
+      else if (hasParticle(n) || (way[n].standIn >= 0 && !isBetweenTwo))
       {
         chain.goOn(way[n]);
       }

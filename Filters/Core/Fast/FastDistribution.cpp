@@ -604,6 +604,7 @@ void FastSystem::finish()
   const auto addAll = [first](const std::vector<std::array<int, 2>>& pairs)
   {
     std::vector<std::array<int, 2>> result;
+    result.reserve(pairs.size());
     for (const auto& [a, b] : pairs)
     {
       result.push_back({ first + a, first + b });

@@ -129,6 +129,7 @@ std::vector<Piece> piecesOf(
   const std::vector<ReferencePoint> middles = middlesOf(form.domain, perAxis);
   const double volume = referenceVolume(form.domain) / static_cast<double>(middles.size());
   std::vector<Piece> pieces;
+  pieces.reserve(middles.size());
   for (const ReferencePoint& middle : middles)
   {
     pieces.push_back(pieceAt(form, middle, volume, direction, sizing));

@@ -261,7 +261,8 @@ private:
 /// \param isDoubtful receives which cells may lack a neighbour
 void Areas::findAll(std::vector<char>& isDoubtful)
 {
-  const auto& [positions, spacings] = this->Places.points;
+  const auto& positions = this->Places.points.positions;
+  const auto& spacings = this->Places.points.spacings;
   const SpacingGrid grid(
     positions, spacings, CellReach::First, CellReach::GridCells, this->Parallel);
   Buffer<double> inverse(spacings.size());
@@ -295,7 +296,8 @@ void Areas::findAll(std::vector<char>& isDoubtful)
 
 void Areas::findAmongAll(const std::vector<int>& particles)
 {
-  const auto& [positions, spacings] = this->Places.points;
+  const auto& positions = this->Places.points.positions;
+  const auto& spacings = this->Places.points.spacings;
   const SpacingGrid grid(positions, spacings, ParticleNeighbors::Reach, 1.0, this->Parallel);
   runParallel(this->Parallel, static_cast<std::ptrdiff_t>(particles.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
