@@ -630,6 +630,11 @@ std::vector<BoundaryPlace> BoundarySampler::mirrored(
   const ElementMesh& mesh = *this->Surface.mesh;
   const auto behind = [&](const BoundaryPlace& place)
   {
+    // A place that has nothing behind it, as at the end of the mesh, is taken as it is.
+    if (place.face < 0 || mesh.neighbor(place.location.element, place.face).element < 0)
+    {
+      return place;
+    }
     return BoundaryPlace{ crossFace(mesh, place.location, place.face),
       mesh.neighbor(place.location.element, place.face).face, place.spacing };
   };
