@@ -44,7 +44,7 @@ function (target_strict_warnings target)
   endif ()
 endfunction ()
 
-# precompile_headers(TARGET HEADER...): what most files of the target include is read once, which saves a quarter of the
+# precompile_headers(TARGET HEADER...): what most files of the target include is read once, which saves a fifth of the
 # time of a build. Not with tests or a compiler launcher: clang-tidy does not read GCC's precompiled headers, and ccache
 # keeps nothing of what uses them. So it is that every file has the includes it needs.
 function (precompile_headers target)
