@@ -2,7 +2,6 @@
 
 #include "Mesh/CurvedTriangles.h"
 #include "Mesh/SurfaceMesh.h"
-#include "Support/DisjointSets.h"
 #include "Support/Interruptible.h"
 #include "Topology/TopologyComparison.h"
 
@@ -15,22 +14,6 @@ namespace hop
 
 namespace
 {
-
-/// For each particle the first one in the same place.
-std::vector<int> verticesOf(const Distribution& distribution)
-{
-  DisjointSets places(distribution.particles.size());
-  for (const auto& [a, b] : distribution.edges.coincident)
-  {
-    places.unite(a, b);
-  }
-  std::vector<int> vertices(distribution.particles.size());
-  for (std::size_t p = 0; p < vertices.size(); ++p)
-  {
-    vertices[p] = places.root(static_cast<int>(p));
-  }
-  return vertices;
-}
 
 /// A component of the surface on which the mesh has no triangle.
 MeshComponent missingComponent(const ElementMesh& mesh, const SurfaceComponent& component)
@@ -122,7 +105,7 @@ void addMesh(const Isosurface& surface, OutputType type, int order, IsovaluePart
     some.mesh.onLongestLoop = mesh.onLongestLoop;
     some.mesh.unusedParticles = mesh.unusedParticles;
     some.mesh.nodesPerCell = 3;
-    some.mesh.vertices = verticesOf(distribution);
+    some.mesh.vertices = firstInPlace(distribution.edges, distribution.particles.size());
     Interruptible loops(monitor, parallelFor);
     prove(surface, distribution.particles, triangles, some.mesh, std::ref(loops));
   }

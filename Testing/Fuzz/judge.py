@@ -207,7 +207,8 @@ def has_touching_fans(corners):
         reached = {steps[corner, n] for n in neighbors}
         first = next((n for n in neighbors if n not in reached), neighbors[0])
         place, length = first, 0
-        while (corner, place) in steps and (length == 0 or place != first):
+        # Where triangles overlap a way may end in a circle that it did not begin in.
+        while (corner, place) in steps and length <= len(neighbors) and (length == 0 or place != first):
             place = steps[corner, place]
             length += 1
         if length != len(neighbors):

@@ -1,5 +1,6 @@
 #include "Mesh/ManifoldVertices.h"
 
+#include <numeric>
 #include <set>
 
 namespace hop
@@ -89,6 +90,113 @@ bool keepOneFan(const std::vector<int>& vertices, TriangleFans& fans)
     }
   }
   return hasChanged;
+}
+
+namespace
+{
+
+/// A mesh in which particles in one place are one vertex.
+class WeldedFans
+{
+public:
+  explicit WeldedFans(const std::vector<int>& places)
+    : Places(places)
+    , Fans(
+        places.size(), {}, []() { return 0; }, [](int, TriangleFans::Fan&, int&) {})
+  {
+  }
+
+  /// \return whether the triangle has been added: it has three corners, and nothing is where it is to be
+  bool add(const Triangle& triangle)
+  {
+    const Triangle at = this->weld(triangle);
+    const auto isTaken = [&](int a, int b) { return a == b || this->Fans.apexOf(a, b) >= 0; };
+    const bool fits = !isTaken(at[0], at[1]) && !isTaken(at[1], at[2]) && !isTaken(at[2], at[0]);
+    if (fits)
+    {
+      this->Fans.add(at);
+    }
+    return fits;
+  }
+
+  bool keepOneFan(const std::vector<int>& vertices)
+  {
+    return hop::keepOneFan(vertices, this->Fans);
+  }
+
+  bool has(const Triangle& triangle) const
+  {
+    const Triangle at = this->weld(triangle);
+    return this->Fans.apexOf(at[0], at[1]) == at[2];
+  }
+
+private:
+  Triangle weld(const Triangle& triangle) const
+  {
+    return { this->Places[triangle[0]], this->Places[triangle[1]], this->Places[triangle[2]] };
+  }
+
+  const std::vector<int>& Places;
+  TriangleFans Fans;
+};
+
+/// Looks only at the triangles around places with several particles: nearly all meshes are sound.
+bool isManifold(const std::vector<int>& places, const std::vector<Triangle>& triangles)
+{
+  std::vector<char> isShared(places.size(), 0);
+  for (std::size_t p = 0; p < places.size(); ++p)
+  {
+    const bool isAnother = places[p] != static_cast<int>(p);
+    isShared[p] |= isAnother ? 1 : 0;
+    isShared[places[p]] |= isAnother ? 1 : 0;
+  }
+  WeldedFans welded(places);
+  std::set<int> vertices;
+  for (const Triangle& triangle : triangles)
+  {
+    bool touches = false;
+    for (const int corner : triangle)
+    {
+      if (isShared[corner])
+      {
+        touches = true;
+        vertices.insert(places[corner]);
+      }
+    }
+    if (touches && !welded.add(triangle))
+    {
+      return false;
+    }
+  }
+  return !welded.keepOneFan({ vertices.begin(), vertices.end() });
+}
+
+} // namespace
+
+void keepManifold(
+  const std::vector<int>& places, TriangleFans& fans, const ParallelFor& parallelFor)
+{
+  const std::vector<Triangle> triangles = fans.triangles(parallelFor);
+  if (isManifold(places, triangles))
+  {
+    return;
+  }
+  WeldedFans welded(places);
+  std::vector<char> isAdded;
+  for (const Triangle& triangle : triangles)
+  {
+    isAdded.push_back(welded.add(triangle) ? 1 : 0);
+  }
+  std::vector<int> vertices(places.size());
+  std::iota(vertices.begin(), vertices.end(), 0);
+  welded.keepOneFan(vertices);
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+  {
+    if (!isAdded[t] || !welded.has(triangles[t]))
+    {
+      fans.remove(triangles[t]);
+    }
+  }
 }
 
 } // namespace hop

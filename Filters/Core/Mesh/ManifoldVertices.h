@@ -13,4 +13,10 @@ namespace hop
 /// \return whether triangles were removed
 bool keepOneFan(const std::vector<int>& vertices, TriangleFans& fans);
 
+/// Makes a mesh a manifold with boundary also where particles in one place are one vertex. Of triangles on one side of an
+/// edge the first stays: where many creases meet within a spacing, those of several sheets may end in the same two places.
+/// \param places for each particle the first one in its place
+void keepManifold(
+  const std::vector<int>& places, TriangleFans& fans, const ParallelFor& parallelFor);
+
 } // namespace hop

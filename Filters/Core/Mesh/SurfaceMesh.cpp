@@ -4,7 +4,6 @@
 #include "Mesh/LooseParticles.h"
 #include "Mesh/ManifoldVertices.h"
 #include "Mesh/ParticleStars.h"
-#include "Support/DisjointSets.h"
 #include "Support/Interruptible.h"
 
 #include <functional>
@@ -15,29 +14,22 @@ namespace
 {
 
 /// Particles without a triangle, those in one place taken for one.
-std::int64_t countUnused(const Distribution& distribution, const TriangleFans& fans)
+std::int64_t countUnused(const std::vector<int>& places, const TriangleFans& fans)
 {
-  DisjointSets places(distribution.particles.size());
-  for (const auto& [a, b] : distribution.edges.coincident)
+  std::vector<char> isUsed(places.size(), 0);
+  for (std::size_t p = 0; p < places.size(); ++p)
   {
-    places.unite(a, b);
-  }
-  std::vector<char> isUsed(distribution.particles.size(), 0);
-  for (std::size_t i = 0; i < isUsed.size(); ++i)
-  {
-    const int particle = static_cast<int>(i);
-    isUsed[places.root(particle)] |= fans.hasTriangles(particle) ? 1 : 0;
+    isUsed[places[p]] |= fans.hasTriangles(static_cast<int>(p)) ? 1 : 0;
   }
   std::int64_t unused = 0;
-  for (std::size_t i = 0; i < isUsed.size(); ++i)
+  for (std::size_t p = 0; p < places.size(); ++p)
   {
-    const int particle = static_cast<int>(i);
-    unused += places.root(particle) == particle && !isUsed[i];
+    unused += places[p] == static_cast<int>(p) && !isUsed[p];
   }
   return unused;
 }
 
-/// What is open, and which particles have no triangle.
+/// What is open.
 void countOpen(const Distribution& distribution, const ConstrainedEdges& edges,
   const TriangleFans& fans, SurfaceMesh& mesh, const ParallelFor& parallelFor)
 {
@@ -58,7 +50,6 @@ void countOpen(const Distribution& distribution, const ConstrainedEdges& edges,
       mesh.onLongestLoop = loop.particles[0];
     }
   }
-  mesh.unusedParticles = countUnused(distribution, fans);
 }
 
 /// \return whether triangles were removed
@@ -99,9 +90,15 @@ SurfaceMesh meshSurface(const Isosurface& surface, Distribution& distribution,
     dropExtraFans(distribution, edges, fans, parallel);
   }
   joinLooseParticles(neighbors, edges, fans);
+  const std::vector<int> places = firstInPlace(distribution.edges, distribution.particles.size());
+  if (!distribution.edges.coincident.empty())
+  {
+    keepManifold(places, fans, parallel);
+  }
   SurfaceMesh mesh;
   mesh.triangles = fans.triangles(parallel);
   countOpen(distribution, edges, fans, mesh, parallel);
+  mesh.unusedParticles = countUnused(places, fans);
   return mesh;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace hop
@@ -19,5 +20,8 @@ struct SurfaceEdges
   /// them): one vertex of any mesh.
   std::vector<std::array<int, 2>> coincident;
 };
+
+/// For each of the particles the first one in the same place: itself, but for creases.
+std::vector<int> firstInPlace(const SurfaceEdges& edges, std::size_t particles);
 
 } // namespace hop

@@ -40,5 +40,30 @@ TEST(ManifoldVertices, LeaveClosedFansAlone)
   EXPECT_EQ(fans.triangles({}).size(), 3u);
 }
 
+TEST(ManifoldVertices, KeepTheFirstTriangleOnOneSideOfAnEdgeWhereParticlesAreOneVertex)
+{
+  // The sheets (0, 1, 2) and (3, 4, 5) end in the same two places and lie on the same side of the edge between them; the
+  // sheet (6, 7, 8) lies on the other side.
+  const std::vector<int> places{ 0, 1, 2, 0, 1, 5, 0, 1, 8 };
+  TriangleFans fans = fansOf(9, { { 0, 1, 2 }, { 3, 4, 5 }, { 6, 8, 7 } });
+  keepManifold(places, fans, {});
+  EXPECT_EQ(fans.triangles({}), (std::vector<Triangle>{ { 0, 1, 2 }, { 6, 8, 7 } }));
+}
+
+TEST(ManifoldVertices, KeepOneFanWhereParticlesAreOneVertex)
+{
+  TriangleFans fans = fansOf(7, { { 0, 1, 2 }, { 3, 4, 5 }, { 3, 5, 6 } });
+  keepManifold({ 0, 1, 2, 0, 4, 5, 6 }, fans, {});
+  EXPECT_EQ(fans.triangles({}), (std::vector<Triangle>{ { 3, 4, 5 }, { 3, 5, 6 } }));
+}
+
+TEST(ManifoldVertices, LeaveSidesOfACreaseAlone)
+{
+  const std::vector<Triangle> sides{ { 0, 1, 2 }, { 3, 5, 4 } };
+  TriangleFans fans = fansOf(6, sides);
+  keepManifold({ 0, 1, 2, 0, 1, 5 }, fans, {});
+  EXPECT_EQ(fans.triangles({}), sides);
+}
+
 } // namespace
 } // namespace hop::testing
