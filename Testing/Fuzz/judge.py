@@ -153,9 +153,7 @@ def complaints(contour, grid, output, is_part):
     found = []
     columns = {"points": support.points_of(output)}
     columns |= {name: support.array_of(output, name).astype(float) for name in support.own_arrays(0)}
-    # Known: points of meshes that are at home in another block have none. Documentation/reliability.md.
-    known = {"Residual"} if is_part and contour.GetOutputType() != contour.PARTICLES else set()
-    found += [f"{n} is not finite" for n, values in columns.items() if n not in known and not np.isfinite(values).all()]
+    found += [f"{name} is not finite" for name, values in columns.items() if not np.isfinite(values).all()]
     if "other" in support.array_names(output.GetPointData()):
         found += ["values of an array are not finite"] * (not np.isfinite(support.array_of(output, "other")).all())
     lengths = np.linalg.norm(columns["Normals"], axis=1)
