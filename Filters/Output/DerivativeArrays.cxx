@@ -61,17 +61,13 @@ public:
     int converted = -1;
     for (std::ptrdiff_t r = begin; r < end; ++r)
     {
-      const int element = this->Rows[r].location().element;
-      if (element >= 0 && element != converted)
+      const Location& place = this->Rows[r].evaluated();
+      if (place.element != converted)
       {
-        this->convert(element);
-        converted = element;
+        this->convert(place.element);
+        converted = place.element;
       }
-      if (element >= 0)
-      {
-        this->evaluate(
-          element, this->Rows[r].location().u, gradients + r * 3 * this->Values.components);
-      }
+      this->evaluate(place.element, place.u, gradients + r * 3 * this->Values.components);
     }
   }
 
@@ -147,14 +143,6 @@ void addDerivatives(const InputBlocks& blocks, const GridElements& elements,
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(rows.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     { GradientEvaluator(all, elements, rows).evaluate(begin, end, gradients); });
-  for (std::size_t r = 0; r < rows.size(); ++r)
-  {
-    if (rows[r].location().element < 0)
-    {
-      std::copy_n(gradients + rows[r].rowOfStandIn * width, width,
-        gradients + static_cast<std::ptrdiff_t>(r) * width);
-    }
-  }
   if (components == 3)
   {
     double* vorticity = newArray(target, VorticityArray, 3, rows.size());

@@ -42,7 +42,7 @@ void writeShapeOperator(const ParticleRow& row, const RowCells& cells, double* o
 void writePlacement(const ParticleRow& row, const RowCells& cells, double* out)
 {
   writeVector(cells.position(row).xyz, out);
-  writeVector(row.normal.xyz, out + 3);
+  writeVector(row.particle->normal.xyz, out + 3);
 }
 
 void writeParametricCoordinates(const ParticleRow& row, const RowCells& cells, double* out)
@@ -104,7 +104,7 @@ std::vector<ParticleArray> makeParticleArrays()
     { NormalsArray, 3,
       "Unit normal of the surface, -grad F/|grad F|: towards lower values, as Contour orients it.",
       [](const ParticleRow& row, const RowCells&, float* out)
-      { writeVector(glm::vec3(row.normal.xyz), out); } },
+      { writeVector(glm::vec3(row.particle->normal.xyz), out); } },
     { "Radius", 1,
       "Radius of the particle's splat, world units: the distance to neighbours that the particle "
       "wants; less where it stands alone on a component of the surface smaller than this distance.",
@@ -114,7 +114,7 @@ std::vector<ParticleArray> makeParticleArrays()
       "Area of the surface around the particle, world units squared: their sum is the area of the "
       "surface. Nodes inside edges and faces of curved triangles have none.",
       [](const ParticleRow& row, const RowCells& cells, double* out)
-      { *out = cells.area(row.area); } },
+      { *out = cells.area(row.particle->area); } },
     { "Mean_Curvature", 1,
       "Mean of the two principal curvatures with respect to Normals, 1/world units: 1/r on a "
       "sphere of radius r with high values inside.",

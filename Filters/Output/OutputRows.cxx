@@ -17,8 +17,6 @@ ParticleRow rowOf(const IsovalueParticles& some, int particle)
   ParticleRow row;
   row.particle = &some.distribution.particles[particle];
   row.isovalue = some.isovalue;
-  row.normal = row.particle->normal;
-  row.area = row.particle->area;
   return row;
 }
 
@@ -36,20 +34,29 @@ public:
 
 private:
   bool isForeign(int particle) const { return this->Particles[particle].location.element < 0; }
-  /// Blocks.size() for a corner in an element of another rank.
+  const ForeignHome& homeOf(int particle) const
+  {
+    const std::size_t firstForeign = this->Particles.size() - this->Some.mesh.foreign.size();
+    return this->Some.mesh.foreign[particle - firstForeign];
+  }
+  /// Blocks.size() for a block that only other ranks have.
   std::size_t blockOf(int particle) const
   {
-    return this->isForeign(particle)
-      ? this->Blocks.size()
-      : this->BlockOfElements[this->Particles[particle].location.element];
-  }
-  int firstForeign() const
-  {
-    return static_cast<int>(this->Particles.size() - this->Some.mesh.foreign.size());
+    if (!this->isForeign(particle))
+    {
+      return this->BlockOfElements[this->Particles[particle].location.element];
+    }
+    std::size_t block = 0;
+    while (block < this->Blocks.size() && this->Blocks[block].number != this->homeOf(particle).block)
+    {
+      ++block;
+    }
+    return block;
   }
   int vertexOf(int particle) const { return this->Some.mesh.vertices[particle]; }
-  void collectVertices();
   void addCellsOf(std::size_t block, const std::vector<int>& cells, BlockRows& result);
+  void chooseParticles(std::size_t block);
+  ParticleRow rowOfVertex(std::size_t block, int vertex) const;
 
   const InputBlocks& Blocks;
   const ElementMesh& Mesh;
@@ -59,13 +66,11 @@ private:
   std::vector<std::size_t> BlockOfElements;
   /// Particles in the order of their elements, corners of other ranks last.
   std::vector<int> Order;
-  /// For each vertex, what all of its particles that are used make together.
-  std::vector<WorldVector> Normals;
-  std::vector<double> Areas;
-  std::vector<char> IsUsed;
-  /// For each vertex, its row in the block at hand, or `none`; and the corner by which it came into the block.
-  std::vector<int> RowOf;
+  /// For each vertex of the block at hand, or `none`: the corner by which it came into the block, the particle that the
+  /// block sees in its place, and its row.
   std::vector<int> StandIn;
+  std::vector<int> Chosen;
+  std::vector<int> RowOf;
 };
 
 Sharing::Sharing(const InputBlocks& blocks, const ElementMesh& mesh, const IsovalueParticles& some,
@@ -98,46 +103,49 @@ void Sharing::addParticles(std::vector<BlockRows>& result) const
   }
 }
 
-/// Sums what the particles of each vertex have.
-void Sharing::collectVertices()
-{
-  const std::size_t count = this->Particles.size();
-  this->IsUsed.assign(count, 0);
-  for (const int node : this->Some.mesh.nodes)
-  {
-    this->IsUsed[node] = 1;
-  }
-  this->Normals.assign(count, {});
-  this->Areas.assign(count, 0.0);
-  for (std::size_t p = 0; p < count; ++p)
-  {
-    const int particle = static_cast<int>(p);
-    if (this->IsUsed[p])
-    {
-      const int vertex = this->vertexOf(particle);
-      this->Normals[vertex] = this->Normals[vertex] + this->Particles[p].normal;
-      this->Areas[vertex] += rowOf(this->Some, particle).area;
-    }
-  }
-}
-
 void Sharing::addMesh(std::vector<BlockRows>& result)
 {
-  this->collectVertices();
   const ParticleMesh& mesh = this->Some.mesh;
   std::vector<std::vector<int>> cellsOfBlocks(this->Blocks.size());
   for (std::size_t first = 0; first < mesh.nodes.size(); first += mesh.nodesPerCell)
   {
     cellsOfBlocks[this->blockOf(mesh.nodes[first])].push_back(static_cast<int>(first));
   }
-  this->RowOf.assign(this->Particles.size(), none);
   this->StandIn.assign(this->Particles.size(), none);
+  this->Chosen.assign(this->Particles.size(), none);
+  this->RowOf.assign(this->Particles.size(), none);
   for (std::size_t b = 0; b < this->Blocks.size(); ++b)
   {
     this->Work.ask();
     result[b].nodesPerCell = mesh.nodesPerCell;
     this->addCellsOf(b, cellsOfBlocks[b], result[b]);
   }
+}
+
+/// Of the particles in one place the block sees the first one of its own, so that values that jump are those of its side.
+void Sharing::chooseParticles(std::size_t block)
+{
+  for (const auto& [vertex, particle] : this->Some.mesh.shared)
+  {
+    if (this->StandIn[vertex] != none && this->Chosen[vertex] == none &&
+      this->blockOf(particle) == block)
+    {
+      this->Chosen[vertex] = particle;
+    }
+  }
+}
+
+/// The row of a vertex that cells of the block use.
+ParticleRow Sharing::rowOfVertex(std::size_t block, int vertex) const
+{
+  const int particle = this->Chosen[vertex] == none ? vertex : this->Chosen[vertex];
+  ParticleRow row = rowOf(this->Some, particle);
+  if (this->isForeign(particle) || this->blockOf(particle) != block)
+  {
+    row.standIn = &this->Particles[this->StandIn[vertex]];
+    row.home = this->isForeign(particle) ? &this->homeOf(particle).element : nullptr;
+  }
+  return row;
 }
 
 /// \param cells index of the first node of each
@@ -156,36 +164,21 @@ void Sharing::addCellsOf(std::size_t block, const std::vector<int>& cells, Block
   };
   forNodes([&](int corner, int vertex)
     { this->StandIn[vertex] = this->StandIn[vertex] == none ? corner : this->StandIn[vertex]; });
+  this->chooseParticles(block);
   for (const int vertex : this->Order)
   {
     if (this->StandIn[vertex] != none)
     {
       this->RowOf[vertex] = static_cast<int>(result.rows.size());
-      ParticleRow row = rowOf(this->Some, vertex);
-      const WorldVector& sum = this->Normals[vertex];
-      const bool isMean = sum.xyz != row.normal.xyz && length(sum) > 0.0;
-      row.normal = isMean ? (1.0 / length(sum)) * sum : row.normal;
-      row.area = this->Areas[vertex];
-      result.rows.push_back(row);
+      result.rows.push_back(this->rowOfVertex(block, vertex));
     }
   }
   for (const int vertex : this->Order)
   {
-    if (this->RowOf[vertex] != none && this->blockOf(vertex) != block)
+    if (this->RowOf[vertex] != none)
     {
-      const int corner = this->StandIn[vertex];
-      ParticleRow& row = result.rows[this->RowOf[vertex]];
-      if (this->vertexOf(corner) == vertex)
-      {
-        row.particle = &this->Particles[corner]; // the same place, seen from this block
-        continue;
-      }
-      if (this->isForeign(vertex))
-      {
-        row.home = &this->Some.mesh.foreign[vertex - this->firstForeign()];
-      }
-      row.standIn = &this->Particles[corner];
-      row.rowOfStandIn = this->RowOf[this->vertexOf(corner)];
+      result.rows[this->RowOf[vertex]].rowOfStandIn =
+        this->RowOf[this->vertexOf(this->StandIn[vertex])];
     }
   }
   const std::int64_t firstCell = this->Blocks.firstCell(block);
@@ -195,7 +188,8 @@ void Sharing::addCellsOf(std::size_t block, const std::vector<int>& cells, Block
     const int element = this->Particles[mesh.nodes[first]].location.element;
     result.cells.push_back(this->Mesh.elements[element].cell - firstCell);
   }
-  forNodes([&](int, int vertex) { this->RowOf[vertex] = this->StandIn[vertex] = none; });
+  forNodes([&](int, int vertex)
+    { this->StandIn[vertex] = this->Chosen[vertex] = this->RowOf[vertex] = none; });
 }
 
 } // namespace

@@ -16,17 +16,16 @@ struct ParticleRow
 {
   const Particle* particle = nullptr;
   double isovalue = 0.0;
-  /// The particle's; the mean where particles in one place are one point of a mesh.
-  WorldVector normal;
-  /// Of the surface around it, in the unit of the run.
-  double area = 0.0;
-  /// For a corner of a mesh that lies in another block, or on another rank: a corner of the same triangle in this block, and its row.
+  /// For a corner of a mesh that lies in another block, or on another rank: a corner of the same triangle in this block,
+  /// and its row.
   const Particle* standIn = nullptr;
+  std::ptrdiff_t rowOfStandIn = -1;
   /// Where such a corner is at home if that is on another rank; nullptr otherwise.
   const ElementHome* home = nullptr;
-  std::ptrdiff_t rowOfStandIn = -1;
 
   const Location& location() const { return this->particle->location; }
+  /// Where this rank evaluates what the row is to have: at its stand-in until the particle's own rank is asked.
+  const Location& evaluated() const { return (this->home ? this->standIn : this->particle)->location; }
 };
 
 /// Looks up the cells in which the particles of one block stand.

@@ -68,11 +68,6 @@ public:
     while (begin < end)
     {
       const int element = this->elementOf(begin);
-      if (element < 0)
-      {
-        ++begin; // another rank's
-        continue;
-      }
       this->convert(element);
       for (; begin < end && this->elementOf(begin) == element; begin = this->BatchEnd)
       {
@@ -87,7 +82,7 @@ public:
 
 private:
   int width() const { return static_cast<int>(this->Targets.size()); }
-  int elementOf(std::ptrdiff_t row) const { return this->Rows[row].location().element; }
+  int elementOf(std::ptrdiff_t row) const { return this->Rows[row].evaluated().element; }
 
   /// Converts all arrays to Bernstein form on an element: one row of components a coefficient.
   void convert(int element)
@@ -147,7 +142,7 @@ private:
          this->elementOf(this->BatchEnd) == element;
          ++this->BatchEnd)
     {
-      this->Points.push_back(this->Rows[this->BatchEnd].location().u);
+      this->Points.push_back(this->Rows[this->BatchEnd].evaluated().u);
     }
   }
 
@@ -197,24 +192,23 @@ private:
   JetBatch Jets;
 };
 
-/// Rows on other ranks, and those in blocks that lack an array, get the value of their stand-ins.
+/// Rows in blocks that lack an array get the value of their stand-ins.
 void copyFromStandIns(const InputBlocks& blocks, const GridElements& elements,
   const std::vector<EvaluatedArray>& arrays, const std::vector<ParticleRow>& rows)
 {
   for (std::size_t r = 0; r < rows.size(); ++r)
   {
-    if (!rows[r].standIn)
+    if (!rows[r].standIn || rows[r].home)
     {
       continue;
     }
     const int element = rows[r].location().element;
-    vtkUnstructuredGrid* grid = element < 0
-      ? nullptr
-      : blocks[blocks.locate(elements.mesh.elements[element].cell).block].grid.Get();
+    vtkUnstructuredGrid* grid =
+      blocks[blocks.locate(elements.mesh.elements[element].cell).block].grid;
     for (const EvaluatedArray& array : arrays)
     {
       const std::ptrdiff_t width = array.source->GetNumberOfComponents();
-      if (!grid || !continuationOf(array.source, grid))
+      if (!continuationOf(array.source, grid))
       {
         std::copy_n(array.target + rows[r].rowOfStandIn * width, width,
           array.target + static_cast<std::ptrdiff_t>(r) * width);

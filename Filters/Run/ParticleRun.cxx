@@ -452,7 +452,8 @@ bool GroupRun::bringHome(std::vector<IsovalueParticles>& particles, const Parall
     if (home.isComplete)
     {
       home.isComplete = bringMeshHome(this->Ranks, this->workerOf(i), distribution, this->IsSound,
-        this->All, particles[i].mesh, home.distribution);
+        this->All, [this](std::int64_t cell) { return this->AllBlocks.blockOf(cell); },
+        particles[i].mesh, home.distribution);
     }
     distribution = std::move(home.distribution);
     isComplete = isComplete && home.isComplete;

@@ -100,7 +100,7 @@ RankBlocks::RankBlocks(Exchange& exchange, const InputBlocks& mine)
          << static_cast<int>(mine.size());
   for (std::size_t b = 0; b < mine.size(); ++b)
   {
-    stream << mine[b].name << static_cast<vtkTypeInt64>(mine[b].grid->GetNumberOfCells());
+    stream << mine[b].number << mine[b].name << static_cast<vtkTypeInt64>(mine[b].grid->GetNumberOfCells());
   }
   this->Origin.component = mine.component();
   this->Origin.quantity = mine.quantity();
@@ -117,7 +117,8 @@ RankBlocks::RankBlocks(Exchange& exchange, const InputBlocks& mine)
     this->Origin.array = blocks > 0 && this->Blocks.empty() ? array : this->Origin.array;
     for (int b = 0; b < blocks; ++b)
     {
-      this->Blocks.push_back({ rank, read<std::string>(some), this->Origin.cells });
+      const int number = read<int>(some);
+      this->Blocks.push_back({ rank, number, read<std::string>(some), this->Origin.cells });
       this->Origin.cells += read<vtkTypeInt64>(some);
     }
     ++rank;
@@ -125,11 +126,16 @@ RankBlocks::RankBlocks(Exchange& exchange, const InputBlocks& mine)
   this->Origin.dataTime = times.value();
 }
 
-std::string RankBlocks::describe(std::int64_t number) const
+const RankBlocks::Block& RankBlocks::locate(std::int64_t number) const
 {
   const auto next = std::upper_bound(this->Blocks.begin(), this->Blocks.end(), number,
     [](std::int64_t cell, const Block& block) { return cell < block.firstCell; });
-  const Block& block = *(next - 1);
+  return *(next - 1);
+}
+
+std::string RankBlocks::describe(std::int64_t number) const
+{
+  const Block& block = this->locate(number);
   return "cell " + std::to_string(number - block.firstCell) +
     (block.name.empty() ? "" : " of " + block.name) +
     (this->HasSeveralRanks ? " on rank " + std::to_string(block.rank) : "");

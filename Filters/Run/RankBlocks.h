@@ -35,6 +35,9 @@ public:
   /// "cell 7 of block 3 'wing'", with the rank where there are several.
   std::string describe(std::int64_t number) const;
 
+  /// The InputBlock::number of the block of a cell.
+  int blockOf(std::int64_t number) const { return this->locate(number).number; }
+
   /// What the data of all ranks say about their isosurfaces, see originOf(). It is another one whenever the data of
   /// one rank are others.
   const RunOrigin& origin() const { return this->Origin; }
@@ -46,9 +49,12 @@ private:
   struct Block
   {
     int rank = 0;
+    int number = 0;
     std::string name;
     std::int64_t firstCell = 0;
   };
+
+  const Block& locate(std::int64_t number) const;
 
   bool HasSeveralRanks;
   std::vector<Block> Blocks;

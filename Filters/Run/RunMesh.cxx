@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <numeric>
 
 namespace hop
@@ -88,6 +89,42 @@ void bend(const Isosurface& surface, const std::vector<std::array<int, 3>>& tria
   some.distribution.report.evaluations += curved.evaluations + locator.evaluations();
 }
 
+/// Gives all particles in one place what those of them that cells use have together: the mean normal, and the area.
+void mergePlaces(const ParticleMesh& mesh, Buffer<Particle>& particles)
+{
+  std::vector<char> isUsed(particles.size(), 0);
+  for (const int node : mesh.nodes)
+  {
+    isUsed[node] = 1;
+  }
+  struct Sum
+  {
+    WorldVector normal;
+    double area = 0.0;
+  };
+  std::map<int, Sum> places;
+  for (const auto& [vertex, p] : mesh.shared)
+  {
+    Sum& place = places[vertex];
+    if (isUsed[p])
+    {
+      place.normal = place.normal + particles[p].normal;
+      place.area += particles[p].area;
+    }
+  }
+  for (auto& [vertex, place] : places)
+  {
+    const WorldVector& own = particles[vertex].normal;
+    const bool isMean = place.normal.xyz != own.xyz && length(place.normal) > 0.0;
+    place.normal = isMean ? (1.0 / length(place.normal)) * place.normal : own;
+  }
+  for (const auto& [vertex, p] : mesh.shared)
+  {
+    particles[p].normal = places.at(vertex).normal;
+    particles[p].area = places.at(vertex).area;
+  }
+}
+
 } // namespace
 
 void addMesh(const Isosurface& surface, OutputType type, int order, IsovalueParticles& some,
@@ -106,6 +143,7 @@ void addMesh(const Isosurface& surface, OutputType type, int order, IsovaluePart
     some.mesh.unusedParticles = mesh.unusedParticles;
     some.mesh.nodesPerCell = 3;
     some.mesh.vertices = firstInPlace(distribution.edges, distribution.particles.size());
+    some.mesh.shared = sharedPlaces(some.mesh.vertices);
     Interruptible loops(monitor, parallelFor);
     prove(surface, distribution.particles, triangles, some.mesh, std::ref(loops));
   }
@@ -116,13 +154,16 @@ void addMesh(const Isosurface& surface, OutputType type, int order, IsovaluePart
   {
     Interruptible loops(monitor, parallelFor);
     bend(surface, triangles, order, some, std::ref(loops));
-    return;
   }
-  some.mesh.nodes.reserve(3 * triangles.size());
-  for (const std::array<int, 3>& corners : triangles)
+  else
   {
-    some.mesh.nodes.insert(some.mesh.nodes.end(), corners.begin(), corners.end());
+    some.mesh.nodes.reserve(3 * triangles.size());
+    for (const std::array<int, 3>& corners : triangles)
+    {
+      some.mesh.nodes.insert(some.mesh.nodes.end(), corners.begin(), corners.end());
+    }
   }
+  mergePlaces(some.mesh, distribution.particles);
 }
 
 } // namespace hop

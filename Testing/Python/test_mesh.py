@@ -107,12 +107,25 @@ def test_triangles_are_closed_oriented_and_on_the_surface(grid):
     ("mfem_hex1_p8.vtu", "u", 0.2, 1),
     ("mfem_amr_hanging_hex_p3.vtu", "u", 0.01, 1),
     ("ngsolve_cylinder_ns_tet_p3.vtu", "pressure", 0.507, 2),
+    ("ngsolve_cylinder_ns_tet_p3.vtu", "pressure", 0.2, 2),  # creases meet beside corners of the mesh
+    ("dolfinx_tet_p3.vtu", "u", -0.6689, 2),  # ends at sharp edges of the mesh
 ])
 def test_topology_is_proven(data, plugin, file, array, value, components):
     mesh = support.run_quietly(support.read(data(file)), array, value, OutputType="Triangles")
     assert support.reported(mesh, "TopologyProven") == 1
     assert support.reported(mesh, "MeshComponents") == components
     assert support.reported(mesh, "ComponentsUnproven") == 0
+    assert support.reported(mesh, "MeshOpenLoops") == support.reported(mesh, "MeshUnusedParticles") == 0
+
+
+def test_a_mesh_with_creases_has_a_given_number_of_points(data, plugin):
+    # Those of the two sides of a crease are one.
+    number = 9000
+    mesh = support.run_quietly(
+        support.read(data("dolfinx_tet_p3.vtu")), "u", 0.5, OutputType="Triangles", NumberOfParticles=number)
+    assert mesh.GetNumberOfPoints() == number
+    assert support.reported(mesh, "MeshOpenLoops") == support.reported(mesh, "MeshUnusedParticles") == 0
+    assert support.reported(mesh, "TopologyProven") == 1
 
 
 def test_topology_of_a_field_with_jumps_is_not_proven(data, plugin):
@@ -323,6 +336,16 @@ def test_slices_are_meshes_too(grid):
     simple_slice.SliceType.Origin, simple_slice.SliceType.Normal = [2.0, 2.0, 2.2], [0.0, 0.0, 1.0]
     area = array_of(output_of(simple.IntegrateVariables(Input=simple_slice)), "Area", "cell")[0]
     assert area == pytest.approx(16.0, rel=1e-9)
+
+
+@pytest.mark.parametrize("kind", ["Triangles", "Curved Triangles"])
+def test_derived_fields_have_closed_meshes(grid, kind):
+    # |grad u| is twice the distance from the middle.
+    mesh = mesh_of(grid, kind, 2 * RADIUS, Quantity="Gradient Magnitude")
+    assert np.abs(np.linalg.norm(points_of(mesh) - CENTER, axis=1) - RADIUS).max() < 1e-9
+    corners = corners_of(mesh)
+    assert len(corners) == 2 * (len(np.unique(corners)) - 2)
+    assert support.reported(mesh, "MeshOpenLoops") == support.reported(mesh, "MeshUnusedParticles") == 0
 
 
 @pytest.mark.parametrize("origin, normal", [

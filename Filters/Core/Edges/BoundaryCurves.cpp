@@ -31,6 +31,9 @@ struct Tracing
   static constexpr double Chord = 0.75;
   /// Largest distance from the surface, by which a vertex may miss it: particles are taken to the tolerance later.
   static constexpr double Tolerance = 1e-2;
+  /// The same of curves along creases, whose vertices on edges of the mesh tell which creases meet. Larger: where the surface
+  /// passes close to a corner of the mesh, curves leave a face by the wrong edge; smaller: more evaluations.
+  static constexpr double ToleranceOnCut = 1e-5;
   /// Within this distance of the surface a crossing tells whether the surface ends there. A larger one believes values
   /// and slopes too far off; with a smaller one more starts are put onto the surface in vain.
   static constexpr double CrossingReach = 0.2;
@@ -66,9 +69,10 @@ struct Nearness
 };
 
 /// The surface for the tracer. Chords need not lie on it as exactly as particles.
-Isosurface roughly(Isosurface surface, double spacing)
+Isosurface roughly(Isosurface surface, double spacing, bool isCut)
 {
-  surface.tolerance = std::max(surface.tolerance, Tracing::Tolerance * spacing);
+  const double tolerance = isCut ? Tracing::ToleranceOnCut : Tracing::Tolerance;
+  surface.tolerance = std::max(surface.tolerance, tolerance * spacing);
   return surface;
 }
 
@@ -201,8 +205,9 @@ bool isSame(const BoundaryVertex& a, const BoundaryVertex& b, double spacing)
 class BoundarySampler
 {
 public:
-  BoundarySampler(const Isosurface& surface, const FaceJumps& jumps, const SurfaceProxy& proxy,
-    const SizingFunction& sizing, const Slab& slab, const Slab& reach)
+  /// \param isCut whether the surface is cut along creases
+  BoundarySampler(const Isosurface& surface, bool isCut, const FaceJumps& jumps,
+    const SurfaceProxy& proxy, const SizingFunction& sizing, const Slab& slab, const Slab& reach)
     : Surface(surface)
     , Jumps(jumps)
     , Proxy(proxy)
@@ -210,7 +215,7 @@ public:
     , Part(slab)
     , Reach(reach)
     , Samples(*surface.mesh, proxy)
-    , Tracer(roughly(surface, proxy.smallestSpacing()), BoundaryTracer::Points::Rough)
+    , Tracer(roughly(surface, proxy.smallestSpacing(), isCut), BoundaryTracer::Points::Rough)
     , Walker(surface.endingWhereItMay())
   {
   }
@@ -1088,7 +1093,7 @@ BoundaryCurves findBoundaryCurves(const Isosurface& surface, const FaceJumps& ju
   std::int64_t evaluations = 0;
   for (int n = 1;; ++n)
   {
-    BoundarySampler sampler(cut, jumps, proxy, sizing, slab, reach);
+    BoundarySampler sampler(cut, isCut, jumps, proxy, sizing, slab, reach);
     if (isCut)
     {
       sampler.sampleCreases(n < mostTimes);

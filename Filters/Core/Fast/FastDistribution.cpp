@@ -316,6 +316,11 @@ void FastSystem::matchSpacing(std::int64_t count)
     this->traceBoundaryCurves();
     this->Evaluations += this->Curves.evaluations;
   }
+  if (this->placesOnCurves() > count)
+  {
+    this->CreasesFit = false;
+    this->traceBoundaryCurves();
+  }
   this->keepOnBoundary(static_cast<std::size_t>(count));
 }
 
@@ -339,6 +344,10 @@ double FastSystem::guessSpacing(double count)
 void FastSystem::keepOnBoundary(std::size_t most)
 {
   const std::size_t count = this->BoundaryPatches.size();
+  if (this->placesOnCurves() <= static_cast<std::int64_t>(most))
+  {
+    return;
+  }
   const std::size_t left = std::min(count, most);
   std::vector<char> kept(count, 0);
   for (std::size_t n = 0; n < left; ++n)
@@ -491,7 +500,7 @@ void FastSystem::startMoving()
 void FastSystem::traceBoundaryCurves()
 {
   const Slab inReach = this->Part.widened(this->overlap(SlabOverlap::Reach));
-  const bool withCreases = this->Parameters.onCreases && !this->countIsGiven();
+  const bool withCreases = this->Parameters.onCreases && this->CreasesFit;
   this->Curves = findBoundaryCurves(this->Surface, this->Jumps, *this->Proxy, this->Sizing,
     withCreases ? SampledCurves::BoundaryAndCreases : SampledCurves::Boundary, this->Parallel,
     this->Part, inReach);
@@ -509,6 +518,25 @@ void FastSystem::traceBoundaryCurves()
         boundary.side.exists() || !boundary.isOnCrease ? OnBoundary::Count : 0.0;
     }
   }
+}
+
+/// Number of places with particles on boundary curves and creases. On creases several particles are in one.
+std::int64_t FastSystem::placesOnCurves() const
+{
+  const std::vector<int> first = firstInPlace(this->Curves.edges, this->Curves.particles.size());
+  std::int64_t places = 0;
+  for (std::size_t n = 0; n < first.size(); ++n)
+  {
+    places += first[n] == static_cast<int>(n);
+  }
+  return places;
+}
+
+/// Number of particles that the relaxation sees when there are as many places as particles are asked for.
+std::int64_t FastSystem::sizeForGivenNumber() const
+{
+  return this->Parameters.particleCount + static_cast<std::int64_t>(this->BoundaryPatches.size()) -
+    this->placesOnCurves();
 }
 
 /// Drops what is on boundary curves outside of a slab.
@@ -544,7 +572,7 @@ Balance FastSystem::balanceOf(bool isLast) const
   const auto size = static_cast<double>(this->Moving->size());
   if (this->countIsGiven())
   {
-    balance.missing = static_cast<double>(this->Parameters.particleCount) - size;
+    balance.missing = static_cast<double>(this->sizeForGivenNumber()) - size;
   }
   // Where spacings vary, energies tell of narrow places that the proxy misses. They would leave the particles of a
   // previous run as many as they are, though.
@@ -745,7 +773,9 @@ Distribution FastSystem::run()
     this->coverBoxes({});
     if (this->countIsGiven())
     {
-      matchGivenNumber(this->Parameters, this->BoundaryPatches, *this->Moving, this->Parallel);
+      DistributionParameters parameters = this->Parameters;
+      parameters.particleCount = this->sizeForGivenNumber();
+      matchGivenNumber(parameters, this->BoundaryPatches, *this->Moving, this->Parallel);
     }
     this->finish();
   }

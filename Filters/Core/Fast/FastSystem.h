@@ -73,6 +73,8 @@ protected:
   double guessSpacing(double count);
   void keepOnBoundary(std::size_t most);
   void traceBoundaryCurves();
+  std::int64_t placesOnCurves() const;
+  std::int64_t sizeForGivenNumber() const;
   void dropNearBoundaryCurves(double nearest);
   void startMoving();
   void addSamples(const std::vector<int>& boxes);
@@ -111,6 +113,8 @@ protected:
   Buffer<Patch> BoundaryPatches;
   /// The number of particles for which they count.
   double BoundaryCount = 0.0;
+  /// Whether particles on creases, where they are asked for, are not more than a given number.
+  bool CreasesFit = true;
   std::unique_ptr<MovingParticles> Moving;
   /// In a slab, and in the strip at its end, the number of particles that are to move.
   double TargetInSlab = 0.0;

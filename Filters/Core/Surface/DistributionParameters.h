@@ -49,10 +49,11 @@ struct DistributionParameters
   ClassicParameters classic;
   /// Seed of random choices; the same seed, the same particles.
   std::uint64_t seed = 1;
-  /// 0: as many particles as the spacing asks for. Otherwise this many, and the spacing follows.
+  /// 0: as many particles as the spacing asks for. Otherwise this many, those in one place on creases taken for one, and
+  /// the spacing follows.
   std::int64_t particleCount = 0;
-  /// Whether particles stand on creases, too, on each side one in the same place: what meshes need. Fast only, and not
-  /// with a given number.
+  /// Whether particles stand on creases, too, on each side one in the same place: what meshes need. Fast only; not
+  /// where these are more than the given number.
   bool onCreases = false;
   /// Places of this mesh to start from: particles of the last run, on a surface nearby. Parts of the surface without
   /// such a place are seeded; where few places are near the surface, all of it is. Fast only.

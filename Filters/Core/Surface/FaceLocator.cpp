@@ -16,6 +16,9 @@ constexpr double rounding = 1e-6;
 /// for curved faces: planes that coincide have -1. Larger: more pairs of faces are searched in vain; smaller: strongly
 /// bent neighbours are not found.
 constexpr double facing = -0.2;
+/// The same of faces that share an edge of the mesh, as halves of a face do with the whole. Larger: the surface goes on at
+/// sharp edges of the mesh, where it ends; smaller: halves of strongly bent faces are not found.
+constexpr double facingAtSharedEdge = -0.9;
 /// Half-space value up to which a control point counts as on a face. Other control points have 1/MaximumDegree at least.
 constexpr double onFaceOfLattice = 1e-9;
 
@@ -89,6 +92,23 @@ double stepInside(Domain domain, const LocalMap& map, ReferencePoint& u, WorldVe
     }
     active.add(exit.face);
   }
+}
+
+/// Largest cosine between the outward normals of two faces that are opposite to each other.
+double largestCosine(const ElementMesh& mesh, int element, int face, int otherElement, int otherFace)
+{
+  const Face& one = mesh.face(element, face);
+  const Face& other = mesh.face(otherElement, otherFace);
+  int shared = 0;
+  for (int c = 0; c < one.cornerCount; ++c)
+  {
+    const std::int64_t number = mesh.elements[element].corners[one.corners[c]];
+    for (int d = 0; d < other.cornerCount; ++d)
+    {
+      shared += mesh.elements[otherElement].corners[other.corners[d]] == number;
+    }
+  }
+  return shared == 2 ? facingAtSharedEdge : facing;
 }
 
 } // namespace
@@ -165,7 +185,9 @@ void FaceLocator::findOpposites(const ParallelFor& parallelFor)
           const OpenFace& other = this->Faces[j];
           const bool known = length(face.outward) > 0.0 && length(other.outward) > 0.0;
           if (other.element != face.element &&
-            (!known || dot(face.outward, other.outward) < facing))
+            (!known ||
+              dot(face.outward, other.outward) <
+                largestCosine(this->Mesh, face.element, face.face, other.element, other.face)))
           {
             opposites[i].push_back(j);
           }

@@ -3,8 +3,6 @@
 #include "Support/SortedBy.h"
 
 #include <exception>
-#include <limits>
-#include <map>
 #include <optional>
 
 namespace hop
@@ -20,7 +18,7 @@ struct Header
   std::int64_t components = 0;
   std::int64_t nodes = 0;
   std::int64_t foreign = 0;
-  std::int64_t twins = 0;
+  std::int64_t shared = 0;
   bool isDone = false;
 };
 
@@ -31,22 +29,24 @@ struct Part
   std::vector<MeshComponent> components;
   std::vector<int> nodes;
   Buffer<Particle> copies;
-  std::vector<ElementHome> foreign;
-  /// Pairs of particles in the same place.
-  std::vector<std::array<int, 2>> twins;
+  std::vector<ForeignHome> foreign;
+  std::vector<std::array<int, 2>> shared;
 };
 
 /// Takes the worker's mesh apart, rank by rank.
 class Sorter
 {
 public:
-  Sorter(int ranks, const Distribution& whole, const GatheredMesh& all, const ParticleMesh& mesh)
+  Sorter(int ranks, const Distribution& whole, const GatheredMesh& all, const BlockOfCell& blockOf,
+    const ParticleMesh& mesh)
     : Whole(whole)
     , All(all)
+    , BlockOf(blockOf)
     , Mesh(mesh)
     , CellCount(mesh.nodesPerCell > 0 ? mesh.nodes.size() / mesh.nodesPerCell : 0)
     , PlaceAtHome(whole.particles.size())
     , Copy(whole.particles.size(), none)
+    , IsTouched(whole.particles.size(), 0)
   {
     const Grouping particles = groupedBy(whole.particles, ranks,
       [&](const Particle& particle) { return all.homes[particle.location.element].rank; });
@@ -64,25 +64,13 @@ public:
       firstNodes[c] = mesh.nodes[c * mesh.nodesPerCell];
     }
     this->Cells = groupedBy(firstNodes, ranks, [&](int node) { return this->homeOf(node).rank; });
-    std::vector<int> counts(whole.particles.size(), 0);
-    for (const int vertex : mesh.vertices)
-    {
-      ++counts[vertex];
-    }
-    for (std::size_t p = 0; p < mesh.vertices.size(); ++p)
-    {
-      if (counts[mesh.vertices[p]] > 1)
-      {
-        this->Shared.push_back(static_cast<int>(p));
-      }
-    }
   }
 
   Part partOf(int rank)
   {
     Part part;
-    const int own = this->OwnCount[rank + 1] - this->OwnCount[rank];
-    std::vector<int> copied;
+    this->Rank = rank;
+    this->Copied.clear();
     for (int c = this->Cells.start[rank]; c < this->Cells.start[rank + 1]; ++c)
     {
       const std::size_t first =
@@ -90,71 +78,69 @@ public:
       for (std::size_t n = first; n < first + this->Mesh.nodesPerCell; ++n)
       {
         const int node = this->Mesh.nodes[n];
-        if (this->homeOf(node).rank == rank)
-        {
-          part.nodes.push_back(this->PlaceAtHome[node]);
-          continue;
-        }
-        int& copy = this->Copy[this->Mesh.vertices[node]];
-        if (copy == none)
-        {
-          copy = own + static_cast<int>(copied.size());
-          copied.push_back(this->Mesh.vertices[node]);
-        }
-        part.nodes.push_back(copy);
+        part.nodes.push_back(this->placeOf(node));
+        this->IsTouched[this->Mesh.vertices[node]] = 1;
       }
     }
-    this->addTwins(rank, own, copied, part);
-    for (const int particle : copied)
+    for (const auto& [first, particle] : this->Mesh.shared)
     {
-      part.copies.push_back(this->Whole.particles[particle]);
-      part.copies[part.copies.size() - 1].location.element = -1;
-      part.foreign.push_back(this->homeOf(particle));
-      this->Copy[particle] = none;
+      if (this->IsTouched[first])
+      {
+        part.shared.push_back({ this->placeOf(first), this->placeOf(particle) });
+      }
     }
+    this->addCopies(part);
+    this->IsTouched.assign(this->IsTouched.size(), 0);
     part.components = this->Mesh.parts;
     part.header = { this->Mesh, static_cast<std::int64_t>(part.components.size()),
       static_cast<std::int64_t>(part.nodes.size()), static_cast<std::int64_t>(part.foreign.size()),
-      static_cast<std::int64_t>(part.twins.size()), true };
+      static_cast<std::int64_t>(part.shared.size()), true };
     return part;
   }
 
 private:
   static constexpr int none = -1;
 
-  /// Pairs each particle with the first one in its place on a rank.
-  /// \param own number of particles that are at home there; copies follow them
-  void addTwins(int rank, int own, const std::vector<int>& copied, Part& part) const
+  const Element& elementOf(int particle) const
   {
-    std::map<int, int> firstAt;
-    const auto add = [&](int particle, int place)
-    {
-      const auto [first, isNew] = firstAt.emplace(this->Mesh.vertices[particle], place);
-      if (!isNew)
-      {
-        part.twins.push_back({ first->second, place });
-      }
-    };
-    for (const int particle : this->Shared)
-    {
-      if (this->homeOf(particle).rank == rank)
-      {
-        add(particle, this->PlaceAtHome[particle]);
-      }
-    }
-    for (std::size_t n = 0; n < copied.size() && !this->Shared.empty(); ++n)
-    {
-      add(copied[n], own + static_cast<int>(n));
-    }
+    return this->All.mesh.elements[this->Whole.particles[particle].location.element];
   }
-
   const ElementHome& homeOf(int particle) const
   {
     return this->All.homes[this->Whole.particles[particle].location.element];
   }
 
+  /// The index of a particle on the rank at hand, which gets a copy where the particle is not at home there.
+  int placeOf(int particle)
+  {
+    if (this->homeOf(particle).rank == this->Rank)
+    {
+      return this->PlaceAtHome[particle];
+    }
+    if (this->Copy[particle] == none)
+    {
+      const int own = this->OwnCount[this->Rank + 1] - this->OwnCount[this->Rank];
+      this->Copy[particle] = own + static_cast<int>(this->Copied.size());
+      this->Copied.push_back(particle);
+    }
+    return this->Copy[particle];
+  }
+
+  void addCopies(Part& part)
+  {
+    for (const int particle : this->Copied)
+    {
+      part.copies.push_back(this->Whole.particles[particle]);
+      part.copies[part.copies.size() - 1].location.element = -1;
+      part.foreign.push_back(
+        { this->homeOf(particle), this->BlockOf(this->elementOf(particle).cell) });
+      this->Copy[particle] = none;
+    }
+  }
+
   const Distribution& Whole;
   const GatheredMesh& All;
+  const BlockOfCell& BlockOf;
   const ParticleMesh& Mesh;
   const std::size_t CellCount;
   /// The index of each particle among those of its rank.
@@ -162,10 +148,12 @@ private:
   /// Of each rank, summed up.
   std::vector<int> OwnCount;
   Grouping Cells;
-  /// Particles that are not alone in their places.
-  std::vector<int> Shared;
-  /// The index of each particle's copy on the rank at hand.
+  /// The rank at hand; the particles that it gets copies of, and the index of each particle's copy there.
+  int Rank = 0;
+  std::vector<int> Copied;
   std::vector<int> Copy;
+  /// Whether a cell of the rank at hand has a corner in the place of this first particle.
+  std::vector<char> IsTouched;
 };
 
 void send(Exchange& exchange, const Part& part, int to)
@@ -175,7 +163,7 @@ void send(Exchange& exchange, const Part& part, int to)
   sendArray(exchange, part.nodes.data(), part.nodes.size(), to);
   sendArray(exchange, part.copies.data(), part.copies.size(), to);
   sendArray(exchange, part.foreign.data(), part.foreign.size(), to);
-  sendArray(exchange, part.twins.data(), part.twins.size(), to);
+  sendArray(exchange, part.shared.data(), part.shared.size(), to);
 }
 
 /// \return nothing where there is none, or memory does not hold it
@@ -190,7 +178,7 @@ std::optional<Part> receive(Exchange& exchange, int from)
     part.nodes.resize(part.header.nodes);
     part.copies.resize(part.header.foreign);
     part.foreign.resize(part.header.foreign);
-    part.twins.resize(part.header.twins);
+    part.shared.resize(part.header.shared);
   }
   catch (const std::exception&)
   {
@@ -200,7 +188,7 @@ std::optional<Part> receive(Exchange& exchange, int from)
   receiveArray(exchange, fits ? part.nodes.data() : nullptr, part.header.nodes, from);
   receiveArray(exchange, fits ? part.copies.data() : nullptr, part.header.foreign, from);
   receiveArray(exchange, fits ? part.foreign.data() : nullptr, part.header.foreign, from);
-  receiveArray(exchange, fits ? part.twins.data() : nullptr, part.header.twins, from);
+  receiveArray(exchange, fits ? part.shared.data() : nullptr, part.header.shared, from);
   return fits && part.header.isDone ? std::move(part) : std::optional<Part>();
 }
 
@@ -248,16 +236,35 @@ void take(Part&& part, ParticleMesh& mesh, Distribution& home)
   {
     mesh.vertices.push_back(static_cast<int>(p));
   }
-  for (const auto& [first, other] : part.twins)
+  mesh.shared = std::move(part.shared);
+  for (const auto& [first, particle] : mesh.shared)
   {
-    mesh.vertices[other] = first;
+    mesh.vertices[particle] = first;
   }
 }
 
 } // namespace
 
+std::vector<std::array<int, 2>> sharedPlaces(const std::vector<int>& first)
+{
+  std::vector<int> counts(first.size(), 0);
+  for (const int particle : first)
+  {
+    ++counts[particle];
+  }
+  std::vector<std::array<int, 2>> shared;
+  for (std::size_t p = 0; p < first.size(); ++p)
+  {
+    if (counts[first[p]] > 1)
+    {
+      shared.push_back({ first[p], static_cast<int>(p) });
+    }
+  }
+  return shared;
+}
+
 bool bringMeshHome(Exchange& exchange, int worker, const Distribution& whole, bool isDone,
-  const GatheredMesh& all, ParticleMesh& mesh, Distribution& home)
+  const GatheredMesh& all, const BlockOfCell& blockOf, ParticleMesh& mesh, Distribution& home)
 {
   if (exchange.isAlone())
   {
@@ -274,7 +281,7 @@ bool bringMeshHome(Exchange& exchange, int worker, const Distribution& whole, bo
       {
         if (isDone)
         {
-          parts.emplace(exchange.size(), whole, all, mesh);
+          parts.emplace(exchange.size(), whole, all, blockOf, mesh);
         }
       }
       catch (const std::exception&)

@@ -3,11 +3,21 @@
 #include "Elements/GatheredMesh.h"
 #include "Surface/Particles.h"
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace hop
 {
+
+/// Where a particle is at home that is a corner here.
+struct ForeignHome
+{
+  ElementHome element;
+  /// The block of the element's cell, by its number on all ranks.
+  int block = 0;
+};
 
 /// What is known of a mesh as a whole.
 struct MeshNumbers
@@ -55,18 +65,27 @@ struct ParticleMesh : MeshNumbers
   std::vector<int> nodes;
   /// For each particle the first particle in the same place: itself, but for creases.
   std::vector<int> vertices;
+  /// For each place with several particles the first of them with each of them: in one order on all ranks.
+  std::vector<std::array<int, 2>> shared;
   /// Where the last particles came from, if they are corners in elements of other ranks; in no element here.
-  std::vector<ElementHome> foreign;
+  std::vector<ForeignHome> foreign;
 };
 
-/// Brings a mesh home: each cell to the rank of its first node, which also gets copies of the cell's other nodes. Every
-/// rank calls it, after bringHome(). A rank that is alone keeps its mesh.
+/// Looks up which particles share their places.
+/// \param first as ParticleMesh::vertices
+std::vector<std::array<int, 2>> sharedPlaces(const std::vector<int>& first);
+
+/// The number, the same on all ranks, of the block of a cell; cells are numbered as those of all ranks' elements are.
+using BlockOfCell = std::function<int(std::int64_t cell)>;
+
+/// Brings a mesh home: each cell to the rank of its first node, which also gets copies of the cell's other nodes, and of
+/// all particles in their places. Every rank calls it, after bringHome(). A rank that is alone keeps its mesh.
 /// \param whole on the worker, the distribution that bringHome() has brought home
 /// \param mesh on the worker, the mesh of `whole`; receives this rank's
 /// \param isDone whether this rank can take part
 /// \param home this rank's particles; receives the copies behind them, whose elements are -1
 /// \return whether every rank has its part; the same on all ranks
 bool bringMeshHome(Exchange& exchange, int worker, const Distribution& whole, bool isDone,
-  const GatheredMesh& all, ParticleMesh& mesh, Distribution& home);
+  const GatheredMesh& all, const BlockOfCell& blockOf, ParticleMesh& mesh, Distribution& home);
 
 } // namespace hop

@@ -211,6 +211,36 @@ TEST(FaceLocator, HasNothingToDoWhereAllFacesMatch)
   }
 }
 
+TEST(FaceLocator, FindsNothingBehindSharpEdgesOfTheMesh)
+{
+  // Outer faces of two elements meet there, whose outward normals are 146 degrees apart.
+  for (const Domain domain : allDomains)
+  {
+    MeshRecipe recipe;
+    recipe.domain = domain;
+    recipe.field = [](const glm::dvec3&) { return 0.0; };
+    recipe.map = [](const glm::dvec3& x) { return x + glm::dvec3(1.5 * x.z, 0.0, 0.0); };
+    const ElementMesh mesh = makeMesh(recipe);
+    const FaceLocator locator(mesh, 0.0, {});
+    const DomainFacts& about = facts(domain);
+    for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
+    {
+      for (int f = 0; f < static_cast<int>(about.faces.size()); ++f)
+      {
+        const Face& face = about.faces[f];
+        for (int c = 0; c < face.cornerCount && locator.mayContinue(e, f); ++c)
+        {
+          const ReferencePoint u{ glm::mix(about.corners[face.corners[c]].xyz,
+            about.corners[face.corners[(c + 1) % face.cornerCount]].xyz, 0.3) };
+          std::int64_t evaluations = 0;
+          const WorldPoint x{ glm::dvec3(evaluateGradient(mesh.form(e), u).value) };
+          EXPECT_FALSE(locator.locate(x, e, f, 1e-6, evaluations)) << domain;
+        }
+      }
+    }
+  }
+}
+
 TEST(FaceLocator, KnowsOnlyFacesThatTheSurfacePasses)
 {
   // z = 0.5: on the right in the upper boxes only.
