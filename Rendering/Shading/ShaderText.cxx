@@ -205,12 +205,17 @@ void ShaderText::ReplacePosition(vtkShader* fragment) const
 }
 
 //------------------------------------------------------------------------------
+// Depth peeling takes the depth of a fragment at PreColor, which VTK's template has before Clip: what is no part of a
+// splat is discarded before that. Else depths would be peeled at which nothing is drawn, and peeling ends with a peel
+// that draws nothing.
 void ShaderText::InsertClip(vtkShader* fragment) const
 {
+  const std::string beforePeeling = "//VTK::DepthPeeling::PreColor";
   if (this->DrawsSplats)
   {
     Replace(fragment, "//VTK::Clip::Dec", ""); // the splat passes have clipped already
-    Replace(fragment, "//VTK::Clip::Impl", "if (!splat.covered) discard;");
+    Replace(fragment, "//VTK::Clip::Impl", "");
+    InsertBefore(fragment, beforePeeling, "if (!splat.covered) discard;");
     return;
   }
   InsertBefore(fragment, "//VTK::Clip::Dec",
@@ -219,7 +224,7 @@ void ShaderText::InsertClip(vtkShader* fragment) const
     "flat in int splatParticle;\n"
     "flat in float splatSeenFromSide;\n" +
       std::string(SplatEdgeGlsl));
-  InsertBefore(fragment, "//VTK::Clip::Impl",
+  InsertBefore(fragment, beforePeeling,
     "if (dot(splatDiskCoord, splatDiskCoord) > 1.0 ||\n"
     "    splatBehindLine(splatClipLines[0], splatDiskCoord) > 0.0 ||\n"
     "    splatBehindLine(splatClipLines[1], splatDiskCoord) > 0.0 ||\n"

@@ -262,3 +262,20 @@ TEST(DiskColors, OpacityMixesWithTheBackground)
   EXPECT_NEAR(middle.r, 0.4 * 255., 2.);
   EXPECT_NEAR(middle.g, 0.6 * 255., 2.);
 }
+
+// The picture is covered everywhere by parts of the drawn triangles that lie beyond their disks: these take no part in
+// depth peeling, which would end before anything is seen.
+TEST(DiskColors, LargeTranslucentDisksAreSeenWhereTheyArePeeled)
+{
+  SplatScene scene(FibonacciSphere(Count, 1., DiskRadius));
+  scene.ShowPlainColors();
+  scene.Actor->GetProperty()->SetColor(1., 0.4, 0.);
+  scene.Actor->GetProperty()->SetOpacity(0.999);
+  scene.Renderer->SetUseDepthPeeling(true);
+  for (const double scale : { 1., 2., 3. })
+  {
+    scene.Mapper->SetRadiusScale(scale);
+    scene.Render();
+    ExpectColor(scene, { 255., 102., 0. });
+  }
+}

@@ -229,11 +229,8 @@ bool ChooseProperties(SplatScene& scene, Dice& dice)
     mapper->AddClippingPlane(plane);
   }
   const double scale = mapper->GetRadiusScale();
-  // Translucent disks of thrice the radius vanish where they are peeled: Documentation/reliability.md.
-  const bool isPeeledAway = scale > 1. && mapper->GetMode() == vtkSurfaceSplatMapper::Disks &&
-    property->GetOpacity() < 1. && scene.Renderer->GetUseDepthPeeling();
-  return !isPeeledAway && mapper->GetMode() != vtkSurfaceSplatMapper::Points &&
-    mapper->GetStride() == 1 && scale >= 1. && scale <= 3. && property->GetOpacity() > 0.2 &&
+  return mapper->GetMode() != vtkSurfaceSplatMapper::Points && mapper->GetStride() == 1 &&
+    scale >= 1. && scale <= 3. && property->GetOpacity() > 0.2 &&
     !property->GetBackfaceCulling() && !property->GetFrontfaceCulling() &&
     mapper->GetNumberOfClippingPlanes() == 0;
 }
