@@ -70,7 +70,7 @@ public:
       if (element >= 0)
       {
         this->evaluate(
-          element, this->Rows[r].location().u, gradients + r * 3 * this->Values.components);
+          element, this->Elements.inCell(this->Rows[r].location()), gradients + r * 3 * this->Values.components);
       }
     }
   }

@@ -147,7 +147,7 @@ private:
          this->elementOf(this->BatchEnd) == element;
          ++this->BatchEnd)
     {
-      this->Points.push_back(this->Rows[this->BatchEnd].location().u);
+      this->Points.push_back(this->Elements.inCell(this->Rows[this->BatchEnd].location()));
     }
   }
 
