@@ -29,6 +29,10 @@ struct Sampling
   static constexpr double GeometryTolerance = 1e-11;
   /// How much larger than what was seen an error may be where a part is said to hold no surface.
   static constexpr double Caution = 10.0;
+  /// How much larger an error may be for a lower degree, where none holds the field. Larger: rounder surfaces that are
+  /// farther off; smaller: ripples, and many particles on them.
+  static constexpr double Ripples = 3.0;
+  /// Fewer see errors too small; each costs as much as a node.
   static constexpr int CheckPoints = 60;
   /// Degrees from the lowest to the highest that is tried, in steps. Lower: parts of straight cells with a linear field
   /// take more coefficients than they need. Higher: coefficients are ever larger than the values (2^30 times at degree
@@ -199,6 +203,17 @@ double largestField(const std::vector<Coefficient>& samples)
   return largest;
 }
 
+/// Of polynomials that do not hold a field the one of the lowest degree that is hardly farther from it than the best:
+/// higher ones ripple beside a crease.
+SampledPart simplestOf(std::vector<SampledPart> tried)
+{
+  const auto best = std::min_element(tried.begin(), tried.end(),
+    [](const SampledPart& a, const SampledPart& b) { return a.error < b.error; });
+  const double most = Sampling::Ripples * best->error;
+  return std::move(*std::find_if(
+    tried.begin(), tried.end(), [&](const SampledPart& one) { return one.error <= most; }));
+}
+
 } // namespace
 
 FieldFunction functionOf(Quantity quantity)
@@ -332,6 +347,7 @@ SampledPart FieldSampler::sample(
 {
   const Samples checks = this->valuesAt(part, checkPointsOf(this->Source.domain));
   const int highest = highestDegree(this->Source.domain);
+  std::vector<SampledPart> tried;
   for (int degree = this->FirstDegree;; degree += Sampling::DegreeStep)
   {
     SampledPart result = this->interpolated(part, degree, checks);
@@ -342,10 +358,16 @@ SampledPart FieldSampler::sample(
     const Range range = fieldRange(formOf(this->Source.domain, result.element));
     const double slack = Sampling::Caution * result.error + this->Noise;
     result.canHoldSurface = canHoldSurface({ range.lower - slack, range.upper + slack });
-    if (result.isResolved || !result.canHoldSurface || degree + Sampling::DegreeStep > highest)
+    if (result.isResolved || !result.canHoldSurface)
     {
       this->FirstDegree = std::max(Sampling::LowestDegree, degree - Sampling::DegreeStep);
       return result;
+    }
+    tried.push_back(std::move(result));
+    if (degree + Sampling::DegreeStep > highest)
+    {
+      this->FirstDegree = Sampling::LowestDegree;
+      return simplestOf(std::move(tried));
     }
   }
 }
