@@ -3,6 +3,7 @@
 #include "Input/Fingerprint.h"
 #include "Input/GatherBlocks.h"
 #include "Input/InputChecks.h"
+#include "Input/MadeScalars.h"
 #include "Input/VtkCompatibility.h"
 #include "Output/OutputArrays.h"
 #include "Run/KeptOutput.h"
@@ -257,8 +258,7 @@ void vtkHighOrderParticleIsosurface::Run(vtkDataObject* input, vtkDataObject* ou
   {
     return;
   }
-  const auto quantity = static_cast<hop::Quantity>(this->FindQuantity());
-  const hop::CheckedBlocks checked = hop::checkQuantity(this->FindScalars(gathered), quantity);
+  const hop::CheckedBlocks checked = this->FindScalars(gathered);
   this->Tell(checked.messages);
   this->Tell(hop::reviewArrays(checked.sound, properties.passed));
   bool hasTold = !checked.messages.empty();
@@ -268,8 +268,9 @@ void vtkHighOrderParticleIsosurface::Run(vtkDataObject* input, vtkDataObject* ou
     hasTold = hasTold || !messages.empty();
     this->Tell(messages);
   };
-  const hop::InputBlocks blocks(
-    checked.sound, hop::componentOf(checked.sound, this->Component, quantity), quantity);
+  const hop::InputBlocks blocks(checked.sound,
+    hop::componentOf(checked.sound, this->Component, checked.quantity), checked.quantity,
+    checked.expression);
   const hop::RunResult result =
     hop::ParticleRun(properties, scale, caller, *this->Previous).run(blocks);
   this->HasFailed = this->HasFailed || !result.isComplete;
@@ -288,7 +289,7 @@ std::uint64_t vtkHighOrderParticleIsosurface::HashOfRequest(vtkDataObject* input
   {
     hash.add(number);
   }
-  for (const vtkIdType number : { vtkIdType(this->Component), vtkIdType(this->FindQuantity()),
+  for (const vtkIdType number : { vtkIdType(this->Component),
          vtkIdType(this->NodeSpacing), vtkIdType(this->Method), vtkIdType(this->Quality),
          vtkIdType(this->Seed), this->NumberOfParticles, this->ParticlesPerWorker,
          vtkIdType(this->WarmStart), vtkIdType(this->PassDiagnostics),
@@ -310,6 +311,9 @@ void vtkHighOrderParticleIsosurface::AddField(hop::ByteHash& hash)
     hash.addWord(array->Get(vtkDataObject::FIELD_ASSOCIATION()));
     hash.addWord(array->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE()));
   }
+  hash.addWord(static_cast<std::uint64_t>(this->Quantity));
+  hash.addWord(static_cast<std::uint64_t>(this->Derivatives));
+  hash.add(this->Expression);
 }
 
 std::vector<double> vtkHighOrderParticleIsosurface::FindIsovalues()
@@ -331,7 +335,16 @@ std::vector<hop::UserMessage> vtkHighOrderParticleIsosurface::CheckIsovalues(
 
 hop::CheckedBlocks vtkHighOrderParticleIsosurface::FindScalars(const hop::GatheredBlocks& gathered)
 {
-  return hop::checkBlocks(gathered, this->GetInputArrayInformation(0));
+  if (this->Quantity == EXPRESSION)
+  {
+    return hop::checkExpression(gathered, this->Expression);
+  }
+  const auto quantity = static_cast<hop::Quantity>(this->Quantity);
+  const hop::CheckedBlocks checked =
+    hop::checkQuantity(hop::checkBlocks(gathered, this->GetInputArrayInformation(0)), quantity);
+  return this->Derivatives == AVERAGED_AT_NODES
+    ? hop::averagedAtNodes(checked, hop::componentOf(checked.sound, this->Component, quantity))
+    : checked;
 }
 
 hop::RunProperties vtkHighOrderParticleIsosurface::PropertiesOfRun()
@@ -409,6 +422,8 @@ void vtkHighOrderParticleIsosurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "Component: " << this->Component << "\n";
   os << indent << "Quantity: " << this->Quantity << "\n";
+  os << indent << "Expression: " << this->Expression << "\n";
+  os << indent << "Derivatives: " << this->Derivatives << "\n";
   os << indent << "NodeSpacing: " << this->NodeSpacing << "\n";
   os << indent << "Method: " << this->Method << "\n";
   os << indent << "Quality: " << this->Quality << "\n";

@@ -69,6 +69,7 @@
 
 #include <cstdint> // for a request's hash
 #include <memory>  // for the previous run
+#include <string>  // for the expression
 #include <vector>  // for the messages
 
 class vtkContourValues;
@@ -157,7 +158,9 @@ public:
     GRADIENT_MAGNITUDE = 1,
     DIVERGENCE = 2,
     VORTICITY_MAGNITUDE = 3,
-    Q_CRITERION = 4
+    Q_CRITERION = 4,
+    LAMBDA_2 = 5,
+    EXPRESSION = 6
   };
 
   ///@{
@@ -165,11 +168,39 @@ public:
    * What is contoured: the VALUE (default) of the chosen component, or the magnitude of the vector; or a field made of
    * the derivatives of the array in world space, taken in each cell: GRADIENT_MAGNITUDE of the component or, of all
    * components, the square root of the sum of their squares; of vectors of three components DIVERGENCE,
-   * VORTICITY_MAGNITUDE (of the curl) and Q_CRITERION, -tr(grad u grad u)/2, whatever the Component. Derived fields are
-   * exact in cells and jump from cell to cell, so that their isosurfaces have boundary curves between cells.
+   * VORTICITY_MAGNITUDE (of the curl), Q_CRITERION, -tr(grad u grad u)/2, and LAMBDA_2, the middle eigenvalue of S^2 + W^2,
+   * whatever the Component. Derived fields are those of the cells' polynomials, exact or to 1e-9 of their largest value in a
+   * cell, and jump from cell to cell, so that their isosurfaces have boundary curves between cells.
    */
-  vtkSetClampMacro(Quantity, int, VALUE, Q_CRITERION);
+  vtkSetClampMacro(Quantity, int, VALUE, EXPRESSION);
   vtkGetMacro(Quantity, int);
+  ///@}
+
+  ///@{
+  /**
+   * The formula that EXPRESSION contours, in the grammar of ParaView's calculator: of point arrays (whatever the chosen one),
+   * their components (u_X, u_Y, u_Z), coordsX to coordsZ, and of arrays gradient(), curl(), divergence(), q_criterion() and lambda2().
+   * Empty by default.
+   */
+  vtkSetStdStringFromCharMacro(Expression);
+  vtkGetCharFromStdStringMacro(Expression);
+  ///@}
+
+  enum DerivativesType
+  {
+    IN_EACH_CELL = 0,
+    AVERAGED_AT_NODES = 1
+  };
+
+  ///@{
+  /**
+   * Of which derivatives Quantity is made but for EXPRESSION: those IN_EACH_CELL (default), of the cell's own polynomial, which jump from
+   * cell to cell; or those AVERAGED_AT_NODES, as vtkGradientFilter has them: the quantity is computed at the nodes from the means of
+   * the gradients in all cells around, also where each cell has points of its own, and interpolated between them. Averages
+   * make closed surfaces and are no more accurate; they end at blocks and MPI ranks.
+   */
+  vtkSetClampMacro(Derivatives, int, IN_EACH_CELL, AVERAGED_AT_NODES);
+  vtkGetMacro(Derivatives, int);
   ///@}
 
   enum NodeSpacingType
@@ -345,12 +376,11 @@ protected:
 
   ///@{
   /**
-   * What is contoured: the isovalues of the scalars, each once, what to say where there are none, one of QuantityType, the
-   * blocks with their scalars, and a hash of all that the scalars are made of besides the input. Other fields than arrays override them.
+   * What is contoured: the isovalues of the scalars, each once, what to say where there are none, the
+   * blocks with their scalars and what of these is contoured, and a hash of all that the scalars are made of besides the input. Other fields than arrays override them.
    */
   virtual std::vector<double> FindIsovalues();
   virtual std::vector<hop::UserMessage> CheckIsovalues(const hop::GatheredBlocks& gathered);
-  virtual int FindQuantity() { return this->Quantity; }
   virtual hop::CheckedBlocks FindScalars(const hop::GatheredBlocks& gathered);
   virtual void AddField(hop::ByteHash& hash);
   ///@}
@@ -377,6 +407,8 @@ private:
   double Tolerance = 1e-10;
   int Component = VTK_INT_MAX;
   int Quantity = VALUE;
+  std::string Expression;
+  int Derivatives = IN_EACH_CELL;
   int NodeSpacing = UNIFORM;
   int Method = FAST;
   int Quality = STANDARD;

@@ -67,7 +67,9 @@ hop::CheckedBlocks vtkHighOrderParticleSlice::FindScalars(const hop::GatheredBlo
   const hop::CutMap map = hop::cutMapOf(this->CutFunction, messages);
   if (!messages.empty())
   {
-    return { {}, messages };
+    hop::CheckedBlocks none;
+    none.messages = messages;
+    return none;
   }
   return hop::checkBlocks(
     gathered, [&](vtkUnstructuredGrid* grid) { return hop::cutValues(map, grid); },

@@ -50,7 +50,6 @@ protected:
 
   std::vector<double> FindIsovalues() override;
   std::vector<hop::UserMessage> CheckIsovalues(const hop::GatheredBlocks& gathered) override;
-  int FindQuantity() override { return VALUE; }
   hop::CheckedBlocks FindScalars(const hop::GatheredBlocks& gathered) override;
   void AddField(hop::ByteHash& hash) override;
 

@@ -57,9 +57,6 @@ void CellCensus::count(Verdict verdict, vtkIdType cell, int cellType)
     case Verdict::Level:
       this->level.add(cell);
       break;
-    case Verdict::DegreeTooHigh:
-      this->degreeTooHigh.add(cell);
-      break;
     case Verdict::Singular:
       this->singular.add(cell);
       break;
@@ -80,7 +77,6 @@ void CellCensus::add(const CellCensus& others)
   this->notFinite.add(others.notFinite);
   this->badWeights.add(others.badWeights);
   this->level.add(others.level);
-  this->degreeTooHigh.add(others.degreeTooHigh);
   this->singular.add(others.singular);
   this->collapsed.add(others.collapsed);
   for (const auto& [which, cells] : others.misordered)
@@ -88,12 +84,13 @@ void CellCensus::add(const CellCensus& others)
     this->misordered[which].add(cells);
   }
   this->folded.add(others.folded);
+  this->unresolved.add(others.unresolved);
 }
 
 vtkIdType CellCensus::skipped() const
 {
   vtkIdType sum = this->brokenConnectivity.count + this->notFinite.count + this->badWeights.count +
-    this->level.count + this->collapsed.count + this->degreeTooHigh.count + this->singular.count;
+    this->level.count + this->collapsed.count + this->singular.count;
   for (const auto& [type, cells] : this->unsupported)
   {
     sum += cells.count;
@@ -123,13 +120,10 @@ std::string CellCensus::describe() const
   describeCells(text, this->badWeights, "skipped: RationalWeights that are not positive");
   describeCells(
     text, this->level, "skipped: the field is the isovalue throughout, which is no surface");
-  describeCells(text, this->degreeTooHigh,
-    "skipped: bent cells of a degree at which Quantity is not supported; see the table of degrees "
-    "in the user guide");
   describeCells(text, this->singular,
     "skipped: so distorted that derivatives may be infinite in them: the Jacobian determinant is "
     "not proven to "
-    "keep its sign");
+    "keep its sign, or the field is not finite");
   describeCells(text, this->collapsed,
     "skipped: without volume, or smaller than 1e-15 of the bounds of the input");
   for (const auto& [which, cells] : this->misordered)
@@ -142,6 +136,9 @@ std::string CellCensus::describe() const
       "check what wrote it");
   }
   describeCells(text, this->folded, "kept, but partly inverted: the Jacobian changes its sign");
+  describeCells(text, this->unresolved,
+    "kept, but the Quantity is not smooth enough in them: polynomials miss it by more than 1e-9 of "
+    "its largest value there, and what of the surface is smaller may be missing");
   return text.str();
 }
 

@@ -21,7 +21,6 @@ enum class Verdict : char
   Level,
   Unsupported,
   /// Of a derived field.
-  DegreeTooHigh,
   Singular,
   /// By vtkGhostType another piece's, hidden, or replaced.
   Ghost
@@ -57,8 +56,6 @@ struct CellCensus
   SkippedCells badWeights;
   /// The field is the same in the whole cell, and one of the isovalues: no surface.
   SkippedCells level;
-  /// The polynomials of a derived field would have a degree above MaximumDegree.
-  SkippedCells degreeTooHigh;
   /// Cells in which a derived field may be infinite: the Jacobian determinant is not proven to be positive.
   SkippedCells singular;
   /// The Jacobian determinant is zero everywhere, to rounding, or the cell is tiny beside the bounds: no volume.
@@ -68,6 +65,8 @@ struct CellCensus
   std::map<std::pair<int, std::string>, SkippedCells> misordered;
   /// Kept cells whose Jacobian determinant changes its sign: partly inverted.
   SkippedCells folded;
+  /// Kept cells in which a derived field is interpolated with a larger error than FieldSampler's tolerance.
+  SkippedCells unresolved;
 
   /// Counts a cell that is left out. Ghost cells are not counted: the file means them to be ignored.
   /// \param cellType VTK's type of the cell

@@ -3,11 +3,14 @@
 #include "Conversion/CellValues.h"
 #include "Conversion/ConvertCells.h"
 #include "Conversion/RunUnits.h"
+#include "Elements/FieldExpression.h"
+#include "Elements/SampledField.h"
 
 #include "vtkPoints.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -16,6 +19,10 @@ namespace hop
 
 namespace
 {
+
+/// Highest degree of products on curved cells, before their degrees are lowered. Larger: particles of such cells cost more
+/// than those of their interpolated parts; smaller: cubic cells are interpolated, too, and are not exact any more.
+constexpr int MostOfProducts = 16;
 
 /// Divides the field by a unit in which it is about one.
 /// \return the exponent of the unit, a power of two
@@ -51,52 +58,97 @@ double coordinateError(vtkUnstructuredGrid* grid, const ControlNet& net)
               : double(std::numeric_limits<float>::epsilon()));
 }
 
+/// The field of a run whose coordinates are divided by a unit. A formula is told of world units.
+FieldFunction functionIn(const InputBlocks& blocks, double unitOfLength)
+{
+  if (blocks.quantity() != Quantity::Expression)
+  {
+    return functionOf(blocks.quantity());
+  }
+  return [expression = blocks.expression(), unitOfLength](const FieldPoint& at)
+  {
+    FieldPoint inWorld = at;
+    inWorld.x *= unitOfLength;
+    for (glm::dvec3& gradient : inWorld.gradients)
+    {
+      gradient /= unitOfLength;
+    }
+    return (*expression)(inWorld);
+  };
+}
+
 /// Derives cells. All threads share one Deriver.
 class Deriver
 {
 public:
-  Deriver(const InputBlocks& blocks, const std::vector<double>& isovalues, double unitOfLength)
+  Deriver(const InputBlocks& blocks, const std::vector<double>& isovalues, DerivingBy way,
+    int halvings, double unitOfLength)
     : Blocks(blocks)
     , Isovalues(isovalues)
+    , Way(way)
     , UnitOfLength(unitOfLength)
+    , Function(functionIn(blocks, unitOfLength))
+    , Parts{ partsOf(Domain::Hexahedron, halvings), partsOf(Domain::Tetrahedron, halvings),
+      partsOf(Domain::Wedge, halvings) }
   {
   }
 
   void derive(JudgedCells& range, CellValues& values) const;
 
 private:
-  Verdict derive(std::size_t block, KeptCell& kept, CellValues& values, DerivedCell& derived) const;
-  Verdict find(const Derivation& derivation, DerivedCell& derived, double& change) const;
+  /// The elements of one cell, and how much its field changes.
+  struct Found
+  {
+    std::vector<DerivedCell> cells;
+    double change = 0.0;
+  };
+
+  Verdict derive(std::size_t block, const KeptCell& kept, CellValues& values, Found& found) const;
+  Verdict findByProducts(const Derivation& derivation, DerivedCell cell, Found& found) const;
+  Verdict findBySamples(const SourceElement& source, const Derivation& derivation, DerivedCell cell,
+    Found& found) const;
+  Verdict judge(const Range& range, double slack, int exponent, double& change) const;
   bool straddles(const Range& range, int exponent) const;
 
   const InputBlocks& Blocks;
   const std::vector<double>& Isovalues;
+  DerivingBy Way;
   double UnitOfLength;
+  FieldFunction Function;
+  /// By domain.
+  std::array<std::vector<ReferencePart>, 3> Parts;
 };
 
 void Deriver::derive(JudgedCells& range, CellValues& values) const
 {
   std::vector<KeptCell> kept;
-  for (KeptCell& cell : range.kept)
+  range.derived.clear();
+  for (std::size_t i = 0; i < range.kept.size(); ++i)
   {
-    DerivedCell derived;
-    const Verdict verdict = this->derive(range.block, cell, values, derived);
-    if (verdict == Verdict::Keep)
+    const KeptCell& cell = range.kept[i];
+    if (i > 0 && range.kept[i - 1].cell == cell.cell)
     {
-      kept.push_back(cell);
-      range.derived.push_back(std::move(derived));
+      continue; // another part of it
     }
-    else
+    Found found;
+    const Verdict verdict = this->derive(range.block, cell, values, found);
+    if (verdict != Verdict::Keep)
     {
       range.census.count(
         verdict, cell.cell, this->Blocks[range.block].grid->GetCellType(cell.cell));
+      continue;
+    }
+    for (DerivedCell& derived : found.cells)
+    {
+      kept.push_back({ cell.cell, cell.basis, found.change });
+      range.derived.push_back(std::move(derived));
     }
   }
   range.kept = std::move(kept);
 }
 
 Verdict Deriver::derive(
-  std::size_t block, KeptCell& kept, CellValues& values, DerivedCell& derived) const
+  std::size_t block, const KeptCell& kept, CellValues& values, Found& found) const
 {
   const CellBasis& cell = *kept.basis;
   const BlockCell where{ block, kept.cell };
@@ -105,50 +157,117 @@ Verdict Deriver::derive(
   {
     return verdict;
   }
-  const int unit = scaleField(values);
+  const int unit = this->Blocks.quantity() == Quantity::Expression ? 0 : scaleField(values);
   const ControlNet net = controlNet(this->Blocks, where, cell, values, this->UnitOfLength);
+  DerivedCell derived;
   derived.sign = net.sign;
   if (net.sign != JacobianSign::Positive && net.sign != JacobianSign::Negative)
   {
+    found.cells.push_back(std::move(derived));
     return Verdict::Keep;
   }
   derived.exponent = orderOf(this->Blocks.quantity()) * (unit - std::ilogb(this->UnitOfLength));
   const SourceElement source{ cell.basis.domain(), cell.basis.degrees(), net.width, net.control,
     net.weights, !values.weights.empty(), coordinateError(this->Blocks[block].grid, net) };
-  return this->find(Derivation(source, this->Blocks.quantity()), derived, kept.change);
-}
-
-/// Derives the element, if it can hold surface.
-Verdict Deriver::find(const Derivation& derivation, DerivedCell& derived, double& change) const
-{
+  const Derivation derivation(source, this->Blocks.quantity());
   if (!this->straddles(derivation.bounds(), derived.exponent))
   {
     return Verdict::Drop;
   }
-  derived.element = derivation.element();
-  switch (derived.element.state)
+  return this->Way == DerivingBy::Products
+    ? this->findByProducts(derivation, std::move(derived), found)
+    : this->findBySamples(source, derivation, std::move(derived), found);
+}
+
+/// Derives the whole cell, if it can hold surface.
+Verdict Deriver::findByProducts(
+  const Derivation& derivation, DerivedCell cell, Found& found) const
+{
+  const Degrees most = derivation.degreesAtMost();
+  const bool isTooHigh = !derivation.isAffine() && *std::max_element(most.begin(), most.end()) > MostOfProducts;
+  cell.element.state = DerivedElement::State::DegreeTooHigh;
+  if (!isTooHigh)
   {
-    case DerivedElement::State::DegreeTooHigh:
-      return Verdict::DegreeTooHigh;
-    case DerivedElement::State::Singular:
+    cell.element = derivation.element();
+  }
+  const DerivedElement& element = cell.element;
+  if (element.state == DerivedElement::State::Singular)
+  {
+    return Verdict::Singular;
+  }
+  cell.isResolved = element.state == DerivedElement::State::Sound;
+  if (cell.isResolved)
+  {
+    Range range{ std::numeric_limits<double>::infinity(),
+      -std::numeric_limits<double>::infinity() };
+    for (std::size_t i = 0; i < element.coefficients.size(); ++i)
+    {
+      range.include(
+        element.coefficients[i].w / (element.weights.empty() ? 1.0 : element.weights[i]));
+    }
+    const Verdict verdict =
+      this->judge(range, derivation.rounding(), cell.exponent, found.change);
+    if (verdict != Verdict::Keep)
+    {
+      return verdict;
+    }
+  }
+  found.cells.push_back(std::move(cell));
+  return Verdict::Keep;
+}
+
+/// Derives the parts of the cell that can hold surface.
+Verdict Deriver::findBySamples(const SourceElement& source, const Derivation& derivation,
+  DerivedCell cell, Found& found) const
+{
+  const std::vector<ReferencePart>& parts = this->Parts[static_cast<std::size_t>(source.domain)];
+  const double rounding = derivation.rounding();
+  FieldSampler sampler(source, this->Function, rounding);
+  Verdict verdict = Verdict::Drop;
+  for (std::size_t n = 0; n < parts.size(); ++n)
+  {
+    SampledPart sampled = sampler.sample(parts[n],
+      [&](const Range& range) { return this->straddles(range, cell.exponent); });
+    if (sampled.element.state != DerivedElement::State::Sound)
+    {
       return Verdict::Singular;
-    case DerivedElement::State::Sound:
-      break;
+    }
+    if (!sampled.canHoldSurface)
+    {
+      continue;
+    }
+    Range range{ std::numeric_limits<double>::infinity(),
+      -std::numeric_limits<double>::infinity() };
+    for (const Coefficient& coefficient : sampled.element.coefficients)
+    {
+      range.include(coefficient.w);
+    }
+    double change = 0.0;
+    const Verdict ofPart = this->judge(range, rounding, cell.exponent, change);
+    verdict = verdict == Verdict::Keep ? verdict : ofPart;
+    if (ofPart == Verdict::Keep)
+    {
+      DerivedCell& part = found.cells.emplace_back(cell);
+      part.element = std::move(sampled.element);
+      part.place = parts[n];
+      part.isResolved = sampled.isResolved;
+      found.change = std::max(found.change, change);
+    }
   }
-  const DerivedElement& element = derived.element;
-  Range range{ std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity() };
-  for (std::size_t i = 0; i < element.coefficients.size(); ++i)
-  {
-    range.include(element.coefficients[i].w / (element.weights.empty() ? 1.0 : element.weights[i]));
-  }
-  const double slack = derivation.rounding();
-  if (!this->straddles({ range.lower - slack, range.upper + slack }, derived.exponent))
+  return verdict;
+}
+
+/// Whether a field with that range can hold surface, or is the same throughout.
+/// \param change receives how much the quantity changes
+Verdict Deriver::judge(const Range& range, double slack, int exponent, double& change) const
+{
+  if (!this->straddles({ range.lower - slack, range.upper + slack }, exponent))
   {
     return Verdict::Drop;
   }
   const bool isSquare = isSquareRoot(this->Blocks.quantity());
   change = isSquare ? std::sqrt(range.magnitude()) : range.upper - range.lower;
-  change = std::ldexp(change, isSquare ? derived.exponent / 2 : derived.exponent);
+  change = std::ldexp(change, isSquare ? exponent / 2 : exponent);
   return range.upper - range.lower <= slack ? Verdict::Level : Verdict::Keep;
 }
 
@@ -167,10 +286,11 @@ bool Deriver::straddles(const Range& range, int exponent) const
 
 } // namespace
 
-void deriveCells(const InputBlocks& blocks, const std::vector<double>& isovalues,
-  double unitOfLength, std::vector<JudgedCells>& ranges, const ParallelFor& parallelFor)
+void deriveCells(const InputBlocks& blocks, const std::vector<double>& isovalues, DerivingBy way,
+  int halvings, double unitOfLength, std::vector<JudgedCells>& ranges,
+  const ParallelFor& parallelFor)
 {
-  const Deriver deriver(blocks, isovalues, unitOfLength);
+  const Deriver deriver(blocks, isovalues, way, halvings, unitOfLength);
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(ranges.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {

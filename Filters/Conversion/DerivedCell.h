@@ -2,11 +2,12 @@
 
 #include "Elements/DerivedField.h"
 #include "Elements/JacobianTest.h"
+#include "Elements/ReferencePart.h"
 
 namespace hop
 {
 
-/// A cell with a derived field, before the unit of the run is known.
+/// A cell, or a part of one, with a derived field, before the unit of the run is known.
 struct DerivedCell
 {
   JacobianSign sign = JacobianSign::NotFinite;
@@ -14,6 +15,10 @@ struct DerivedCell
   DerivedElement element;
   /// The field times 2^exponent is the quantity, or its square where that is derived.
   int exponent = 0;
+  /// The part of the cell.
+  ReferencePart place;
+  /// Whether the element holds the field to rounding, or to the tolerance of an interpolation.
+  bool isResolved = true;
 };
 
 } // namespace hop

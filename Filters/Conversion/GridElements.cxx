@@ -34,14 +34,33 @@ struct Room
   }
 };
 
+/// The cells of a range with an element that does not hold its derived field.
+SkippedCells unresolvedCells(const JudgedCells& range)
+{
+  SkippedCells cells;
+  vtkIdType last = -1;
+  for (std::size_t i = 0; i < range.derived.size(); ++i)
+  {
+    const vtkIdType cell = range.kept[i].cell;
+    if (!range.derived[i].isResolved && cell != last)
+    {
+      cells.add(cell);
+      last = cell;
+    }
+  }
+  return cells;
+}
+
 /// Builds elements of judged cells.
 class Builder
 {
 public:
-  Builder(const InputBlocks& blocks, const std::vector<double>& isovalues, GridElements& result,
-    const ParallelFor& parallelFor)
+  /// \param areDivided whether elements are parts of cells
+  Builder(const InputBlocks& blocks, const std::vector<double>& isovalues, bool areDivided,
+    GridElements& result, const ParallelFor& parallelFor)
     : Blocks(blocks)
     , Isovalues(isovalues)
+    , AreDivided(areDivided)
     , Parallel(parallelFor)
     , Result(result)
   {
@@ -64,6 +83,7 @@ private:
 
   const InputBlocks& Blocks;
   const std::vector<double>& Isovalues;
+  bool AreDivided;
   const ParallelFor& Parallel;
   GridElements& Result;
 };
@@ -92,10 +112,12 @@ void Builder::makeElements(const std::vector<JudgedCells>& ranges)
     all.add(before[r]);
     before[r] = start;
     this->Result.census[ranges[r].block].add(ranges[r].census);
+    this->Result.census[ranges[r].block].unresolved.add(unresolvedCells(ranges[r]));
   }
   ElementMesh& mesh = this->Result.mesh;
   mesh.elements.resize(all.elements);
   this->Result.bases.resize(all.elements);
+  this->Result.parts.resize(this->AreDivided ? all.elements : 0);
   mesh.coefficients.resize(all.coefficients);
   mesh.weights.resize(all.anyRational ? all.coefficients : 0);
   forAll(this->Parallel, ranges.size(),
@@ -126,6 +148,10 @@ void Builder::makeElements(const JudgedCells& range, const Room& before)
     element = this->elementOf(range, i);
     element.firstCoefficient = coefficient;
     this->Result.bases[before.elements + i] = range.kept[i].basis;
+    if (!this->Result.parts.empty())
+    {
+      this->Result.parts[before.elements + i] = range.derived[i].place;
+    }
     coefficient += coefficientCount(element.domain, element.degrees);
   }
 }
@@ -274,6 +300,10 @@ void Builder::keep(const std::vector<char>& marks)
 {
   keepMarked(this->Result.mesh.elements, marks);
   keepMarked(this->Result.bases, marks);
+  if (!this->Result.parts.empty())
+  {
+    keepMarked(this->Result.parts, marks);
+  }
 }
 
 } // namespace
@@ -324,6 +354,23 @@ std::array<double, 2> valueRange(const InputBlocks& blocks)
   return all;
 }
 
+int firstHalvings(Quantity quantity)
+{
+  return isAlwaysSampled(quantity) ? 1 : 0;
+}
+
+bool isWorthDividing(const ResolvedCounts& counts, int halvings)
+{
+  // More halvings take eight times the memory and time each. A few elements that are not resolved, beside places where
+  // the field is not smooth, are not worth that. Chosen by experiment.
+  constexpr int mostHalvings = 2;
+  constexpr double fewElements = 0.02;
+  const auto number = [&](int kind)
+  { return counts.count(kind) > 0 ? static_cast<double>(counts.at(kind)) : 0.0; };
+  const double least = halvings == 0 ? 0.0 : fewElements * (number(0) + number(1));
+  return halvings < mostHalvings && number(0) > least;
+}
+
 GridConversion::GridConversion(const InputBlocks& blocks, NodeSpacing spacing,
   const std::vector<double>& isovalues, double origin, double unitOfLength)
   : Blocks(blocks)
@@ -339,11 +386,39 @@ GridConversion::GridConversion(const InputBlocks& blocks, NodeSpacing spacing,
 UnitCounts GridConversion::judge(const ParallelFor& parallelFor)
 {
   this->Judged = judgeCells(this->Blocks, this->Isovalues, *this->Result.kinds, parallelFor);
-  if (this->Blocks.isDerived())
+  this->Halvings = firstHalvings(this->Blocks.quantity());
+  return this->Blocks.isDerived() ? this->derive(parallelFor) : this->countUnits();
+}
+
+ResolvedCounts GridConversion::countResolved() const
+{
+  ResolvedCounts counts;
+  for (const JudgedCells& range : this->Judged)
   {
-    deriveCells(
-      this->Blocks, this->Isovalues, this->Result.units.length, this->Judged, parallelFor);
+    for (const DerivedCell& cell : range.derived)
+    {
+      ++counts[cell.isResolved ? 1 : 0];
+    }
   }
+  return counts;
+}
+
+UnitCounts GridConversion::divideCells(int halvings, const ParallelFor& parallelFor)
+{
+  this->Halvings = halvings;
+  return this->derive(parallelFor);
+}
+
+UnitCounts GridConversion::derive(const ParallelFor& parallelFor)
+{
+  deriveCells(this->Blocks, this->Isovalues,
+    this->Halvings == 0 ? DerivingBy::Products : DerivingBy::Samples, this->Halvings,
+    this->Result.units.length, this->Judged, parallelFor);
+  return this->countUnits();
+}
+
+UnitCounts GridConversion::countUnits() const
+{
   UnitCounts counts;
   for (const JudgedCells& range : this->Judged)
   {
@@ -358,7 +433,8 @@ UnitCounts GridConversion::judge(const ParallelFor& parallelFor)
 GridElements GridConversion::convert(double unitOfValue, const ParallelFor& parallelFor)
 {
   this->Result.units.value = unitOfValue;
-  Builder(this->Blocks, this->Isovalues, this->Result, parallelFor).build(this->Judged);
+  Builder(this->Blocks, this->Isovalues, this->Halvings > 0, this->Result, parallelFor)
+    .build(this->Judged);
   this->Judged.clear();
   return std::move(this->Result);
 }
@@ -367,7 +443,13 @@ GridElements buildGridElements(const InputBlocks& blocks, NodeSpacing spacing,
   const std::vector<double>& isovalues, const ParallelFor& parallelFor)
 {
   GridConversion conversion(blocks, spacing, isovalues, originFor(valueRange(blocks)), 1.0);
-  const double unit = usualUnit(conversion.judge(parallelFor));
+  UnitCounts counts = conversion.judge(parallelFor);
+  for (int halvings = firstHalvings(blocks.quantity());
+       isWorthDividing(conversion.countResolved(), halvings);)
+  {
+    counts = conversion.divideCells(++halvings, parallelFor);
+  }
+  const double unit = usualUnit(counts);
   GridElements elements = conversion.convert(unit, parallelFor);
   joinElements(elements.mesh, parallelFor);
   return elements;

@@ -147,7 +147,8 @@ Verdict Judge::judge(const BlockCell& where, const CellBasis* cell, CellValues& 
   {
     return Verdict::Drop;
   }
-  return isConstant(values) ? Verdict::Level : Verdict::Keep;
+  const bool isLevel = isConstant(values) && this->Blocks.quantity() != Quantity::Expression;
+  return isLevel ? Verdict::Level : Verdict::Keep;
 }
 
 /// Whether the cell can hold one of the isosurfaces. It can if nodal values lie on both sides of an isovalue; otherwise
@@ -157,6 +158,10 @@ Verdict Judge::judge(const BlockCell& where, const CellBasis* cell, CellValues& 
 /// the array is constant; more is found out by deriveCells().
 bool Judge::canHoldSurface(const CellBasis& cell, const CellValues& values) const
 {
+  if (this->Blocks.quantity() == Quantity::Expression)
+  {
+    return true; // it may be made of coordinates alone
+  }
   if (this->Blocks.isDerived())
   {
     return !isConstant(values) || this->straddles(0.0, 0.0);

@@ -285,7 +285,8 @@ InputBlocks blocksOfGroup(const InputBlocks& blocks, const std::set<int>& group)
       members.push_back(blocks[b]);
     }
   }
-  return { std::move(members), blocks.component(), blocks.quantity() };
+  return { std::move(members), blocks.component(), blocks.quantity(),
+    blocks.expression() };
 }
 
 } // namespace hop

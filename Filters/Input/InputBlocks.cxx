@@ -55,10 +55,12 @@ std::vector<char> pointsOfOwnCells(vtkUnstructuredGrid* grid)
 
 } // namespace
 
-InputBlocks::InputBlocks(std::vector<InputBlock> blocks, int component, Quantity quantity)
+InputBlocks::InputBlocks(std::vector<InputBlock> blocks, int component, Quantity quantity,
+  std::shared_ptr<const FieldExpression> expression)
   : Blocks(std::move(blocks))
   , Component(component)
   , ItsQuantity(quantity)
+  , Expression(std::move(expression))
   , FirstCells{ 0 }
 {
   for (const InputBlock& block : this->Blocks)
@@ -83,7 +85,7 @@ std::string InputBlocks::describe(std::int64_t number) const
 
 int componentOf(const std::vector<InputBlock>& blocks, int asked, Quantity quantity)
 {
-  if (needsVector(quantity))
+  if (needsVector(quantity) || quantity == Quantity::Expression)
   {
     return InputBlocks::Magnitude;
   }

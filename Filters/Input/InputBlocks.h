@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ class vtkUnstructuredGrid;
 
 namespace hop
 {
+
+class FieldExpression;
 
 /// One grid of the input, and the output that receives its particles or their mesh.
 struct InputBlock
@@ -52,16 +55,19 @@ public:
   /// \param blocks all with the same number of components; none where only other ranks have blocks
   /// \param component of the scalars, or Magnitude
   /// \param quantity of the component, or of all components
-  InputBlocks(std::vector<InputBlock> blocks, int component, Quantity quantity = Quantity::Value);
+  /// \param expression of the scalars' components, where that is the quantity
+  InputBlocks(std::vector<InputBlock> blocks, int component, Quantity quantity = Quantity::Value,
+    std::shared_ptr<const FieldExpression> expression = nullptr);
 
   std::size_t size() const { return this->Blocks.size(); }
   const InputBlock& operator[](std::size_t block) const { return this->Blocks[block]; }
   int component() const { return this->Component; }
   /// The same blocks, contoured by another component.
   Quantity quantity() const { return this->ItsQuantity; }
+  const std::shared_ptr<const FieldExpression>& expression() const { return this->Expression; }
   InputBlocks withComponent(int component) const
   {
-    return { this->Blocks, component, this->ItsQuantity };
+    return { this->Blocks, component, this->ItsQuantity, this->Expression };
   }
   /// Whether all components of the scalars are read, not only one.
   bool readsAllComponents() const { return this->Component == Magnitude; }
@@ -79,6 +85,7 @@ private:
   std::vector<InputBlock> Blocks;
   int Component;
   Quantity ItsQuantity;
+  std::shared_ptr<const FieldExpression> Expression;
   std::vector<std::int64_t> FirstCells;
 };
 

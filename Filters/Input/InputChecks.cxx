@@ -249,6 +249,7 @@ CheckedBlocks checkBlocks(const GatheredBlocks& gathered, vtkInformation* asked)
 
 CheckedBlocks checkQuantity(CheckedBlocks checked, Quantity quantity)
 {
+  checked.quantity = quantity;
   if (!needsVector(quantity) || checked.sound.empty())
   {
     return checked;

@@ -4,6 +4,8 @@
 #include "Input/UserMessage.h"
 
 #include <functional>
+#include <memory>
+#include <string>
 #include <vector>
 
 class vtkInformation;
@@ -28,6 +30,9 @@ struct CheckedBlocks
   /// All have the array to contour by, with the same number of components, and no arrays that are too short.
   std::vector<InputBlock> sound;
   UserMessages messages;
+  /// What of their scalars is contoured.
+  Quantity quantity = Quantity::Value;
+  std::shared_ptr<const FieldExpression> expression;
 };
 
 /// \param asked vtkAlgorithm::GetInputArrayInformation, which names the array to contour by

@@ -67,7 +67,8 @@ public:
         this->convert(place.element);
         converted = place.element;
       }
-      this->evaluate(place.element, place.u, gradients + r * 3 * this->Values.components);
+      this->evaluate(
+        place.element, this->Elements.inCell(place), gradients + r * 3 * this->Values.components);
     }
   }
 

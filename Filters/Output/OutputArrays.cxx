@@ -48,7 +48,7 @@ void writePlacement(const ParticleRow& row, const RowCells& cells, double* out)
 void writeParametricCoordinates(const ParticleRow& row, const RowCells& cells, double* out)
 {
   // Places on a face may have left the domain by a rounding error.
-  const ReferencePoint u{ glm::clamp(row.particle->location.u.xyz, 0.0, 1.0) };
+  const ReferencePoint u{ glm::clamp(cells.inCell(row).xyz, 0.0, 1.0) };
   writeVector(parametricCoordinates(cells.cellTypeOf(row), u).xyz, out);
 }
 

@@ -36,6 +36,7 @@ public:
     : Blocks(blocks)
     , Grid(blocks[block].grid)
     , FirstCell(blocks.firstCell(block))
+    , Elements(elements)
     , Mesh(elements.mesh)
     , UnitOfLength(elements.units.length)
     , UnitOfValue(elements.units.value)
@@ -59,6 +60,12 @@ public:
 
   /// An area of the run in world units squared.
   double area(double ofRun) const { return finite(this->length(this->length(ofRun))); }
+
+  /// Where the particle stands in its cell. Of a particle at home on another rank: in its element.
+  ReferencePoint inCell(const ParticleRow& row) const
+  {
+    return row.location().element < 0 ? row.location().u : this->Elements.inCell(row.location());
+  }
 
   /// The number of the particle's cell in the block's grid, or of its stand-in's.
   vtkIdType cellOf(const ParticleRow& row) const
@@ -89,6 +96,7 @@ private:
   const InputBlocks& Blocks;
   vtkUnstructuredGrid* Grid;
   std::int64_t FirstCell;
+  const GridElements& Elements;
   const ElementMesh& Mesh;
   double UnitOfLength;
   double UnitOfValue;

@@ -142,7 +142,7 @@ private:
          this->elementOf(this->BatchEnd) == element;
          ++this->BatchEnd)
     {
-      this->Points.push_back(this->Rows[this->BatchEnd].evaluated().u);
+      this->Points.push_back(this->Elements.inCell(this->Rows[this->BatchEnd].evaluated()));
     }
   }
 

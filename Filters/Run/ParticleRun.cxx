@@ -204,6 +204,23 @@ std::optional<GridElements> GroupRun::convert(const Work& work)
       loops.raiseFraction(ProgressAt::Judged);
       loops.ask();
     });
+  // Cells of all ranks are divided alike, so that their parts meet face to face.
+  const auto countResolved = [&]()
+  {
+    return sumOfRanks(
+      this->Ranks, conversion ? conversion->countResolved() : ResolvedCounts{});
+  };
+  for (int halvings = firstHalvings(this->Blocks.quantity());
+       isWorthDividing(countResolved(), halvings);)
+  {
+    ++halvings;
+    this->attempt(
+      [&]()
+      {
+        counts = conversion->divideCells(halvings, std::ref(loops));
+        loops.ask();
+      });
+  }
   const double unit = usualUnit(sumOfRanks(this->Ranks, counts));
   this->attempt(
     [&]()

@@ -138,6 +138,10 @@ const char* nameOf(Quantity quantity)
       return "The magnitude of the vorticity";
     case Quantity::QCriterion:
       return "The Q criterion";
+    case Quantity::Lambda2:
+      return "Lambda 2";
+    case Quantity::Expression:
+      return "The expression";
   }
   return "The value";
 }

@@ -5,6 +5,7 @@
 #include "vtkDataSet.h"
 #include "vtkGenericCell.h"
 #include "vtkHighOrderParticleIsosurface.h"
+#include "vtkMath.h"
 #include "vtkNew.h"
 
 #include <cmath>
@@ -14,6 +15,29 @@ namespace hop
 
 namespace
 {
+
+/// The middle eigenvalue of the symmetric part of g g.
+double lambda2(const std::vector<double>& g)
+{
+  double symmetric[3][3] = {};
+  double vectors[3][3];
+  double* rows[3] = { symmetric[0], symmetric[1], symmetric[2] };
+  double* ofVectors[3] = { vectors[0], vectors[1], vectors[2] };
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        symmetric[i][j] +=
+          0.5 * (g[3 * i + k] * g[3 * k + j] + g[3 * j + k] * g[3 * k + i]);
+      }
+    }
+  }
+  double values[3]; // from the largest to the smallest
+  vtkMath::Jacobi(rows, values, ofVectors);
+  return values[1];
+}
 
 /// \param g rows of three derivatives, one a component
 double valueOf(int quantity, const std::vector<double>& g)
@@ -28,6 +52,8 @@ double valueOf(int quantity, const std::vector<double>& g)
     case vtkHighOrderParticleIsosurface::Q_CRITERION:
       return -0.5 * (g[0] * g[0] + g[4] * g[4] + g[8] * g[8]) - g[1] * g[3] - g[2] * g[6] -
         g[5] * g[7];
+    case vtkHighOrderParticleIsosurface::LAMBDA_2:
+      return lambda2(g);
     default:
       for (const double derivative : g)
       {

@@ -62,9 +62,13 @@ int vtkSMIsovalueDomain::SetDefaultValues(vtkSMProperty* property, bool useUnche
   // Share of the values that is left out at either end. Larger shares hide small regions of extreme values, smaller
   // ones let a few wrong values decide. Chosen by experiment.
   constexpr double leftOut = 0.01;
-  // Share of the cells in which the Q criterion is above its default. Larger shares show the shear layers between vortices,
+  // Share of the cells in which the Q criterion is above its default, and Lambda 2 below its own. Larger shares show the shear layers between vortices,
   // too, smaller ones the cores of the strongest vortices alone. Chosen by experiment.
   constexpr double inVortices = 0.05;
+  if (this->GetQuantity(true) == vtkHighOrderParticleIsosurface::EXPRESSION)
+  {
+    return 1; // what values a formula has is not known here: the value stays
+  }
   vtkNew<vtkPVQuantileInformation> values;
   values->SetQuantity(this->GetQuantity(true));
   this->Gather(values.Get());
@@ -74,10 +78,19 @@ int vtkSMIsovalueDomain::SetDefaultValues(vtkSMProperty* property, bool useUnche
   }
   const double low = values->GetQuantile(leftOut);
   const double high = values->GetQuantile(1.0 - leftOut);
-  const double vortices = values->GetQuantile(1.0 - inVortices);
-  const bool isQ = this->GetQuantity(true) == vtkHighOrderParticleIsosurface::Q_CRITERION;
-  double isovalue = isQ && vortices > 0.0 && vortices < high ? roundedToRange(vortices, vortices)
-                                                             : isovalueBetween(low, high);
+  const int quantity = this->GetQuantity(true);
+  double isovalue = isovalueBetween(low, high);
+  const double largeQ = values->GetQuantile(1.0 - inVortices);
+  const double smallLambda2 = values->GetQuantile(inVortices);
+  if (quantity == vtkHighOrderParticleIsosurface::Q_CRITERION && largeQ > 0.0 && largeQ < high)
+  {
+    isovalue = roundedToRange(largeQ, largeQ);
+  }
+  if (quantity == vtkHighOrderParticleIsosurface::LAMBDA_2 && smallLambda2 < 0.0 &&
+    smallLambda2 > low)
+  {
+    isovalue = roundedToRange(smallLambda2, -smallLambda2);
+  }
   if (this->GetQuantity(true) == vtkHighOrderParticleIsosurface::VALUE)
   {
     isovalue = this->ValueOfLargeSurface(low, high, isovalue);

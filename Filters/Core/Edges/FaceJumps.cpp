@@ -377,10 +377,9 @@ FacePassages countFacePassages(const ElementMesh& mesh, const SurfaceProxy& prox
         }
         for (int face = 0; face < MaximumFaces; ++face)
         {
-          reached += seen[face];
-          ended += seen[face] &&
-            (mesh.neighbor(e, face).element < 0 ||
-              std::isfinite(jumps.jumpTolerances[faceSlot(e, face)]));
+          const bool isBetween = seen[face] && mesh.neighbor(e, face).element >= 0;
+          reached += isBetween;
+          ended += isBetween && std::isfinite(jumps.jumpTolerances[faceSlot(e, face)]);
         }
       }
     });

@@ -341,6 +341,16 @@ Range Derivation::bounds() const
         add(-0.5, square(g[i][i]));
         add(-1.0, product(g[i][j], g[j][i]));
         break;
+      case Quantity::Expression:
+        return { -infinity, infinity };
+      case Quantity::Lambda2:
+        // An eigenvalue of S^2 + W^2 is within the largest ones of S^2 and -W^2: the sums of their squares bound both.
+        for (const Range& entry : g[i])
+        {
+          const double size2 = entry.magnitude() * entry.magnitude();
+          result = sum(result, { -size2, size2 });
+        }
+        break;
     }
   }
   const double slack = this->rounding();
@@ -351,6 +361,10 @@ Range Derivation::bounds() const
 
 double Derivation::rounding() const
 {
+  if (this->ItsQuantity == Quantity::Expression)
+  {
+    return 0.0; // not known
+  }
   double largest = 0.0;
   for (int i = 0; i < this->Components; ++i)
   {
@@ -440,12 +454,29 @@ ScaledPolynomial Derivation::numerator(
         terms.emplace_back(-0.5, &gradient[i][i], &gradient[i][i]);
         terms.emplace_back(-1.0, &gradient[i][j], &gradient[j][i]);
         break;
+      case Quantity::Lambda2:
+      case Quantity::Expression:
+        break; // no quotient of polynomials
     }
   }
   return sumOfProducts(terms);
 }
 
-/// Bounds on the degrees of element(), from those of the factors.
+bool Derivation::isAffine() const
+{
+  for (const std::vector<ScaledPolynomial>& column : this->Map)
+  {
+    for (const ScaledPolynomial& entry : column)
+    {
+      if (entry.values.size() > 1)
+      {
+        return false;
+      }
+    }
+  }
+  return this->Weight.values.size() == 1;
+}
+
 Degrees Derivation::degreesAtMost() const
 {
   const int order = orderOf(this->ItsQuantity);

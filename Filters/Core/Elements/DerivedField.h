@@ -64,6 +64,12 @@ public:
   /// cheaper than element().
   Range bounds() const;
 
+  /// Bounds on the degrees of element(), from those of its factors.
+  Degrees degreesAtMost() const;
+
+  /// Whether the map is affine, so that the field is a polynomial.
+  bool isAffine() const;
+
   /// Values that differ less cannot be told apart: a small multiple of what rounding makes of sums and products of the
   /// largest derivatives.
   double rounding() const;
@@ -79,7 +85,6 @@ private:
   std::vector<std::array<ScaledPolynomial, 3>> gradientNumerators(
     const Columns& adjugate, bool mayTrim) const;
   ScaledPolynomial numerator(const std::vector<std::array<ScaledPolynomial, 3>>& gradient) const;
-  Degrees degreesAtMost() const;
   DerivedElement assemble(
     const ScaledPolynomial& numerator, const ScaledPolynomial& denominator) const;
 

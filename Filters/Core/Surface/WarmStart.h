@@ -12,6 +12,9 @@ namespace hop
 struct CellPlace
 {
   std::int64_t cell = -1;
+  /// Which of the elements of the cell, where cells are divided. Their number may be another one in the next run: the place
+  /// is then in another part of the cell, from where the surface is found as well.
+  int ofCell = 0;
   ReferencePoint u;
 };
 

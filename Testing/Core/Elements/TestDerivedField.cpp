@@ -116,7 +116,7 @@ double valueOf(Quantity quantity, const std::array<glm::dvec3, 3>& g)
       return glm::dot(curl, curl);
     case Quantity::QCriterion:
       return -0.5 * trace2;
-    case Quantity::Value:
+    default: // no polynomials
       break;
   }
   return 0.0;

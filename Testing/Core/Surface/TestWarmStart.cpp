@@ -183,8 +183,8 @@ TEST(WarmStart, LeavesOutCellsThatTheMeshDoesNotHold)
     mesh.elements[e].cell = static_cast<std::int64_t>(2 * e + 5);
   }
   const std::vector<Location> found = findPlaces(mesh,
-    { { 4, { glm::dvec3(0.5) } }, { 7, { glm::dvec3(0.5) } }, { 8, { glm::dvec3(0.5) } },
-      { 9, { glm::dvec3(1.5) } }, { 100000, { glm::dvec3(0.5) } } });
+    { { 4, 0, { glm::dvec3(0.5) } }, { 7, 0, { glm::dvec3(0.5) } }, { 8, 0, { glm::dvec3(0.5) } },
+      { 9, 0, { glm::dvec3(1.5) } }, { 100000, 0, { glm::dvec3(0.5) } } });
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].element, 1);
 }

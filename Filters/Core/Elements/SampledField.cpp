@@ -1,0 +1,375 @@
+#include "Elements/SampledField.h"
+
+#include "Elements/BatchEvaluator.h"
+#include "Elements/NodalBasis.h"
+#include "Elements/SymmetricEigenvalues.h"
+
+#include <glm/glm.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+namespace hop
+{
+
+namespace
+{
+
+struct Sampling
+{
+  /// Largest error, of the largest value of the field on the part. Smaller: more parts of higher degrees; larger:
+  /// particles are off their isovalue by as much.
+  static constexpr double Tolerance = 1e-9;
+  /// Largest error of the geometry, of its extent: where cells meet it opens gaps of this width.
+  static constexpr double GeometryTolerance = 1e-11;
+  /// How much larger than what was seen an error may be where a part is said to hold no surface.
+  static constexpr double Caution = 10.0;
+  /// How much larger an error may be for a lower degree, where none holds the field. Larger: rounder surfaces that are
+  /// farther off; smaller: ripples, and many particles on them.
+  static constexpr double Ripples = 3.0;
+  /// Fewer see errors too small; each costs as much as a node.
+  static constexpr int CheckPoints = 60;
+  /// Degrees from the lowest to the highest that is tried, in steps. Lower: parts of straight cells with a linear field
+  /// take more coefficients than they need. Higher: coefficients are ever larger than the values (2^30 times at degree
+  /// 10, by NodalBasis::conversionNorm), and an evaluation costs as much as one of several parts.
+  static constexpr int LowestDegree = 4;
+  static constexpr int DegreeStep = 2;
+};
+
+/// Of a hexahedron Gauss-Lobatto-Legendre nodes allow a higher degree than equispaced ones.
+int highestDegree(Domain domain)
+{
+  return domain == Domain::Hexahedron ? 14 : 10;
+}
+
+/// Where a field is sampled for a polynomial, and how that follows.
+struct Lattice
+{
+  NodalBasis basis;
+  std::vector<ReferencePoint> nodes;
+};
+
+std::vector<ReferencePoint> nodesOf(Domain domain, int degree)
+{
+  const Degrees degrees{ degree, degree, degree };
+  const std::vector<long double> onLine = gaussLobattoPoints(degree);
+  std::vector<ReferencePoint> nodes;
+  for (const LatticePoint& point : latticePoints(domain, degrees))
+  {
+    nodes.push_back(domain == Domain::Hexahedron
+        ? ReferencePoint{ { double(onLine[point.i]), double(onLine[point.j]),
+            double(onLine[point.k]) } }
+        : latticePosition(degrees, point));
+  }
+  return nodes;
+}
+
+/// Made at the first request and kept.
+const Lattice& latticeOf(Domain domain, int degree)
+{
+  static std::mutex mutex;
+  static std::map<std::pair<Domain, int>, std::unique_ptr<const Lattice>> known;
+  const std::lock_guard<std::mutex> lock(mutex);
+  std::unique_ptr<const Lattice>& lattice = known[{ domain, degree }];
+  if (!lattice)
+  {
+    const Degrees degrees{ degree, degree, degree };
+    lattice = std::make_unique<const Lattice>(
+      Lattice{ NodalBasis::lagrange(domain, degrees, latticePoints(domain, degrees),
+                 domain == Domain::Hexahedron ? NodeSpacing::GaussLobattoLegendre
+                                              : NodeSpacing::Uniform),
+        nodesOf(domain, degree) });
+  }
+  return *lattice;
+}
+
+/// The n-th number of the van der Corput sequence, in [0, 1].
+double vanDerCorput(int n, int base)
+{
+  double result = 0.0;
+  double digit = 1.0;
+  for (; n > 0; n /= base)
+  {
+    digit /= base;
+    result += digit * (n % base);
+  }
+  return result;
+}
+
+/// Points spread evenly over a domain, some of them on its faces (Halton 1960; on simplices by differences of sorted
+/// numbers).
+std::vector<ReferencePoint> spreadPoints(Domain domain, int count)
+{
+  std::vector<ReferencePoint> points;
+  for (int n = 1; n <= count; ++n)
+  {
+    std::array<double, 3> u{};
+    for (int a = 0; a < 3; ++a)
+    {
+      constexpr std::array<int, 3> bases{ 2, 3, 5 };
+      u[a] = std::clamp(1.1 * vanDerCorput(n, bases[a]) - 0.05, 0.0, 1.0);
+    }
+    for (const SimplexFactor& factor : facts(domain).factors)
+    {
+      std::sort(u.begin() + factor.axis, u.begin() + factor.end());
+      for (int a = factor.end() - 1; a > factor.axis; --a)
+      {
+        u[a] -= u[a - 1];
+      }
+    }
+    points.push_back({ { u[0], u[1], u[2] } });
+  }
+  return points;
+}
+
+/// Where polynomials are compared with fields.
+const std::vector<ReferencePoint>& checkPointsOf(Domain domain)
+{
+  static const std::array<std::vector<ReferencePoint>, 3> points{
+    spreadPoints(Domain::Hexahedron, Sampling::CheckPoints),
+    spreadPoints(Domain::Tetrahedron, Sampling::CheckPoints),
+    spreadPoints(Domain::Wedge, Sampling::CheckPoints)
+  };
+  return points[static_cast<std::size_t>(domain)];
+}
+
+double lengthOfCurl2(const std::vector<glm::dvec3>& g)
+{
+  const glm::dvec3 curl(g[2].y - g[1].z, g[0].z - g[2].x, g[1].x - g[0].y);
+  return glm::dot(curl, curl);
+}
+
+double qCriterion(const std::vector<glm::dvec3>& g)
+{
+  return -0.5 * (g[0].x * g[0].x + g[1].y * g[1].y + g[2].z * g[2].z) - g[0].y * g[1].x -
+    g[1].z * g[2].y - g[2].x * g[0].z;
+}
+
+/// The middle eigenvalue of S^2 + W^2 = (G G + (G G)^T) / 2, with G = S + W.
+double lambda2(const std::vector<glm::dvec3>& g)
+{
+  const glm::dmat3 transposed(g[0], g[1], g[2]); // columns of GLM are rows of G
+  const glm::dmat3 square = transposed * transposed;
+  return middleEigenvalue(0.5 * (square + glm::transpose(square)));
+}
+
+double sumOfSquares(const std::vector<glm::dvec3>& g)
+{
+  double sum = 0.0;
+  for (const glm::dvec3& row : g)
+  {
+    sum += glm::dot(row, row);
+  }
+  return sum;
+}
+
+BernsteinForm formOf(Domain domain, const DerivedElement& element)
+{
+  return { domain, element.degrees, element.coefficients.data(), nullptr };
+}
+
+bool isFinite(const std::vector<Coefficient>& samples)
+{
+  return std::all_of(samples.begin(), samples.end(),
+    [](const Coefficient& c)
+    { return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z) && std::isfinite(c.w); });
+}
+
+/// How far coordinates reach.
+double extentOf(const std::vector<Coefficient>& samples)
+{
+  glm::dvec3 lower(samples[0]);
+  glm::dvec3 upper = lower;
+  for (const Coefficient& sample : samples)
+  {
+    lower = glm::min(lower, glm::dvec3(sample));
+    upper = glm::max(upper, glm::dvec3(sample));
+  }
+  return glm::distance(lower, upper);
+}
+
+double largestField(const std::vector<Coefficient>& samples)
+{
+  double largest = 0.0;
+  for (const Coefficient& sample : samples)
+  {
+    largest = std::max(largest, std::abs(sample.w));
+  }
+  return largest;
+}
+
+/// Of polynomials that do not hold a field the one of the lowest degree that is hardly farther from it than the best:
+/// higher ones ripple beside a crease.
+SampledPart simplestOf(std::vector<SampledPart> tried)
+{
+  const auto best = std::min_element(tried.begin(), tried.end(),
+    [](const SampledPart& a, const SampledPart& b) { return a.error < b.error; });
+  const double most = Sampling::Ripples * best->error;
+  return std::move(*std::find_if(
+    tried.begin(), tried.end(), [&](const SampledPart& one) { return one.error <= most; }));
+}
+
+} // namespace
+
+FieldFunction functionOf(Quantity quantity)
+{
+  switch (quantity)
+  {
+    case Quantity::Value:
+    case Quantity::Expression:
+      break;
+    case Quantity::GradientMagnitude:
+      return [](const FieldPoint& at) { return sumOfSquares(at.gradients); };
+    case Quantity::Divergence:
+      return [](const FieldPoint& at)
+      { return at.gradients[0].x + at.gradients[1].y + at.gradients[2].z; };
+    case Quantity::VorticityMagnitude:
+      return [](const FieldPoint& at) { return lengthOfCurl2(at.gradients); };
+    case Quantity::QCriterion:
+      return [](const FieldPoint& at) { return qCriterion(at.gradients); };
+    case Quantity::Lambda2:
+      return [](const FieldPoint& at) { return lambda2(at.gradients); };
+  }
+  return {};
+}
+
+FieldSampler::FieldSampler(
+  const SourceElement& source, const FieldFunction& function, double noise)
+  : Source(source)
+  , Function(function)
+  , Noise(noise)
+  , FirstDegree(Sampling::LowestDegree)
+{
+  const std::size_t rows = source.control.size() / source.width;
+  for (int first = 0; first < source.width; first += 4)
+  {
+    std::vector<Coefficient>& group = this->Groups.emplace_back(rows, Coefficient(0.0));
+    for (std::size_t i = 0; i < rows; ++i)
+    {
+      for (int c = first; c < std::min(first + 4, source.width); ++c)
+      {
+        group[i][c - first] = source.control[i * source.width + c];
+      }
+    }
+  }
+}
+
+/// x, y, z and the field.
+FieldSampler::Samples FieldSampler::valuesAt(
+  const ReferencePart& part, const std::vector<ReferencePoint>& points) const
+{
+  std::vector<ReferencePoint> inWhole;
+  inWhole.reserve(points.size());
+  for (const ReferencePoint& point : points)
+  {
+    inWhole.push_back(part.inWhole(point));
+  }
+  std::vector<JetBatch> jets(this->Groups.size());
+  for (std::size_t g = 0; g < jets.size(); ++g)
+  {
+    evaluateGradients({ this->Source.domain, this->Source.degrees, this->Groups[g].data(),
+                        this->Source.isRational ? this->Source.weights.data() : nullptr },
+      inWhole.data(), static_cast<int>(inWhole.size()), jets[g]);
+  }
+  const int components = this->Source.width - 3;
+  FieldPoint at;
+  at.values.resize(components);
+  at.gradients.resize(components);
+  Samples samples;
+  samples.reserve(points.size());
+  for (std::size_t n = 0; n < points.size(); ++n)
+  {
+    const auto number = [&](int quantity, int c) { return jets[c / 4].row(quantity, c % 4)[n]; };
+    const auto threeOf = [&](int c)
+    {
+      return glm::dvec3(number(quantity::first, c), number(quantity::first + 1, c),
+        number(quantity::first + 2, c));
+    };
+    const glm::dmat3 inverse = glm::inverse(glm::dmat3(threeOf(0), threeOf(1), threeOf(2)));
+    at.x = { number(quantity::value, 0), number(quantity::value, 1), number(quantity::value, 2) };
+    for (int c = 0; c < components; ++c)
+    {
+      at.values[c] = number(quantity::value, 3 + c);
+      at.gradients[c] = inverse * threeOf(3 + c); // J^-T, as columns here are rows of J
+    }
+    samples.emplace_back(at.x, this->Function(at));
+  }
+  return samples;
+}
+
+/// \param checks the field at spreadPoints()
+SampledPart FieldSampler::interpolated(
+  const ReferencePart& part, int degree, const Samples& checks) const
+{
+  const Lattice& lattice = latticeOf(this->Source.domain, degree);
+  const Samples nodal = this->valuesAt(part, lattice.nodes);
+  SampledPart result;
+  if (!isFinite(nodal) || !isFinite(checks))
+  {
+    return result;
+  }
+  DerivedElement& element = result.element;
+  element.state = DerivedElement::State::Sound;
+  element.degrees = lattice.basis.degrees();
+  element.coefficients.resize(nodal.size());
+  lattice.basis.toBernstein(&nodal[0].x, 4, &element.coefficients[0].x);
+  this->judge(result, checks);
+  return result;
+}
+
+/// Compares the polynomial with the field at spreadPoints().
+void FieldSampler::judge(SampledPart& sampled, const Samples& checks) const
+{
+  static_assert(sizeof(Coefficient) == 4 * sizeof(double), "rows of numbers are converted");
+  const BernsteinForm form = formOf(this->Source.domain, sampled.element);
+  const std::vector<ReferencePoint>& points = checkPointsOf(this->Source.domain);
+  double ofGeometry = 0.0;
+  for (std::size_t n = 0; n < points.size(); ++n)
+  {
+    const Coefficient value = evaluateGradient(form, points[n]).value;
+    sampled.error = std::max(sampled.error, std::abs(value.w - checks[n].w));
+    ofGeometry =
+      std::max(ofGeometry, glm::distance(glm::dvec3(value), glm::dvec3(checks[n])));
+  }
+  const double tolerance =
+    std::max(Sampling::Tolerance * largestField(checks), Sampling::Caution * this->Noise);
+  sampled.isResolved = sampled.error <= tolerance &&
+    ofGeometry <= Sampling::GeometryTolerance * extentOf(checks) + this->Source.coordinateError;
+}
+
+SampledPart FieldSampler::sample(
+  const ReferencePart& part, const std::function<bool(const Range&)>& canHoldSurface)
+{
+  const Samples checks = this->valuesAt(part, checkPointsOf(this->Source.domain));
+  const int highest = highestDegree(this->Source.domain);
+  std::vector<SampledPart> tried;
+  for (int degree = this->FirstDegree;; degree += Sampling::DegreeStep)
+  {
+    SampledPart result = this->interpolated(part, degree, checks);
+    if (result.element.state != DerivedElement::State::Sound)
+    {
+      return result;
+    }
+    const Range range = fieldRange(formOf(this->Source.domain, result.element));
+    const double slack = Sampling::Caution * result.error + this->Noise;
+    result.canHoldSurface = canHoldSurface({ range.lower - slack, range.upper + slack });
+    if (result.isResolved || !result.canHoldSurface)
+    {
+      this->FirstDegree = std::max(Sampling::LowestDegree, degree - Sampling::DegreeStep);
+      return result;
+    }
+    tried.push_back(std::move(result));
+    if (degree + Sampling::DegreeStep > highest)
+    {
+      this->FirstDegree = Sampling::LowestDegree;
+      return simplestOf(std::move(tried));
+    }
+  }
+}
+
+} // namespace hop

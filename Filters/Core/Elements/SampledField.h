@@ -1,0 +1,73 @@
+#pragma once
+
+#include "Elements/DerivedField.h"
+#include "Elements/ReferencePart.h"
+
+#include <functional>
+#include <vector>
+
+namespace hop
+{
+
+/// What a field's function is told of one point: x, and one value and one gradient in world space a component.
+struct FieldPoint
+{
+  glm::dvec3 x{ 0.0 };
+  std::vector<double> values;
+  /// du_i/dx_j: a vector a component.
+  std::vector<glm::dvec3> gradients;
+};
+
+/// A field made of another field, point by point.
+using FieldFunction = std::function<double(const FieldPoint&)>;
+
+/// The function of a quantity, or of its square where that is derived.
+/// \param quantity neither Value nor Expression
+FieldFunction functionOf(Quantity quantity);
+
+/// A part of an element with a polynomial in the place of a field.
+struct SampledPart
+{
+  /// Its coordinates are those of the part.
+  DerivedElement element;
+  /// Largest difference of polynomial and field that was seen, in the unit of the field.
+  double error = 0.0;
+  /// Whether the error is within the tolerance.
+  bool isResolved = false;
+  /// Whether the field may have an isovalue on the part.
+  bool canHoldSurface = true;
+};
+
+/// Fields of elements by interpolation, for what is no polynomial of low degree: on a part of the element the polynomial
+/// is taken that has the field's values at the nodes of a lattice, of the lowest degree that holds the field. The error is seen
+/// at points between the nodes, but not proven: a field that bends much faster between two of these points would be
+/// missed. Derivation: Documentation/algorithm.md, section Derived fields.
+class FieldSampler
+{
+public:
+  /// \param noise values of the field that differ less cannot be told apart
+  /// \pre all arguments outlive the sampler
+  FieldSampler(const SourceElement& source, const FieldFunction& function, double noise);
+
+  /// Parts that cannot hold surface are left as they are at a low degree.
+  /// \param canHoldSurface whether the field has an isovalue in a range
+  SampledPart sample(
+    const ReferencePart& part, const std::function<bool(const Range&)>& canHoldSurface);
+
+private:
+  using Samples = std::vector<Coefficient>;
+
+  Samples valuesAt(const ReferencePart& part, const std::vector<ReferencePoint>& points) const;
+  SampledPart interpolated(const ReferencePart& part, int degree, const Samples& checks) const;
+  void judge(SampledPart& sampled, const Samples& checks) const;
+
+  const SourceElement& Source;
+  const FieldFunction& Function;
+  double Noise;
+  /// Four components of the source each: x, y, z, u_0; u_1, ...
+  std::vector<std::vector<Coefficient>> Groups;
+  /// Where to begin: the next part is about as smooth as the last one.
+  int FirstDegree = 0;
+};
+
+} // namespace hop

@@ -1,0 +1,167 @@
+#include "Elements/SampledField.h"
+#include "Elements/SymmetricEigenvalues.h"
+
+#include "ElementCases.h"
+#include "TestMeshes.h"
+
+#include <glm/glm.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hop::testing
+{
+namespace
+{
+
+/// A bent element with a smooth vector field, or one of random coefficients.
+struct Bent
+{
+  Bent(const ElementCase& which, bool isSmooth, Random& random)
+    : element(which)
+  {
+    for (const LatticePoint& point : latticePoints(which.domain, which.degrees))
+    {
+      const glm::dvec3 u = latticePosition(which.degrees, point).xyz;
+      const glm::dvec3 x = u + 0.08 * glm::dvec3(u.y * u.y, std::sin(2.0 * u.z), u.x * u.y);
+      const glm::dvec3 field = isSmooth
+        ? glm::dvec3(std::sin(2.0 * u.y + u.x), std::cos(u.z) * u.x, std::exp(u.x * u.y))
+        : glm::dvec3(randomNumber(random), randomNumber(random), randomNumber(random));
+      this->control.insert(this->control.end(), { x.x, x.y, x.z, field.x, field.y, field.z });
+    }
+  }
+
+  SourceElement source() const
+  {
+    return { this->element.domain, this->element.degrees, 6, this->control, this->weights, false,
+      1e-15 };
+  }
+
+  /// By differences of nothing: gradients of one component after the other.
+  FieldPoint at(const ReferencePoint& u) const
+  {
+    FieldPoint result;
+    for (int c = 0; c < 3; ++c)
+    {
+      std::vector<Coefficient> coefficients;
+      for (std::size_t i = 0; i < this->control.size(); i += 6)
+      {
+        const double* row = &this->control[i];
+        coefficients.emplace_back(row[0], row[1], row[2], row[3 + c]);
+      }
+      const Jet jet = evaluateGradient(
+        { this->element.domain, this->element.degrees, coefficients.data(), nullptr }, u);
+      const glm::dmat3 jacobian{ glm::dvec3(jet.first[0]), glm::dvec3(jet.first[1]),
+        glm::dvec3(jet.first[2]) };
+      result.x = glm::dvec3(jet.value);
+      result.values.push_back(jet.value.w);
+      result.gradients.push_back(gradientOf(jet) * glm::inverse(jacobian));
+    }
+    return result;
+  }
+
+  ElementCase element;
+  std::vector<double> control;
+  std::vector<double> weights;
+};
+
+const auto everything = [](const Range&) { return true; };
+
+/// Compares parts with the field at random points.
+void expectAgreement(const Bent& bent, Quantity quantity, int halvings, Random& random)
+{
+  const FieldFunction function = functionOf(quantity);
+  const SourceElement source = bent.source();
+  FieldSampler sampler(source, function, 0.0);
+  for (const ReferencePart& part : partsOf(bent.element.domain, halvings))
+  {
+    const SampledPart sampled = sampler.sample(part, everything);
+    ASSERT_EQ(sampled.element.state, DerivedElement::State::Sound);
+    EXPECT_TRUE(sampled.isResolved) << bent.element;
+    const BernsteinForm form{ bent.element.domain, sampled.element.degrees,
+      sampled.element.coefficients.data(), nullptr };
+    for (int n = 0; n < 20; ++n)
+    {
+      const ReferencePoint v =
+        insidePoint(bent.element.domain, { random.uniform(), random.uniform(), random.uniform() });
+      const Coefficient value = evaluateGradient(form, v).value;
+      const FieldPoint expected = bent.at(part.inWhole(v));
+      const Range range = fieldRange(form);
+      EXPECT_NEAR(value.w, function(expected), 1e-8 * range.magnitude()) << bent.element;
+      EXPECT_LT(glm::distance(glm::dvec3(value), expected.x), 1e-11);
+    }
+  }
+}
+
+TEST(SampledField, HoldsQuantitiesOfBentElementsOfHighDegree)
+{
+  Random random(21);
+  for (const ElementCase& which : { ElementCase{ Domain::Hexahedron, { 6, 6, 6 } },
+         ElementCase{ Domain::Hexahedron, { 9, 9, 9 } }, ElementCase{ Domain::Wedge, { 6, 6, 6 } },
+         ElementCase{ Domain::Tetrahedron, { 6, 6, 6 } } })
+  {
+    const Bent bent(which, true, random);
+    for (const Quantity quantity : { Quantity::GradientMagnitude, Quantity::Divergence,
+           Quantity::VorticityMagnitude, Quantity::QCriterion })
+    {
+      expectAgreement(bent, quantity, 1, random);
+    }
+  }
+}
+
+TEST(SampledField, HoldsRandomPolynomialsOnSmallerParts)
+{
+  Random random(22);
+  expectAgreement(
+    Bent({ Domain::Hexahedron, { 4, 4, 4 } }, false, random), Quantity::QCriterion, 2, random);
+}
+
+/// A field with a fold is not resolved, and says so.
+TEST(SampledField, TellsOfWhatItCannotHold)
+{
+  Random random(23);
+  const Bent bent({ Domain::Hexahedron, { 2, 2, 2 } }, true, random);
+  const FieldFunction folded = [](const FieldPoint& at) { return std::abs(at.x.x - 0.3); };
+  const SourceElement source = bent.source();
+  const SampledPart sampled = FieldSampler(source, folded, 0.0).sample({}, everything);
+  EXPECT_FALSE(sampled.isResolved);
+  EXPECT_GT(sampled.error, 1e-4);
+  const FieldFunction infinite = [](const FieldPoint& at) { return std::log(at.x.x - 0.3); };
+  EXPECT_EQ(FieldSampler(source, infinite, 0.0).sample({}, everything).element.state,
+    DerivedElement::State::Singular);
+}
+
+TEST(SymmetricEigenvalues, FindsTheMiddleOne)
+{
+  Random random(24);
+  for (int n = 0; n < 200; ++n)
+  {
+    glm::dvec3 values(randomNumber(random), randomNumber(random), randomNumber(random));
+    values.y = n % 3 == 0 ? values.x : values.y; // a double one
+    const glm::dvec3 a = glm::normalize(
+      glm::dvec3(randomNumber(random), randomNumber(random), randomNumber(random)));
+    const glm::dvec3 b = glm::normalize(glm::cross(a, glm::dvec3(0.3, 0.5, 0.8)));
+    const glm::dmat3 q(a, b, glm::cross(a, b));
+    const glm::dmat3 d(glm::dvec3(values.x, 0.0, 0.0), glm::dvec3(0.0, values.y, 0.0),
+      glm::dvec3(0.0, 0.0, values.z));
+    const double middle = std::max(std::min(values.x, values.y),
+      std::min(std::max(values.x, values.y), values.z));
+    EXPECT_NEAR(middleEigenvalue(q * d * glm::transpose(q)), middle, n % 3 == 0 ? 1e-7 : 1e-9);
+  }
+  EXPECT_EQ(middleEigenvalue(glm::dmat3(0.0)), 0.0);
+  EXPECT_EQ(middleEigenvalue(glm::dmat3(2.0)), 2.0);
+}
+
+/// In a vortex u = (-y, x, 0), S = 0 and W^2 = diag(-1, -1, 0): the middle eigenvalue is -1.
+TEST(SampledField, Lambda2OfARotationIsNegative)
+{
+  FieldPoint at;
+  at.gradients = { { 0.0, -1.0, 0.0 }, { 1.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
+  EXPECT_NEAR(functionOf(Quantity::Lambda2)(at), -1.0, 1e-7);
+  at.gradients = { { 1.0, 0.0, 0.0 }, { 0.0, -2.0, 0.0 }, { 0.0, 0.0, 1.0 } };
+  EXPECT_NEAR(functionOf(Quantity::Lambda2)(at), 1.0, 1e-7); // strain: eigenvalues 1, 1, 4
+}
+
+} // namespace
+} // namespace hop::testing
