@@ -206,10 +206,7 @@ std::optional<GridElements> GroupRun::convert(const Work& work)
     });
   // Cells of all ranks are divided alike, so that their parts meet face to face.
   const auto countResolved = [&]()
-  {
-    return sumOfRanks(
-      this->Ranks, conversion ? conversion->countResolved() : ResolvedCounts{});
-  };
+  { return sumOfRanks(this->Ranks, conversion ? conversion->countResolved() : ResolvedCounts{}); };
   for (int halvings = firstHalvings(this->Blocks.quantity());
        isWorthDividing(countResolved(), halvings);)
   {
@@ -468,9 +465,10 @@ bool GroupRun::bringHome(std::vector<IsovalueParticles>& particles, const Parall
       this->All, this->Sizes, parallelFor);
     if (home.isComplete)
     {
-      home.isComplete = bringMeshHome(this->Ranks, this->workerOf(i), distribution, this->IsSound,
-        this->All, [this](std::int64_t cell) { return this->AllBlocks.blockOf(cell); },
-        particles[i].mesh, home.distribution);
+      home.isComplete = bringMeshHome(
+        this->Ranks, this->workerOf(i), distribution, this->IsSound, this->All,
+        [this](std::int64_t cell) { return this->AllBlocks.blockOf(cell); }, particles[i].mesh,
+        home.distribution);
     }
     distribution = std::move(home.distribution);
     isComplete = isComplete && home.isComplete;
