@@ -289,11 +289,11 @@ std::uint64_t vtkHighOrderParticleIsosurface::HashOfRequest(vtkDataObject* input
   {
     hash.add(number);
   }
-  for (const vtkIdType number : { vtkIdType(this->Component),
-         vtkIdType(this->NodeSpacing), vtkIdType(this->Method), vtkIdType(this->Quality),
-         vtkIdType(this->Seed), this->NumberOfParticles, this->ParticlesPerWorker,
-         vtkIdType(this->WarmStart), vtkIdType(this->PassDiagnostics),
-         vtkIdType(this->PassDerivatives), vtkIdType(this->OutputType), vtkIdType(this->Order) })
+  for (const vtkIdType number :
+    { vtkIdType(this->Component), vtkIdType(this->NodeSpacing), vtkIdType(this->Method),
+      vtkIdType(this->Quality), vtkIdType(this->Seed), this->NumberOfParticles,
+      this->ParticlesPerWorker, vtkIdType(this->WarmStart), vtkIdType(this->PassDiagnostics),
+      vtkIdType(this->PassDerivatives), vtkIdType(this->OutputType), vtkIdType(this->Order) })
   {
     hash.addWord(static_cast<std::uint64_t>(number));
   }

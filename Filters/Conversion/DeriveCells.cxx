@@ -180,11 +180,11 @@ Verdict Deriver::derive(
 }
 
 /// Derives the whole cell, if it can hold surface.
-Verdict Deriver::findByProducts(
-  const Derivation& derivation, DerivedCell cell, Found& found) const
+Verdict Deriver::findByProducts(const Derivation& derivation, DerivedCell cell, Found& found) const
 {
   const Degrees most = derivation.degreesAtMost();
-  const bool isTooHigh = !derivation.isAffine() && *std::max_element(most.begin(), most.end()) > MostOfProducts;
+  const bool isTooHigh =
+    !derivation.isAffine() && *std::max_element(most.begin(), most.end()) > MostOfProducts;
   cell.element.state = DerivedElement::State::DegreeTooHigh;
   if (!isTooHigh)
   {
@@ -205,8 +205,7 @@ Verdict Deriver::findByProducts(
       range.include(
         element.coefficients[i].w / (element.weights.empty() ? 1.0 : element.weights[i]));
     }
-    const Verdict verdict =
-      this->judge(range, derivation.rounding(), cell.exponent, found.change);
+    const Verdict verdict = this->judge(range, derivation.rounding(), cell.exponent, found.change);
     if (verdict != Verdict::Keep)
     {
       return verdict;
@@ -217,8 +216,8 @@ Verdict Deriver::findByProducts(
 }
 
 /// Derives the parts of the cell that can hold surface.
-Verdict Deriver::findBySamples(const SourceElement& source, const Derivation& derivation,
-  DerivedCell cell, Found& found) const
+Verdict Deriver::findBySamples(
+  const SourceElement& source, const Derivation& derivation, DerivedCell cell, Found& found) const
 {
   const std::vector<ReferencePart>& parts = this->Parts[static_cast<std::size_t>(source.domain)];
   const double rounding = derivation.rounding();
@@ -226,8 +225,8 @@ Verdict Deriver::findBySamples(const SourceElement& source, const Derivation& de
   Verdict verdict = Verdict::Drop;
   for (std::size_t n = 0; n < parts.size(); ++n)
   {
-    SampledPart sampled = sampler.sample(parts[n],
-      [&](const Range& range) { return this->straddles(range, cell.exponent); });
+    SampledPart sampled = sampler.sample(
+      parts[n], [&](const Range& range) { return this->straddles(range, cell.exponent); });
     if (sampled.element.state != DerivedElement::State::Sound)
     {
       return Verdict::Singular;

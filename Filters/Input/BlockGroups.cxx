@@ -285,8 +285,7 @@ InputBlocks blocksOfGroup(const InputBlocks& blocks, const std::set<int>& group)
       members.push_back(blocks[b]);
     }
   }
-  return { std::move(members), blocks.component(), blocks.quantity(),
-    blocks.expression() };
+  return { std::move(members), blocks.component(), blocks.quantity(), blocks.expression() };
 }
 
 } // namespace hop

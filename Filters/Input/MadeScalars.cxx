@@ -292,7 +292,8 @@ CheckedBlocks averagedAtNodes(CheckedBlocks checked, int component)
         [](const InputBlock& block) { return hasBezierCells(block.grid); }))
   {
     checked.messages.push_back({ UserMessage::Error,
-      "Derivatives cannot be averaged at the nodes of Bezier cells, which hold no values but control "
+      "Derivatives cannot be averaged at the nodes of Bezier cells, which hold no values but "
+      "control "
       "values; choose In Each Cell." });
     checked.sound.clear();
   }

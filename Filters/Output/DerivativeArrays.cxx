@@ -69,8 +69,8 @@ public:
       }
       if (element >= 0)
       {
-        this->evaluate(
-          element, this->Elements.inCell(this->Rows[r].location()), gradients + r * 3 * this->Values.components);
+        this->evaluate(element, this->Elements.inCell(this->Rows[r].location()),
+          gradients + r * 3 * this->Values.components);
       }
     }
   }

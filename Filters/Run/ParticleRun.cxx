@@ -206,10 +206,7 @@ std::optional<GridElements> GroupRun::convert(const Work& work)
     });
   // Cells of all ranks are divided alike, so that their parts meet face to face.
   const auto countResolved = [&]()
-  {
-    return sumOfRanks(
-      this->Ranks, conversion ? conversion->countResolved() : ResolvedCounts{});
-  };
+  { return sumOfRanks(this->Ranks, conversion ? conversion->countResolved() : ResolvedCounts{}); };
   for (int halvings = firstHalvings(this->Blocks.quantity());
        isWorthDividing(countResolved(), halvings);)
   {

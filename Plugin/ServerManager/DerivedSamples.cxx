@@ -29,8 +29,7 @@ double lambda2(const std::vector<double>& g)
     {
       for (int k = 0; k < 3; ++k)
       {
-        symmetric[i][j] +=
-          0.5 * (g[3 * i + k] * g[3 * k + j] + g[3 * j + k] * g[3 * k + i]);
+        symmetric[i][j] += 0.5 * (g[3 * i + k] * g[3 * k + j] + g[3 * j + k] * g[3 * k + i]);
       }
     }
   }

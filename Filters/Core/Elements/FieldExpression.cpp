@@ -47,7 +47,8 @@ Term combine(const Term& a, const Term& b, int size, const Use& use)
 {
   const int stepA = a.size == ScalarSize ? 0 : 1;
   const int stepB = b.size == ScalarSize ? 0 : 1;
-  return { size, [=](const FieldPoint& at)
+  return { size,
+    [=](const FieldPoint& at)
     {
       const Value left = a.at(at);
       const Value right = b.at(at);
@@ -193,9 +194,8 @@ Term Parser::sum()
     }
     const Term next = this->product();
     this->demand(next, result.size, "scalars and vectors cannot be added");
-    result = isPlus
-      ? combine(result, next, result.size, [](double a, double b) { return a + b; })
-      : combine(result, next, result.size, [](double a, double b) { return a - b; });
+    result = isPlus ? combine(result, next, result.size, [](double a, double b) { return a + b; })
+                    : combine(result, next, result.size, [](double a, double b) { return a - b; });
   }
 }
 
@@ -212,7 +212,8 @@ Term Parser::product()
     const Term next = this->signedPower();
     if (next.size != ScalarSize && (!isTimes || result.size != ScalarSize))
     {
-      this->fail("vectors can be multiplied and divided by scalars only; there are dot() and cross()");
+      this->fail(
+        "vectors can be multiplied and divided by scalars only; there are dot() and cross()");
     }
     const int size = std::max(result.size, next.size);
     result = isTimes ? combine(result, next, size, [](double a, double b) { return a * b; })
@@ -252,8 +253,7 @@ Term Parser::power()
   const Term exponent = this->signedPower();
   this->demand(base, ScalarSize, "only scalars have powers");
   this->demand(exponent, ScalarSize, "an exponent has to be a scalar");
-  return combine(
-    base, exponent, ScalarSize, [](double a, double b) { return std::pow(a, b); });
+  return combine(base, exponent, ScalarSize, [](double a, double b) { return std::pow(a, b); });
 }
 
 Term Parser::primary()
@@ -347,10 +347,12 @@ Term Parser::named()
   operand = isArray ? operand : this->operandNamed(name);
   if (operand.components != ScalarSize && operand.components != VectorSize)
   {
-    this->fail("'" + name + "' is neither a scalar nor a vector of three components; name a component, as " + name +
+    this->fail("'" + name +
+      "' is neither a scalar nor a vector of three components; name a component, as " + name +
       "_0");
   }
-  return { operand.components, [operand](const FieldPoint& at)
+  return { operand.components,
+    [operand](const FieldPoint& at)
     {
       Value result{};
       std::copy_n(at.values.begin() + operand.first, operand.components, result.begin());
@@ -363,9 +365,7 @@ Term Parser::coordinates(const std::string& name) const
   const std::string which = name.substr(6);
   if (which.empty())
   {
-    return { VectorSize, [](const FieldPoint& at) {
-              return Value{ at.x.x, at.x.y, at.x.z };
-            } };
+    return { VectorSize, [](const FieldPoint& at) { return Value{ at.x.x, at.x.y, at.x.z }; } };
   }
   const std::size_t axis = std::string("XYZ").find(which);
   if (which.size() != 1 || axis == std::string::npos)
@@ -426,12 +426,14 @@ Operand Parser::operandNamed(const std::string& name)
   {
     all += (all.empty() ? "'" : ", '") + array.name + "'";
   }
-  this->fail("there is no point array '" + name + "', and no function of that name; the arrays: " + all);
+  this->fail(
+    "there is no point array '" + name + "', and no function of that name; the arrays: " + all);
 }
 
 Term Parser::norm(const Term& a) const
 {
-  return { ScalarSize, [a](const FieldPoint& at)
+  return { ScalarSize,
+    [a](const FieldPoint& at)
     {
       const Value v = a.at(at);
       double sum = 0.0;
@@ -462,7 +464,8 @@ Term Parser::call(const std::string& name)
     }
     this->fail("there is no function '" + name + "'; there are " + all);
   }
-  const std::vector<std::string> ofArrays{ "curl", "divergence", "gradient", "lambda2", "q_criterion" };
+  const std::vector<std::string> ofArrays{ "curl", "divergence", "gradient", "lambda2",
+    "q_criterion" };
   if (std::find(ofArrays.begin(), ofArrays.end(), name) != ofArrays.end())
   {
     return this->callOfArray(name);
@@ -480,9 +483,9 @@ Term Parser::call(const std::string& name)
   {
     this->expect(')');
     const Term length = this->norm(first);
-    return name != "norm" ? length
-                          : combine(first, length, first.size,
-                              [](double a, double b) { return a / b; });
+    return name != "norm"
+      ? length
+      : combine(first, length, first.size, [](double a, double b) { return a / b; });
   }
   this->expect(',');
   const Term second = this->sum();
@@ -503,13 +506,14 @@ Term Parser::callOfTwo(const std::string& name, const Term& a, const Term& b)
   this->demand(a, VectorSize, name + "() takes two vectors");
   this->demand(b, VectorSize, name + "() takes two vectors");
   const bool isDot = name == "dot";
-  return { isDot ? ScalarSize : VectorSize, [=](const FieldPoint& at)
+  return { isDot ? ScalarSize : VectorSize,
+    [=](const FieldPoint& at)
     {
       const Value u = a.at(at);
       const Value v = b.at(at);
-      return isDot ? scalar(u[0] * v[0] + u[1] * v[1] + u[2] * v[2])
-                   : Value{ u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-                       u[0] * v[1] - u[1] * v[0] };
+      return isDot
+        ? scalar(u[0] * v[0] + u[1] * v[1] + u[2] * v[2])
+        : Value{ u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0] };
     } };
 }
 
@@ -519,7 +523,8 @@ Term Parser::callOfArray(const std::string& name)
   const std::string array = this->name();
   if (!this->take(')'))
   {
-    this->fail(name + "() takes the name of an array or of a component; derivatives of formulas are not supported");
+    this->fail(name +
+      "() takes the name of an array or of a component; derivatives of formulas are not supported");
   }
   const Operand operand = this->operandNamed(array);
   const int first = operand.first;
@@ -530,7 +535,8 @@ Term Parser::callOfArray(const std::string& name)
       this->fail("gradient() takes a scalar or a vector of three components");
     }
     const int size = 3 * operand.components;
-    return { size, [=](const FieldPoint& at)
+    return { size,
+      [=](const FieldPoint& at)
       {
         Value result{};
         for (int i = 0; i < size; ++i)
@@ -548,7 +554,8 @@ Term Parser::callOfArray(const std::string& name)
   { return std::vector<glm::dvec3>(&at.gradients[first], &at.gradients[first] + 3); };
   if (name == "curl")
   {
-    return { VectorSize, [=](const FieldPoint& at)
+    return { VectorSize,
+      [=](const FieldPoint& at)
       {
         const std::vector<glm::dvec3> g = rowsAt(at);
         return Value{ g[2].y - g[1].z, g[0].z - g[2].x, g[1].x - g[0].y };
@@ -557,10 +564,9 @@ Term Parser::callOfArray(const std::string& name)
   const FieldFunction function = functionOf(name == "divergence" ? Quantity::Divergence
       : name == "lambda2"                                        ? Quantity::Lambda2
                                                                  : Quantity::QCriterion);
-  return { ScalarSize, [=](const FieldPoint& at)
-    {
-      return scalar(function({ at.x, {}, rowsAt(at) }));
-    } };
+  return { ScalarSize, [=](const FieldPoint& at) {
+            return scalar(function({ at.x, {}, rowsAt(at) }));
+          } };
 }
 
 } // namespace

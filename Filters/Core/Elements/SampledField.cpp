@@ -79,11 +79,10 @@ const Lattice& latticeOf(Domain domain, int degree)
   if (!lattice)
   {
     const Degrees degrees{ degree, degree, degree };
-    lattice = std::make_unique<const Lattice>(
-      Lattice{ NodalBasis::lagrange(domain, degrees, latticePoints(domain, degrees),
-                 domain == Domain::Hexahedron ? NodeSpacing::GaussLobattoLegendre
-                                              : NodeSpacing::Uniform),
-        nodesOf(domain, degree) });
+    lattice = std::make_unique<const Lattice>(Lattice{
+      NodalBasis::lagrange(domain, degrees, latticePoints(domain, degrees),
+        domain == Domain::Hexahedron ? NodeSpacing::GaussLobattoLegendre : NodeSpacing::Uniform),
+      nodesOf(domain, degree) });
   }
   return *lattice;
 }
@@ -130,11 +129,10 @@ std::vector<ReferencePoint> spreadPoints(Domain domain, int count)
 /// Where polynomials are compared with fields.
 const std::vector<ReferencePoint>& checkPointsOf(Domain domain)
 {
-  static const std::array<std::vector<ReferencePoint>, 3> points{
-    spreadPoints(Domain::Hexahedron, Sampling::CheckPoints),
+  static const std::array<std::vector<ReferencePoint>, 3> points{ spreadPoints(Domain::Hexahedron,
+                                                                    Sampling::CheckPoints),
     spreadPoints(Domain::Tetrahedron, Sampling::CheckPoints),
-    spreadPoints(Domain::Wedge, Sampling::CheckPoints)
-  };
+    spreadPoints(Domain::Wedge, Sampling::CheckPoints) };
   return points[static_cast<std::size_t>(domain)];
 }
 
@@ -176,8 +174,9 @@ BernsteinForm formOf(Domain domain, const DerivedElement& element)
 bool isFinite(const std::vector<Coefficient>& samples)
 {
   return std::all_of(samples.begin(), samples.end(),
-    [](const Coefficient& c)
-    { return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z) && std::isfinite(c.w); });
+    [](const Coefficient& c) {
+      return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z) && std::isfinite(c.w);
+    });
 }
 
 /// How far coordinates reach.
@@ -238,8 +237,7 @@ FieldFunction functionOf(Quantity quantity)
   return {};
 }
 
-FieldSampler::FieldSampler(
-  const SourceElement& source, const FieldFunction& function, double noise)
+FieldSampler::FieldSampler(const SourceElement& source, const FieldFunction& function, double noise)
   : Source(source)
   , Function(function)
   , Noise(noise)
@@ -287,8 +285,8 @@ FieldSampler::Samples FieldSampler::valuesAt(
     const auto number = [&](int quantity, int c) { return jets[c / 4].row(quantity, c % 4)[n]; };
     const auto threeOf = [&](int c)
     {
-      return glm::dvec3(number(quantity::first, c), number(quantity::first + 1, c),
-        number(quantity::first + 2, c));
+      return glm::dvec3(
+        number(quantity::first, c), number(quantity::first + 1, c), number(quantity::first + 2, c));
     };
     const glm::dmat3 inverse = glm::inverse(glm::dmat3(threeOf(0), threeOf(1), threeOf(2)));
     at.x = { number(quantity::value, 0), number(quantity::value, 1), number(quantity::value, 2) };
@@ -333,8 +331,7 @@ void FieldSampler::judge(SampledPart& sampled, const Samples& checks) const
   {
     const Coefficient value = evaluateGradient(form, points[n]).value;
     sampled.error = std::max(sampled.error, std::abs(value.w - checks[n].w));
-    ofGeometry =
-      std::max(ofGeometry, glm::distance(glm::dvec3(value), glm::dvec3(checks[n])));
+    ofGeometry = std::max(ofGeometry, glm::distance(glm::dvec3(value), glm::dvec3(checks[n])));
   }
   const double tolerance =
     std::max(Sampling::Tolerance * largestField(checks), Sampling::Caution * this->Noise);

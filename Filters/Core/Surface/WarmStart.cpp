@@ -17,9 +17,7 @@ std::vector<int> elementsByCell(const ElementMesh& mesh)
   std::iota(byCell.begin(), byCell.end(), 0);
   std::sort(byCell.begin(), byCell.end(),
     [&](int a, int b)
-    {
-      return std::pair(mesh.elements[a].cell, a) < std::pair(mesh.elements[b].cell, b);
-    });
+    { return std::pair(mesh.elements[a].cell, a) < std::pair(mesh.elements[b].cell, b); });
   return byCell;
 }
 

@@ -11,7 +11,8 @@ namespace hop::testing
 namespace
 {
 
-const std::vector<NamedArray> arrays{ { "p", 1 }, { "u", 3 }, { "a b", 1 }, { "t_1", 1 }, { "many", 5 } };
+const std::vector<NamedArray> arrays{ { "p", 1 }, { "u", 3 }, { "a b", 1 }, { "t_1", 1 },
+  { "many", 5 } };
 
 double valueOf(const std::string& text)
 {

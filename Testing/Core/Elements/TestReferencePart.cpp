@@ -11,7 +11,8 @@ namespace hop::testing
 namespace
 {
 
-constexpr std::array<Domain, 3> allDomains{ Domain::Hexahedron, Domain::Tetrahedron, Domain::Wedge };
+constexpr std::array<Domain, 3> allDomains{ Domain::Hexahedron, Domain::Tetrahedron,
+  Domain::Wedge };
 
 TEST(ReferencePart, FillTheDomain)
 {

@@ -139,14 +139,14 @@ TEST(SymmetricEigenvalues, FindsTheMiddleOne)
   {
     glm::dvec3 values(randomNumber(random), randomNumber(random), randomNumber(random));
     values.y = n % 3 == 0 ? values.x : values.y; // a double one
-    const glm::dvec3 a = glm::normalize(
-      glm::dvec3(randomNumber(random), randomNumber(random), randomNumber(random)));
+    const glm::dvec3 a =
+      glm::normalize(glm::dvec3(randomNumber(random), randomNumber(random), randomNumber(random)));
     const glm::dvec3 b = glm::normalize(glm::cross(a, glm::dvec3(0.3, 0.5, 0.8)));
     const glm::dmat3 q(a, b, glm::cross(a, b));
     const glm::dmat3 d(glm::dvec3(values.x, 0.0, 0.0), glm::dvec3(0.0, values.y, 0.0),
       glm::dvec3(0.0, 0.0, values.z));
-    const double middle = std::max(std::min(values.x, values.y),
-      std::min(std::max(values.x, values.y), values.z));
+    const double middle =
+      std::max(std::min(values.x, values.y), std::min(std::max(values.x, values.y), values.z));
     EXPECT_NEAR(middleEigenvalue(q * d * glm::transpose(q)), middle, n % 3 == 0 ? 1e-7 : 1e-9);
   }
   EXPECT_EQ(middleEigenvalue(glm::dmat3(0.0)), 0.0);
