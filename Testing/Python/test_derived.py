@@ -8,7 +8,7 @@ from paraview import simple
 from vtkmodules.vtkCommonCore import vtkSMPTools
 
 FLOW = "ngsolve_cylinder_ns_tet_p3.vtu"
-QUANTITIES = ["Gradient Magnitude", "Divergence", "Vorticity Magnitude", "Q Criterion", "Lambda 2"]
+QUANTITIES = ["Gradient Magnitude", "Divergence", "Vorticity Magnitude", "Q Criterion"]
 
 
 def derived(quantity, g):
@@ -68,6 +68,22 @@ def test_agrees_with_vtk_on_a_flow(quantity, data):
     assert error.max() < 1e-6 * np.quantile(np.abs(values), 0.95)
 
 
+def test_lambda_2_of_a_flow_is_near_vtks(data):
+    """It has creases all over a flow, beside which polynomials do not hold it: far from exact, and said so."""
+    reader = support.read(data(FLOW))
+    grid = support.output_of(reader)
+    values = in_cells(grid, "velocity", "Lambda 2")
+    isovalue = np.quantile(values, 0.05)
+    particles, messages = support.run(reader, "velocity", isovalue, Quantity="Lambda 2", Spacing=0.06)
+    assert messages.errors == []
+    assert any("not smooth enough" in text for text in messages.warnings)
+    assert particles.GetNumberOfPoints() > 1000
+    error = np.abs(at_particles(grid, "velocity", "Lambda 2", particles) - isovalue)
+    scale = np.quantile(np.abs(values), 0.95)
+    assert np.quantile(error, 0.5) < 0.005 * scale
+    assert error.max() < 0.2 * scale
+
+
 def bent_grid(name):
     """Cells of order 4 whose map is quadratic, so that they hold polynomials of degree 2 of the world's coordinates
     exactly; the cube [-1, 1]^3, bent."""
@@ -115,6 +131,111 @@ def test_finds_the_divergence_on_curved_cells():
     assert messages.warnings == []
     assert particles.GetNumberOfPoints() > 100
     assert np.abs(support.points_of(particles).sum(axis=1) - 0.3).max() < 1e-9
+
+
+def test_lambda_2_is_exact_where_eigenvalues_differ():
+    grid = bent_grid("LAGRANGE_HEXAHEDRON")
+    x, y, z = support.points_of(grid).T
+    # The gradient is diag(0.1, 1 + y/2, 5).
+    support.add_point_array(grid, "u", np.stack([0.1 * x, y + 0.25 * y**2, 5.0 * z], axis=1))
+    particles = support.run_quietly(grid, "u", 1.21, Quantity="Lambda 2", Spacing=0.1)
+    assert particles.GetNumberOfPoints() > 100
+    assert np.abs(support.points_of(particles)[:, 1] - 0.2).max() < 1e-8
+
+
+@pytest.mark.parametrize("order", [5, 7, 9])
+@pytest.mark.parametrize("name", ["LAGRANGE_TETRAHEDRON", "LAGRANGE_HEXAHEDRON", "LAGRANGE_WEDGE"])
+def test_takes_bent_cells_of_high_degree(name, order):
+    """Bent to their own degree; the vector is the quadratic one only between the nodes' rounding."""
+    grid = cells.straight_grid(name, order=order, blocks=2)
+    points = support.points_of(grid)
+    lower, upper = support.bounds_of(grid)
+    x = 2.0 * (points - lower) / (upper - lower) - 1.0
+    cells.set_points(grid, x + 0.05 * np.sin(2.0 * x[:, [1, 2, 0]]))
+    support.add_point_array(grid, "u", vector_for("Q Criterion", support.points_of(grid)))
+    isovalue = isovalue_for("Q Criterion", 0.6)
+    particles, messages = support.run(grid, "u", isovalue, Quantity="Q Criterion", Spacing=0.15)
+    assert messages.errors == []
+    assert not any("skipped" in text or "not smooth" in text for text in messages.warnings)
+    assert particles.GetNumberOfPoints() > 100
+    error = np.abs(at_particles(grid, "u", "Q Criterion", particles) - isovalue)
+    assert error.max() < 1e-6
+
+
+def test_random_polynomials_lose_no_component():
+    """Samples on a lattice in each bent cell: where Q is on the other side of the isovalue, so it is beside particles."""
+    rng = np.random.default_rng(5)
+    grid = bent_grid("LAGRANGE_HEXAHEDRON")
+    support.add_point_array(grid, "u", 0.3 * rng.standard_normal((grid.GetNumberOfPoints(), 3)))
+    values = in_cells(grid, "u", "Q Criterion")
+    isovalue = 2.0 * np.abs(values).max()
+    particles, messages = support.run(grid, "u", isovalue, Quantity="Q Criterion", Spacing=0.05)
+    assert messages.errors == []
+    held = set(support.array_of(particles, "vtkOriginalCellIds"))
+    lattice = np.stack(np.meshgrid(*[np.linspace(0.0, 1.0, 9)] * 3), axis=-1).reshape(-1, 3)
+    for id in range(grid.GetNumberOfCells()):
+        above = derived("Q Criterion", gradients_at(grid, "u", np.full(len(lattice), id), lattice)) > isovalue
+        assert not (above.any() and not above.all()) or id in held
+
+
+# Formulas, and averages.
+
+
+def test_contours_an_expression(data):
+    reader = support.read(data(FLOW))
+    grid = support.output_of(reader)
+    particles, messages = support.run(
+        reader, "pressure", 2.0, Quantity="Expression", Expression="q_criterion(velocity)*2 + velocity_X^2", Spacing=0.05
+    )
+    assert messages.errors == []
+    assert particles.GetNumberOfPoints() > 500
+    _, values, _ = support.evaluate_by_vtk(grid, particles, ["velocity"])
+    q = at_particles(grid, "velocity", "Q Criterion", particles)
+    error = np.abs(2.0 * q + values["velocity"][:, 0] ** 2 - 2.0)
+    assert error.max() < 1e-6 * np.quantile(np.abs(in_cells(grid, "velocity", "Q Criterion")), 0.95)
+
+
+def test_an_expression_of_coordinates_is_a_sphere():
+    grid = bent_grid("LAGRANGE_HEXAHEDRON")
+    support.add_point_array(grid, "u", support.points_of(grid)[:, 0])
+    particles = support.run_quietly(
+        grid, "u", 1.0, Quantity="Expression", Expression="sqrt(mag(coords)^2 + u - coordsX + 0.64)", Spacing=0.1
+    )
+    assert np.abs(np.linalg.norm(support.points_of(particles), axis=1) - 0.6).max() < 1e-8
+
+
+@pytest.mark.parametrize("text", ["", "velocity", "pressure +", "curl(pressure)", "nothing", "gradient(pressure*2)"])
+def test_says_what_is_wrong_with_an_expression(text, data):
+    reader = support.read(data(FLOW))
+    particles, messages = support.run(reader, "pressure", 1.0, Quantity="Expression", Expression=text)
+    assert particles.GetNumberOfPoints() == 0
+    assert any(f"The Expression '{text}' cannot be contoured: at character" in message for message in messages.errors)
+
+
+def test_averages_make_closed_surfaces(data):
+    """Also where cells have points of their own, as NGSolve's."""
+    reader = support.read(data(FLOW))
+    particles, messages = support.run(
+        reader, "velocity", 10.0, Quantity="Q Criterion", Derivatives="Averaged At Nodes", Spacing=0.04
+    )
+    assert messages.errors == []
+    assert particles.GetNumberOfPoints() > 500
+    assert support.reported(particles, "FacesEnded") < 0.01 * support.reported(particles, "FacesReached")
+
+
+def test_averages_are_those_of_stock_gradient():
+    grid = cells.bend(cells.straight_grid("LAGRANGE_HEXAHEDRON", order=3, blocks=2))
+    x = support.points_of(grid)
+    support.add_point_array(grid, "u", np.sin(2.0 * x[:, [1, 2, 0]]))
+    source = support.source_of(grid)
+    stock = support.output_of(simple.Gradient(Input=source, ScalarArray=["POINTS", "u"], ComputeQCriterion=1))
+    isovalue = float(np.median(support.array_of(stock, "Q Criterion")))
+    particles = support.run(
+        grid, "u", isovalue, Quantity="Q Criterion", Derivatives="Averaged At Nodes", Spacing=0.1
+    )[0]
+    assert particles.GetNumberOfPoints() > 100
+    values = support.evaluate_by_vtk(stock, particles, ["Q Criterion"])[1]["Q Criterion"]
+    assert np.abs(values - isovalue).max() < 1e-6
 
 
 def test_takes_one_component_of_a_vector():
@@ -227,6 +348,18 @@ def test_threads_do_not_matter():
 
 
 # Derivatives to colour by.
+
+
+def test_arrays_on_parts_of_cells_are_those_of_the_cells():
+    grid = cells.bend(cells.straight_grid("LAGRANGE_WEDGE", order=4, blocks=2))
+    x = support.points_of(grid)
+    support.add_point_array(grid, "u", np.sin(2.0 * x[:, [1, 2, 0]]))
+    particles = support.run(grid, "u", 0.1, Quantity="Q Criterion", PassDerivatives=1)[0]
+    assert particles.GetNumberOfPoints() > 50
+    positions, values, _ = support.evaluate_by_vtk(grid, particles, ["u"])
+    assert np.abs(positions - support.points_of(particles)).max() < 1e-6
+    assert np.abs(values["u"] - support.array_of(particles, "u")).max() < 1e-6
+    assert np.abs(support.array_of(particles, "Q_Criterion") - 0.1).max() < 1e-7
 
 
 @pytest.mark.parametrize("output_type", ["Particles", "Triangles"])
