@@ -47,7 +47,8 @@ private:
       return this->BlockOfElements[this->Particles[particle].location.element];
     }
     std::size_t block = 0;
-    while (block < this->Blocks.size() && this->Blocks[block].number != this->homeOf(particle).block)
+    while (
+      block < this->Blocks.size() && this->Blocks[block].number != this->homeOf(particle).block)
     {
       ++block;
     }

@@ -25,7 +25,10 @@ struct ParticleRow
 
   const Location& location() const { return this->particle->location; }
   /// Where this rank evaluates what the row is to have: at its stand-in until the particle's own rank is asked.
-  const Location& evaluated() const { return (this->home ? this->standIn : this->particle)->location; }
+  const Location& evaluated() const
+  {
+    return (this->home ? this->standIn : this->particle)->location;
+  }
 };
 
 /// Looks up the cells in which the particles of one block stand.

@@ -451,9 +451,10 @@ bool GroupRun::bringHome(std::vector<IsovalueParticles>& particles, const Parall
       this->All, this->Sizes, parallelFor);
     if (home.isComplete)
     {
-      home.isComplete = bringMeshHome(this->Ranks, this->workerOf(i), distribution, this->IsSound,
-        this->All, [this](std::int64_t cell) { return this->AllBlocks.blockOf(cell); },
-        particles[i].mesh, home.distribution);
+      home.isComplete = bringMeshHome(
+        this->Ranks, this->workerOf(i), distribution, this->IsSound, this->All,
+        [this](std::int64_t cell) { return this->AllBlocks.blockOf(cell); }, particles[i].mesh,
+        home.distribution);
     }
     distribution = std::move(home.distribution);
     isComplete = isComplete && home.isComplete;

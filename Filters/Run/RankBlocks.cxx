@@ -100,7 +100,8 @@ RankBlocks::RankBlocks(Exchange& exchange, const InputBlocks& mine)
          << static_cast<int>(mine.size());
   for (std::size_t b = 0; b < mine.size(); ++b)
   {
-    stream << mine[b].number << mine[b].name << static_cast<vtkTypeInt64>(mine[b].grid->GetNumberOfCells());
+    stream << mine[b].number << mine[b].name
+           << static_cast<vtkTypeInt64>(mine[b].grid->GetNumberOfCells());
   }
   this->Origin.component = mine.component();
   this->Origin.quantity = mine.quantity();

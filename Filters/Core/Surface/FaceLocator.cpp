@@ -95,7 +95,8 @@ double stepInside(Domain domain, const LocalMap& map, ReferencePoint& u, WorldVe
 }
 
 /// Largest cosine between the outward normals of two faces that are opposite to each other.
-double largestCosine(const ElementMesh& mesh, int element, int face, int otherElement, int otherFace)
+double largestCosine(
+  const ElementMesh& mesh, int element, int face, int otherElement, int otherFace)
 {
   const Face& one = mesh.face(element, face);
   const Face& other = mesh.face(otherElement, otherFace);
