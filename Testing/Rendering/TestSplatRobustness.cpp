@@ -230,9 +230,8 @@ bool ChooseProperties(SplatScene& scene, Dice& dice)
   }
   const double scale = mapper->GetRadiusScale();
   return mapper->GetMode() != vtkSurfaceSplatMapper::Points && mapper->GetStride() == 1 &&
-    scale >= 1. && scale <= 3. && property->GetOpacity() > 0.2 &&
-    !property->GetBackfaceCulling() && !property->GetFrontfaceCulling() &&
-    mapper->GetNumberOfClippingPlanes() == 0;
+    scale >= 1. && scale <= 3. && property->GetOpacity() > 0.2 && !property->GetBackfaceCulling() &&
+    !property->GetFrontfaceCulling() && mapper->GetNumberOfClippingPlanes() == 0;
 }
 
 // Returns whether the sphere lies before the camera.
