@@ -206,6 +206,13 @@ vtkSmartPointer<vtkPolyData> Extract(vtkPolyData* particles, const std::vector<v
   some->GetPointData()->CopyData(particles->GetPointData(), from, to);
   if (particles->GetNumberOfVerts() > 0)
   {
+    // Data of cells would not be sent without cells.
+    vtkNew<vtkCellArray> vertices;
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      vertices->InsertNextCell(1, &i);
+    }
+    some->SetVerts(vertices);
     some->GetCellData()->CopyAllOn();
     some->GetCellData()->CopyAllocate(particles->GetCellData(), count);
     some->GetCellData()->CopyData(particles->GetCellData(), fromCells, to);
