@@ -88,6 +88,12 @@ int vtkSurfaceSplatRepresentation::RequestData(
 int vtkSurfaceSplatRepresentation::ProcessViewRequest(
   vtkInformationRequestKey* request, vtkInformation* inInfo, vtkInformation* outInfo)
 {
+  if (request == vtkPVView::REQUEST_UPDATE() && this->WasTranslucent != this->IsTranslucent())
+  {
+    // Other particles are drawn then, which nobody asks for unless the input seems to be a new one.
+    this->WasTranslucent = !this->WasTranslucent;
+    this->MarkModified();
+  }
   if (!this->Superclass::ProcessViewRequest(request, inInfo, outInfo))
   {
     return 0; // not visible

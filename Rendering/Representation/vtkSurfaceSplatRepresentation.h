@@ -167,7 +167,8 @@ private:
   vtkSmartPointer<vtkPolyData> AllParticles;
   vtkSmartPointer<vtkPolyData>
     ArraysToColorBy;    // without ghosts, and without arrays that are not for users
-  double DiskBounds[6]; // without ghosts
+  double DiskBounds[6];        // without ghosts
+  bool WasTranslucent = false; // at the last update
 };
 
 #endif
