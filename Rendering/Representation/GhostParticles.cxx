@@ -7,7 +7,6 @@
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdList.h"
-#include "vtkIntArray.h"
 #include "vtkMath.h"
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
@@ -16,8 +15,10 @@
 #include "vtkPolyData.h"
 #include "vtkStaticPointLocator.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkUnsignedIntArray.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <vector>
@@ -206,6 +207,13 @@ vtkSmartPointer<vtkPolyData> Extract(vtkPolyData* particles, const std::vector<v
   some->GetPointData()->CopyData(particles->GetPointData(), from, to);
   if (particles->GetNumberOfVerts() > 0)
   {
+    // Data of cells would not be sent without cells.
+    vtkNew<vtkCellArray> vertices;
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      vertices->InsertNextCell(1, &i);
+    }
+    some->SetVerts(vertices);
     some->GetCellData()->CopyAllOn();
     some->GetCellData()->CopyAllocate(particles->GetCellData(), count);
     some->GetCellData()->CopyData(particles->GetCellData(), fromCells, to);
@@ -306,10 +314,10 @@ void Mark(vtkPolyData* particles, unsigned char type, int rank)
     const bool marked = before && before->GetComponent(i, 0) != 0.;
     types->SetValue(i, marked ? Hidden : type);
   }
-  vtkNew<vtkIntArray> ranks;
+  vtkNew<vtkUnsignedIntArray> ranks; // the type that selections read
   ranks->SetName(GhostParticles::RankName);
   ranks->SetNumberOfValues(count);
-  ranks->FillValue(rank);
+  ranks->FillValue(static_cast<unsigned int>(rank));
   particles->GetPointData()->AddArray(types);
   particles->GetPointData()->AddArray(ranks);
 }
@@ -420,11 +428,38 @@ vtkSmartPointer<vtkPolyData> GhostParticles::Add(
 }
 
 //------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> GhostParticles::Gather(
+  vtkPolyData* own, vtkMultiProcessController* controller)
+{
+  if (!controller || controller->GetNumberOfProcesses() == 1)
+  {
+    return own;
+  }
+  auto marked = vtkSmartPointer<vtkPolyData>::New();
+  marked->ShallowCopy(own);
+  Mark(marked, 0, controller->GetLocalProcessId());
+  if (controller->GetLocalProcessId() > 0)
+  {
+    controller->Send(marked, 0, Tag);
+    return vtkSmartPointer<vtkPolyData>::New();
+  }
+  std::vector<vtkSmartPointer<vtkPolyData>> parts{ marked };
+  for (int rank = 1; rank < controller->GetNumberOfProcesses(); ++rank)
+  {
+    parts.push_back(vtkSmartPointer<vtkPolyData>::New());
+    controller->Receive(parts.back().Get(), rank, Tag);
+  }
+  const auto isEmpty = [](vtkPolyData* part) { return part->GetNumberOfPoints() == 0; };
+  parts.erase(std::remove_if(parts.begin(), parts.end(), isEmpty), parts.end());
+  return parts.empty() ? marked : Append(parts[0], { parts.begin() + 1, parts.end() });
+}
+
+//------------------------------------------------------------------------------
 bool GhostParticles::AreMerged(vtkPolyData* particles)
 {
-  auto* ranks = vtkIntArray::SafeDownCast(particles->GetPointData()->GetArray(RankName));
+  auto* ranks = vtkUnsignedIntArray::SafeDownCast(particles->GetPointData()->GetArray(RankName));
   vtkDataArray* types = particles->GetPointData()->GetArray(vtkDataSetAttributes::GhostArrayName());
-  int rank = -1;
+  std::int64_t rank = -1;
   for (vtkIdType i = 0; ranks && types && i < ranks->GetNumberOfValues(); ++i)
   {
     if (types->GetComponent(i, 0) == 0.)

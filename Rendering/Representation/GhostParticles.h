@@ -15,7 +15,7 @@ namespace hop
 {
 namespace GhostParticles
 {
-/** Name of the point array with the number of the rank that has each particle. */
+/** Name of the point array with the number of the rank that has each particle, as selections want it. */
 constexpr const char* RankName = "SurfaceSplatRank";
 
 /**
@@ -31,6 +31,12 @@ constexpr const char* RankName = "SurfaceSplatRank";
  */
 vtkSmartPointer<vtkPolyData> Add(
   vtkPolyData* own, vtkDoubleArray* disks, vtkMultiProcessController* controller);
+
+/**
+ * All particles on rank 0, marked as Add() does, and none on other ranks; with the arrays of the first rank that has
+ * particles. Every rank of the controller has to call it; a rank that is alone gets its input back.
+ */
+vtkSmartPointer<vtkPolyData> Gather(vtkPolyData* own, vtkMultiProcessController* controller);
 
 /** Whether particles of several ranks have been merged, so that what ghosts are copies of is there as well. */
 bool AreMerged(vtkPolyData* particles);

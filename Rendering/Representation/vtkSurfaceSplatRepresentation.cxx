@@ -33,8 +33,9 @@ constexpr vtkIdType InteractiveParticles = 50000;
 
 //------------------------------------------------------------------------------
 vtkSurfaceSplatRepresentation::vtkSurfaceSplatRepresentation()
-  : Particles(vtkSmartPointer<vtkPolyData>::New())
-  , ArraysToColorBy(Particles)
+  : OwnParticles(vtkSmartPointer<vtkPolyData>::New())
+  , Particles(OwnParticles)
+  , ArraysToColorBy(OwnParticles)
 {
   this->Actor->SetMapper(this->Mapper);
   vtkMath::UninitializeBounds(this->DiskBounds);
@@ -43,6 +44,7 @@ vtkSurfaceSplatRepresentation::vtkSurfaceSplatRepresentation()
   this->Mapper->SetCellIdArrayName(hop::SplatInput::BlockCellIdName);
   this->Mapper->SetCompositeIdArrayName(hop::SplatInput::BlockIndexName);
   this->Mapper->SetCellColorArrayName(hop::SplatInput::BlockColorName);
+  this->Mapper->SetProcessIdArrayName(hop::GhostParticles::RankName);
   this->SetMapScalars(1);
   // As ParaView's other representations have them; vtkProperty has other defaults.
   this->SetEdgeColor(0., 0., 0.5);
@@ -68,14 +70,16 @@ int vtkSurfaceSplatRepresentation::RequestData(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   const bool hasInput = inputs[0]->GetNumberOfInformationObjects() == 1;
-  this->Particles = hop::SplatInput::AsParticles(
+  this->OwnParticles = hop::SplatInput::AsParticles(
     hasInput ? vtkDataObject::GetData(inputs[0], 0) : nullptr, this->Blocks);
-  this->ArraysToColorBy = hop::SplatInput::WithoutBlockIds(this->Particles);
-  this->Mapper->GetDiskBounds(this->Particles, this->DiskBounds);
+  this->ArraysToColorBy = hop::SplatInput::WithoutBlockIds(this->OwnParticles);
+  this->Mapper->GetDiskBounds(this->OwnParticles, this->DiskBounds);
+  this->Particles = this->OwnParticles;
+  this->AllParticles = nullptr;
   if (hasInput)
   {
-    this->Particles = hop::GhostParticles::Add(this->Particles,
-      this->Mapper->GetDisks(this->Particles), vtkMultiProcessController::GetGlobalController());
+    this->Particles = hop::GhostParticles::Add(this->OwnParticles,
+      this->Mapper->GetDisks(this->OwnParticles), vtkMultiProcessController::GetGlobalController());
   }
   return this->Superclass::RequestData(request, inputs, outputs);
 }
@@ -84,6 +88,12 @@ int vtkSurfaceSplatRepresentation::RequestData(
 int vtkSurfaceSplatRepresentation::ProcessViewRequest(
   vtkInformationRequestKey* request, vtkInformation* inInfo, vtkInformation* outInfo)
 {
+  if (request == vtkPVView::REQUEST_UPDATE() && this->WasTranslucent != this->IsTranslucent())
+  {
+    // Other particles are drawn then, which nobody asks for unless the input seems to be a new one.
+    this->WasTranslucent = !this->WasTranslucent;
+    this->MarkModified();
+  }
   if (!this->Superclass::ProcessViewRequest(request, inInfo, outInfo))
   {
     return 0; // not visible
@@ -94,7 +104,8 @@ int vtkSurfaceSplatRepresentation::ProcessViewRequest(
   }
   else if (request == vtkPVView::REQUEST_UPDATE_LOD())
   {
-    vtkPVView::SetPieceLOD(inInfo, this, this->Particles); // the mapper thins them out
+    // The mapper thins them out.
+    vtkPVView::SetPieceLOD(inInfo, this, this->GetParticlesToDraw());
   }
   else if (request == vtkPVView::REQUEST_RENDER())
   {
@@ -124,7 +135,7 @@ void vtkSurfaceSplatRepresentation::PrepareMapper(vtkInformation* inInfo)
 void vtkSurfaceSplatRepresentation::ProvideParticles(
   vtkInformation* inInfo, vtkInformation* outInfo)
 {
-  vtkPVView::SetPiece(inInfo, this, this->Particles);
+  vtkPVView::SetPiece(inInfo, this, this->GetParticlesToDraw());
 
   vtkNew<vtkMatrix4x4> matrix;
   this->Actor->GetMatrix(matrix);
@@ -135,6 +146,23 @@ void vtkSurfaceSplatRepresentation::ProvideParticles(
   outInfo->Set(vtkPVRenderView::NEED_ORDERED_COMPOSITING(), this->IsTranslucent() ? 1 : 0);
   vtkPVRenderView::SetOrderedCompositingConfiguration(
     inInfo, this, vtkPVRenderView::USE_BOUNDS_FOR_REDISTRIBUTION);
+}
+
+//------------------------------------------------------------------------------
+// Which layers of a translucent surface are nearest and farthest, and which is behind which, follows from all of it: one
+// rank draws them. All ranks agree on what is translucent, and get here together.
+vtkPolyData* vtkSurfaceSplatRepresentation::GetParticlesToDraw()
+{
+  if (!this->IsTranslucent())
+  {
+    return this->Particles;
+  }
+  if (!this->AllParticles)
+  {
+    this->AllParticles = hop::GhostParticles::Gather(
+      this->OwnParticles, vtkMultiProcessController::GetGlobalController());
+  }
+  return this->AllParticles;
 }
 
 //------------------------------------------------------------------------------

@@ -153,16 +153,22 @@ private:
   void UpdateColoring();
   void UpdateBackface();
   bool IsTranslucent();
+  vtkPolyData* GetParticlesToDraw();
 
   vtkNew<vtkSurfaceSplatMapper> Mapper;
   vtkNew<vtkSurfaceSplatActor> Actor;
   vtkNew<vtkProperty> Backface;
   hop::SplatInput::Blocks Blocks;
-  // Of this process, empty where it has no data; with the ghosts that other ranks have for it.
+  // Of this process, empty where it has no data.
+  vtkSmartPointer<vtkPolyData> OwnParticles;
+  // The same with the ghosts that other ranks have for it.
   vtkSmartPointer<vtkPolyData> Particles;
+  // Those of all ranks, on the first of them; nothing as long as nobody needs them.
+  vtkSmartPointer<vtkPolyData> AllParticles;
   vtkSmartPointer<vtkPolyData>
     ArraysToColorBy;    // without ghosts, and without arrays that are not for users
-  double DiskBounds[6]; // without ghosts
+  double DiskBounds[6];        // without ghosts
+  bool WasTranslucent = false; // at the last update
 };
 
 #endif

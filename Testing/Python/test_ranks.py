@@ -26,7 +26,7 @@ from vtkmodules.vtkIOXML import (vtkXMLPUnstructuredGridReader, vtkXMLUnstructur
                                  vtkXMLUnstructuredGridWriter)
 
 plugin, folder, tests, part, *files = sys.argv[1:]
-shell, jumps, hanging, rational = files
+shell, jumps, hanging, rational, flow, tetrahedra = files
 simple.LoadPlugin(plugin, remote=False, ns=globals())
 sys.path.append(tests)
 import support
@@ -140,6 +140,15 @@ def filter_of(source, array="u", values=VALUES, **properties):
     return surface
 
 
+def slice_of(grid):
+    producer = simple.TrivialProducer()
+    producer.GetClientSideObject().SetOutput(grid)
+    cut = HighOrderParticleSlice(Input=producer, SliceType="Plane", Spacing=0.1)
+    cut.SliceType.Origin, cut.SliceType.Normal = [0, 0, 0.1], [1, 2, 3]
+    cut.SMProxy.UpdateVTKObjects()
+    return cut
+
+
 messages = []
 
 
@@ -199,6 +208,10 @@ cases = {
     "jumps": lambda: run(filter_of(scattered(whole(jumps)), "rho", [0.3])),
     "hanging": lambda: run(filter_of(scattered(whole(hanging)), "u", [0.0])),
     "rational": lambda: run(filter_of(scattered(whole(rational)), "disp", [1e-4], Spacing=0)),
+    "derived": lambda: run(filter_of(
+        scattered(whole(flow)), "velocity", [10.0], Spacing=0.02, Quantity="Q Criterion", PassDerivatives=1)),
+    "slice": lambda: run(slice_of(scattered(grid))),
+    "tetrahedra with ghosts": lambda: run(filter_of(with_ghosts(whole(tetrahedra)), "u", [0.5])),
     "warm": lambda: warm(scattered(grid)),
     "halves": lambda: run(filter_of(halves(grid))),
     "two results": lambda: run(filter_of(two_results(scattered(grid)))),
@@ -248,7 +261,7 @@ def runs(data, plugin, tmp_path_factory):
         if not shutil.which(program):
             pytest.skip(f"no {program} here")
     files = ["dealii_shell_p3_00.pvtu", "mfem_dg_advection_0.vtu", "mfem_amr_hanging_hex_p3.vtu",
-             "yeti_pipe_bezier_rational_p333.vtu"]
+             "yeti_pipe_bezier_rational_p333.vtu", "ngsolve_cylinder_ns_tet_p3.vtu", "dolfinx_tet_p3.vtu"]
     return {ranks: Run(ranks, [data(file) for file in files], plugin, tmp_path_factory.mktemp(f"ranks{ranks}"))
             for ranks in RANKS}
 
@@ -329,7 +342,8 @@ class Run:
 
 
 CASES = ["in pieces", "scattered", "on one rank", "with ghosts", "with wrong ghosts", "read in pieces", "redistributed",
-         "classic", "number", "three values", "jumps", "hanging", "rational", "warm", "halves", "two results",
+         "classic", "number", "three values", "jumps", "hanging", "rational", "derived", "slice",
+         "tetrahedra with ghosts", "warm", "halves", "two results",
          "workers", "workers and jumps"]
 
 
@@ -343,7 +357,8 @@ def test_ranks_have_the_particles_of_one_rank(runs, case, ranks):
         assert len(expected) > 200
         assert np.array_equal(runs[ranks].particles(case, block), expected)
         assert max(runs[ranks].counts(case, block)) < len(expected) or case == "on one rank"
-    assert runs[ranks].messages(case) == []
+    # Derivatives jump from cell to cell, which is told once.
+    assert len(runs[ranks].messages(case)) == (1 if case == "derived" else 0)
 
 
 @pytest.mark.parametrize("case", ["in pieces", "with ghosts", "with wrong ghosts", "on one rank", "read in pieces"])

@@ -1,0 +1,274 @@
+"""Several ranks draw together what one rank draws: splats blend where ranks meet, and what they borrow from each other for
+it is seen nowhere else."""
+
+import json
+import os
+import shutil
+import socket
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+import support
+from pictures import read_png
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
+
+RANKS = [1, 2, 4]
+PIECES = 8
+LEAST_DECIBELS = 60.0
+SIZE = [800, 600]
+
+# Drives all ranks, of its own process or of a server. Writes pictures, and what is known of the particles.
+SCRIPT = """
+import json, sys
+import numpy as np
+from paraview import servermanager, simple
+from paraview.vtk.util.numpy_support import vtk_to_numpy
+
+plugin, folder, files, port = sys.argv[1:]
+size = SIZE
+if int(port):
+    simple.Connect("127.0.0.1", int(port))
+    simple.LoadPlugin(plugin, remote=True, ns=globals())
+simple.LoadPlugin(plugin, remote=False, ns=globals())
+
+
+def surface_of(source, values=[0.3]):
+    surface = HighOrderParticleIsosurface(Input=source, ContourBy=["POINTS", "u"], Isosurfaces=values, Spacing=0.03)
+    surface.UpdatePipeline()
+    return surface
+
+
+def pieces(name):
+    return simple.XMLPartitionedUnstructuredGridReader(FileName=[f"{files}/{name}.pvtu"])
+
+
+def show(surface, array, association="POINTS"):
+    view = simple.CreateRenderView(ViewSize=size)
+    view.OrientationAxesVisibility = 0
+    view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [-1.8, -2.9, 1.6], [0, 0, 0], [0, 0, 1]
+    display = simple.Show(surface, view)
+    display.SetRepresentationType("Surface Splats")
+    simple.ColorBy(display, (association, array))
+    table = simple.GetColorTransferFunction(array)
+    table.RescaleTransferFunction(*((0, 7) if association == "CELLS" else (-3, 3)))
+    return view, display
+
+
+def shoot(name, view):
+    simple.Render(view)
+    simple.SaveScreenshot(f"{folder}/{name}.png", view, ImageResolution=size)
+
+
+def pick(view):
+    # The particles that are seen.
+    simple.SelectSurfacePoints(Rectangle=[0, 0, size[0] - 1, size[1] - 1], View=view)
+    selected = simple.ExtractSelection(Input=compact)
+    selected.Selection = compact.GetSelectionInput(compact.Port)
+    simple.SaveData(f"{folder}/picked.csv", selected, Precision=17, UseScientificNotation=1)
+    simple.ClearSelection(compact)
+
+
+compact, scattered = surface_of(pieces("compact")), surface_of(pieces("scattered"))
+view, display = show(compact, "Mean_Curvature")
+if int(port):
+    for name, threshold in [("server", 0.0), ("client", 1e6)]:
+        view.RemoteRenderThreshold = threshold
+        shoot(name, view)
+        print(name, "draws remotely:", bool(view.GetClientSideObject().GetUseDistributedRenderingForRender()))
+    pick(view)
+    display.Opacity = 0.5
+    for name, threshold in [("server", 0.0), ("client", 1e6)]:
+        view.RemoteRenderThreshold = threshold
+        shoot(name + " translucent", view)
+    simple.Disconnect()
+    sys.exit()
+
+shoot("compact", view)
+pick(view)
+display.Opacity = 0.5
+shoot("translucent", view)
+view, display = show(scattered, "Mean_Curvature")
+shoot("scattered", view)
+display.Opacity = 0.5
+shoot("scattered translucent", view)
+shoot("cells", show(scattered, "piece", "CELLS")[0])
+shoot("two values", show(surface_of(pieces("scattered"), [0.3, 0.32]), "Mean_Curvature")[0])
+shoot("composite", show(surface_of(simple.GroupDatasets(Input=[pieces("odd"), pieces("even")])), "Mean_Curvature")[0])
+
+simple.SaveData(f"{folder}/particles.csv", compact)
+information = compact.GetDataInformation()
+said = {
+    "count": information.GetNumberOfPoints(),
+    "arrays": sorted(compact.PointData.keys()),
+    "range": list(compact.PointData["Mean_Curvature"].GetRange()),
+}
+with open(f"{folder}/said.json", "w") as file:
+    json.dump(said, file)
+arrays = {}
+for name, surface in (("compact", compact), ("with ghosts", surface_of(pieces("with ghosts")))):
+    particles = servermanager.Fetch(surface)
+    for array in ("Area", "Residual"):
+        arrays[f"{name} {array}"] = vtk_to_numpy(particles.GetPointData().GetArray(array))
+    arrays[name] = vtk_to_numpy(particles.GetPoints().GetData())
+np.savez(f"{folder}/arrays.npz", **arrays)
+"""
+
+
+def write_pieces(folder, name, grid, cells, ghosts=None):
+    """A .pvtu file as solvers write them, one .vtu file a piece. cells: a list of the pieces' cells; ghosts: the same of
+    cells that a piece has besides, as a copy."""
+    ghosts = ghosts or [[]] * len(cells)
+    for i, (own, others) in enumerate(zip(cells, ghosts)):
+        piece = support.cells_of(grid, [*own, *others])
+        support.add_point_array(piece, "u", support.array_of(piece, "u").astype(float))
+        support.add_cell_array(piece, "piece", np.full(len(own) + len(others), float(i)))
+        support.add_cell_array(piece, "vtkGhostType", np.repeat([0, 1], [len(own), len(others)]).astype(np.uint8))
+        writer = vtkXMLUnstructuredGridWriter()
+        writer.SetInputData(piece)
+        writer.SetFileName(f"{folder}/{name}_{i}.vtu")
+        writer.SetDataModeToBinary()
+        writer.Write()
+    sources = "".join(f'<Piece Source="{name}_{i}.vtu"/>' for i in range(len(cells)))
+    (folder / f"{name}.pvtu").write_text(f"""<VTKFile type="PUnstructuredGrid" version="0.1">
+<PUnstructuredGrid GhostLevel="{1 if any(map(len, ghosts)) else 0}">
+<PPoints><PDataArray type="Float64" NumberOfComponents="3"/></PPoints>
+<PPointData><PDataArray type="Float64" Name="u"/></PPointData>
+<PCellData><PDataArray type="Float64" Name="piece"/><PDataArray type="UInt8" Name="vtkGhostType"/></PCellData>
+{sources}</PUnstructuredGrid></VTKFile>""")
+
+
+@pytest.fixture(scope="module")
+def files(data, tmp_path_factory):
+    """A folder with one mesh as several .pvtu files."""
+    folder = tmp_path_factory.mktemp("pieces")
+    grid = support.output_of(support.read(data("dealii_shell_p3_00.pvtu")))
+    ids = np.arange(grid.GetNumberOfCells())
+    random = np.random.default_rng(5)
+    compact = np.array_split(ids, PIECES)
+    owners = random.integers(0, PIECES, len(ids))
+    scattered = [ids[owners == piece] for piece in range(PIECES)]
+    # Each piece also has a third of the other cells, as DOLFINx writes those beside a piece.
+    others = [[i for i in ids if i not in own and random.random() < 0.3] for own in compact]
+    write_pieces(folder, "compact", grid, compact)
+    write_pieces(folder, "scattered", grid, scattered)
+    write_pieces(folder, "with ghosts", grid, compact, others)
+    for parity, name in enumerate(["even", "odd"]):
+        write_pieces(folder, name, grid, [own[own % 2 == parity] for own in scattered])
+    return folder
+
+
+@pytest.fixture(scope="module")
+def script(tmp_path_factory):
+    path = tmp_path_factory.mktemp("script") / "script.py"
+    path.write_text(SCRIPT.replace("SIZE", str(SIZE)))
+    return path
+
+
+@pytest.fixture(scope="module")
+def runs(files, script, plugin, tmp_path_factory):
+    """{number of ranks: folder with what they have made}"""
+    for program in ("mpirun", "pvbatch"):
+        if not shutil.which(program):
+            pytest.skip(f"no {program} here")
+    folders = {}
+    for ranks in RANKS:
+        folders[ranks] = tmp_path_factory.mktemp(f"ranks{ranks}")
+        done = subprocess.run(
+            ["timeout", "--kill-after=10", "300", "mpirun", "-np", str(ranks), "--oversubscribe", "pvbatch", str(script),
+             str(plugin), str(folders[ranks]), str(files), "0"],
+            env=support.environment_of_ranks(), capture_output=True, text=True)
+        assert done.returncode == 0 and "ERR|" not in done.stderr, done.stdout + done.stderr
+    return folders
+
+
+def decibels(picture, expected):
+    """Peak signal-to-noise ratio."""
+    error = np.mean((read_png(picture) - read_png(expected)) ** 2.0)
+    return 10 * np.log10(255**2 / max(error, 1e-9))
+
+
+@pytest.mark.parametrize("name", ["compact", "translucent", "scattered", "scattered translucent", "cells", "two values",
+                                  "composite"])
+@pytest.mark.parametrize("ranks", RANKS[1:])
+def test_ranks_draw_the_picture_of_one_rank(runs, ranks, name):
+    expected = read_png(runs[1] / f"{name}.png")
+    assert np.mean(np.any(expected != expected[0, 0], axis=2)) > 0.1
+    assert decibels(runs[ranks] / f"{name}.png", runs[1] / f"{name}.png") > LEAST_DECIBELS
+
+
+def arrays_of(folder):
+    return dict(np.load(folder / "arrays.npz"))
+
+
+def rows_of(arrays, name):
+    """Places, areas and residuals of all particles, sorted."""
+    table = np.column_stack([arrays[name], arrays[f"{name} Area"], arrays[f"{name} Residual"]])
+    return table[np.lexsort(table.T)]
+
+
+@pytest.mark.parametrize("name", ["compact", "with ghosts"])
+@pytest.mark.parametrize("ranks", RANKS)
+def test_particles_are_those_of_one_rank(runs, ranks, name):
+    expected = rows_of(arrays_of(runs[1]), "compact")
+    assert len(expected) > 1000
+    assert np.array_equal(rows_of(arrays_of(runs[ranks]), name), expected)
+
+
+@pytest.mark.parametrize("ranks", RANKS)
+def test_counts_arrays_ranges_and_files_know_no_ghosts(runs, ranks):
+    found, expected = (json.loads((runs[n] / "said.json").read_text()) for n in (ranks, 1))
+    assert found == expected and "vtkGhostType" not in found["arrays"]
+    lines = (runs[ranks] / "particles.csv").read_text().splitlines()
+    assert len(lines) == 1 + found["count"] == 1 + len(arrays_of(runs[1])["compact"])
+
+
+def places_of(path):
+    """The points in a table that ParaView has written."""
+    table = np.genfromtxt(path, delimiter=",", names=True, deletechars='"')
+    return [tuple(place) for place in np.column_stack([table[f"Points:{axis}"] for axis in range(3)])]
+
+
+@pytest.mark.parametrize("ranks", RANKS[1:])
+def test_selections_have_each_visible_particle_once(runs, ranks):
+    found, expected = (places_of(runs[n] / "picked.csv") for n in (ranks, 1))
+    assert len(expected) > 200 and len(set(found)) == len(found)
+    # Which of two particles is seen in a pixel that both are as near to may be another one.
+    assert len(set(found) ^ set(expected)) < 0.01 * len(expected)
+
+
+@pytest.fixture
+def server():
+    """Port of a server of two ranks that waits for one client and ends with it."""
+    pvserver = shutil.which("pvserver")
+    if not pvserver or not shutil.which("mpirun"):
+        pytest.skip("no pvserver or no mpirun here")
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    process = subprocess.Popen(
+        ["timeout", "--kill-after=10", "300", "mpirun", "-np", "2", "--oversubscribe", pvserver, f"--server-port={port}"],
+        env=support.environment_of_ranks(), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    line = ""
+    while "Accepting connection" not in line:
+        line = process.stdout.readline()
+        assert line, "the server did not start"
+    yield port
+    process.terminate()
+    process.wait()
+
+
+def test_a_client_shows_what_two_ranks_of_a_server_have(runs, files, script, plugin, server, tmp_path):
+    done = subprocess.run(
+        [os.environ["HOP_PVPYTHON"], str(script), str(plugin), str(tmp_path), str(files), str(server)],
+        capture_output=True, text=True, timeout=240)
+    said = done.stdout + done.stderr
+    assert done.returncode == 0 and "ERR|" not in said, said
+    assert "server draws remotely: True" in said and "client draws remotely: False" in said, said
+    for name, expected in (("server", "compact"), ("client", "compact"), ("server translucent", "translucent"),
+                           ("client translucent", "translucent")):
+        assert decibels(tmp_path / f"{name}.png", runs[1] / f"{expected}.png") > LEAST_DECIBELS, name
+    # The client has merged the particles of both ranks, and still knows which rank has which.
+    found, expected = places_of(tmp_path / "picked.csv"), places_of(runs[1] / "picked.csv")
+    assert len(set(found)) == len(found) and len(set(found) ^ set(expected)) < 0.01 * len(expected)
