@@ -1,17 +1,12 @@
 #include "Edges/BoundaryCurves.h"
 
-#include "Edges/BoundaryTracer.h"
-#include "Edges/CellBorders.h"
+#include "Edges/BoundaryFinisher.h"
+#include "Edges/BoundaryThinning.h"
 #include "Edges/CreaseArcs.h"
-#include "Edges/CurveSegments.h"
 #include "Edges/FaceCrossings.h"
-#include "Edges/FacePlanes.h"
-#include "Edges/ParticleGrid.h"
 #include "Edges/SampleComparison.h"
 #include "Support/DisjointSets.h"
-#include "Support/KeepFirst.h"
 #include "Support/KeepMarked.h"
-#include "Support/SpacingGrid.h"
 #include "Surface/ActiveFaces.h"
 
 #include <algorithm>
@@ -46,26 +41,10 @@ struct Tracing
   /// Largest distance of the ends of a crease as its two sides see it. Vertices on edges of the mesh are much nearer to
   /// each other; a larger one may take one crease for another.
   static constexpr double SamePlace = 0.1;
-};
-
-/// When two particles are too near to each other, in units of the spacing of the later one. Chosen by experiment.
-struct Nearness
-{
-  /// On one sheet. Evenly spaced curves keep nearly one spacing; less than this stand corners that are close to each
-  /// other, and curves that run side by side. More drops particles of short stretches between corners, less leaves
-  /// pairs.
-  static constexpr double OnOneSheet = 0.6;
   /// Largest distance of a corner that serves as well as the place where the curve passes a plane between two workers.
   /// Short stretches are sampled unevenly: a smaller one leaves stretches of less than two spacings; a larger one lets
   /// the two workers' particles beside the plane differ more.
-  static constexpr double OfCorner = 1.6;
-  /// Where two sheets meet at a sharp edge, and each has a curve of its own.
-  static constexpr double AtSharpEdge = 0.3;
-  /// Largest distance of places of one corner, far above rounding and far below the distance of different corners.
-  static constexpr double OnePlace = 1e-6;
-  /// Smallest width of a strip of the surface: less may be a crack between elements, as files write them in single
-  /// precision, at which the sides overlap. More draws narrower strips a splat wide.
-  static constexpr double LeastStrip = 1e-3;
+  static constexpr double NearCorner = 1.6;
 };
 
 /// The surface for the tracer. Chords need not lie on it as exactly as particles.
@@ -73,13 +52,6 @@ Isosurface roughly(Isosurface surface, double spacing, bool isCut)
 {
   const double tolerance = isCut ? Tracing::ToleranceOnCut : Tracing::Tolerance;
   surface.tolerance = std::max(surface.tolerance, tolerance * spacing);
-  return surface;
-}
-
-/// The surface as it would be if it passed every jump.
-Isosurface seamless(Isosurface surface)
-{
-  surface.jumpTolerances = nullptr;
   return surface;
 }
 
@@ -117,81 +89,6 @@ struct BoundaryHint
   FaceCrossing crossing;
   /// Wanted nearby, world units.
   double spacing = 0.0;
-};
-
-/// Where a particle is to stand on a boundary curve, nearly.
-struct BoundaryPlace
-{
-  Location location;
-  /// Of the element; -1 where it is yet to be found.
-  int face = -1;
-  /// Wanted nearby, world units.
-  double spacing = 0.0;
-};
-
-/// Unit vector along the surface that leaves the element by a face; zero where the surface is parallel to the face.
-WorldVector outwardAt(const ElementMesh& mesh, const Evaluated& at, int face)
-{
-  const glm::dvec3 normal = surfaceNormal(at.point.gradient).xyz;
-  const glm::dvec3 inward =
-    glm::transpose(at.point.map.inverse) * mesh.face(at.location.element, face).inward.xyz;
-  const glm::dvec3 along = inward - glm::dot(inward, normal) * normal;
-  return { glm::length(along) > 0.0 ? -glm::normalize(along) : glm::dvec3(0.0) };
-}
-
-/// What a place on a boundary curve turns out to be.
-enum class PlaceKind
-{
-  OnCurve,
-  /// No point of the surface was found there.
-  Lost,
-  /// The surface goes on, so that there is no boundary curve.
-  Inside
-};
-
-/// Makes particles of places; one finisher a thread.
-class BoundaryFinisher
-{
-public:
-  BoundaryFinisher(const Isosurface& surface, const FaceJumps& jumps, const SurfaceProxy& proxy,
-    const SizingFunction& sizing)
-    : Surface(surface)
-    , Jumps(jumps)
-    , Proxy(proxy)
-    , Sizing(sizing)
-    , Exact(surface, BoundaryTracer::Points::Exact)
-    , Passer(seamless(surface))
-  {
-  }
-
-  /// \param result written if the place is on a boundary curve
-  PlaceKind finish(const BoundaryPlace& place, BoundaryParticle& result);
-
-  std::int64_t evaluations() const
-  {
-    return this->Exact.evaluations() + this->Passer.evaluations();
-  }
-
-private:
-  /// What lies behind the boundary faces of a point.
-  struct Beyond
-  {
-    /// F - c on the other side; zero where there is none.
-    double jump = 0.0;
-    /// In a corner, the other face with nothing behind it; else -1.
-    int otherFace = -1;
-  };
-
-  std::optional<Beyond> lookBehind(const BoundaryPoint& point);
-  BoundarySide sideAt(int face, const Evaluated& at, const Jet& jet) const;
-
-  const Isosurface& Surface;
-  const FaceJumps& Jumps;
-  const SurfaceProxy& Proxy;
-  const SizingFunction& Sizing;
-  BoundaryTracer Exact;
-  /// Passes every face that has something behind it.
-  SurfaceWalker Passer;
 };
 
 /// Whether a curve is at the same corner, and goes on along the same face.
@@ -269,10 +166,6 @@ private:
   ReferencePoint between(const BoundaryPoint& from, const BoundaryPoint& to, double t) const;
   void finish(const ParallelFor& parallelFor);
   void meet(std::vector<char>& found);
-  bool isTooNear(std::size_t i, std::size_t j) const;
-  void thinOut(const ParallelFor& parallelFor);
-  void connect(const std::vector<char>& kept, const std::vector<int>& standIns);
-  void addOtherSides();
 
   Isosurface Surface;
   const FaceJumps& Jumps;
@@ -415,7 +308,7 @@ void BoundarySampler::cutAtPlane(double plane, BoundaryTrace& trace)
     const auto isNear = [&](const glm::dvec3& corner)
     {
       return glm::distance(corner, point->at.point.map.position.xyz) <
-        Nearness::OfCorner * this->spacingAt(*point);
+        Tracing::NearCorner * this->spacingAt(*point);
     };
     if (point && std::none_of(corners.begin(), corners.end(), isNear))
     {
@@ -759,87 +652,6 @@ void BoundarySampler::joinSides(
   }
 }
 
-PlaceKind BoundaryFinisher::finish(const BoundaryPlace& place, BoundaryParticle& result)
-{
-  const auto point = this->Exact.project(place.location, place.face, place.spacing);
-  const auto beyond = point ? this->lookBehind(*point) : std::nullopt;
-  if (point && !beyond)
-  {
-    return PlaceKind::Inside;
-  }
-  Anchor anchor;
-  if (!point || !anchorPatch(point->at, anchor, result.patch))
-  {
-    return PlaceKind::Lost;
-  }
-  const FieldPoint& field = point->at.point;
-  result.patch.spacing =
-    this->Proxy.spacingAt(result.patch.position, result.patch.curvatureMagnitude());
-  result.patch.fixed = true;
-  result.particle =
-    particleAt(point->at.location, field, curvature(field.gradient, point->at.hessian),
-      this->Sizing.angularDensity == 0.0 ? this->Sizing.spacing : result.patch.spacing);
-  result.particle.jump = beyond->jump;
-  const Jet& jet = this->Exact.jetAt(*point);
-  offerFaces(this->Surface, this->Jumps, jet, field, result.particle);
-  markCellBorders(*this->Surface.mesh, jet, field.map, result.particle);
-  result.side = this->sideAt(point->face, point->at, jet);
-  result.otherSide = this->sideAt(beyond->otherFace, point->at, jet);
-  if (this->Surface.isCutAt(point->at.location.element, point->face))
-  {
-    result.side = result.otherSide;
-    result.otherSide = {};
-  }
-  return PlaceKind::OnCurve;
-}
-
-/// How the surface ends at a face; nothing for no face.
-BoundarySide BoundaryFinisher::sideAt(int face, const Evaluated& at, const Jet& jet) const
-{
-  if (face < 0)
-  {
-    return {};
-  }
-  const WorldVector outward = outwardAt(*this->Surface.mesh, at, face);
-  const LevelSet field{ at.point.gradient, at.hessian };
-  const LevelSet margin =
-    faceLevels(jet, at.point.map, this->Surface.mesh->face(at.location.element, face));
-  return { face, outward, dot(curvatureOfCrossing(field, margin), outward) };
-}
-
-/// Looks behind all boundary faces on which a point lies.
-/// \return nothing where the surface goes on behind the point's own face
-std::optional<BoundaryFinisher::Beyond> BoundaryFinisher::lookBehind(const BoundaryPoint& point)
-{
-  const Location& location = point.at.location;
-  const ElementMesh& mesh = *this->Surface.mesh;
-  const auto& faces = facts(mesh.elements[location.element].domain).faces;
-  Beyond result;
-  for (int f = 0; f < static_cast<int>(faces.size()); ++f)
-  {
-    if (faceMargin(faces[f], location.u) >= OnFace || !this->Surface.mayEnd(location.element, f))
-    {
-      continue;
-    }
-    const auto behind = this->Passer.behind(point.at, f);
-    const bool isCut = this->Surface.isCutAt(location.element, f);
-    result.jump = behind && !isCut ? behind->at.point.value : result.jump;
-    result.otherFace = behind || f == point.face ? result.otherFace : f;
-    if (!behind || f != point.face)
-    {
-      continue;
-    }
-    // What is found behind a face that the mesh does not join may lie too far off to count.
-    const bool joined = mesh.neighbor(location.element, f).element >= 0;
-    if (joined ? SurfaceWalker::continuesIn(this->Surface, point.at, f, *behind)
-               : !this->Exact.isOnBoundary(point))
-    {
-      return std::nullopt;
-    }
-  }
-  return result;
-}
-
 /// Makes particles of all places.
 void BoundarySampler::finish(const ParallelFor& parallelFor)
 {
@@ -911,140 +723,6 @@ void BoundarySampler::meet(std::vector<char>& found)
   renumber(this->Result.edges.coincident, found);
 }
 
-bool BoundarySampler::isTooNear(std::size_t i, std::size_t j) const
-{
-  const BoundaryParticle& a = this->Result.particles[i];
-  const BoundaryParticle& b = this->Result.particles[j];
-  if (a.isOnCrease || b.isOnCrease)
-  {
-    return false; // the other side has one here
-  }
-  const double cosine = dot(a.particle.normal, b.particle.normal);
-  const double near = cosine > SheetCosine ? Nearness::OnOneSheet : Nearness::AtSharpEdge;
-  return cosine > 0.0 && glm::distance(a.patch.position, b.patch.position) < near * a.patch.spacing;
-}
-
-/// Whether two particles that look away from each other have the surface between them, as on a strip, or are the two
-/// sides of one sharp corner. Of two elements that jump they are the sides of a slit, whose sheets may reach over each
-/// other.
-bool areAcrossSurface(const BoundaryParticle& a, const BoundaryParticle& b)
-{
-  const WorldVector step = b.particle.position - a.particle.position;
-  const double h = a.patch.spacing;
-  const bool inOneElement = a.particle.location.element == b.particle.location.element;
-  if (inOneElement && length(step) < Nearness::OnePlace * h)
-  {
-    return true;
-  }
-  const bool isJump = !inOneElement && a.particle.jump != 0.0 && b.particle.jump != 0.0;
-  return !isJump && dot(step, a.side.outward) < -Nearness::LeastStrip * h &&
-    dot(step, b.side.outward) > Nearness::LeastStrip * h;
-}
-
-/// Of particles that are too near to each other the first stays. If the surface ends at both on the two sides of a
-/// slit, it goes on there, and the one that stays ends at no face.
-void BoundarySampler::thinOut(const ParallelFor& parallelFor)
-{
-  Buffer<BoundaryParticle>& particles = this->Result.particles;
-  const SpacedPoints points(
-    particles.size(), [&](std::size_t i) { return particles[i].patch.position; },
-    [&](std::size_t i) { return particles[i].patch.spacing; }, parallelFor);
-  const SpacingGrid grid(
-    points.positions, points.spacings, Nearness::OnOneSheet, CellsPerReach, parallelFor);
-  const auto visitEarlier = [&](std::size_t i, const auto& use)
-  {
-    grid.visit(points.positions[i], points.spacings[i],
-      [&](std::size_t j)
-      {
-        if (j < i && this->isTooNear(i, j))
-        {
-          use(j);
-        }
-      });
-  };
-  const std::size_t count = particles.size();
-  const std::vector<char> kept =
-    keepFirst(std::vector<char>(count, 1), count, parallelFor, visitEarlier);
-  std::vector<char> closesSlit(count, 0);
-  std::vector<int> standIns(count, -1);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    if (!kept[i])
-    {
-      bool isOnStrip = false;
-      visitEarlier(i,
-        [&](std::size_t j)
-        {
-          const bool isOpposite = kept[j] && lookAtEachOther(particles[i].side, particles[j].side);
-          const bool isAcross = isOpposite && areAcrossSurface(particles[i], particles[j]);
-          const bool isSlit = isOpposite && !isAcross;
-          isOnStrip = isOnStrip || isAcross;
-          closesSlit[j] = closesSlit[j] || isSlit;
-          closesSlit[i] = closesSlit[i] || isSlit;
-          const auto distanceTo = [&](std::size_t k)
-          { return glm::distance(points.positions[i], points.positions[k]); };
-          const bool isNearest = standIns[i] < 0 || distanceTo(j) < distanceTo(standIns[i]);
-          standIns[i] = kept[j] && isNearest ? static_cast<int>(j) : standIns[i];
-        });
-      if ((particles[i].particle.jump == 0.0 || isOnStrip) && !closesSlit[i])
-      {
-        this->Result.thinned.push_back(particles[i]);
-      }
-    }
-  }
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    if (closesSlit[i])
-    {
-      particles[i].side = {};
-    }
-  }
-  this->connect(kept, standIns);
-  keepMarked(particles, kept);
-}
-
-/// Finds out which particles follow each other on a curve. Two at which the surface ends no more, because a slit was
-/// closed, are not the ends of a piece of curve.
-/// \param kept marks the particles that stay
-/// \param standIns for each of the others the particle that is too near to it
-void BoundarySampler::connect(const std::vector<char>& kept, const std::vector<int>& standIns)
-{
-  const Buffer<BoundaryParticle>& particles = this->Result.particles;
-  for (CurvePlace& place : this->Outcomes)
-  {
-    if (place.particle >= 0 && !kept[place.particle])
-    {
-      place.standIn = standIns[place.particle];
-      place.particle = -1;
-    }
-  }
-  const auto hasNoEnd = [](const BoundaryParticle& particle)
-  { return !particle.side.exists() && !particle.isOnCrease; };
-  SurfaceEdges& edges = this->Result.edges;
-  std::vector<std::array<int, 2>> segments = segmentsOf(this->Outcomes, this->Ranges);
-  segments.erase(std::remove_if(segments.begin(), segments.end(),
-                   [&](const std::array<int, 2>& pair)
-                   { return hasNoEnd(particles[pair[0]]) && hasNoEnd(particles[pair[1]]); }),
-    segments.end());
-  edges.segments = withoutDropped(segments, kept);
-  edges.directed = directedEdgesOf(this->Outcomes, this->Ranges);
-  renumber(edges.directed, kept);
-  renumber(edges.coincident, kept);
-}
-
-/// Corners tell of both curves that meet there.
-void BoundarySampler::addOtherSides()
-{
-  for (const BoundaryParticle& corner : this->Result.particles)
-  {
-    if (corner.side.exists() && corner.otherSide.exists())
-    {
-      this->Result.thinned.push_back(corner);
-      this->Result.thinned[this->Result.thinned.size() - 1].side = corner.otherSide;
-    }
-  }
-}
-
 std::vector<std::size_t> BoundarySampler::trace(const ParallelFor& parallelFor)
 {
   for (const std::vector<BoundaryHint>& hintsOfBox : this->findHints(parallelFor))
@@ -1068,8 +746,7 @@ BoundaryCurves BoundarySampler::sample(const ParallelFor& parallelFor)
   this->dropOneSided();
   this->place(parallelFor);
   this->finish(parallelFor);
-  this->thinOut(parallelFor);
-  this->addOtherSides();
+  thinOut(std::move(this->Outcomes), this->Ranges, this->Result, parallelFor);
   this->Result.evaluations += this->evaluations();
   return std::move(this->Result);
 }

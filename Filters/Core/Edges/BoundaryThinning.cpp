@@ -1,0 +1,167 @@
+#include "Edges/BoundaryThinning.h"
+
+#include "Edges/ParticleGrid.h"
+#include "Support/KeepFirst.h"
+#include "Support/KeepMarked.h"
+#include "Support/SpacingGrid.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace hop
+{
+namespace
+{
+
+/// When two particles are too near to each other, in units of the spacing of the later one. Chosen by experiment.
+struct Nearness
+{
+  /// On one sheet. Evenly spaced curves keep nearly one spacing; less than this stand corners that are close to each
+  /// other, and curves that run side by side. More drops particles of short stretches between corners, less leaves
+  /// pairs.
+  static constexpr double OnOneSheet = 0.6;
+  /// Where two sheets meet at a sharp edge, and each has a curve of its own.
+  static constexpr double AtSharpEdge = 0.3;
+  /// Largest distance of places of one corner, far above rounding and far below the distance of different corners.
+  static constexpr double OnePlace = 1e-6;
+  /// Smallest width of a strip of the surface: less may be a crack between elements, as files write them in single
+  /// precision, at which the sides overlap. More draws narrower strips a splat wide.
+  static constexpr double LeastStrip = 1e-3;
+};
+
+bool areTooNear(const BoundaryParticle& a, const BoundaryParticle& b)
+{
+  if (a.isOnCrease || b.isOnCrease)
+  {
+    return false; // the other side has one here
+  }
+  const double cosine = dot(a.particle.normal, b.particle.normal);
+  const double near = cosine > SheetCosine ? Nearness::OnOneSheet : Nearness::AtSharpEdge;
+  return cosine > 0.0 && glm::distance(a.patch.position, b.patch.position) < near * a.patch.spacing;
+}
+
+/// Whether two particles that look away from each other have the surface between them, as on a strip, or are the two
+/// sides of one sharp corner. Of two elements that jump they are the sides of a slit, whose sheets may reach over each
+/// other.
+bool areAcrossSurface(const BoundaryParticle& a, const BoundaryParticle& b)
+{
+  const WorldVector step = b.particle.position - a.particle.position;
+  const double h = a.patch.spacing;
+  const bool inOneElement = a.particle.location.element == b.particle.location.element;
+  if (inOneElement && length(step) < Nearness::OnePlace * h)
+  {
+    return true;
+  }
+  const bool isJump = !inOneElement && a.particle.jump != 0.0 && b.particle.jump != 0.0;
+  return !isJump && dot(step, a.side.outward) < -Nearness::LeastStrip * h &&
+    dot(step, b.side.outward) > Nearness::LeastStrip * h;
+}
+
+/// Finds out which particles follow each other on a curve. Two at which the surface ends no more, because a slit was
+/// closed, are not the ends of a piece of curve.
+/// \param kept marks the particles that stay
+/// \param standIns for each of the others the particle that is too near to it
+void connect(const std::vector<char>& kept, const std::vector<int>& standIns,
+  std::vector<CurvePlace> places, const std::vector<CurveRange>& ranges, BoundaryCurves& curves)
+{
+  const Buffer<BoundaryParticle>& particles = curves.particles;
+  for (CurvePlace& place : places)
+  {
+    if (place.particle >= 0 && !kept[place.particle])
+    {
+      place.standIn = standIns[place.particle];
+      place.particle = -1;
+    }
+  }
+  const auto hasNoEnd = [](const BoundaryParticle& particle)
+  { return !particle.side.exists() && !particle.isOnCrease; };
+  SurfaceEdges& edges = curves.edges;
+  std::vector<std::array<int, 2>> segments = segmentsOf(places, ranges);
+  segments.erase(std::remove_if(segments.begin(), segments.end(),
+                   [&](const std::array<int, 2>& pair)
+                   { return hasNoEnd(particles[pair[0]]) && hasNoEnd(particles[pair[1]]); }),
+    segments.end());
+  edges.segments = withoutDropped(segments, kept);
+  edges.directed = directedEdgesOf(places, ranges);
+  renumber(edges.directed, kept);
+  renumber(edges.coincident, kept);
+}
+
+/// Corners tell of both curves that meet there.
+void addOtherSides(BoundaryCurves& curves)
+{
+  for (const BoundaryParticle& corner : curves.particles)
+  {
+    if (corner.side.exists() && corner.otherSide.exists())
+    {
+      curves.thinned.push_back(corner);
+      curves.thinned[curves.thinned.size() - 1].side = corner.otherSide;
+    }
+  }
+}
+
+} // namespace
+
+void thinOut(std::vector<CurvePlace> places, const std::vector<CurveRange>& ranges,
+  BoundaryCurves& curves, const ParallelFor& parallelFor)
+{
+  Buffer<BoundaryParticle>& particles = curves.particles;
+  const SpacedPoints points(
+    particles.size(), [&](std::size_t i) { return particles[i].patch.position; },
+    [&](std::size_t i) { return particles[i].patch.spacing; }, parallelFor);
+  const SpacingGrid grid(
+    points.positions, points.spacings, Nearness::OnOneSheet, CellsPerReach, parallelFor);
+  const auto visitEarlier = [&](std::size_t i, const auto& use)
+  {
+    grid.visit(points.positions[i], points.spacings[i],
+      [&](std::size_t j)
+      {
+        if (j < i && areTooNear(particles[i], particles[j]))
+        {
+          use(j);
+        }
+      });
+  };
+  const std::size_t count = particles.size();
+  const std::vector<char> kept =
+    keepFirst(std::vector<char>(count, 1), count, parallelFor, visitEarlier);
+  std::vector<char> closesSlit(count, 0);
+  std::vector<int> standIns(count, -1);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (!kept[i])
+    {
+      bool isOnStrip = false;
+      visitEarlier(i,
+        [&](std::size_t j)
+        {
+          const bool isOpposite = kept[j] && lookAtEachOther(particles[i].side, particles[j].side);
+          const bool isAcross = isOpposite && areAcrossSurface(particles[i], particles[j]);
+          const bool isSlit = isOpposite && !isAcross;
+          isOnStrip = isOnStrip || isAcross;
+          closesSlit[j] = closesSlit[j] || isSlit;
+          closesSlit[i] = closesSlit[i] || isSlit;
+          const auto distanceTo = [&](std::size_t k)
+          { return glm::distance(points.positions[i], points.positions[k]); };
+          const bool isNearest = standIns[i] < 0 || distanceTo(j) < distanceTo(standIns[i]);
+          standIns[i] = kept[j] && isNearest ? static_cast<int>(j) : standIns[i];
+        });
+      if ((particles[i].particle.jump == 0.0 || isOnStrip) && !closesSlit[i])
+      {
+        curves.thinned.push_back(particles[i]);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (closesSlit[i])
+    {
+      particles[i].side = {};
+    }
+  }
+  connect(kept, standIns, std::move(places), ranges, curves);
+  keepMarked(particles, kept);
+  addOtherSides(curves);
+}
+
+} // namespace hop

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "Common/Monitor.h"
+#include "Edges/BoundaryCurves.h"
+#include "Edges/CurveSegments.h"
+
+#include <vector>
+
+namespace hop
+{
+
+/// Of particles that are too near to each other the first stays. If the surface ends at both on the two sides of a
+/// slit, it goes on there, and the one that stays ends at no face.
+/// \param places what became of the places on all curves
+/// \param ranges of places, one a curve
+/// \param curves their particles and places on creases; edges and thinned particles are added
+void thinOut(std::vector<CurvePlace> places, const std::vector<CurveRange>& ranges,
+  BoundaryCurves& curves, const ParallelFor& parallelFor);
+
+} // namespace hop
