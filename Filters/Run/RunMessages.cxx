@@ -33,14 +33,12 @@ std::string describeError(const DistributionReport& report, std::int64_t numberO
 std::string describeGaps(double share)
 {
   std::ostringstream text;
-  text << "at " << std::lround(100.0 * share)
-       << "% of the faces of cells that the surface reaches it ends. Derivatives jump there from "
-          "cell to cell, so far "
-          "that its two sides miss each other by more than 0.4 of the spacing, or it leaves the "
-          "mesh. Gaps tell "
-          "where the mesh is too coarse for this Quantity; a finer mesh or a higher degree closes "
-          "them, another Spacing "
-          "does not.";
+  text
+    << "at " << std::lround(100.0 * share)
+    << "% of the faces between cells that the surface reaches it ends. Derivatives jump there from "
+       "cell to cell, so far that its two sides miss each other by more than 0.4 of the spacing. "
+       "Gaps tell where the mesh is too coarse for this Quantity; a finer mesh or a higher degree "
+       "closes them, another Spacing does not.";
   return text.str();
 }
 

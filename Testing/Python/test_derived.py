@@ -290,7 +290,7 @@ def test_tells_of_gaps_between_cells(data):
     particles, messages = support.run(reader, "velocity", 10.0, Quantity="Q Criterion", Spacing=0.02)
     share = support.reported(particles, "FacesEnded") / support.reported(particles, "FacesReached")
     assert 0.1 < share < 1.0
-    assert any(f"at {share:.0%} of the faces of cells" in text for text in messages.warnings)
+    assert any(f"at {share:.0%} of the faces between cells" in text for text in messages.warnings)
 
 
 def test_says_that_no_cell_takes_the_value(data):

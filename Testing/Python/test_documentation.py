@@ -293,7 +293,7 @@ def test_python_of_the_pages_runs(page, line, code, how, plugin, project_folder,
         check_colors()
     said = capfd.readouterr().err  # ParaView complains without raising anything
     # What the page says of derived fields is what the filter warns of.
-    said = re.sub("[^\n]*at [0-9]+% of the faces of cells that the surface reaches it ends[^\n]*", "", said)
+    said = re.sub("[^\n]*at [0-9]+% of the faces between cells that the surface reaches it ends[^\n]*", "", said)
     assert not re.search("error|warning|ERR[|]|WARN[|]", said, re.IGNORECASE), said
 
 

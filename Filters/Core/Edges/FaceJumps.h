@@ -37,8 +37,8 @@ constexpr double CreaseAngle = 0.17453293;
 FaceJumps findFaceJumps(
   const Isosurface& surface, const SurfaceProxy& proxy, const ParallelFor& parallelFor);
 
-/// How often the surface reaches a face of an element, counted from each side, and how often it ends there: at a jump,
-/// or because nothing is joined to the face, be it the end of the mesh or an element without surface.
+/// How often the surface reaches a face between two elements, counted from each side, and how often it ends there, at a
+/// jump. Faces to which nothing is joined do not count, be it the end of the mesh or an element without surface.
 struct FacePassages
 {
   std::int64_t reached = 0;
