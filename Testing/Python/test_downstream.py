@@ -138,6 +138,35 @@ def test_rotated_particles_look_as_unrotated_ones(particles, all_vectors, tmp_pa
     assert differs[covered].mean() < 0.005
 
 
+def psnr(a, b):
+    return 10 * np.log10(255**2 / np.mean((a - b) ** 2.0))
+
+
+def test_rotated_particles_look_as_those_of_the_rotated_grid(grid, tmp_path):
+    """They differ no more than two random distributions of the same surface do."""
+
+    def turned(source):
+        moved = simple.Transform(Input=source)
+        moved.Transform.Rotate = [21.0, 37.0, -13.0]
+        return moved
+
+    def particles_of(source, seed=1):
+        surface = simple.HighOrderParticleIsosurface(Input=source, ContourBy=["POINTS", "u"], Isosurfaces=[0.2])
+        surface.Spacing, surface.Seed = 0.03, seed
+        return surface
+
+    def picture(source, name):
+        return picture_of(source, tmp_path / f"{name}.png", [1, -4, 2], [0, 0, 1])
+
+    fresh = picture(particles_of(turned(grid)), "fresh")
+    assert np.any(fresh != BACKGROUND, axis=2).mean() > 0.1
+    least = psnr(fresh, picture(particles_of(turned(grid), seed=2), "another"))
+    found = psnr(fresh, picture(turned(particles_of(grid)), "turned"))
+    print(f"PSNR {found:.1f} dB, of two seeds {least:.1f} dB")
+    assert found > 30.0
+    assert found > least - 1.0
+
+
 def test_scaled_particles_leave_no_holes(particles, tmp_path):
     scaled = simple.Transform(Input=particles)
     scaled.Transform.Scale = [0.5, 0.5, 0.5]
