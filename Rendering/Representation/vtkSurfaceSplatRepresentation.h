@@ -166,7 +166,7 @@ private:
   // Those of all ranks, on the first of them; nothing as long as nobody needs them.
   vtkSmartPointer<vtkPolyData> AllParticles;
   vtkSmartPointer<vtkPolyData>
-    ArraysToColorBy;    // without ghosts, and without arrays that are not for users
+    ArraysToColorBy;           // without ghosts, and without arrays that are not for users
   double DiskBounds[6];        // without ghosts
   bool WasTranslucent = false; // at the last update
 };

@@ -148,7 +148,8 @@ TEST_P(SplatGhostsFrom, TwoMappersDrawWhatOneDraws)
   TwoHalves halves;
   halves.Scene.LookFrom(GetParam().Direction, GetParam().Parallel);
   halves.Scene.Render();
-  EXPECT_LT(CountDifferences(halves.Scene, whole), 100); // at outlines, where one half lies before the other
+  EXPECT_LT(CountDifferences(halves.Scene, whole),
+    100); // at outlines, where one half lies before the other
 
   TwoHalves without(false);
   without.Scene.LookFrom(GetParam().Direction, GetParam().Parallel);
@@ -164,7 +165,8 @@ TEST_P(SplatGhostsFrom, TranslucentPixelsAreDrawnOnce)
   for (vtkActor* actor : { whole.Actor.Get(), halves.Scene.Actor.Get(), halves.Other.Get() })
   {
     actor->GetProperty()->SetOpacity(0.5);
-    actor->GetProperty()->BackfaceCullingOn(); // one layer: mappers do not sort theirs into each other
+    actor->GetProperty()
+      ->BackfaceCullingOn(); // one layer: mappers do not sort theirs into each other
   }
   whole.Mapper->SetModeToSplats();
   for (SplatScene* scene : { &whole, &halves.Scene })
