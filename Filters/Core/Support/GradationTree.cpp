@@ -81,8 +81,9 @@ float GradationTree::limited(const glm::dvec3& position, float spacing) const
     const double room = least - itsSpacing;
     return room > 0.0 && this->Slope * this->Slope * squaredDistance < room * room;
   };
-  const auto waitFor = [&](int node)
-  { waiting[count++] = { node, squaredDistance(this->Nodes[node].bounds, position) }; };
+  const auto waitFor = [&](int node) {
+    waiting[count++] = { node, squaredDistance(this->Nodes[node].bounds, position) };
+  };
   if (!this->Nodes.empty())
   {
     waitFor(0);

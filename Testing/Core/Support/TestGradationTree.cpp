@@ -55,7 +55,8 @@ TEST(GradationTree, FindsTheLeastOfAllLimits)
 TEST(GradationTree, MayBeEmptyOrHaveAllPlacesInOne)
 {
   EXPECT_EQ(GradationTree({}, slope).limited(glm::dvec3(0.0), 0.3f), 0.3f);
-  const GradationTree one(std::vector<GradationTree::Place>(1000, { glm::dvec3(1.0), 0.1f }), slope);
+  const GradationTree one(
+    std::vector<GradationTree::Place>(1000, { glm::dvec3(1.0), 0.1f }), slope);
   EXPECT_EQ(one.limited(glm::dvec3(1.0), 0.3f), 0.1f);
   EXPECT_EQ(one.limited(glm::dvec3(1.0), 0.05f), 0.05f);
 }
