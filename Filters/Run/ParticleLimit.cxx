@@ -12,7 +12,7 @@ namespace hop
 namespace
 {
 
-/// Memory of the whole filter at its peak, bytes a particle: measured at 0.7 to 1.5 kB with one point array. Smaller
+/// Memory of the whole filter at its peak, bytes a particle: measured at 1.1 to 1.5 kB with one point array. Smaller
 /// values admit runs that exhaust the memory, larger ones refuse runs that would fit.
 constexpr std::int64_t bytesPerParticle = 1536;
 

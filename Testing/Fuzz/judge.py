@@ -14,14 +14,11 @@ import numpy as np
 import recipes
 import support
 from highorderparticles import vtkHighOrderParticleIsosurface
-from vtkmodules.vtkCommonCore import vtkObject
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter
 
 # Particles whose position and value are compared with those of VTK's own cells; more take longer.
 COMPARED = 40
-# Triangles up to which the fans of a mesh are looked at, which takes Python 7 s a million.
-FANNED = 50_000
 # Largest processor time between two questions whether to go on, seconds: a user waits as long for an abort, once a core
 # is free. Longer than what is aimed at, 0.2 s, by what other work on the machine adds to times.
 LONGEST_SILENCE = 1.0
@@ -156,9 +153,7 @@ def complaints(contour, grid, output, is_part):
     found = []
     columns = {"points": support.points_of(output)}
     columns |= {name: support.array_of(output, name).astype(float) for name in support.own_arrays(0)}
-    # Known: points of meshes that are at home in another block have none. Documentation/reliability.md.
-    known = {"Residual"} if is_part and contour.GetOutputType() != contour.PARTICLES else set()
-    found += [f"{n} is not finite" for n, values in columns.items() if n not in known and not np.isfinite(values).all()]
+    found += [f"{name} is not finite" for name, values in columns.items() if not np.isfinite(values).all()]
     if "other" in support.array_names(output.GetPointData()):
         found += ["values of an array are not finite"] * (not np.isfinite(support.array_of(output, "other")).all())
     lengths = np.linalg.norm(columns["Normals"], axis=1)
@@ -190,30 +185,28 @@ def mesh_faults(mesh, is_part):
     corners = ids[:, :3]
     edges = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]])
     found += ["two triangles are on one side of an edge"] * (len(np.unique(edges, axis=0)) != len(edges))
-    return found + ["two fans of triangles touch in a corner"] * (
-        count <= FANNED and not is_part and has_touching_fans(corners)
-    )
+    return found + ["two fans of triangles touch in a corner"] * (not is_part and has_touching_fans(corners))
 
 
 def has_touching_fans(corners):
-    """Whether the triangles at some corner are not all joined by edges at that corner."""
-    # Each triangle leads, around each of its corners, from one neighbour to the next.
-    steps = {(c[i], c[(i + 1) % 3]): c[(i + 2) % 3] for c in corners.tolist() for i in range(3)}
-    starts = {}
-    for corner, neighbor in steps:
-        starts.setdefault(corner, []).append(neighbor)
-    for corner, neighbors in starts.items():
-        # A fan that ends begins where no triangle leads to.
-        reached = {steps[corner, n] for n in neighbors}
-        first = next((n for n in neighbors if n not in reached), neighbors[0])
-        place, length = first, 0
-        # Where triangles overlap a way may end in a circle that it did not begin in.
-        while (corner, place) in steps and length <= len(neighbors) and (length == 0 or place != first):
-            place = steps[corner, place]
-            length += 1
-        if length != len(neighbors):
-            return True
-    return False
+    """Whether the triangles at some corner are not all joined by edges at that corner. No edge has two triangles on one
+    side."""
+    # A spoke is an edge seen from one of its ends. A triangle leads, around each of its corners, from one spoke to the
+    # next, so that the spokes of a fan are a chain, or a ring.
+    count = int(corners.max()) + 1
+    turns = np.concatenate([np.roll(corners, -i, axis=1) for i in range(3)]).astype(np.int64)
+    begins, ends = turns[:, 0] * count + turns[:, 1], turns[:, 0] * count + turns[:, 2]
+    spokes = np.unique(np.concatenate([begins, ends]))
+    ahead = np.arange(len(spokes))
+    ahead[np.searchsorted(spokes, begins)] = np.searchsorted(spokes, ends)
+    is_end = ahead == np.arange(len(spokes))
+    # Steps of double length: in the end a spoke knows the end of its chain, or the least spoke of its ring.
+    least = np.arange(len(spokes))
+    for _ in range(int(np.bincount(spokes // count).max()).bit_length()):
+        least = np.minimum(least, least[ahead])
+        ahead = ahead[ahead]
+    fans = np.unique(np.where(is_end[ahead], ahead, least))
+    return len(fans) != len(np.unique(corners))
 
 
 def misplaced(contour, grid, output):
@@ -280,7 +273,6 @@ def answer(words):
 
 
 def main():
-    vtkObject.GlobalWarningDisplayOff()
     for line in open(0):  # pvpython puts something of its own in the place of sys.stdin
         recipe = json.loads(line)
         session = Session(recipe)

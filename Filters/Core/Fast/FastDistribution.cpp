@@ -230,6 +230,20 @@ bool FastSystem::tooMany(double count)
   return !this->Result.report.error.empty();
 }
 
+/// Particles along strips of the surface that are narrower than a spacing, as in cells like slivers: more than go by
+/// their area. Only boxes many spacings wide count: a surface that is no strip takes more there by its area.
+double FastSystem::countAlongStrips(const SurfaceProxy& proxy)
+{
+  constexpr double narrowest = 100.0; // box, in spacings
+  double count = 0.0;
+  for (std::size_t b = 0; b < proxy.boxes().size(); ++b)
+  {
+    const double spacings = proxy.boxes()[b].size / proxy.samples()[b].patch.spacing;
+    count += proxy.samples()[b].found && spacings > narrowest ? spacings : 0.0;
+  }
+  return count;
+}
+
 /// Counts the particles on a coarse proxy, before memory is allocated. The proxy's boxes are coarse; its spacings
 /// are the ones asked for, as a number that is scaled up from coarse spacings would count curvature twice.
 /// \return whether there are few enough
@@ -241,8 +255,12 @@ bool FastSystem::estimateCount()
   }
   const SizingFunction coarse{ meshExtent(this->Mesh) * estimateSpacingPerExtent,
     this->Sizing.angularDensity };
-  return coarse.smallest() <= this->Sizing.smallest() ||
-    !this->tooMany(this->proxyOfBoxesAt(coarse, ProgressAt::Estimated).particleCount());
+  if (coarse.smallest() <= this->Sizing.smallest())
+  {
+    return true;
+  }
+  const SurfaceProxy rough = this->proxyOfBoxesAt(coarse, ProgressAt::Estimated);
+  return !this->tooMany(std::max(rough.particleCount(), countAlongStrips(rough)));
 }
 
 /// Makes the proxy, and traces the boundary curves. From then on the surface ends where the field jumps, and the

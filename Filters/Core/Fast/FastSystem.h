@@ -65,6 +65,7 @@ protected:
   bool isOutOfReach(const SurfaceBox& box) const;
   SurfaceProxy proxyOfBoxesAt(const SizingFunction& sizing, double shareOfRun);
   bool tooMany(double count);
+  static double countAlongStrips(const SurfaceProxy& proxy);
   bool estimateCount();
   void prepareSurface();
   double targetCount() const;

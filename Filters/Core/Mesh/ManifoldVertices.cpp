@@ -1,6 +1,5 @@
 #include "Mesh/ManifoldVertices.h"
 
-#include <numeric>
 #include <set>
 
 namespace hop
@@ -60,9 +59,28 @@ int leastOf(const TriangleFans::Fan& fan)
   return least;
 }
 
-} // namespace
+bool hasSeveralFans(int vertex, const TriangleFans& fans)
+{
+  int count = 0;
+  LinkEdge first;
+  fans.visit(vertex,
+    [&](const LinkEdge& edge)
+    {
+      const bool isFirst = count == 0 || fans.apexOf(edge.from, vertex) < 0;
+      first = isFirst ? edge : first;
+      ++count;
+    });
+  // Counterclockwise from an end of the fan, if it has one.
+  int reached = 0;
+  for (int next = first.to; reached < count && next >= 0; ++reached)
+  {
+    next = next == first.from ? -1 : fans.apexOf(vertex, next);
+  }
+  return reached < count;
+}
 
-bool keepOneFan(const std::vector<int>& vertices, TriangleFans& fans)
+/// \return whether triangles were removed
+bool keepOneFanAt(const std::vector<int>& vertices, TriangleFans& fans)
 {
   std::set<int> left(vertices.begin(), vertices.end());
   bool hasChanged = false;
@@ -92,9 +110,6 @@ bool keepOneFan(const std::vector<int>& vertices, TriangleFans& fans)
   return hasChanged;
 }
 
-namespace
-{
-
 /// A mesh in which particles in one place are one vertex.
 class WeldedFans
 {
@@ -119,10 +134,12 @@ public:
     return fits;
   }
 
-  bool keepOneFan(const std::vector<int>& vertices)
+  bool keepOneFanAt(const std::vector<int>& vertices)
   {
-    return hop::keepOneFan(vertices, this->Fans);
+    return hop::keepOneFanAt(vertices, this->Fans);
   }
+
+  void keepOneFan(const ParallelFor& parallelFor) { hop::keepOneFan(this->Fans, parallelFor); }
 
   bool has(const Triangle& triangle) const
   {
@@ -168,10 +185,27 @@ bool isManifold(const std::vector<int>& places, const std::vector<Triangle>& tri
       return false;
     }
   }
-  return !welded.keepOneFan({ vertices.begin(), vertices.end() });
+  return !welded.keepOneFanAt({ vertices.begin(), vertices.end() });
 }
 
 } // namespace
+
+bool keepOneFan(TriangleFans& fans, const ParallelFor& parallelFor)
+{
+  std::vector<char> isTouched(fans.vertexCount(), 0);
+  forAll(parallelFor, isTouched.size(),
+    [&](std::size_t vertex)
+    { isTouched[vertex] = hasSeveralFans(static_cast<int>(vertex), fans) ? 1 : 0; });
+  std::vector<int> vertices;
+  for (std::size_t vertex = 0; vertex < isTouched.size(); ++vertex)
+  {
+    if (isTouched[vertex])
+    {
+      vertices.push_back(static_cast<int>(vertex));
+    }
+  }
+  return keepOneFanAt(vertices, fans);
+}
 
 void keepManifold(
   const std::vector<int>& places, TriangleFans& fans, const ParallelFor& parallelFor)
@@ -187,9 +221,7 @@ void keepManifold(
   {
     isAdded.push_back(welded.add(triangle) ? 1 : 0);
   }
-  std::vector<int> vertices(places.size());
-  std::iota(vertices.begin(), vertices.end(), 0);
-  welded.keepOneFan(vertices);
+  welded.keepOneFan(parallelFor);
   for (std::size_t t = 0; t < triangles.size(); ++t)
   {
     if (!isAdded[t] || !welded.has(triangles[t]))

@@ -9,9 +9,8 @@ namespace hop
 
 /// Makes a mesh a manifold with boundary where only vertices keep it from being one: of several fans of triangles that
 /// touch in a vertex, the largest stays, and of two alike the one with the least particle.
-/// \param vertices where there may be several fans: those at open edges
 /// \return whether triangles were removed
-bool keepOneFan(const std::vector<int>& vertices, TriangleFans& fans);
+bool keepOneFan(TriangleFans& fans, const ParallelFor& parallelFor);
 
 /// Makes a mesh a manifold with boundary also where particles in one place are one vertex. Of triangles on one side of an
 /// edge the first stays: where many creases meet within a spacing, those of several sheets may end in the same two places.

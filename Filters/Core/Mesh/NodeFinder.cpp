@@ -146,6 +146,11 @@ Particle NodeFinder::straightParticle(const Location& start, const NodeLine& lin
   Particle particle = this->particleOf(this->Walker.move(from, step), spacing);
   particle.position = line.foot;
   particle.normal = line.direction;
+  if (!std::isfinite(particle.residual))
+  {
+    particle.residual =
+      line.scale; // the field stands still, or the element is flat; farther away it was not sought
+  }
   return particle;
 }
 

@@ -52,26 +52,6 @@ void countOpen(const Distribution& distribution, const ConstrainedEdges& edges,
   }
 }
 
-/// \return whether triangles were removed
-bool dropExtraFans(const Distribution& distribution, const ConstrainedEdges& edges,
-  TriangleFans& fans, const ParallelFor& parallelFor)
-{
-  std::vector<int> vertices;
-  for (const OpenLoop& loop : findOpenLoops(distribution.particles, edges, fans, parallelFor))
-  {
-    vertices.insert(vertices.end(), loop.particles.begin(), loop.particles.end());
-  }
-  // The surface may touch itself at its end.
-  for (const auto* edgesOf : { &distribution.edges.segments, &distribution.edges.directed })
-  {
-    for (const std::array<int, 2>& edge : *edgesOf)
-    {
-      vertices.insert(vertices.end(), edge.begin(), edge.end());
-    }
-  }
-  return keepOneFan(vertices, fans);
-}
-
 } // namespace
 
 SurfaceMesh meshSurface(const Isosurface& surface, Distribution& distribution,
@@ -84,10 +64,10 @@ SurfaceMesh meshSurface(const Isosurface& surface, Distribution& distribution,
   TriangleFans fans = agreedTriangles(neighbors, edges, parallel);
   fillHoles(surface, neighbors, edges, distribution, fans, parallel);
   // Holes that touched in a vertex have become one, which may be filled.
-  if (dropExtraFans(distribution, edges, fans, parallel))
+  if (keepOneFan(fans, parallel))
   {
     fillHoles(surface, neighbors, edges, distribution, fans, parallel);
-    dropExtraFans(distribution, edges, fans, parallel);
+    keepOneFan(fans, parallel);
   }
   joinLooseParticles(neighbors, edges, fans);
   const std::vector<int> places = firstInPlace(distribution.edges, distribution.particles.size());

@@ -480,6 +480,21 @@ TEST(FastDistribution, RefusesMoreParticlesThanTheLimit)
   EXPECT_FALSE(distribute(mesh, parameters).report.error.empty());
 }
 
+TEST(FastDistribution, RefusesStripsThatAreTooLongForTheSpacing)
+{
+  // By its area of 2e-9 the strip would take 2,300 particles, and one spacing after the other two million.
+  MeshRecipe recipe;
+  recipe.field = [](const glm::dvec3& x) { return x.x; };
+  ElementMesh mesh;
+  appendBox(mesh, recipe, { -1.0, -1.0, -5e-10 }, { 1.0, 1.0, 5e-10 });
+  findFaceNeighbors(mesh, 1e-12);
+  DistributionParameters parameters = withSpacing(1e-6);
+  parameters.particleLimit = 100'000;
+  const Distribution result = distribute(mesh, parameters);
+  EXPECT_TRUE(result.particles.empty());
+  EXPECT_NE(result.report.error.find("limit of 100000"), std::string::npos) << result.report.error;
+}
+
 TEST(FastDistribution, CountsParticlesBeforehandWhereMostStandCloseBecauseTheSurfaceBends)
 {
   // Two droplets far apart: at a thousandth of their distance they bend more than at the spacing asked for.

@@ -420,8 +420,11 @@ TEST(CurvedTriangles, LeavesNodesStraightWhereThereIsNoSurface)
   {
     EXPECT_TRUE(std::isfinite(particle.position.xyz.x));
     EXPECT_TRUE(std::isfinite(length(particle.normal)));
+    EXPECT_TRUE(std::isfinite(particle.residual));
   }
+  // The field stands still there.
   EXPECT_NEAR(particles[bent.nodes[4]].position.xyz.x, 0.0, 1e-12);
+  EXPECT_GE(particles[bent.nodes[4]].residual, 0.5);
 }
 
 } // namespace
