@@ -1,15 +1,16 @@
 """What every file costs with the properties that the panel chooses: tables for performance.md, and JSON if asked.
 
-    pvpython Testing/Benchmarks/default_costs.py PLUGIN [FOLDER ...] [--only WORD] [--repetitions N] [--json OUT.json]
+    pvpython Testing/Benchmarks/default_costs.py PLUGIN [FOLDER ...] [--only WORD] [--repetitions N] [--all] [--json OUT.json]
 
 Every grid of the FOLDERs (default: Testing/Data) is opened as the GUI would, and contoured with array, isovalue and
 spacing left as they come. Times are of the filter alone, the best of N runs (default 3), each by a new filter. On a
-machine that does other work processor times are the ones to compare: 'cpu' is that of a run on one thread. The second
-table has processor times as multiples of Standard's:
+machine that does other work processor times are the ones to compare: the first table has the one of a run on one
+thread, and the others as its multiples, all of them run in turns:
   Draft, High   the other levels of Quality
   number        NumberOfParticles, with the number that the spacing gives
-  warm          Warm Start after a step of the isovalue by STEP of the array's range, against a run from scratch there;
-                the two columns after it are evaluations a particle, warm and from scratch
+The second table, with --all, has elapsed times on two threads, and
+  warm          processor time of Warm Start after a step of the isovalue by STEP of the array's range, as a multiple
+                of a run from scratch there; the two columns after it are evaluations a particle, warm and from scratch
 """
 
 import argparse
@@ -42,13 +43,20 @@ def make(reader, **properties):
     return simple.HighOrderParticleIsosurface(Input=reader, **properties)
 
 
-def from_scratch(reader, repetitions, **properties):
-    runs = []
+def from_scratch(reader, **properties):
+    proxy = make(reader, **properties)
+    result = spent(proxy)
+    simple.Delete(proxy)
+    return result
+
+
+def in_turns(reader, repetitions, variants):
+    """The least times of each variant, a name and its properties: one run of each, then the next of each."""
+    runs = {name: [] for name in variants}
     for _ in range(repetitions):
-        proxy = make(reader, **properties)
-        runs.append(spent(proxy))
-        simple.Delete(proxy)
-    return least(runs)
+        for name, properties in variants.items():
+            runs[name].append(from_scratch(reader, **properties))
+    return {name: least(some) for name, some in runs.items()}
 
 
 def counted(proxy):
@@ -89,44 +97,44 @@ def continued(reader, before, after, repetitions):
     return result
 
 
-def measure(path, repetitions):
+def measure(path, repetitions, everything):
     reader = simple.OpenDataFile(str(path))
     reader.UpdatePipeline()
-    use_threads(2)
+    use_threads(1)
     result = {"file": path.name} | facts(reader)
     if result["particles"] == 0:
         return result
-    result["two threads"] = from_scratch(reader, repetitions)
-    use_threads(1)
-    result["one thread"] = from_scratch(reader, repetitions)
-    for quality in ("Draft", "High"):
-        result[quality] = from_scratch(reader, repetitions, Quality=quality)
-    result["number"] = from_scratch(reader, repetitions, NumberOfParticles=result["particles"])
-    after = stepped(reader, result)
-    result["warm"] = continued(reader, result["isovalues"], after, repetitions)
-    result["scratch"] = from_scratch(reader, repetitions, Isosurfaces=after) | facts(reader, Isosurfaces=after)
+    variants = {"one thread": {}, "Draft": {"Quality": "Draft"}, "High": {"Quality": "High"},
+                "number": {"NumberOfParticles": result["particles"]}}
+    result |= in_turns(reader, repetitions, variants)
+    if everything:
+        after = stepped(reader, result)
+        result["warm"] = continued(reader, result["isovalues"], after, repetitions)
+        scratch = in_turns(reader, repetitions, {"scratch": {"Isosurfaces": after}})["scratch"]
+        result["scratch"] = scratch | facts(reader, Isosurfaces=after)
+        use_threads(2)
+        result |= in_turns(reader, repetitions, {"two threads": {}})
     simple.Delete(reader)
     return result
 
 
 def print_costs(results):
-    print("\n| file | surface | particles | evaluations a particle | 1 thread, s | cpu, s | cpu, µs a particle "
-          "| 2 threads, s | µs a particle |\n|---|---|---|---|---|---|---|---|---|")
+    print("\n| file | surface | particles | evaluations a particle | s | µs a particle | Draft | High | number |"
+          "\n|---|---|---|---|---|---|---|---|---|")
     for r in results:
         surface = f"{r['array']} = {', '.join(f'{v:.4g}' for v in r['isovalues'])}"
-        one, two = r["one thread"], r["two threads"]
-        print(f"| `{r['file']}` | {surface} | {r['particles']:,} | {r['evaluations']:.1f} | {one['wall']:.3f} "
-              f"| {one['cpu']:.3f} | {1e6 * one['cpu'] / r['particles']:.1f} "
-              f"| {two['wall']:.3f} | {1e6 * two['wall'] / r['particles']:.1f} |")
+        cpu = r["one thread"]["cpu"]
+        others = " | ".join(f"{r[name]['cpu'] / cpu:.2f}" for name in ("Draft", "High", "number"))
+        print(f"| `{r['file']}` | {surface} | {r['particles']:,} | {r['evaluations']:.1f} | {cpu:.3f} "
+              f"| {1e6 * cpu / r['particles']:.1f} | {others} |")
 
 
-def print_ratios(results):
-    print("\n| file | Draft | High | number | warm | evaluations warm | from scratch |\n|---|---|---|---|---|---|---|")
+def print_more(results):
+    print("\n| file | 2 threads, s | µs a particle | warm | evaluations warm | from scratch |\n|---|---|---|---|---|---|")
     for r in results:
-        others = [f"{r[name]['cpu'] / r['one thread']['cpu']:.2f}" for name in ("Draft", "High", "number")]
-        warm, scratch = r["warm"], r["scratch"]
-        print(f"| `{r['file']}` | {' | '.join(others)} | {warm['cpu'] / scratch['cpu']:.2f} "
-              f"| {warm['evaluations']:.1f} | {scratch['evaluations']:.1f} |")
+        two, warm, scratch = r["two threads"], r["warm"], r["scratch"]
+        print(f"| `{r['file']}` | {two['wall']:.3f} | {1e6 * two['wall'] / r['particles']:.1f} "
+              f"| {warm['cpu'] / scratch['cpu']:.2f} | {warm['evaluations']:.1f} | {scratch['evaluations']:.1f} |")
 
 
 def main():
@@ -135,6 +143,7 @@ def main():
     parser.add_argument("folders", nargs="*", type=Path)
     parser.add_argument("--only", default="", help="part of the names of the files wanted")
     parser.add_argument("--repetitions", type=int, default=3)
+    parser.add_argument("--all", action="store_true", help="two threads and warm starts, too")
     parser.add_argument("--json", type=Path)
     arguments = parser.parse_args()
     folders = arguments.folders or [Path(__file__).parent.parent / "Data"]
@@ -145,7 +154,7 @@ def main():
     for name in sorted(paths):
         if arguments.only not in name:
             continue
-        result = measure(paths[name], arguments.repetitions)
+        result = measure(paths[name], arguments.repetitions, arguments.all)
         if result["particles"] == 0:
             print(f"{name}: no particles", flush=True)
             continue
@@ -154,7 +163,8 @@ def main():
         if arguments.json:
             arguments.json.write_text(json.dumps(results, indent=1))
     print_costs(results)
-    print_ratios(results)
+    if arguments.all:
+        print_more(results)
 
 
 main()

@@ -264,7 +264,7 @@ bool FastSystem::estimateCount()
 }
 
 /// Makes the proxy, and traces the boundary curves. From then on the surface ends where the field jumps, and the
-/// sizing function is lowered at creases.
+/// sizing function is lowered at creases, but not in drafts.
 void FastSystem::prepareSurface()
 {
   this->Surface.jumpTolerances = nullptr;
@@ -273,9 +273,12 @@ void FastSystem::prepareSurface()
   this->Work.ask();
   this->Jumps = findFaceJumps(this->Surface, *this->Proxy, this->Parallel);
   std::int64_t cost = this->Jumps.evaluations;
-  this->Proxy->limitSpacings(
-    findCreaseSpacings(this->Surface, *this->Proxy, this->Jumps, this->Parallel, cost),
-    this->Parallel);
+  if (this->Parameters.quality != Quality::Draft)
+  {
+    this->Proxy->limitSpacings(
+      findCreaseSpacings(this->Surface, *this->Proxy, this->Jumps, this->Parallel, cost),
+      this->Parallel);
+  }
   this->Surface.jumpTolerances = &this->Jumps.jumpTolerances;
   this->Work.ask();
   this->traceBoundaryCurves();

@@ -16,8 +16,11 @@ namespace
 /// Exchange of crowded particles for others in gaps. All numbers were chosen by experiment.
 struct Exchange
 {
-  /// Largest number of exchanges, each followed by relaxation. More: fewer crowded pairs, more evaluations.
-  static constexpr int Times = 3;
+  /// Largest number of exchanges that are followed by relaxation; one more is not. More: fewer crowded pairs, more
+  /// evaluations.
+  static constexpr int Times = 1;
+  /// What is relaxed. Larger: more evaluations, and where particles stand close as many new crowded pairs as there were.
+  static constexpr RepairRegion Region{ 1.5 };
   /// Least distance between particles that are added or removed at once, in units of the spacing, as long as there are
   /// enough such places. Smaller: two may go into the same gap; larger: worse places are used.
   static constexpr double Distance = 2.0;
@@ -146,7 +149,7 @@ void NumberMatcher::run()
     {
       return;
     }
-    relaxAround(changed, Balance::None, this->Moving, this->Parallel);
+    relaxAround(changed, Balance::None, this->Moving, this->Parallel, Exchange::Region);
   }
 }
 

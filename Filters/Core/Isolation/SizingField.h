@@ -1,18 +1,15 @@
 #pragma once
 
-#include "Common/Monitor.h"
 #include "Support/Buffer.h"
+#include "Support/GradationTree.h"
 #include "Surface/SizingFunction.h"
 
 #include <glm/glm.hpp>
 
-#include <memory>
 #include <vector>
 
 namespace hop
 {
-
-class SpacingGrid;
 
 /// Spacing that particles want everywhere on the surface: the spacing of a sizing function at the curvature there, or
 /// less near places that limit it. Gradation limits how fast the spacing grows with the distance from a place, as
@@ -22,19 +19,13 @@ class SizingField
 {
 public:
   explicit SizingField(const SizingFunction& sizing);
-  SizingField(SizingField&&) noexcept;
-  ~SizingField();
 
   /// A place at which particles are to have a spacing at most, world units.
-  struct Limit
-  {
-    glm::dvec3 position{ 0.0 };
-    float spacing = 0.0f;
-  };
+  using Limit = GradationTree::Place;
 
-  /// Adds places. From the smallest spacing on, each new place then limits the spacings of all places around it.
-  /// \param parallelFor is asked for an early end now and then
-  void add(const std::vector<Limit>& limits, const ParallelFor& parallelFor);
+  /// Adds places, which limit the spacings around them and around the places before.
+  /// \param parallelFor is asked for an early end, too
+  void add(std::vector<Limit> limits, const ParallelFor& parallelFor);
 
   /// Multiplies all spacings by a factor, and the slope of the gradation with them.
   void scale(double factor) { this->Scale *= factor; }
@@ -49,13 +40,8 @@ public:
   /// The smaller one of a spacing and of what the places around a position allow.
   float limited(const glm::dvec3& position, float spacing) const;
 
-  /// Spacing of a place, in the order in which places were added.
-  float spacingOf(std::size_t place) const
-  {
-    return static_cast<float>(this->Scale * this->Spacings[place]);
-  }
-
-  std::size_t placeCount() const { return this->Spacings.size(); }
+  /// Number of places that limit spacings. Places whose spacing others limit are not among them.
+  std::size_t placeCount() const { return this->Tree.places().size(); }
 
   /// Before spacings were scaled.
   const SizingFunction& sizing() const { return this->Sizing; }
@@ -66,14 +52,9 @@ public:
   static constexpr double GradationSlope = 0.3;
 
 private:
-  void limitGradation(std::size_t first, const ParallelFor& parallelFor);
-
   SizingFunction Sizing;
   double Scale = 1.0;
-  std::vector<glm::dvec3> Positions;
-  std::vector<float> Spacings;
-  /// For looking up the places around a position; nullptr until places were added.
-  std::unique_ptr<SpacingGrid> Grid;
+  GradationTree Tree;
 };
 
 /// Chooses places that stand for others close to them, compared with their spacings. Where places are dense, looking at

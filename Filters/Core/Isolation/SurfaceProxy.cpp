@@ -344,8 +344,9 @@ bool SurfaceProxy::samplePatiently(std::size_t b, std::int64_t& evaluations)
 
 /// Samples whose spacings are places of the sizing field. Boxes that are neither certified nor straddle may hold no
 /// surface: their samples do not limit spacings.
-std::vector<SizingField::Limit> SurfaceProxy::chooseRepresentatives()
+std::vector<SizingField::Limit> SurfaceProxy::chooseRepresentatives() const
 {
+  std::vector<int> representatives;
   std::vector<glm::dvec3> positions;
   std::vector<float> spacings;
   for (std::size_t b = 0; b < this->Samples.size(); ++b)
@@ -353,14 +354,14 @@ std::vector<SizingField::Limit> SurfaceProxy::chooseRepresentatives()
     const bool isTrusted = this->Boxes[b].certified || this->Boxes[b].straddles;
     if (this->Samples[b].found && isTrusted)
     {
-      this->Representatives.push_back(static_cast<int>(b));
+      representatives.push_back(static_cast<int>(b));
       positions.push_back(this->Samples[b].patch.position);
       spacings.push_back(this->Samples[b].patch.spacing);
     }
   }
-  keepMarked(this->Representatives, markRepresentatives(positions, spacings));
+  keepMarked(representatives, markRepresentatives(positions, spacings));
   std::vector<SizingField::Limit> chosen;
-  for (const int sample : this->Representatives)
+  for (const int sample : representatives)
   {
     const Patch& patch = this->Samples[sample].patch;
     chosen.push_back({ patch.position, patch.spacing });
@@ -378,10 +379,6 @@ void SurfaceProxy::limitSamples(const ParallelFor& parallelFor)
       patch.spacing =
         this->Samples[b].found ? this->Field.limited(patch.position, patch.spacing) : patch.spacing;
     });
-  for (std::size_t i = 0; i < this->Representatives.size(); ++i)
-  {
-    this->Samples[this->Representatives[i]].patch.spacing = this->Field.spacingOf(i);
-  }
 }
 
 /// Sums up the numbers of particles of the boxes.

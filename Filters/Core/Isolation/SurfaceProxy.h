@@ -131,7 +131,7 @@ private:
   bool stepInBox(std::size_t box, Location& place) const;
   bool samplePatiently(std::size_t box, std::int64_t& evaluations);
   bool sampleAt(std::size_t box, const Location& place, const Jet& jet);
-  std::vector<SizingField::Limit> chooseRepresentatives();
+  std::vector<SizingField::Limit> chooseRepresentatives() const;
   void limitSamples(const ParallelFor& parallelFor);
   void findSmallestSpacing();
   void sumWeights(const ParallelFor& parallelFor);
@@ -149,8 +149,6 @@ private:
   std::vector<double> Sums;
   std::int64_t Evaluations = 0;
   double SmallestSpacing = 0.0;
-  /// Samples that are the first places of the sizing field, in this order.
-  std::vector<int> Representatives;
 };
 
 } // namespace hop

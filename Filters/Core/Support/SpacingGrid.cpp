@@ -119,28 +119,6 @@ int SpacingGrid::levelOf(double spacing) const
   return std::min(level, std::max(0, this->LevelCount - 1));
 }
 
-float SpacingGrid::withGradation(const glm::dvec3& position, float spacing, double slope) const
-{
-  double least = spacing;
-  for (int level = 0; level < this->LevelCount && level <= this->levelOf(least); ++level)
-  {
-    const double smallest = std::ldexp(this->SmallestSpacing, level);
-    const double radius =
-      std::min(this->Reach * this->LargestSpacings[level], (least - smallest) / slope);
-    this->visitLevel(level, position - radius, position + radius,
-      [&](int j)
-      {
-        const glm::dvec3 apart = position - this->Positions[j];
-        const double room = (least - this->Spacings[j]) / slope;
-        if (room > 0.0 && glm::dot(apart, apart) < room * room)
-        {
-          least = this->Spacings[j] + slope * glm::length(apart);
-        }
-      });
-  }
-  return static_cast<float>(least);
-}
-
 SpacingGrid::Cell SpacingGrid::cellOf(const glm::dvec3& position, int level) const
 {
   // Queries may ask for cell 0, just outside of the bounds. Numbers are not negative, so that truncation is floor.

@@ -35,17 +35,6 @@ public:
   template <class Use>
   void visit(const glm::dvec3& position, double spacing, const Use& use) const;
 
-  /// Calls use(j) for every point whose spacing exceeds `spacing` by more than slope times its distance from the
-  /// position, and which is within reach times its own spacing of the position: gradation asks it to lower its spacing.
-  /// Some other points come along: the caller tests.
-  template <class Use>
-  void visitCoarser(const glm::dvec3& position, double spacing, double slope, const Use& use) const;
-
-  /// The spacing that gradation allows at a position: the least of `spacing` and of what the points allow, which is
-  /// their spacing plus slope times their distance. Points count that are within reach times their own spacing of the
-  /// position; some farther off may count, too.
-  float withGradation(const glm::dvec3& position, float spacing, double slope) const;
-
   /// The points of a cell, ascending.
   struct Points
   {
@@ -200,18 +189,6 @@ void SpacingGrid::visitBox(const glm::dvec3& lower, const glm::dvec3& upper, dou
     const double largest = this->LargestSpacings[level];
     const double radius = this->Reach * 2.0 * spacing * largest / (spacing + largest);
     this->visitLevel(level, lower - radius, upper + radius, use);
-  }
-}
-
-template <class Use>
-void SpacingGrid::visitCoarser(
-  const glm::dvec3& position, double spacing, double slope, const Use& use) const
-{
-  for (int level = this->levelOf(spacing); level < this->LevelCount; ++level)
-  {
-    const double largest = this->LargestSpacings[level];
-    const double radius = std::min(this->Reach * largest, (largest - spacing) / slope);
-    this->visitLevel(level, position - radius, position + radius, use);
   }
 }
 

@@ -159,62 +159,10 @@ TEST(SpacingGrid, VisitsAroundACellWhatItsPointsSee)
   }
 }
 
-TEST(SpacingGrid, VisitsCoarserPointsThatHaveToLowerTheirSpacing)
-{
-  const SpacedPoints points = slab(1500, 4.0);
-  const SpacingGrid grid(points.positions, points.spacings, reach);
-  std::size_t found = 0;
-  for (const double slope : { 0.25, 1.0, 3.0 })
-  {
-    for (std::size_t i = 0; i < 1500; i += 3)
-    {
-      const double spacing = 0.3 * points.spacings[i];
-      const auto expected = byBruteForce(1500,
-        [&](std::size_t j)
-        {
-          const double distance = glm::distance(points.positions[i], points.positions[j]);
-          return points.spacings[j] > spacing + slope * distance &&
-            distance < reach * points.spacings[j];
-        });
-      found += expected.size();
-      expectAmong(expected,
-        visited(
-          [&](const auto& use) { grid.visitCoarser(points.positions[i], spacing, slope, use); }));
-    }
-  }
-  EXPECT_GT(found, 1000u);
-}
-
-TEST(SpacingGrid, LimitsTheSlopeOfSpacings)
-{
-  const SpacedPoints points = slab(1500, 4.0);
-  const SpacingGrid grid(points.positions, points.spacings, reach);
-  constexpr double slope = 0.25;
-  int lowered = 0;
-  for (std::size_t i = 0; i < 1500; i += 3)
-  {
-    const float wanted = 3.0f * points.spacings[i];
-    double inReach = wanted, ofAll = wanted;
-    for (std::size_t j = 0; j < 1500; ++j)
-    {
-      const double distance = glm::distance(points.positions[i], points.positions[j]);
-      const double limit = points.spacings[j] + slope * distance;
-      inReach = distance < reach * points.spacings[j] ? std::min(inReach, limit) : inReach;
-      ofAll = std::min(ofAll, limit);
-    }
-    lowered += inReach < wanted;
-    const double actual = grid.withGradation(points.positions[i], wanted, slope);
-    EXPECT_LE(actual, inReach * (1.0 + 1e-6));
-    EXPECT_GE(actual, ofAll * (1.0 - 1e-6));
-  }
-  EXPECT_EQ(lowered, 500);
-}
-
 TEST(SpacingGrid, MayBeEmptyOrHaveAllPointsInOnePlace)
 {
   const SpacingGrid none(Buffer<glm::dvec3>(), Buffer<float>(), reach);
   none.visit(glm::dvec3(0.0), 1.0, [](int) { ADD_FAILURE(); });
-  EXPECT_EQ(none.withGradation(glm::dvec3(0.0), 1.0f, 0.5), 1.0f);
 
   const Buffer<glm::dvec3> positions(20, glm::dvec3(2.0));
   const Buffer<float> spacings(20, 0.5f);
