@@ -7,7 +7,15 @@ import cells
 import numpy as np
 import pytest
 import support
-from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, VTK_LAGRANGE_HEXAHEDRON, VTK_LAGRANGE_WEDGE, VTK_WEDGE
+from highorderparticles import vtkHighOrderParticleSlice
+from vtkmodules.vtkCommonDataModel import (
+    VTK_HEXAHEDRON,
+    VTK_LAGRANGE_HEXAHEDRON,
+    VTK_LAGRANGE_WEDGE,
+    VTK_WEDGE,
+    vtkPlane,
+    vtkSphere,
+)
 from vtkmodules.vtkFiltersSources import vtkCellTypeSource
 
 
@@ -118,6 +126,68 @@ def test_particles_of_real_files_do_not_depend_on_units(data, file):
             # Equal but for numbers below the smallest normal double, 2e-308, which have fewer bits.
             difference = np.abs(support.array_of(particles, array) / unit - support.array_of(plain, array))
             assert np.all(difference <= 5e-324 / unit), array
+
+
+def corners_of(mesh):
+    cells_of_mesh = mesh.GetPolys() if mesh.IsA("vtkPolyData") else mesh.GetCells()
+    return support.vtk_to_numpy(cells_of_mesh.GetConnectivityArray())
+
+
+@pytest.mark.parametrize("kind", ["Triangles", "Curved Triangles"])
+@pytest.mark.parametrize("file", ["mfem_torus_wedge_p4.vtu", "dolfinx_tet_p3.vtu", "yeti_pipe_bezier_rational_p423.vtu"])
+def test_meshes_do_not_depend_on_units(data, file, kind):
+    grid = support.output_of(support.read(data(file)))
+    name, component, isovalue = contoured(grid)
+
+    def mesh_in(length, value):
+        scaled = in_other_units(grid, name, length, value)
+        spacing = 0.03 * length * support.longest_side(grid)
+        mesh, messages = support.run(
+            scaled, name, value * isovalue, Component=component, OutputType=kind, Spacing=spacing)
+        assert messages.errors == []
+        return mesh
+
+    plain = mesh_in(1.0, 1.0)
+    assert plain.GetNumberOfCells() > 100
+    for length, value in [(SMALL, LARGE), (LARGE, SMALL)]:
+        mesh = mesh_in(length, value)
+        np.testing.assert_array_equal(support.points_of(mesh) / length, support.points_of(plain))
+        np.testing.assert_array_equal(corners_of(mesh), corners_of(plain))
+        for array in ("Area", "Mean_Curvature", "Normals", "Residual"):
+            unit = float(length) ** LENGTHS.get(array, 0)
+            difference = np.abs(support.array_of(mesh, array) / unit - support.array_of(plain, array))
+            assert np.all(difference <= 5e-324 / unit), array
+
+
+@pytest.mark.parametrize("kind", ["plane", "sphere"])
+@pytest.mark.parametrize("file", ["mfem_hex1_p8.vtu", "vtkdata_pyramid_quadratic.vtu"])
+def test_slices_do_not_depend_on_units(data, file, kind):
+    grid = support.output_of(support.read(data(file)))
+    side, middle = support.longest_side(grid), np.reshape(grid.GetBounds(), (3, 2)).mean(axis=1)
+
+    def slice_in(length):
+        cut = vtkHighOrderParticleSlice()
+        scaled = grid.NewInstance()
+        scaled.ShallowCopy(grid)
+        cells.set_points(scaled, length * support.points_of(grid))
+        function = vtkPlane() if kind == "plane" else vtkSphere()
+        if kind == "plane":
+            function.SetOrigin(length * middle)
+            function.SetNormal(0.6, 0.64, 0.48)
+        else:
+            function.SetCenter(length * middle)
+            function.SetRadius(length * 0.3 * side)
+        cut.SetInputDataObject(scaled)
+        cut.SetCutFunction(function)
+        cut.SetSpacing(length * 0.03 * side)
+        cut.SetValue(0, 0.0)
+        cut.Update()
+        return support.points_of(cut.GetOutputDataObject(0))
+
+    plain = slice_in(1.0)
+    assert len(plain) > 100
+    for length in (SMALL, LARGE):
+        np.testing.assert_array_equal(slice_in(length) / length, plain)
 
 
 @pytest.mark.parametrize("factor", [2.0**-700, 2.0**700])
