@@ -50,6 +50,12 @@ double isovalueBetween(double low, double high)
   return isovalue == 0.0 && low < 0.0 ? roundedToRange(aside * range, range) : isovalue;
 }
 
+/// 0 for values beyond what doubles hold, as derivatives of large values may be; never -0, which panels show.
+double finiteOrZero(double value)
+{
+  return std::isfinite(value) ? value + 0.0 : 0.0;
+}
+
 } // namespace
 
 vtkStandardNewMacro(vtkSMIsovalueDomain);
@@ -62,23 +68,24 @@ int vtkSMIsovalueDomain::SetDefaultValues(vtkSMProperty* property, bool useUnche
   // Share of the values that is left out at either end. Larger shares hide small regions of extreme values, smaller
   // ones let a few wrong values decide. Chosen by experiment.
   constexpr double leftOut = 0.01;
-  // Share of the cells in which the Q criterion is above its default, and Lambda 2 below its own. Larger shares show the shear layers between vortices,
-  // too, smaller ones the cores of the strongest vortices alone. Chosen by experiment.
+  // Share of the cells in which the Q criterion is above its default, and Lambda 2 below its own. Larger shares show the
+  // shear layers between vortices, too, smaller ones the cores of the strongest vortices alone. Chosen by experiment.
   constexpr double inVortices = 0.05;
-  if (this->GetQuantity(true) == vtkHighOrderParticleIsosurface::EXPRESSION)
+  const int quantity = this->GetQuantity(true);
+  if (quantity == vtkHighOrderParticleIsosurface::EXPRESSION)
   {
     return 1; // what values a formula has is not known here: the value stays
   }
   vtkNew<vtkPVQuantileInformation> values;
-  values->SetQuantity(this->GetQuantity(true));
+  values->SetQuantity(quantity);
   this->Gather(values.Get());
   if (!values->HasValues())
   {
-    return this->Superclass::SetDefaultValues(property, useUnchecked);
+    // The array may lack the quantity, as a scalar lacks a divergence: what stands here serves the next choice.
+    return isDerived ? 1 : this->SetMiddleOfRange(property, useUnchecked);
   }
   const double low = values->GetQuantile(leftOut);
   const double high = values->GetQuantile(1.0 - leftOut);
-  const int quantity = this->GetQuantity(true);
   double isovalue = isovalueBetween(low, high);
   const double largeQ = values->GetQuantile(1.0 - inVortices);
   const double smallLambda2 = values->GetQuantile(inVortices);
@@ -91,17 +98,34 @@ int vtkSMIsovalueDomain::SetDefaultValues(vtkSMProperty* property, bool useUnche
   {
     isovalue = roundedToRange(smallLambda2, -smallLambda2);
   }
-  if (this->GetQuantity(true) == vtkHighOrderParticleIsosurface::VALUE)
+  if (quantity == vtkHighOrderParticleIsosurface::VALUE)
   {
     isovalue = this->ValueOfLargeSurface(low, high, isovalue);
+  }
+  else if (low == high && low != 0.0) // of one cell, there is one sample
+  {
+    isovalue = roundedToRange(low, std::abs(low));
   }
   vtkSMPropertyHelper isovalues(property);
   isovalues.SetUseUnchecked(useUnchecked);
   isovalues.SetNumberOfElements(1);
-  isovalues.Set(0, isovalue);
-  this->Unchecked = { this->GetChoice(true), { isovalue } };
+  isovalues.Set(0, finiteOrZero(isovalue));
+  this->Unchecked = { this->GetChoice(true), { finiteOrZero(isovalue) } };
   this->Checked = useUnchecked ? this->Checked : this->Unchecked;
   return 1;
+}
+
+/// ParaView's default; 0 where that is not finite, as of arrays that have NaN only: the filter then says what they are.
+int vtkSMIsovalueDomain::SetMiddleOfRange(vtkSMProperty* property, bool useUnchecked)
+{
+  const int isSet = this->Superclass::SetDefaultValues(property, useUnchecked);
+  vtkSMPropertyHelper isovalues(property);
+  isovalues.SetUseUnchecked(useUnchecked);
+  for (unsigned int i = 0; i < isovalues.GetNumberOfElements(); ++i)
+  {
+    isovalues.Set(i, finiteOrZero(isovalues.GetAsDouble(i)));
+  }
+  return isSet;
 }
 
 void vtkSMIsovalueDomain::Update(vtkSMProperty* changed)

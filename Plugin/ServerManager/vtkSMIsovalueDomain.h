@@ -57,6 +57,7 @@ private:
   /// Quantity, component and array, as text.
   std::string GetChoice(bool useUnchecked);
   void FollowChoice(bool useUnchecked);
+  int SetMiddleOfRange(vtkSMProperty* property, bool useUnchecked);
   int GetQuantity(bool useUnchecked);
   double ValueOfLargeSurface(double low, double high, double isovalue);
 

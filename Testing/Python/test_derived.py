@@ -337,6 +337,36 @@ def test_default_isovalue_follows_the_quantity(data):
     assert list(proxy.Isosurfaces) == [0.123]
 
 
+def test_the_default_isovalue_of_one_cell_is_rounded(data):
+    proxy = simple.HighOrderParticleIsosurface(Input=support.read(data("mfem_hex1_p8.vtu")))
+    proxy.Quantity = "Gradient Magnitude"
+    assert proxy.Isosurfaces[0] > 0 and float(f"{proxy.Isosurfaces[0]:.3g}") == proxy.Isosurfaces[0]
+
+
+def test_a_quantity_that_a_scalar_lacks_leaves_the_default_isovalue(data):
+    proxy = simple.HighOrderParticleIsosurface(Input=support.read(data("mfem_hex1_p8.vtu")))
+    isovalue = proxy.Isosurfaces[0]
+    for quantity in ("Divergence", "Q Criterion"):
+        proxy.Quantity = quantity
+        assert list(proxy.Isosurfaces) == [isovalue]
+        proxy.Quantity = "Value"
+        assert list(proxy.Isosurfaces) == [isovalue]
+    proxy.Quantity = "Gradient Magnitude"
+    assert proxy.Isosurfaces[0] != isovalue, "it is untouched still"
+
+
+@pytest.mark.parametrize("quantity", ["Value", "Gradient Magnitude", "Q Criterion"])
+@pytest.mark.parametrize("value", [np.nan, np.inf, 1e300, 0.0])
+def test_the_default_isovalue_is_a_number(quantity, value):
+    grid = cells.straight_grid("LAGRANGE_HEXAHEDRON", order=2, blocks=2)
+    support.add_point_array(grid, "u", value * support.points_of(grid) ** 2)
+    proxy = simple.HighOrderParticleIsosurface(Input=support.source_of(grid))
+    proxy.ContourBy = ["POINTS", "u"]
+    proxy.Quantity = quantity
+    assert np.isfinite(proxy.Isosurfaces[0])
+    assert not np.signbit(proxy.Isosurfaces[0]) or proxy.Isosurfaces[0] < 0.0, "no -0"
+
+
 def test_threads_do_not_matter():
     grid = bent_grid("LAGRANGE_WEDGE")
     support.add_point_array(grid, "u", np.sin(3.0 * support.points_of(grid)[:, [1, 2, 0]]))
