@@ -82,7 +82,9 @@ int vtkSMIsovalueDomain::SetDefaultValues(vtkSMProperty* property, bool useUnche
   if (!values->HasValues())
   {
     // The array may lack the quantity, as a scalar lacks a divergence: what stands here serves the next choice.
-    return isDerived ? 1 : this->SetMiddleOfRange(property, useUnchecked);
+    return quantity == vtkHighOrderParticleIsosurface::VALUE
+      ? this->SetMiddleOfRange(property, useUnchecked)
+      : 1;
   }
   const double low = values->GetQuantile(leftOut);
   const double high = values->GetQuantile(1.0 - leftOut);
