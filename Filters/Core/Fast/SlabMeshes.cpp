@@ -26,7 +26,10 @@ public:
 
 private:
   template <class Use>
-  bool attempt(const Use& use);
+  bool attempt(const Use& use)
+  {
+    return attemptOnAll(this->Ranks, this->IsSound, this->Result.failure, use);
+  }
   bool gather(const ElementMesh& mine, std::int64_t cells, const Slab& slab, int worker,
     GatheredMesh& all, const ParallelFor& parallelFor);
 
@@ -35,26 +38,6 @@ private:
   bool IsSound;
   SlabMeshes Result;
 };
-
-/// Does some work, unless something has failed before.
-/// \return whether it has been done on all ranks
-template <class Use>
-bool SlabGathering::attempt(const Use& use)
-{
-  try
-  {
-    if (this->IsSound)
-    {
-      use();
-    }
-  }
-  catch (...)
-  {
-    this->IsSound = false;
-    this->Result.failure = std::current_exception();
-  }
-  return allAgree(this->Ranks, this->IsSound);
-}
 
 /// Gathers the elements of one slab, so that no rank keeps copies for more than one.
 bool SlabGathering::gather(const ElementMesh& mine, std::int64_t cells, const Slab& slab,

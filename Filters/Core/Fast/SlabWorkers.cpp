@@ -55,7 +55,10 @@ private:
   }
   Worker& workerOf(std::size_t slab);
   template <class Use>
-  bool attempt(const Use& use);
+  bool attempt(const Use& use)
+  {
+    return attemptOnAll(this->Ranks, this->IsSound, this->Result.failure, use);
+  }
   Monitor monitorOf(std::size_t worker, const Monitor& monitor);
   void makeWorkers(const std::vector<GatheredMesh>& meshes, const Isosurface& surface,
     const DistributionParameters& parameters, const Monitor& monitor,
@@ -78,26 +81,6 @@ Worker& SlabWorkers::workerOf(std::size_t slab)
 {
   return **std::find_if(this->Workers.begin(), this->Workers.end(),
     [slab](const std::unique_ptr<Worker>& worker) { return worker->slab == slab; });
-}
-
-/// Does some work with this rank's workers, unless something has failed before.
-/// \return whether it has been done on all ranks
-template <class Use>
-bool SlabWorkers::attempt(const Use& use)
-{
-  try
-  {
-    if (this->IsSound)
-    {
-      use();
-    }
-  }
-  catch (...)
-  {
-    this->IsSound = false;
-    this->Result.failure = std::current_exception();
-  }
-  return this->areAllSound();
 }
 
 /// A worker's part of the progress.

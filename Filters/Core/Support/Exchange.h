@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <exception>
 #include <type_traits>
 #include <vector>
 
@@ -71,6 +72,28 @@ inline bool allAgree(Exchange& exchange, bool mine)
     }
   }
   return true;
+}
+
+/// Does some work, unless something has failed before.
+/// \param isSound whether nothing has failed on this rank
+/// \param failure of the work on this rank, if it fails
+/// \return whether it has been done on all ranks
+template <class Use>
+bool attemptOnAll(Exchange& exchange, bool& isSound, std::exception_ptr& failure, const Use& use)
+{
+  try
+  {
+    if (isSound)
+    {
+      use();
+    }
+  }
+  catch (...)
+  {
+    isSound = false;
+    failure = std::current_exception();
+  }
+  return allAgree(exchange, isSound);
 }
 
 template <class T>
