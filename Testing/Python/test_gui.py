@@ -109,7 +109,9 @@ FILTERS_PANEL = f"{PANEL}/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetCont
 EDITS = {
     "Contour By": ("SelectInputScalars", "ComboBox", "activated", "velocity"),
     "Component": ("Component", "ComboBox", "activated", "Y"),
-    "Quantity": ("Quantity", "ComboBox", "activated", "Divergence"),
+    "Quantity": ("Quantity", "ComboBox", "activated", "Expression"),
+    "Expression": ("Expression", "Expression", "set_string", "2 * u"),  # there for this quantity
+    "Derivatives": ("Derivatives", "ComboBox", "activated", "Averaged At Nodes"),
     "Isosurfaces": ("ContourValues", "ScalarValueList/Add", "activate", ""),
     "Pass Derivatives": ("PassDerivatives", "CheckBox", "set_boolean", "true"),
     "Spacing": ("Spacing", "DoubleRangeWidget/DoubleLineEdit", "set_string", "0.25"),
@@ -130,7 +132,8 @@ EDITS = {
 # As the state file has them.
 EDITED = {
     "SelectInputScalars": ["", "", "", "0", "velocity"], "Component": ["1"], "Spacing": ["0.25"], "AngularDensity": ["3"],
-    "SmallestSpacing": ["0.125"], "Quantity": ["2"], "PassDerivatives": ["1"], "ParticlesPerWorker": ["5000"],
+    "SmallestSpacing": ["0.125"], "Quantity": ["6"], "PassDerivatives": ["1"], "ParticlesPerWorker": ["5000"],
+    "Expression": ["2 * u"], "Derivatives": ["1"],
     "Quality": ["2"], "Tolerance": ["0.000001"], "NodeSpacing": ["1"], "WarmStart": ["1"], "Method": ["0"], "Seed": ["7"],
     "NumberOfParticles": ["400"], "PassDiagnostics": ["1"], "OutputType": ["2"], "Order": ["3"],
 }

@@ -19,7 +19,6 @@ using Value = std::array<double, 9>;
 
 constexpr int ScalarSize = 1;
 constexpr int VectorSize = 3;
-constexpr int TensorSize = 9;
 
 /// A part of the formula: how many numbers it has, and what they are at a point.
 struct Term
