@@ -252,5 +252,5 @@ def test_no_offset_is_a_warning():
 def test_properties_are_those_of_the_isosurface(data):
     source = support.read(data("mfem_hex1_p8.vtu"))
     isosurface, cut = simple.HighOrderParticleIsosurface(Input=source), simple.HighOrderParticleSlice(Input=source)
-    contoured = {"ContourBy", "Component", "Quantity", "Isosurfaces", "PassDerivatives"}
+    contoured = {"ContourBy", "Component", "Quantity", "Expression", "Derivatives", "Isosurfaces", "PassDerivatives"}
     assert set(cut.ListProperties()) - {"InputBounds"} == set(isosurface.ListProperties()) - contoured | {"SliceType", "SliceOffsetValues"}
