@@ -333,6 +333,10 @@ void BoundarySampler::followOtherSide(std::size_t stretch, const ParallelFor& pa
   Location place = vertices[middle].leaving.at.location;
   place.u = place.u + 0.5 * (vertices[middle + 1].arriving.at.location.u - place.u);
   const FaceNeighbor& behind = this->Surface.mesh->neighbor(place.element, crease.creaseFace);
+  if (behind.element < 0)
+  {
+    return; // the curve has come to another element, as it may in flat ones
+  }
   const auto start = this->Tracer.project(
     crossFace(*this->Surface.mesh, place, crease.creaseFace), behind.face, nearby);
   if (start && !this->Tracer.isTraced(*start))

@@ -16,6 +16,7 @@ const std::array<std::pair<double, double>, 2> lineHalves{ { { 0.0, 0.5 }, { 0.5
 std::vector<ReferencePart> halvesOfHexahedron()
 {
   std::vector<ReferencePart> parts;
+  parts.reserve(8);
   for (int n = 0; n < 8; ++n)
   {
     parts.push_back({ 0.5 * glm::dvec3(n % 2, n / 2 % 2, n / 4), glm::dmat3(0.5) });
@@ -47,6 +48,7 @@ std::vector<ReferencePart> halvesOfTetrahedron()
     glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(0.0, 0.0, 1.0) };
   const auto middle = [&](int a, int b) { return 0.5 * (corners[a] + corners[b]); };
   std::vector<ReferencePart> parts;
+  parts.reserve(8);
   for (const glm::dvec3& corner : corners)
   {
     parts.push_back({ 0.5 * corner, glm::dmat3(0.5) });

@@ -217,6 +217,7 @@ void keepManifold(
   }
   WeldedFans welded(places);
   std::vector<char> isAdded;
+  isAdded.reserve(triangles.size());
   for (const Triangle& triangle : triangles)
   {
     isAdded.push_back(welded.add(triangle) ? 1 : 0);
