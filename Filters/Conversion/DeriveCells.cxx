@@ -229,7 +229,8 @@ Verdict Deriver::findBySamples(
       parts[n], [&](const Range& range) { return this->straddles(range, cell.exponent); });
     if (sampled.element.state != DerivedElement::State::Sound)
     {
-      return Verdict::Singular;
+      return sampled.element.state == DerivedElement::State::NotFinite ? Verdict::Undefined
+                                                                       : Verdict::Singular;
     }
     if (!sampled.canHoldSurface)
     {
@@ -250,6 +251,10 @@ Verdict Deriver::findBySamples(
       part.element = std::move(sampled.element);
       part.place = parts[n];
       part.isResolved = sampled.isResolved;
+      if (!part.isResolved && this->Blocks.quantity() == Quantity::Lambda2)
+      {
+        part.exact = lambdaTwoSource(source, part.place);
+      }
       found.change = std::max(found.change, change);
     }
   }
@@ -314,6 +319,16 @@ JacobianSign writeDerived(const DerivedCell& cell, Quantity quantity, double uni
     c.w = std::ldexp(c.w, cell.exponent - unit);
     isUsable = isUsable && std::abs(c.w) <= largest;
     mesh.coefficients[element.firstCoefficient + i] = c;
+  }
+  if (element.exactField >= 0)
+  {
+    LambdaTwoField& field = mesh.exactFields[element.exactField];
+    const std::size_t first = field.firstDerivative;
+    field = cell.exact.field;
+    field.firstDerivative = first;
+    field.scale = std::ldexp(1.0, cell.exponent - unit);
+    std::copy(cell.exact.derivatives.begin(), cell.exact.derivatives.end(),
+      mesh.derivatives.begin() + static_cast<std::ptrdiff_t>(first));
   }
   if (element.rational)
   {

@@ -88,41 +88,6 @@ ScaledPolynomial constant(Domain domain, double value)
   return { domain, { 0, 0, 0 }, { value } };
 }
 
-/// `width` components that stand beside each other, as polynomials.
-std::vector<ScaledPolynomial> componentsOf(const SourceElement& source)
-{
-  std::vector<ScaledPolynomial> components;
-  for (int c = 0; c < source.width; ++c)
-  {
-    std::vector<double> values;
-    for (std::size_t i = c; i < source.control.size(); i += source.width)
-    {
-      values.push_back(source.control[i]);
-    }
-    components.push_back(scaled(source.domain, source.degrees, std::move(values)));
-  }
-  return components;
-}
-
-ScaledPolynomial weightOf(const SourceElement& source)
-{
-  return source.isRational ? scaled(source.domain, source.degrees, source.weights)
-                           : constant(source.domain, 1.0);
-}
-
-/// w p' - p w'; the derivative p' where the weight is constant.
-ScaledPolynomial homogeneousDerivative(
-  const ScaledPolynomial& p, const ScaledPolynomial& weight, int axis)
-{
-  if (weight.values.size() == 1)
-  {
-    return derivative(p, axis);
-  }
-  const ScaledPolynomial plus = weight * derivative(p, axis);
-  const ScaledPolynomial minus = p * derivative(weight, axis);
-  return sumOf({ { 1.0, &plus }, { -1.0, &minus } });
-}
-
 /// factor_0 p_0 + factor_1 p_1 + factor_2 p_2.
 ScaledPolynomial combined(const glm::dvec3& factors, const std::vector<ScaledPolynomial>& p)
 {
@@ -243,16 +208,11 @@ Derivation::Derivation(const SourceElement& source, Quantity quantity)
   , Components(source.width - 3)
   , Weight(weightOf(source))
 {
-  const std::vector<ScaledPolynomial> components = componentsOf(source);
-  Columns world;
+  Columns world = homogeneousDerivatives(source);
   glm::dmat3 mean(1.0);
   for (int k = 0; k < 3; ++k)
   {
-    for (int c = 0; c < source.width; ++c)
-    {
-      std::vector<ScaledPolynomial>& column = c < 3 ? world[k] : this->Field[k];
-      column.push_back(homogeneousDerivative(components[c], this->Weight, k));
-    }
+    this->Field[k].assign(world[k].begin() + 3, world[k].end());
     for (int c = 0; c < 3; ++c)
     {
       mean[k][c] = meanOf(world[k][c]);

@@ -1,30 +1,13 @@
 #pragma once
 
-#include "Elements/BernsteinProduct.h"
 #include "Elements/Quantity.h"
+#include "Elements/SourceElement.h"
 
 #include <array>
 #include <vector>
 
 namespace hop
 {
-
-/// An element whose field has components, from whose derivatives another field is made.
-struct SourceElement
-{
-  Domain domain = Domain::Hexahedron;
-  Degrees degrees{ 1, 1, 1 };
-  /// 3 + number of the field's components.
-  int width = 4;
-  /// coefficientCount x width values: (x, y, z, u...), homogeneous if rational.
-  const std::vector<double>& control;
-  /// coefficientCount weights; not read unless the element is rational.
-  const std::vector<double>& weights;
-  bool isRational = false;
-  /// Largest error of the coordinates, in their unit. A Jacobian that is of lower degree up to this error is taken to be
-  /// of lower degree: cells with straight edges keep small polynomials although their nodes are rounded.
-  double coordinateError = 0.0;
-};
 
 /// An element with the derived field in the place of f.
 struct DerivedElement
@@ -35,7 +18,9 @@ struct DerivedElement
     /// Its degree would be above MaximumDegree; there are no coefficients.
     DegreeTooHigh,
     /// The determinant is not proven to be positive, so that the field may be infinite; there are no coefficients.
-    Singular
+    Singular,
+    /// The quantity is not finite somewhere, although the derivatives are; there are no coefficients.
+    NotFinite
   };
 
   State state = State::Singular;

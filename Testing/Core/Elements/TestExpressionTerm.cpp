@@ -1,0 +1,80 @@
+#include "Elements/ExpressionTerm.h"
+
+#include <glm/glm.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace hop::testing
+{
+namespace
+{
+
+/// x = (2, 3, 5), a scalar 7 with the gradient (1, 2, 3), and a vector (1, 2, 4) with gradients (0, -1, 0), (1, 0, 0) and
+/// (0, 0, 2).
+FieldPoint somePoint()
+{
+  FieldPoint at;
+  at.x = { 2.0, 3.0, 5.0 };
+  at.values = { 7.0, 1.0, 2.0, 4.0 };
+  at.gradients = { { 1.0, 2.0, 3.0 }, { 0.0, -1.0, 0.0 }, { 1.0, 0.0, 0.0 }, { 0.0, 0.0, 2.0 } };
+  return at;
+}
+
+void expectTerm(const ExpressionTerm& term, const std::vector<double>& expected)
+{
+  ASSERT_EQ(term.size, static_cast<int>(expected.size()));
+  const ExpressionTerm::Value value = term.at(somePoint());
+  for (std::size_t i = 0; i < expected.size(); ++i)
+  {
+    EXPECT_DOUBLE_EQ(value[i], expected[i]) << i;
+  }
+}
+
+double difference(double a, double b)
+{
+  return a - b;
+}
+
+TEST(ExpressionTerm, ReadsNumbersCoordinatesAndArrays)
+{
+  expectTerm(constantTerm(1.5), { 1.5 });
+  expectTerm(coordinateTerm(1), { 3.0 });
+  expectTerm(coordinatesTerm(), { 2.0, 3.0, 5.0 });
+  expectTerm(valueTerm(0, 1), { 7.0 });
+  expectTerm(valueTerm(1, 3), { 1.0, 2.0, 4.0 });
+}
+
+TEST(ExpressionTerm, ReadsDerivatives)
+{
+  expectTerm(gradientTerm(0, 1), { 1.0, 2.0, 3.0 });
+  expectTerm(gradientTerm(1, 3), { 0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 2.0 });
+  expectTerm(curlTerm(1), { 0.0, 0.0, 2.0 });
+  expectTerm(quantityTerm(Quantity::Divergence, 1), { 2.0 });
+  expectTerm(quantityTerm(Quantity::QCriterion, 1), { 1.0 - 2.0 });
+}
+
+TEST(ExpressionTerm, CombinesScalarsWithEveryNumber)
+{
+  expectTerm(combined(valueTerm(1, 3), constantTerm(1.0), difference), { 0.0, 1.0, 3.0 });
+  expectTerm(combined(constantTerm(1.0), valueTerm(1, 3), difference), { 0.0, -1.0, -3.0 });
+  expectTerm(combined(coordinatesTerm(), valueTerm(1, 3), difference), { 1.0, 1.0, 1.0 });
+}
+
+TEST(ExpressionTerm, MultipliesVectors)
+{
+  expectTerm(dotOf(coordinatesTerm(), valueTerm(1, 3)), { 28.0 });
+  expectTerm(crossOf(coordinatesTerm(), valueTerm(1, 3)), { 2.0, -3.0, 1.0 });
+  expectTerm(lengthOf(gradientTerm(1, 3)), { std::sqrt(6.0) });
+}
+
+TEST(ExpressionTerm, KnowsFunctionsOfScalars)
+{
+  EXPECT_EQ(scalarFunctionNames().size(), 18u);
+  expectTerm(functionTerm("log10", constantTerm(100.0)), { 2.0 });
+  expectTerm(functionTerm("ln", constantTerm(std::exp(2.0))), { 2.0 });
+  expectTerm(functionTerm("sign", constantTerm(-3.0)), { -1.0 });
+}
+
+} // namespace
+} // namespace hop::testing
