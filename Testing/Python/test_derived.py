@@ -143,6 +143,52 @@ def test_lambda_2_is_exact_where_eigenvalues_differ():
     assert np.abs(support.points_of(particles)[:, 1] - 0.2).max() < 1e-8
 
 
+# Burgers' vortex: strain of rate STRAIN along z, and a velocity around the axis that is spin(r) r. Isosurfaces of Q and
+# lambda 2 are cylinders, and in the axis two eigenvalues are equal.
+STRAIN = 0.2
+
+
+def spin(r):
+    return (1.0 - np.exp(-(r**2))) / r**2
+
+
+def slope_of_swirl(r):
+    """d(spin(r) r)/dr."""
+    return 2.0 * np.exp(-(r**2)) - spin(r)
+
+
+def burgers(quantity, r):
+    turning = spin(r) * slope_of_swirl(r)
+    if quantity == "Q Criterion":
+        return turning - 0.75 * STRAIN**2
+    return 0.25 * STRAIN**2 - turning + 0.5 * STRAIN * np.abs(spin(r) - slope_of_swirl(r))
+
+
+@pytest.mark.parametrize("quantity, radius", [("Q Criterion", 0.5), ("Lambda 2", 0.5), ("Lambda 2", 0.12)])
+def test_burgers_vortex_is_a_cylinder(quantity, radius):
+    grid = cells.straight_grid("LAGRANGE_HEXAHEDRON", order=6, blocks=3)
+    lower, upper = support.bounds_of(grid)
+    x = 2.0 * (support.points_of(grid) - lower) / (upper - lower) - 1.0
+    cells.set_points(grid, x + 0.03 * np.sin(2.0 * x[:, [1, 2, 0]]))
+    x = support.points_of(grid)
+    r = np.maximum(np.hypot(x[:, 0], x[:, 1]), 1e-9)
+    swirl = np.where(r < 1e-4, 1.0, spin(np.maximum(r, 1e-4)))
+    around = swirl[:, None] * np.stack([-x[:, 1], x[:, 0], 0.0 * r], axis=1)
+    support.add_point_array(grid, "u", around + STRAIN * x * [-0.5, -0.5, 1.0])
+    isovalue = burgers(quantity, radius)
+    particles, messages = support.run(grid, "u", isovalue, Quantity=quantity, Spacing=0.1, AngularDensity=3)
+    assert messages.errors == []
+    points = support.points_of(particles)
+    assert np.ptp(points[:, 2]) > 1.9
+    r = np.hypot(points[:, 0], points[:, 1])
+    print("DEV", len(points), np.abs(r - radius).max(), np.abs(np.abs(support.array_of(particles, "Mean_Curvature")) * 2 * radius - 1.0).max(), np.abs(support.array_of(particles, "Gauss_Curvature")).max() * radius**2, messages.warnings)
+    assert np.abs(at_particles(grid, "u", quantity, particles) - isovalue).max() < 1e-6
+    assert np.abs(r - radius).max() < 1e-3
+    mean = np.abs(support.array_of(particles, "Mean_Curvature"))
+    assert np.abs(mean * 2.0 * radius - 1.0).max() < 0.02
+    assert np.abs(support.array_of(particles, "Gauss_Curvature")).max() < 0.02 / radius**2
+
+
 @pytest.mark.parametrize("order", [5, 7, 9])
 @pytest.mark.parametrize("name", ["LAGRANGE_TETRAHEDRON", "LAGRANGE_HEXAHEDRON", "LAGRANGE_WEDGE"])
 def test_takes_bent_cells_of_high_degree(name, order):
