@@ -181,12 +181,11 @@ def test_burgers_vortex_is_a_cylinder(quantity, radius):
     points = support.points_of(particles)
     assert np.ptp(points[:, 2]) > 1.9
     r = np.hypot(points[:, 0], points[:, 1])
-    print("DEV", len(points), np.abs(r - radius).max(), np.abs(np.abs(support.array_of(particles, "Mean_Curvature")) * 2 * radius - 1.0).max(), np.abs(support.array_of(particles, "Gauss_Curvature")).max() * radius**2, messages.warnings)
     assert np.abs(at_particles(grid, "u", quantity, particles) - isovalue).max() < 1e-6
-    assert np.abs(r - radius).max() < 1e-3
+    assert np.abs(r - radius).max() < 1e-4  # what cells of order 6 hold of the vortex
     mean = np.abs(support.array_of(particles, "Mean_Curvature"))
     assert np.abs(mean * 2.0 * radius - 1.0).max() < 0.02
-    assert np.abs(support.array_of(particles, "Gauss_Curvature")).max() < 0.02 / radius**2
+    assert np.abs(support.array_of(particles, "Gauss_Curvature")).max() < 1e-3 / radius**2
 
 
 @pytest.mark.parametrize("order", [5, 7, 9])
@@ -427,14 +426,15 @@ def test_the_default_isovalue_is_a_number(quantity, value):
     assert not np.signbit(proxy.Isosurfaces[0]) or proxy.Isosurfaces[0] < 0.0, "no -0"
 
 
-def test_threads_do_not_matter():
+@pytest.mark.parametrize("quantity", ["Q Criterion", "Lambda 2"])
+def test_threads_do_not_matter(quantity):
     grid = bent_grid("LAGRANGE_WEDGE")
     support.add_point_array(grid, "u", np.sin(3.0 * support.points_of(grid)[:, [1, 2, 0]]))
     outputs = []
     for threads in (1, 2):
         vtkSMPTools.Initialize(threads)
-        outputs.append(support.contents(support.run(grid, "u", 0.2, Quantity="Q Criterion", Seed=1)[0]))
-    assert outputs[0] == outputs[1]
+        outputs.append(support.contents(support.run(grid, "u", 0.2, Quantity=quantity, Seed=1)[0]))
+    assert outputs[0] == outputs[1] and len(outputs[0]) > 0
 
 
 # Derivatives to colour by.
