@@ -31,6 +31,9 @@ struct DerivedElement
   std::vector<double> weights;
 };
 
+/// Bounds of a quantity, or of its square where that is derived, from bounds of the gradient's entries, three a component.
+Range boundsFrom(Quantity quantity, const std::vector<std::array<Range, 3>>& gradient);
+
 /// Derives a field from the field of one element.
 ///
 /// With x = X/w and u = U/w, and the columns X'_k = w dX/du_k - X dw/du_k (dX/du_k where w = 1), the gradient is
@@ -44,6 +47,10 @@ public:
   /// \param quantity not Value
   /// \pre the mean of the Jacobian is not singular: its determinant is not zero everywhere, nor does it change its sign
   Derivation(const SourceElement& source, Quantity quantity);
+
+  /// Of the gradient with respect to the coordinates, three entries a component, from hulls of first derivatives; infinite
+  /// where the Jacobian changes too much.
+  std::vector<std::array<Range, 3>> gradientBounds() const;
 
   /// Bounds of the quantity, or of its square where that is derived, from the hulls of first derivatives alone: much
   /// cheaper than element().
@@ -65,7 +72,6 @@ public:
 private:
   using Columns = std::array<std::vector<ScaledPolynomial>, 3>;
 
-  std::vector<std::array<Range, 3>> gradientRanges() const;
   Columns adjugate() const;
   std::vector<std::array<ScaledPolynomial, 3>> gradientNumerators(
     const Columns& adjugate, bool mayTrim) const;

@@ -10,7 +10,16 @@
 namespace hop
 {
 
-/// A part of a formula: how many numbers it has, and what they are at a point.
+/// What a formula is told of an element: the ranges in which x, and value and gradient of each component, stay.
+struct FieldBounds
+{
+  std::array<Range, 3> x;
+  std::vector<Range> values;
+  /// Of du_i/dx_j: three a component.
+  std::vector<std::array<Range, 3>> gradients;
+};
+
+/// A part of a formula: how many numbers it has, what they are at a point, and between which bounds they stay.
 struct ExpressionTerm
 {
   static constexpr int ScalarSize = 1;
@@ -18,13 +27,24 @@ struct ExpressionTerm
   /// Row by row.
   static constexpr int TensorSize = 9;
   using Value = std::array<double, TensorSize>;
+  using Bounds = std::array<Range, TensorSize>;
 
   int size = ScalarSize;
   std::function<Value(const FieldPoint&)> at;
+  /// Holds all values, widened by what rounding can make of them; infinite where some of them are not finite or not known.
+  std::function<Bounds(const FieldBounds&)> within;
 };
 
-/// A function of two numbers.
-using NumberOfTwo = double (*)(double, double);
+enum class Operation
+{
+  Sum,
+  Difference,
+  Product,
+  Quotient,
+  Power,
+  Least,
+  Greatest
+};
 
 /// Of a formula's numbers, coordinates and arrays.
 ExpressionTerm constantTerm(double value);
@@ -40,9 +60,9 @@ ExpressionTerm curlTerm(int first);
 /// \param quantity of three components; as in functionOf()
 ExpressionTerm quantityTerm(Quantity quantity, int first);
 
-/// use(a, b), number by number; a scalar goes with every number of the other.
+/// Number by number; a scalar goes with every number of the other.
 /// \pre sizes are the same, or one of them is that of a scalar
-ExpressionTerm combined(const ExpressionTerm& a, const ExpressionTerm& b, NumberOfTwo use);
+ExpressionTerm combined(Operation operation, const ExpressionTerm& a, const ExpressionTerm& b);
 /// The square root of the sum of all squares.
 ExpressionTerm lengthOf(const ExpressionTerm& a);
 /// \pre both are vectors

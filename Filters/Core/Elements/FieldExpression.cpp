@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <cstdlib>
 #include <stdexcept>
 #include <utility>
@@ -62,7 +61,7 @@ public:
   {
   }
 
-  FieldFunction parse()
+  Term parse()
   {
     const Term all = this->sum();
     this->skipSpace();
@@ -74,7 +73,7 @@ public:
     {
       this->fail("the result is a vector; use magnitude() or a component of it");
     }
-    return [all](const FieldPoint& at) { return all.at(at)[0]; };
+    return all;
   }
 
   const std::vector<NamedArray>& used() const { return this->Used; }
@@ -158,8 +157,8 @@ Term Parser::sum()
     }
     const Term next = this->product();
     this->demand(next, result.size, "scalars and vectors cannot be added");
-    result = isPlus ? combined(result, next, [](double a, double b) { return a + b; })
-                    : combined(result, next, [](double a, double b) { return a - b; });
+    result = isPlus ? combined(Operation::Sum, result, next)
+                    : combined(Operation::Difference, result, next);
   }
 }
 
@@ -179,8 +178,8 @@ Term Parser::product()
       this->fail(
         "vectors can be multiplied and divided by scalars only; there are dot() and cross()");
     }
-    result = isTimes ? combined(result, next, [](double a, double b) { return a * b; })
-                     : combined(result, next, [](double a, double b) { return a / b; });
+    result = isTimes ? combined(Operation::Product, result, next)
+                     : combined(Operation::Quotient, result, next);
   }
 }
 
@@ -199,8 +198,7 @@ Term Parser::signedPower()
     }
   }
   const Term result = this->power();
-  return isNegative ? combined(constantTerm(-1.0), result, [](double a, double b) { return a * b; })
-                    : result;
+  return isNegative ? combined(Operation::Product, constantTerm(-1.0), result) : result;
 }
 
 /// Powers are taken from the right: 2^3^2 is 2^9.
@@ -214,7 +212,7 @@ Term Parser::power()
   const Term exponent = this->signedPower();
   this->demand(base, ScalarSize, "only scalars have powers");
   this->demand(exponent, ScalarSize, "an exponent has to be a scalar");
-  return combined(base, exponent, [](double a, double b) { return std::pow(a, b); });
+  return combined(Operation::Power, base, exponent);
 }
 
 Term Parser::primary()
@@ -409,8 +407,7 @@ Term Parser::call(const std::string& name)
   {
     this->expect(')');
     const Term length = lengthOf(first);
-    return name != "norm" ? length
-                          : combined(first, length, [](double a, double b) { return a / b; });
+    return name != "norm" ? length : combined(Operation::Quotient, first, length);
   }
   this->expect(',');
   const Term second = this->sum();
@@ -424,8 +421,7 @@ Term Parser::callOfTwo(const std::string& name, const Term& a, const Term& b)
   {
     this->demand(a, ScalarSize, name + "() takes two scalars");
     this->demand(b, ScalarSize, name + "() takes two scalars");
-    return name == "min" ? combined(a, b, [](double x, double y) { return std::min(x, y); })
-                         : combined(a, b, [](double x, double y) { return std::max(x, y); });
+    return name == "min" ? combined(Operation::Least, a, b) : combined(Operation::Greatest, a, b);
   }
   this->demand(a, VectorSize, name + "() takes two vectors");
   this->demand(b, VectorSize, name + "() takes two vectors");
@@ -469,7 +465,9 @@ Term Parser::callOfArray(const std::string& name)
 FieldExpression::FieldExpression(const std::string& text, const std::vector<NamedArray>& arrays)
 {
   Parser parser(text, arrays);
-  this->Function = parser.parse();
+  const Term all = parser.parse();
+  this->Function = [all](const FieldPoint& at) { return all.at(at)[0]; };
+  this->Bounds = [all](const FieldBounds& in) { return all.within(in)[0]; };
   this->Used = parser.used();
 }
 

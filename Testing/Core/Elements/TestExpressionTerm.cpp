@@ -31,11 +31,6 @@ void expectTerm(const ExpressionTerm& term, const std::vector<double>& expected)
   }
 }
 
-double difference(double a, double b)
-{
-  return a - b;
-}
-
 TEST(ExpressionTerm, ReadsNumbersCoordinatesAndArrays)
 {
   expectTerm(constantTerm(1.5), { 1.5 });
@@ -56,9 +51,17 @@ TEST(ExpressionTerm, ReadsDerivatives)
 
 TEST(ExpressionTerm, CombinesScalarsWithEveryNumber)
 {
-  expectTerm(combined(valueTerm(1, 3), constantTerm(1.0), difference), { 0.0, 1.0, 3.0 });
-  expectTerm(combined(constantTerm(1.0), valueTerm(1, 3), difference), { 0.0, -1.0, -3.0 });
-  expectTerm(combined(coordinatesTerm(), valueTerm(1, 3), difference), { 1.0, 1.0, 1.0 });
+  const auto difference = Operation::Difference;
+  expectTerm(combined(difference, valueTerm(1, 3), constantTerm(1.0)), { 0.0, 1.0, 3.0 });
+  expectTerm(combined(difference, constantTerm(1.0), valueTerm(1, 3)), { 0.0, -1.0, -3.0 });
+  expectTerm(combined(difference, coordinatesTerm(), valueTerm(1, 3)), { 1.0, 1.0, 1.0 });
+  expectTerm(combined(Operation::Sum, valueTerm(0, 1), constantTerm(1.0)), { 8.0 });
+  expectTerm(
+    combined(Operation::Product, valueTerm(0, 1), coordinatesTerm()), { 14.0, 21.0, 35.0 });
+  expectTerm(combined(Operation::Quotient, valueTerm(0, 1), constantTerm(2.0)), { 3.5 });
+  expectTerm(combined(Operation::Power, valueTerm(0, 1), constantTerm(2.0)), { 49.0 });
+  expectTerm(combined(Operation::Least, valueTerm(0, 1), constantTerm(2.0)), { 2.0 });
+  expectTerm(combined(Operation::Greatest, valueTerm(0, 1), constantTerm(2.0)), { 7.0 });
 }
 
 TEST(ExpressionTerm, MultipliesVectors)
