@@ -151,8 +151,13 @@ void FilterSession::giveGrid(int change)
 void FilterSession::asked(vtkObject*, unsigned long, void*)
 {
   const double now = processorTime();
-  this->Silence = std::max(this->Silence, now - this->LastQuestion);
+  if (now - this->LastQuestion > this->Silence)
+  {
+    this->Silence = now - this->LastQuestion;
+    this->ProgressOfSilence = this->Progress;
+  }
   this->LastQuestion = now;
+  this->Progress = this->Filter->GetProgress();
   const bool isLate = now - this->Begin > this->Limit;
   if (isLate || this->QuestionsLeft == 0)
   {
@@ -172,7 +177,7 @@ void FilterSession::told(vtkObject*, unsigned long, void* text)
 void FilterSession::run()
 {
   this->Complaints.clear();
-  this->Silence = 0.0;
+  this->Silence = this->Progress = 0.0;
   this->Begin = this->LastQuestion = processorTime();
   this->Filter->Update();
   this->asked(nullptr, 0, nullptr);
@@ -182,7 +187,8 @@ void FilterSession::run()
   }
   if (this->Silence > LongestSilence * this->Limit)
   {
-    this->Complaints.push_back("no question for " + std::to_string(this->Silence) + " s");
+    this->Complaints.push_back("no question for " + std::to_string(this->Silence) +
+      " s after progress " + std::to_string(this->ProgressOfSilence));
   }
 }
 

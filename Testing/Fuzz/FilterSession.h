@@ -57,6 +57,8 @@ private:
   vtkNew<vtkHighOrderParticleIsosurface> Filter;
   std::vector<std::string> Complaints;
   double Limit, Begin = 0.0, LastQuestion = 0.0, Silence = 0.0;
+  /// The filter's progress at the last question, and before the longest silence.
+  double Progress = 0.0, ProgressOfSilence = 0.0;
   /// Questions after which the run is aborted; negative: never.
   int QuestionsLeft = -1;
 };
