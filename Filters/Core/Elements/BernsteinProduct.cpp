@@ -1,5 +1,7 @@
 #include "Elements/BernsteinProduct.h"
 
+#include "Elements/LatticeRows.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -10,7 +12,7 @@ namespace hop
 namespace
 {
 
-double binomial(int n, int k)
+double computedBinomial(int n, int k)
 {
   double result = 1.0;
   for (int i = 1; i <= k; ++i)
@@ -18,6 +20,35 @@ double binomial(int n, int k)
     result *= static_cast<double>(n - k + i) / i;
   }
   return result;
+}
+
+/// Binomial coefficients n over k, 0 <= k <= n <= MaximumPolynomialDegree: looked up for every coefficient of every
+/// polynomial.
+class BinomialTable
+{
+public:
+  BinomialTable()
+  {
+    for (int n = 0; n <= MaximumPolynomialDegree; ++n)
+    {
+      for (int k = 0; k <= n; ++k)
+      {
+        this->Rows[n][k] = computedBinomial(n, k);
+      }
+    }
+  }
+
+  double at(int n, int k) const { return this->Rows[n][k]; }
+
+private:
+  std::array<std::array<double, MaximumPolynomialDegree + 1>, MaximumPolynomialDegree + 1> Rows{};
+};
+
+double binomial(int n, int k)
+{
+  static const BinomialTable table;
+  // Fields of derivatives have factors of higher degrees.
+  return n <= MaximumPolynomialDegree ? table.at(n, k) : computedBinomial(n, k);
 }
 
 /// The multinomial factors of a basis function, one a simplex of which the domain is the product.
@@ -300,23 +331,29 @@ ScaledPolynomial operator*(const ScaledPolynomial& a, const ScaledPolynomial& b)
 void addProduct(
   double factor, const ScaledPolynomial& a, const ScaledPolynomial& b, ScaledPolynomial& sum)
 {
-  // The first index runs fastest in every domain: row by row of b, without looking up each place.
-  const std::vector<LatticePoint> left = latticePoints(a.domain, a.degrees);
-  const std::vector<LatticePoint> right = latticePoints(b.domain, b.degrees);
-  for (std::size_t n = 0; n < left.size(); ++n)
-  {
-    const double scale = factor * a.values[n];
-    const auto& [i, j, k] = left[n];
-    for (std::size_t row = 0, end = 0; row < right.size(); row = end)
+  // A row of a times a row of b goes to one row of the sum.
+  const double* left = a.values.data();
+  visitLatticeRows(a.domain, a.degrees,
+    [&](int leftJ, int leftK, int leftCount)
     {
-      double* out = &sum.values[coefficientIndex(
-        sum.domain, sum.degrees, { i, j + right[row].j, k + right[row].k })];
-      for (end = row; end < right.size() && right[end].i == static_cast<int>(end - row); ++end)
-      {
-        out[end - row] += scale * b.values[end];
-      }
-    }
-  }
+      const double* right = b.values.data();
+      visitLatticeRows(b.domain, b.degrees,
+        [&](int rightJ, int rightK, int rightCount)
+        {
+          double* out = &sum.values[coefficientIndex(
+            sum.domain, sum.degrees, { 0, leftJ + rightJ, leftK + rightK })];
+          for (int i = 0; i < leftCount; ++i)
+          {
+            const double scale = factor * left[i];
+            for (int n = 0; n < rightCount; ++n)
+            {
+              out[i + n] += scale * right[n];
+            }
+          }
+          right += rightCount;
+        });
+      left += leftCount;
+    });
 }
 
 std::vector<double> squareField(Domain domain, const Degrees& degrees, int width,

@@ -1,5 +1,7 @@
 #include "Elements/Domain.h"
 
+#include "Elements/LatticeRows.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -206,19 +208,14 @@ std::vector<LatticePoint> latticePoints(Domain domain, const Degrees& degrees)
 {
   std::vector<LatticePoint> points;
   points.reserve(coefficientCount(domain, degrees));
-  for (int k = 0; k <= degrees[2]; ++k)
-  {
-    for (int j = 0; j <= degrees[1]; ++j)
+  visitLatticeRows(domain, degrees,
+    [&](int j, int k, int count)
     {
-      for (int i = 0; i <= degrees[0]; ++i)
+      for (int i = 0; i < count; ++i)
       {
-        if (inLattice(domain, degrees, { i, j, k }))
-        {
-          points.push_back({ i, j, k });
-        }
+        points.push_back({ i, j, k });
       }
-    }
-  }
+    });
   return points;
 }
 

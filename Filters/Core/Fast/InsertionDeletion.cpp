@@ -137,7 +137,7 @@ public:
       [&](std::size_t n)
       {
         insertions[n].displacement =
-          this->freePlace(insertions[n].beside, insertionDistance).displacement;
+          this->freePlace(insertions[n].beside, insertionDistance, -1.0).displacement;
       });
   }
 
@@ -258,18 +258,19 @@ private:
   /// The middle of a hole beside particle i, if there is one: the free place with the largest clearance.
   FreePlace hole(std::size_t i) const
   {
-    FreePlace best = this->freePlace(i, Hole::Distances[0]);
+    FreePlace best = this->freePlace(i, Hole::Distances[0], Hole::FirstClearance);
     for (std::size_t n = 1; n < Hole::Distances.size() && best.clearance > Hole::FirstClearance;
          ++n)
     {
-      const FreePlace place = this->freePlace(i, Hole::Distances[n]);
+      const FreePlace place = this->freePlace(i, Hole::Distances[n], best.clearance);
       best = place.clearance > best.clearance ? place : best;
     }
     return best;
   }
 
-  /// Of some places around particle i, at a distance in units of its spacing, the one farthest from all neighbours.
-  FreePlace freePlace(std::size_t i, float distance) const
+  /// Of some places around particle i, at a distance in units of its spacing, the one farthest from all neighbours; none,
+  /// of clearance -1, if no place has more than `least`.
+  FreePlace freePlace(std::size_t i, float distance, double least) const
   {
     const Patch& patch = this->Patches[i];
     std::vector<glm::dvec3> others;
@@ -292,14 +293,15 @@ private:
       {
         place.clearance =
           std::min(place.clearance, glm::distance(place.position, other) / patch.spacing);
-        if (place.clearance <= best.clearance)
+        if (place.clearance <= least)
         {
           break;
         }
       }
-      if (place.clearance > best.clearance)
+      if (place.clearance > least)
       {
         best = place;
+        least = place.clearance;
       }
     }
     return best;

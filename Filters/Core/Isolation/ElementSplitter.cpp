@@ -22,27 +22,36 @@ constexpr int mostFollowed = 2048;
 /// halve pieces in vain.
 constexpr int pairBisections = 9;
 
-/// Until the first element is known.
-constexpr Domain anyDomain = Domain::Hexahedron;
-constexpr Degrees anyDegrees{ 1, 1, 1 };
-
 } // namespace
 
-ElementSplitter::ElementSplitter(
-  const ElementMesh& mesh, double isovalue, const std::function<bool(const SurfaceBox&)>& isSmall)
+PreparedKinds::PreparedKinds(const ElementMesh& mesh, double isovalue)
+{
+  for (const Element& element : mesh.elements)
+  {
+    const auto key = std::make_pair(element.domain, element.degrees);
+    if (this->Kinds.count(key) == 0)
+    {
+      this->Kinds.emplace(key,
+        Prepared{
+          { element.domain, element.degrees }, { element.domain, element.degrees, isovalue } });
+    }
+  }
+}
+
+ElementSplitter::ElementSplitter(const ElementMesh& mesh, double isovalue,
+  const PreparedKinds& kinds, const std::function<bool(const SurfaceBox&)>& isSmall)
   : Mesh(mesh)
   , Isovalue(isovalue)
+  , Kinds(kinds)
   , IsSmall(isSmall)
-  , Kind(anyDomain, anyDegrees)
-  , Tests(anyDomain, anyDegrees, isovalue)
 {
 }
 
 void ElementSplitter::split(int element, const ParallelFor& parallelFor,
   const ReportProgress& progress, std::vector<SurfaceBox>& boxes)
 {
-  this->prepareFor(this->Mesh.form(element));
-  const auto whole = [&] { return wholeElement(this->Mesh, element, this->Isovalue, this->Kind); };
+  this->prepareFor(this->Mesh.elements[element]);
+  const auto whole = [&] { return wholeElement(this->Mesh, element, this->Isovalue, *this->Kind); };
   // Level by level, so that the limit on undecided pieces stops all of them at one size.
   std::vector<Piece> level;
   level.push_back(whole());
@@ -67,12 +76,13 @@ void ElementSplitter::split(int element, const ParallelFor& parallelFor,
   }
 }
 
-void ElementSplitter::prepareFor(const BernsteinForm& form)
+void ElementSplitter::prepareFor(const Element& element)
 {
-  if (form.domain != this->Kind.domain || form.degrees != this->Kind.degrees)
+  if (!this->Kind || element.domain != this->Kind->domain || element.degrees != this->Kind->degrees)
   {
-    this->Kind = PieceKind(form.domain, form.degrees);
-    this->Tests = PieceTests(form.domain, form.degrees, this->Isovalue);
+    const PreparedKinds::Prepared& prepared = this->Kinds.of(element.domain, element.degrees);
+    this->Kind = &prepared.kind;
+    this->Tests = prepared.tests;
   }
 }
 

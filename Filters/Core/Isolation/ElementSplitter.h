@@ -3,8 +3,33 @@
 #include "Isolation/IsolationProgress.h"
 #include "Isolation/UndecidedPieces.h"
 
+#include <map>
+#include <utility>
+
 namespace hop
 {
+
+/// What splitting needs to know of the domains and degrees of a mesh's elements: prepared once, for all threads.
+class PreparedKinds
+{
+public:
+  struct Prepared
+  {
+    PieceKind kind;
+    PieceTests tests;
+  };
+
+  PreparedKinds(const ElementMesh& mesh, double isovalue);
+
+  /// \pre the mesh has an element of this domain and these degrees
+  const Prepared& of(Domain domain, const Degrees& degrees) const
+  {
+    return this->Kinds.at({ domain, degrees });
+  }
+
+private:
+  std::map<std::pair<Domain, Degrees>, Prepared> Kinds;
+};
 
 /// Splits elements into boxes by de Casteljau's algorithm. A piece of an element is
 ///  - dropped if its coefficients of F - c have one sign: their convex hull then holds no zero;
@@ -28,8 +53,8 @@ namespace hop
 class ElementSplitter
 {
 public:
-  /// \param mesh, isSmall outlive it; isSmall may be called from several threads
-  ElementSplitter(const ElementMesh& mesh, double isovalue,
+  /// \param mesh, kinds, isSmall outlive it; isSmall may be called from several threads
+  ElementSplitter(const ElementMesh& mesh, double isovalue, const PreparedKinds& kinds,
     const std::function<bool(const SurfaceBox&)>& isSmall);
 
   /// Appends the boxes of an element.
@@ -47,7 +72,7 @@ private:
     std::vector<Piece> next;
   };
 
-  void prepareFor(const BernsteinForm& form);
+  void prepareFor(const Element& element);
   std::vector<Outcome> decideAll(std::vector<Piece>& level, const StopRule& rule,
     const ParallelFor& parallelFor, IsolationProgress& progress) const;
   static std::vector<Piece> sortOut(std::vector<Piece> level, std::vector<Outcome> outcomes,
@@ -61,9 +86,10 @@ private:
 
   const ElementMesh& Mesh;
   double Isovalue;
+  const PreparedKinds& Kinds;
   const std::function<bool(const SurfaceBox&)>& IsSmall;
   /// Of the element that is being split.
-  PieceKind Kind;
+  const PieceKind* Kind = nullptr;
   PieceTests Tests;
 };
 

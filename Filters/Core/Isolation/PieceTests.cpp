@@ -8,8 +8,8 @@ namespace hop
 
 PieceTests::PieceTests(Domain domain, const Degrees& degrees, double isovalue)
   : Isovalue(isovalue)
-  , Monotone(domain, degrees)
-  , Boundary(domain, degrees)
+  , Prepared(std::make_shared<const Tables>(
+      Tables{ MonotoneTest(domain, degrees), PieceBoundaryTest(domain, degrees) }))
 {
 }
 
@@ -39,12 +39,12 @@ double PieceTests::signAtCorners(const Piece& piece) const
 
 Monotony PieceTests::monotony(const Piece& piece) const
 {
-  return this->Monotone.monotony(piece.values());
+  return this->Prepared->monotone.monotony(piece.values());
 }
 
 bool PieceTests::rises(const Piece& piece) const
 {
-  return this->Monotone.rises(piece.values());
+  return this->Prepared->monotone.rises(piece.values());
 }
 
 Monotony PieceTests::sheetIn(const Piece& piece) const
@@ -62,15 +62,16 @@ Monotony PieceTests::sheetIn(const Piece& piece) const
     return Monotony::None;
   }
   const bool mayHoldMore = piece.bisections < MaximumBoundaryBisections && piece.isOnBoundary();
-  const Monotony monotony = this->Monotone.monotony(values);
-  return monotony != Monotony::None && mayHoldMore && !this->Boundary.isCrossedOnce(values, slack)
+  const Monotony monotony = this->Prepared->monotone.monotony(values);
+  return monotony != Monotony::None && mayHoldMore &&
+      !this->Prepared->boundary.isCrossedOnce(values, slack)
     ? Monotony::None
     : monotony;
 }
 
 std::optional<SheetPair> PieceTests::sheetPairIn(const Piece& piece) const
 {
-  return findSheetPair(piece.form(), this->Monotone, this->ElementSlack);
+  return findSheetPair(piece.form(), this->Prepared->monotone, this->ElementSlack);
 }
 
 double PieceTests::slackOf(const Range& range) const

@@ -4,16 +4,19 @@
 #include "Isolation/PieceBoundaryTest.h"
 #include "Isolation/SheetPair.h"
 
+#include <memory>
 #include <optional>
 
 namespace hop
 {
 
 /// What is certain of the surface in pieces of an element. Bounds are widened by the rounding errors of the bisections.
-/// Prepared once for a domain and degrees.
+/// Prepared once for a domain and degrees; copies share what is prepared.
 class PieceTests
 {
 public:
+  /// Knows nothing: to be assigned to before it is asked.
+  PieceTests() = default;
   PieceTests(Domain domain, const Degrees& degrees, double isovalue);
 
   /// Tells of which element the next pieces are.
@@ -44,11 +47,16 @@ public:
 private:
   double slackOf(const Range& range) const;
 
-  double Isovalue;
+  struct Tables
+  {
+    MonotoneTest monotone;
+    PieceBoundaryTest boundary;
+  };
+
+  double Isovalue = 0.0;
   /// Largest rounding error of values in the element.
   double ElementSlack = 0.0;
-  MonotoneTest Monotone;
-  PieceBoundaryTest Boundary;
+  std::shared_ptr<const Tables> Prepared;
 };
 
 /// Bisections, ten along each axis of a nearly cubic element, after which the sheet in a piece on the boundary of its

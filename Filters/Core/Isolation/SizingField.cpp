@@ -53,6 +53,21 @@ float SizingField::limited(const glm::dvec3& position, float spacing) const
   return scale * this->Tree.limited(position, spacing / scale);
 }
 
+void SizingField::lookAround(
+  const glm::dvec3& center, double radius, float curvatureMagnitude, Ball& ball) const
+{
+  ball.Field = this;
+  ball.Spacing = static_cast<float>(this->Scale * this->Sizing.at(curvatureMagnitude));
+  this->Tree.findAround(
+    center, radius, ball.Spacing / static_cast<float>(this->Scale), ball.Places);
+}
+
+float SizingField::Ball::at(const glm::dvec3& position) const
+{
+  const auto scale = static_cast<float>(this->Field->Scale);
+  return scale * this->Field->Tree.limited(position, this->Spacing / scale, this->Places);
+}
+
 std::vector<char> markRepresentatives(Span<glm::dvec3> positions, Span<float> spacings)
 {
   const SpacingGrid cells(positions, spacings, Representatives::CellPerSpacing);

@@ -37,6 +37,25 @@ public:
       position, static_cast<float>(this->Scale * this->Sizing.at(curvatureMagnitude)));
   }
 
+  /// Spacings that particles of one curvature magnitude want in a ball: the places that limit them are found once.
+  class Ball
+  {
+  public:
+    float at(const glm::dvec3& position) const;
+
+  private:
+    friend class SizingField;
+
+    const SizingField* Field = nullptr;
+    float Spacing = 0.0f;
+    std::vector<Limit> Places;
+  };
+
+  /// \param radius >= 0, world units
+  /// \param ball receives the spacings
+  void lookAround(
+    const glm::dvec3& center, double radius, float curvatureMagnitude, Ball& ball) const;
+
   /// The smaller one of a spacing and of what the places around a position allow.
   float limited(const glm::dvec3& position, float spacing) const;
 

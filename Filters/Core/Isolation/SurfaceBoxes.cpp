@@ -35,7 +35,8 @@ std::vector<SurfaceBox> splitInTurn(const ElementMesh& mesh, double isovalue,
   const IsSmall& isFineEnough, const ParallelFor& parallelFor, const ReportProgress& progress)
 {
   std::vector<SurfaceBox> boxes;
-  ElementSplitter splitter(mesh, isovalue, isFineEnough);
+  const PreparedKinds kinds(mesh, isovalue);
+  ElementSplitter splitter(mesh, isovalue, kinds, isFineEnough);
   for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
   {
     splitter.split(
@@ -49,12 +50,13 @@ std::vector<SurfaceBox> splitInTurn(const ElementMesh& mesh, double isovalue,
 std::vector<SurfaceBox> splitAtOnce(const ElementMesh& mesh, double isovalue,
   const IsSmall& isFineEnough, const ParallelFor& parallelFor, const ReportProgress& progress)
 {
+  const PreparedKinds kinds(mesh, isovalue);
   std::atomic<int> done{ 0 };
   std::vector<std::vector<SurfaceBox>> ofElement(mesh.elements.size());
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(mesh.elements.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
-      ElementSplitter splitter(mesh, isovalue, isFineEnough);
+      ElementSplitter splitter(mesh, isovalue, kinds, isFineEnough);
       for (std::ptrdiff_t e = begin; e < end; ++e)
       {
         splitter.split(static_cast<int>(e), {}, {}, ofElement[e]);

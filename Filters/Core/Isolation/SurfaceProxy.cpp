@@ -388,10 +388,10 @@ void SurfaceProxy::sumWeights(const ParallelFor& parallelFor)
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(this->Boxes.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
-      std::vector<WeighedTriangle> triangles;
+      Weighing weighing;
       for (std::ptrdiff_t b = begin; b < end; ++b)
       {
-        this->Sums[b] = this->weigh(b, triangles);
+        this->Sums[b] = this->weigh(b, weighing);
       }
     });
   std::partial_sum(this->Sums.begin(), this->Sums.end(), this->Sums.begin());
@@ -399,30 +399,38 @@ void SurfaceProxy::sumWeights(const ParallelFor& parallelFor)
 
 /// The triangles of a box with the numbers of particles that they want.
 /// \return the sum of the numbers
-double SurfaceProxy::weigh(std::size_t which, std::vector<WeighedTriangle>& weighed) const
+double SurfaceProxy::weigh(std::size_t which, Weighing& weighing) const
 {
-  weighed.clear();
+  weighing.triangles.clear();
+  weighing.corners.clear();
   const Sample& sample = this->Samples[which];
   if (!sample.found)
   {
     return 0.0;
   }
   const SurfaceBox& box = this->Boxes[which];
-  std::vector<ReferenceTriangle> triangles;
-  appendProxyTriangles(this->Surface.mesh->elements[box.middle.element].domain, box, triangles);
+  appendProxyTriangles(
+    this->Surface.mesh->elements[box.middle.element].domain, box, weighing.corners);
   const PatchAreas areas(sample);
   const Patch& patch = sample.patch;
-  double sum = 0.0;
-  for (const ReferenceTriangle& t : triangles)
+  double radius = 0.0;
+  for (const ReferenceTriangle& t : weighing.corners)
   {
     const glm::dvec2 a = areas.inPlane(t[0]);
     const glm::dvec2 b = areas.inPlane(t[1]);
     const glm::dvec2 c = areas.inPlane(t[2]);
     const glm::dvec2 middle = (a + b + c) / 3.0;
     const glm::dvec3 position = patch.position + patch.step(glm::vec2(middle));
-    const double h = this->spacingAt(position, patch.curvatureMagnitude());
-    weighed.push_back({ t, areas.area(a, b, c, middle) * 2.0 / (std::sqrt(3.0) * h * h) });
-    sum += weighed.back().weight;
+    weighing.triangles.push_back({ t, position, areas.area(a, b, c, middle) * 2.0 });
+    radius = std::max(radius, glm::distance(position, patch.position));
+  }
+  this->Field.lookAround(patch.position, radius, patch.curvatureMagnitude(), weighing.spacings);
+  double sum = 0.0;
+  for (WeighedTriangle& triangle : weighing.triangles)
+  {
+    const double h = weighing.spacings.at(triangle.middle);
+    triangle.weight /= std::sqrt(3.0) * h * h;
+    sum += triangle.weight;
   }
   return sum;
 }
@@ -430,7 +438,7 @@ double SurfaceProxy::weigh(std::size_t which, std::vector<WeighedTriangle>& weig
 /// Puts the seeds first to last - 1 into the triangles of a box, where the sum of the numbers of particles reaches
 /// each.
 void SurfaceProxy::seedBox(std::size_t box, std::int64_t first, std::int64_t last, double phase,
-  double stride, std::vector<Seed>& seeds) const
+  double stride, Weighing& weighing, std::vector<Seed>& seeds) const
 {
   // (sqrt(5) - 1)/2: its multiples, less their whole parts, are the sequence in which any few next to each other are
   // spread most evenly. It places seeds across the triangles.
@@ -440,8 +448,8 @@ void SurfaceProxy::seedBox(std::size_t box, std::int64_t first, std::int64_t las
     seeds[first] = { this->Samples[box].anchor.place, static_cast<int>(box) };
     return;
   }
-  std::vector<WeighedTriangle> triangles;
-  double sum = this->Sums[box] - this->weigh(box, triangles);
+  double sum = this->Sums[box] - this->weigh(box, weighing);
+  const std::vector<WeighedTriangle>& triangles = weighing.triangles;
   std::size_t t = 0;
   for (std::int64_t k = first; k < last; ++k)
   {
@@ -471,6 +479,7 @@ std::vector<SurfaceProxy::Seed> SurfaceProxy::seeds(
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(this->Boxes.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
+      Weighing weighing;
       for (std::ptrdiff_t b = begin; b < end; ++b)
       {
         const std::int64_t first = b > 0 ? firstFrom(this->Sums[b - 1]) : 0;
@@ -478,7 +487,7 @@ std::vector<SurfaceProxy::Seed> SurfaceProxy::seeds(
         const std::int64_t last = isLast ? count : firstFrom(this->Sums[b]);
         if (first < last && (b == 0 || this->Sums[b] > this->Sums[b - 1]))
         {
-          this->seedBox(b, first, last, phase, stride, seeds);
+          this->seedBox(b, first, last, phase, stride, weighing, seeds);
         }
       }
     });

@@ -122,8 +122,17 @@ private:
   struct WeighedTriangle
   {
     ReferenceTriangle corners;
+    glm::dvec3 middle{ 0.0 };
     /// Number of particles that the triangle wants.
     double weight = 0.0;
+  };
+
+  /// Room for what is found of one box after the other.
+  struct Weighing
+  {
+    std::vector<ReferenceTriangle> corners;
+    std::vector<WeighedTriangle> triangles;
+    SizingField::Ball spacings;
   };
 
   void sampleBoxes(const ParallelFor& parallelFor);
@@ -136,8 +145,8 @@ private:
   void findSmallestSpacing();
   void sumWeights(const ParallelFor& parallelFor);
   void seedBox(std::size_t box, std::int64_t first, std::int64_t last, double phase, double stride,
-    std::vector<Seed>& seeds) const;
-  double weigh(std::size_t box, std::vector<WeighedTriangle>& triangles) const;
+    Weighing& weighing, std::vector<Seed>& seeds) const;
+  double weigh(std::size_t box, Weighing& weighing) const;
 
   Isosurface Surface;
   SizingField Field;

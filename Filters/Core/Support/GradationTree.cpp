@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace hop
@@ -21,6 +22,28 @@ double squaredDistance(const Bounds& bounds, const glm::dvec3& position)
     glm::max(glm::max(bounds.lower - position, position - bounds.upper), glm::dvec3(0.0));
   return glm::dot(apart, apart);
 }
+
+/// The least spacing that some places allow at a position.
+struct Allowance
+{
+  double slope;
+  double least;
+
+  /// Whether a place with a spacing, or one in bounds with that least spacing, may allow less than what is known.
+  bool mayFall(double squaredDistance, double spacing) const
+  {
+    const double room = this->least - spacing;
+    return room > 0.0 && this->slope * this->slope * squaredDistance < room * room;
+  }
+
+  void lower(double squaredDistance, double spacing)
+  {
+    if (this->mayFall(squaredDistance, spacing))
+    {
+      this->least = spacing + this->slope * std::sqrt(squaredDistance);
+    }
+  }
+};
 
 } // namespace
 
@@ -65,7 +88,13 @@ void GradationTree::divide(int node, int first, int last)
   this->divide(child + 1, middle, last);
 }
 
-float GradationTree::limited(const glm::dvec3& position, float spacing) const
+/// Goes through the places, the nearer half of each node first.
+/// \param mayMatter called with the squared distance of a node's bounds, and with its least spacing: whether its places
+///   are to be looked at
+/// \param use called with a place, and with its squared distance
+template <class MayMatter, class Use>
+void GradationTree::visit(
+  const glm::dvec3& position, const MayMatter& mayMatter, const Use& use) const
 {
   struct Waiting
   {
@@ -74,13 +103,6 @@ float GradationTree::limited(const glm::dvec3& position, float spacing) const
   };
   std::array<Waiting, mostWaiting> waiting;
   std::size_t count = 0;
-  double least = spacing;
-  /// Whether something at a distance, with a spacing, may allow less than what is known.
-  const auto mayAllowLess = [&](double squaredDistance, double itsSpacing)
-  {
-    const double room = least - itsSpacing;
-    return room > 0.0 && this->Slope * this->Slope * squaredDistance < room * room;
-  };
   const auto waitFor = [&](int node) {
     waiting[count++] = { node, squaredDistance(this->Nodes[node].bounds, position) };
   };
@@ -92,7 +114,7 @@ float GradationTree::limited(const glm::dvec3& position, float spacing) const
   {
     const Waiting next = waiting[--count];
     const Node& node = this->Nodes[next.node];
-    if (!mayAllowLess(next.squaredDistance, node.leastSpacing))
+    if (!mayMatter(next.squaredDistance, node.leastSpacing))
     {
       continue;
     }
@@ -100,12 +122,8 @@ float GradationTree::limited(const glm::dvec3& position, float spacing) const
     {
       for (int n = node.first; n < node.last; ++n)
       {
-        const Place& place = this->Places[n];
-        const glm::dvec3 apart = position - place.position;
-        if (mayAllowLess(glm::dot(apart, apart), place.spacing))
-        {
-          least = place.spacing + this->Slope * glm::length(apart);
-        }
+        const glm::dvec3 apart = position - this->Places[n].position;
+        use(this->Places[n], glm::dot(apart, apart));
       }
       continue;
     }
@@ -117,7 +135,53 @@ float GradationTree::limited(const glm::dvec3& position, float spacing) const
       std::swap(waiting[count - 1], waiting[count - 2]);
     }
   }
-  return static_cast<float>(least);
+}
+
+float GradationTree::limited(const glm::dvec3& position, float spacing) const
+{
+  Allowance allowance{ this->Slope, spacing };
+  this->visit(
+    position,
+    [&](double squared, double itsSpacing) { return allowance.mayFall(squared, itsSpacing); },
+    [&](const Place& place, double squared) { allowance.lower(squared, place.spacing); });
+  return static_cast<float>(allowance.least);
+}
+
+void GradationTree::findAround(
+  const glm::dvec3& center, double radius, float spacing, std::vector<Place>& around) const
+{
+  // More than rounding errors.
+  constexpr double slack = 1e-6;
+  const double reach = (1.0 + slack) * radius;
+  // What is allowed everywhere in the ball.
+  double most = spacing;
+  const auto mayMatter = [&](double squared, double itsSpacing)
+  {
+    const double farthest = reach + (most - itsSpacing) / this->Slope;
+    return itsSpacing < most && squared < farthest * farthest;
+  };
+  around.clear();
+  this->visit(center, mayMatter,
+    [&](const Place& place, double squared)
+    {
+      if (mayMatter(squared, place.spacing))
+      {
+        around.push_back(place);
+        most = std::min(most, place.spacing + this->Slope * (std::sqrt(squared) + reach));
+      }
+    });
+}
+
+float GradationTree::limited(
+  const glm::dvec3& position, float spacing, const std::vector<Place>& around) const
+{
+  Allowance allowance{ this->Slope, spacing };
+  for (const Place& place : around)
+  {
+    const glm::dvec3 apart = position - place.position;
+    allowance.lower(glm::dot(apart, apart), place.spacing);
+  }
+  return static_cast<float>(allowance.least);
 }
 
 } // namespace hop

@@ -26,6 +26,15 @@ public:
   /// The spacing that the places allow at a position, or `spacing` if this is less.
   float limited(const glm::dvec3& position, float spacing) const;
 
+  /// Finds the places that may allow less than a spacing somewhere in a ball: one search for many positions.
+  /// \param radius >= 0, units of length
+  /// \param around receives them, and few that allow nothing less
+  void findAround(
+    const glm::dvec3& center, double radius, float spacing, std::vector<Place>& around) const;
+
+  /// limited() at a position in the ball of findAround(), with the same spacing.
+  float limited(const glm::dvec3& position, float spacing, const std::vector<Place>& around) const;
+
   const std::vector<Place>& places() const { return this->Places; }
 
 private:
@@ -41,6 +50,8 @@ private:
   };
 
   void divide(int node, int first, int last);
+  template <class MayMatter, class Use>
+  void visit(const glm::dvec3& position, const MayMatter& mayMatter, const Use& use) const;
 
   double Slope;
   std::vector<Place> Places;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace hop::testing
 {
@@ -50,6 +51,36 @@ TEST(GradationTree, FindsTheLeastOfAllLimits)
     }
     EXPECT_TRUE(count < 100 || lowered > 100) << count;
   }
+}
+
+TEST(GradationTree, OneSearchTellsTheLimitsInABall)
+{
+  constexpr float wanted = 0.15f;
+  const std::vector<GradationTree::Place> places = randomPlaces(3000);
+  const GradationTree tree(places, slope);
+  Random random(3);
+  const auto uniform = [&]() { return 2.0 * random.uniform() - 1.0; };
+  std::vector<GradationTree::Place> around;
+  std::size_t most = 0;
+  for (const GradationTree::Place& at : randomPlaces(200))
+  {
+    for (const double radius : { 0.0, 0.01, 0.1 })
+    {
+      const glm::dvec3 center = 1.5 * at.position - 0.2;
+      tree.findAround(center, radius, wanted, around);
+      most = std::max(most, around.size());
+      for (int n = 0; n < 20; ++n)
+      {
+        const double x = uniform();
+        const double y = uniform();
+        const double z = uniform();
+        const glm::dvec3 position = center + radius / std::sqrt(3.0) * glm::dvec3(x, y, z);
+        EXPECT_EQ(tree.limited(position, wanted, around), tree.limited(position, wanted));
+      }
+    }
+  }
+  EXPECT_GT(most, 1u);
+  EXPECT_LT(most, 300u); // a tenth of all
 }
 
 TEST(GradationTree, MayBeEmptyOrHaveAllPlacesInOne)
