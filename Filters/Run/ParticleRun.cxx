@@ -287,8 +287,7 @@ bool GroupRun::distributeInSlabs(
   const SlabMeshes meshes = gatherSlabs(this->Ranks, elements.mesh, this->Blocks.cellCount(),
     this->Slabs, this->Scale.spacing, this->IsSound, std::ref(loops));
   this->attemptAgain(meshes.failure);
-  elements.mesh.coefficients = {};
-  elements.mesh.weights = {};
+  elements.mesh.releaseFields();
   if (!meshes.isComplete)
   {
     return false;
@@ -394,8 +393,7 @@ bool GroupRun::gather(GridElements& elements)
       gatherMesh(this->Ranks, worker, elements.mesh, this->Sizes, this->All);
     }
   }
-  elements.mesh.coefficients = {};
-  elements.mesh.weights = {};
+  elements.mesh.releaseFields();
   return true;
 }
 

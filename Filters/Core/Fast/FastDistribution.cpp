@@ -188,7 +188,7 @@ bool FastSystem::isFineEnough(const SurfaceBox& box, const SizingFunction& sizin
   Anchor anchor;
   Patch patch;
   const Location place{ element, proxyMiddle(domain, box) };
-  const Jet jet = evaluateHessian(this->Mesh.form(element), place.u);
+  const Jet jet = exactHessian(this->Mesh, place);
   if (!anchorPatch(place, jet, this->Surface.isovalue, anchor, patch))
   {
     return true;

@@ -277,7 +277,7 @@ bool MovingParticles::halveStep(
   {
     step *= 0.5;
     const Location place = this->target(i, step, cost);
-    const Jet jet = evaluateHessian(this->Surface.mesh->form(place.element), place.u);
+    const Jet jet = exactHessian(*this->Surface.mesh, place);
     ++cost;
     if (anchorPatch(place, jet, this->Surface.isovalue, anchor, patch) &&
       accepts(this->Anchors[i], this->Patches[i], anchor, patch))
