@@ -353,7 +353,7 @@ bool GroupRun::bringSlabsHome(const SlabMeshes& meshes, std::vector<Distribution
   {
     HomeParticles part =
       hop::bringHome(this->Ranks, rankOfSlab(slab, ofSlabs.size(), this->Ranks.size()),
-        ofSlabs[slab], this->IsSound, meshes.meshes[slab], this->Sizes, parallelFor);
+        ofSlabs[slab], this->IsSound, meshes.meshes[slab], this->Sizes, parallelFor, false);
     isComplete = isComplete && part.isComplete;
     this->attempt(
       [&]()
@@ -362,7 +362,7 @@ bool GroupRun::bringSlabsHome(const SlabMeshes& meshes, std::vector<Distribution
         {
           throw std::bad_alloc();
         }
-        add(part.distribution, home);
+        add(std::move(part.distribution), home);
       });
     ofSlabs[slab] = {};
   }

@@ -155,6 +155,12 @@ void MovingParticles::append(const MovingParticles& others)
   this->SweepCount += others.SweepCount;
 }
 
+void MovingParticles::replaceFixed(const Buffer<Patch>& patches)
+{
+  this->Patches.resize(this->count());
+  this->Patches.insert(this->Patches.end(), patches.begin(), patches.end());
+}
+
 void MovingParticles::draw(std::int64_t count, std::uint64_t randomSeed)
 {
   this->add(this->Proxy.seeds(count, Random(randomSeed).uniform(), this->Parallel));
