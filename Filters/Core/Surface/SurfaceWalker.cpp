@@ -67,8 +67,8 @@ std::optional<LocatedPlace> SurfaceWalker::placeBehind(const Evaluated& here, in
   {
     return LocatedPlace{ crossFace(*surface.mesh, here.location, face), neighbor.face, 0.0 };
   }
-  return surface.locator->locate(here.point.map, element, face,
-    surface.jumpTolerance(element, face), this->Evaluations);
+  return surface.locator->locate(
+    here.point.map, element, face, surface.jumpTolerance(element, face), this->Evaluations);
 }
 
 double SurfaceWalker::jumpBetween(
