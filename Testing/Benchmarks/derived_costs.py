@@ -24,7 +24,7 @@ DATA = Path(__file__).parents[1] / "Data"
 
 def bent(name, order):
     """Cells bent to their own degree, with a smooth vector and its first component."""
-    grid = cells.straight_grid(name, order=order, blocks=4)
+    grid = cells.straight_grid(name, order=order, blocks=2)
     lower, upper = support.bounds_of(grid)
     x = 2.0 * (support.points_of(grid) - lower) / (upper - lower) - 1.0
     cells.set_points(grid, x + 0.05 * np.sin(2.0 * x[:, [1, 2, 0]]))
@@ -35,9 +35,9 @@ def bent(name, order):
 
 
 def cost(grid, array, isovalue, **properties):
-    """Processor time of the fastest of three runs, with the output."""
+    """Processor time of the faster of two runs, with the output."""
     best = np.inf
-    for seed in (1, 2, 3):
+    for seed in (1, 2):
         proxy, _ = support.make_filter(grid, array, isovalue, Seed=seed, **properties)
         start = time.process_time()
         proxy.UpdatePipeline()
@@ -60,12 +60,12 @@ def row(title, grid, array, isovalue, **properties):
 vtkSMPTools.Initialize(1)
 print("| case | particles | microseconds each | cells with surface | milliseconds each |\n|---|---|---|---|---|")
 for name, order, spacing in (
-    ("LAGRANGE_HEXAHEDRON", 3, 0.03),
-    ("LAGRANGE_HEXAHEDRON", 4, 0.03),
-    ("LAGRANGE_TETRAHEDRON", 4, 0.03),
+    ("LAGRANGE_HEXAHEDRON", 3, 0.04),
+    ("LAGRANGE_HEXAHEDRON", 4, 0.04),
+    ("LAGRANGE_TETRAHEDRON", 4, 0.04),
 ):
     grid = bent(name, order)
     title = f"{name.split('_')[1].lower()}, p = {order}"
     row(f"{title}: array", grid, "p", 0.5, Spacing=spacing)
-    for quantity, isovalue in (("Vorticity Magnitude", 2.0), ("Q Criterion", 0.3), ("Lambda 2", -0.3)):
+    for quantity, isovalue in (("Q Criterion", 0.3), ("Lambda 2", -0.3)):
         row(f"{title}: {quantity}", grid, "u", isovalue, Spacing=spacing, Quantity=quantity)
