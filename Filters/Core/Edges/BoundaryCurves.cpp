@@ -128,7 +128,7 @@ public:
   /// \return slots of faces along which the surface ought to be cut
   std::vector<std::size_t> trace(const ParallelFor& parallelFor);
   /// Places particles on the curves that were traced.
-  BoundaryCurves sample(const ParallelFor& parallelFor);
+  BoundaryCurves sample(SampledCurves sampled, const ParallelFor& parallelFor);
   std::int64_t evaluations() const
   {
     return this->Tracer.evaluations() + this->Walker.evaluations();
@@ -745,12 +745,12 @@ std::vector<std::size_t> BoundarySampler::trace(const ParallelFor& parallelFor)
   return this->Tracer.overlookedCreases();
 }
 
-BoundaryCurves BoundarySampler::sample(const ParallelFor& parallelFor)
+BoundaryCurves BoundarySampler::sample(SampledCurves sampled, const ParallelFor& parallelFor)
 {
   this->dropOneSided();
   this->place(parallelFor);
   this->finish(parallelFor);
-  thinOut(std::move(this->Outcomes), this->Ranges, this->Result, parallelFor);
+  thinOut(std::move(this->Outcomes), this->Ranges, sampled, this->Result, parallelFor);
   this->Result.evaluations += this->evaluations();
   return std::move(this->Result);
 }
@@ -782,7 +782,7 @@ BoundaryCurves findBoundaryCurves(const Isosurface& surface, const FaceJumps& ju
     const std::vector<std::size_t> overlooked = sampler.trace(parallelFor);
     if (overlooked.empty())
     {
-      BoundaryCurves curves = sampler.sample(parallelFor);
+      BoundaryCurves curves = sampler.sample(sampled, parallelFor);
       curves.evaluations += evaluations;
       return curves;
     }

@@ -24,16 +24,24 @@ struct Nearness
   static constexpr double AtSharpEdge = 0.3;
   /// Largest distance of places of one corner, far above rounding and far below the distance of different corners.
   static constexpr double OnePlace = 1e-6;
+  /// On the two sides of a slit or a strip, for meshes, to which each side is a boundary of its own. Less may be one place
+  /// that files write twice in single precision; more leaves tips of strips without triangles.
+  static constexpr double OnTwoSides = 0.02;
   /// Smallest width of a strip of the surface: less may be a crack between elements, as files write them in single
   /// precision, at which the sides overlap. More draws narrower strips a splat wide.
   static constexpr double LeastStrip = 1e-3;
 };
 
-bool areTooNear(const BoundaryParticle& a, const BoundaryParticle& b)
+bool areTooNear(const BoundaryParticle& a, const BoundaryParticle& b, SampledCurves sampled)
 {
   if (a.isOnCrease || b.isOnCrease)
   {
     return false; // the other side has one here
+  }
+  if (sampled == SampledCurves::BoundaryAndCreases && lookAtEachOther(a.side, b.side))
+  {
+    return glm::distance(a.patch.position, b.patch.position) <
+      Nearness::OnTwoSides * a.patch.spacing;
   }
   const double cosine = dot(a.particle.normal, b.particle.normal);
   const double near = cosine > SheetCosine ? Nearness::OnOneSheet : Nearness::AtSharpEdge;
@@ -62,7 +70,8 @@ bool areAcrossSurface(const BoundaryParticle& a, const BoundaryParticle& b)
 /// \param kept marks the particles that stay
 /// \param standIns for each of the others the particle that is too near to it
 void connect(const std::vector<char>& kept, const std::vector<int>& standIns,
-  std::vector<CurvePlace> places, const std::vector<CurveRange>& ranges, BoundaryCurves& curves)
+  std::vector<CurvePlace> places, const std::vector<CurveRange>& ranges, SampledCurves sampled,
+  BoundaryCurves& curves)
 {
   const Buffer<BoundaryParticle>& particles = curves.particles;
   for (CurvePlace& place : places)
@@ -82,7 +91,7 @@ void connect(const std::vector<char>& kept, const std::vector<int>& standIns,
                    { return hasNoEnd(particles[pair[0]]) && hasNoEnd(particles[pair[1]]); }),
     segments.end());
   edges.segments = withoutDropped(segments, kept);
-  edges.directed = directedEdgesOf(places, ranges);
+  edges.directed = directedEdgesOf(places, ranges, sampled == SampledCurves::BoundaryAndCreases);
   renumber(edges.directed, kept);
   renumber(edges.coincident, kept);
 }
@@ -103,7 +112,7 @@ void addOtherSides(BoundaryCurves& curves)
 } // namespace
 
 void thinOut(std::vector<CurvePlace> places, const std::vector<CurveRange>& ranges,
-  BoundaryCurves& curves, const ParallelFor& parallelFor)
+  SampledCurves sampled, BoundaryCurves& curves, const ParallelFor& parallelFor)
 {
   Buffer<BoundaryParticle>& particles = curves.particles;
   const SpacedPoints points(
@@ -116,7 +125,7 @@ void thinOut(std::vector<CurvePlace> places, const std::vector<CurveRange>& rang
     grid.visit(points.positions[i], points.spacings[i],
       [&](std::size_t j)
       {
-        if (j < i && areTooNear(particles[i], particles[j]))
+        if (j < i && areTooNear(particles[i], particles[j], sampled))
         {
           use(j);
         }
@@ -159,7 +168,7 @@ void thinOut(std::vector<CurvePlace> places, const std::vector<CurveRange>& rang
       particles[i].side = {};
     }
   }
-  connect(kept, standIns, std::move(places), ranges, curves);
+  connect(kept, standIns, std::move(places), ranges, sampled, curves);
   keepMarked(particles, kept);
   addOtherSides(curves);
 }

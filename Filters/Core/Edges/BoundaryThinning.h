@@ -13,8 +13,9 @@ namespace hop
 /// slit, it goes on there, and the one that stays ends at no face.
 /// \param places what became of the places on all curves
 /// \param ranges of places, one a curve
+/// \param sampled with creases, for meshes, both sides of slits and strips keep their particles
 /// \param curves their particles and places on creases; edges and thinned particles are added
 void thinOut(std::vector<CurvePlace> places, const std::vector<CurveRange>& ranges,
-  BoundaryCurves& curves, const ParallelFor& parallelFor);
+  SampledCurves sampled, BoundaryCurves& curves, const ParallelFor& parallelFor);
 
 } // namespace hop

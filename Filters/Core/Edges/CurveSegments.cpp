@@ -68,7 +68,8 @@ std::vector<CurvePlace> unrolled(const std::vector<CurvePlace>& places, const Cu
   return result;
 }
 
-CurvePairs pairsOf(const std::vector<CurvePlace>& places, const std::vector<CurveRange>& curves)
+CurvePairs pairsOf(
+  const std::vector<CurvePlace>& places, const std::vector<CurveRange>& curves, bool allAreOrdered)
 {
   CurvePairs pairs;
   for (const CurveRange& curve : curves)
@@ -77,8 +78,9 @@ CurvePairs pairsOf(const std::vector<CurvePlace>& places, const std::vector<Curv
     const auto hasParticle = [&way](std::size_t n)
     { return n < way.size() && way[n].particle >= 0; };
     Chain chain(pairs,
-      std::any_of(
-        way.begin(), way.end(), [](const CurvePlace& place) { return place.beginsCrease; }));
+      allAreOrdered ||
+        std::any_of(
+          way.begin(), way.end(), [](const CurvePlace& place) { return place.beginsCrease; }));
     for (std::size_t n = 0; n < way.size(); ++n)
     {
       const bool isBetweenTwo = n > 0 && hasParticle(n - 1) && hasParticle(n + 1);
@@ -124,15 +126,15 @@ void sortPairs(std::vector<std::array<int, 2>>& pairs)
 std::vector<std::array<int, 2>> segmentsOf(
   const std::vector<CurvePlace>& places, const std::vector<CurveRange>& curves)
 {
-  std::vector<std::array<int, 2>> segments = pairsOf(places, curves).segments;
+  std::vector<std::array<int, 2>> segments = pairsOf(places, curves, false).segments;
   sortPairs(segments);
   return segments;
 }
 
 std::vector<std::array<int, 2>> directedEdgesOf(
-  const std::vector<CurvePlace>& places, const std::vector<CurveRange>& curves)
+  const std::vector<CurvePlace>& places, const std::vector<CurveRange>& curves, bool all)
 {
-  std::vector<std::array<int, 2>> edges = pairsOf(places, curves).ordered;
+  std::vector<std::array<int, 2>> edges = pairsOf(places, curves, all).ordered;
   for (std::array<int, 2>& edge : edges)
   {
     std::swap(edge[0], edge[1]);

@@ -37,8 +37,9 @@ std::vector<std::array<int, 2>> segmentsOf(
 
 /// Pairs of particles that follow each other on curves of which a part is a crease, from the second to the first: curves
 /// are followed with the surface to their right.
+/// \param all pairs on other curves, too
 std::vector<std::array<int, 2>> directedEdgesOf(
-  const std::vector<CurvePlace>& places, const std::vector<CurveRange>& curves);
+  const std::vector<CurvePlace>& places, const std::vector<CurveRange>& curves, bool all = false);
 
 /// Pairs of particles after some have been dropped, with the indices of the ones that are left. Where a particle with
 /// two neighbours was dropped, these become neighbours.

@@ -1,5 +1,6 @@
 #include "Mesh/ConstrainedEdges.h"
 
+#include "Mesh/EdgeChains.h"
 #include "Support/SortedBy.h"
 
 #include <algorithm>
@@ -89,6 +90,7 @@ ConstrainedEdges::ConstrainedEdges(const Distribution& distribution)
   }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  closeChains(distribution.particles, edges);
   if (!edges.empty())
   {
     group(edges, 0, distribution.particles.size(), this->Next, this->NextStart);

@@ -52,6 +52,27 @@ double creaseBefore(const Particle& particle, const glm::dvec3& apart)
   return angle;
 }
 
+/// Whether the surface ends at two particles at planes that are opposite to each other.
+bool endOppositely(const Particle& a, const Particle& b)
+{
+  const auto endsAt = [](const Particle& particle, const ClipPlane& plane)
+  {
+    constexpr double rounding = 0.01; // of the planes' distances, in units of the spacing
+    return plane.exists() && plane.isBoundary() && plane.distance <= rounding * particle.spacing;
+  };
+  for (const ClipPlane& one : a.clips)
+  {
+    for (const ClipPlane& other : b.clips)
+    {
+      if (endsAt(a, one) && endsAt(b, other) && dot(one.normal, other.normal) < -0.5)
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 } // namespace
 
 ParticlePlaces::ParticlePlaces(const Buffer<Particle>& all, const ParallelFor& parallelFor)
@@ -94,19 +115,25 @@ bool TangentView::isOnSheet(int particle) const
     (cosine > SameSheet::Alike || this->turnsAsExpected(particle));
 }
 
-/// The constrained edges that end at a neighbour.
+/// The constrained edges that end at a neighbour and have the middle to their left. Others bound the other side of a
+/// jump, which reaches over this one.
 void TangentView::collectEdges()
 {
   this->FlatEdges.clear();
   const auto add = [this](int from, int to)
   {
-    if (from != this->Middle && to != this->Middle)
+    const FlatEdge edge{ this->flat(from), this->flat(to) };
+    if (from != this->Middle && to != this->Middle && crossOf(edge.from.place, edge.to.place) > 0.0)
     {
-      this->FlatEdges.push_back({ this->flat(from), this->flat(to) });
+      this->FlatEdges.push_back(edge);
     }
   };
   for (const FlatNeighbor& neighbor : this->Neighbors)
   {
+    if (this->isAcrossSlit(neighbor))
+    {
+      continue;
+    }
     for (const int next : this->Edges.after(neighbor.index))
     {
       add(neighbor.index, next);
@@ -141,9 +168,20 @@ bool TangentView::isSeenFromTheLeft(const FlatNeighbor& neighbor) const
   return this->Edges.joins(this->Middle, neighbor.index) || leastTurn(after) <= leastTurn(before);
 }
 
+/// Whether a neighbour and the middle are on the two sides of a slit, whose sheets may reach over each other. At the
+/// slit's tip an edge joins them.
+bool TangentView::isAcrossSlit(const FlatNeighbor& neighbor) const
+{
+  const Particle& here = this->Particles.particles[this->Middle];
+  const Particle& there = this->Particles.particles[neighbor.index];
+  return here.location.element != there.location.element && here.jump != 0.0 && there.jump != 0.0 &&
+    this->Edges.isOnEdge(this->Middle) && this->Edges.isOnEdge(neighbor.index) &&
+    !this->Edges.joins(this->Middle, neighbor.index) && endOppositely(here, there);
+}
+
 bool TangentView::isHidden(const FlatNeighbor& neighbor) const
 {
-  return !this->isSeenFromTheLeft(neighbor) ||
+  return !this->isSeenFromTheLeft(neighbor) || this->isAcrossSlit(neighbor) ||
     std::any_of(this->FlatEdges.begin(), this->FlatEdges.end(),
       [&](const FlatEdge& edge)
       {

@@ -98,6 +98,7 @@ private:
   }
   void collectEdges();
   bool isHidden(const FlatNeighbor& neighbor) const;
+  bool isAcrossSlit(const FlatNeighbor& neighbor) const;
   bool isSeenFromTheLeft(const FlatNeighbor& neighbor) const;
   void makeSectors();
 
