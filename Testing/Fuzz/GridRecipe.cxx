@@ -130,7 +130,7 @@ GridRecipe::GridRecipe(const std::string& line)
 }
 
 /// Leaves out what takes long by its nature: many cells of a high degree, isolation of noise of a high degree
-/// and many cells that are flat or derived (Documentation/reliability.md), and many particles by Classic.
+/// and many cells that are flat, derived or of noise (Documentation/reliability.md), and many particles by Classic.
 void GridRecipe::tame()
 {
   double& order = this->Values["order"];
@@ -143,7 +143,7 @@ void GridRecipe::tame()
   const bool isProduct = components > 1.0 || quantity > 0;
   order = std::min(order, isNoise ? (isProduct ? 2.0 : 4.0) : isProduct ? 4.0 : 10.0);
   double& blocks = this->Values["blocks"];
-  const bool isSlow = quantity > 0 || (*this)["flat"] < 1.0;
+  const bool isSlow = quantity > 0 || (*this)["flat"] < 1.0 || (isNoise && order > 2.0);
   blocks = std::min(blocks, isSlow ? 1.0 : order < 3 ? 3.0 : order < 5 ? 2.0 : 1.0);
   if (this->count("Method") == 0)
   {

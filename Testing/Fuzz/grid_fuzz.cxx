@@ -41,7 +41,7 @@ struct Options
 };
 
 /// Recipes that one child process runs before it looks for leaks.
-constexpr std::size_t Batch = 100;
+constexpr std::size_t Batch = 20;
 
 void append(const std::vector<std::string>& complaints, std::string& text)
 {
