@@ -60,6 +60,9 @@ void CellCensus::count(Verdict verdict, vtkIdType cell, int cellType)
     case Verdict::Singular:
       this->singular.add(cell);
       break;
+    case Verdict::Undefined:
+      this->undefined.add(cell);
+      break;
     case Verdict::Keep:
     case Verdict::Ghost:
       break;
@@ -78,6 +81,7 @@ void CellCensus::add(const CellCensus& others)
   this->badWeights.add(others.badWeights);
   this->level.add(others.level);
   this->singular.add(others.singular);
+  this->undefined.add(others.undefined);
   this->collapsed.add(others.collapsed);
   for (const auto& [which, cells] : others.misordered)
   {
@@ -90,7 +94,7 @@ void CellCensus::add(const CellCensus& others)
 vtkIdType CellCensus::skipped() const
 {
   vtkIdType sum = this->brokenConnectivity.count + this->notFinite.count + this->badWeights.count +
-    this->level.count + this->collapsed.count + this->singular.count;
+    this->level.count + this->collapsed.count + this->singular.count + this->undefined.count;
   for (const auto& [type, cells] : this->unsupported)
   {
     sum += cells.count;
@@ -122,8 +126,10 @@ std::string CellCensus::describe() const
     text, this->level, "skipped: the field is the isovalue throughout, which is no surface");
   describeCells(text, this->singular,
     "skipped: so distorted that derivatives may be infinite in them: the Jacobian determinant is "
-    "not proven to "
-    "keep its sign, or the field is not finite");
+    "not proven to keep its sign");
+  describeCells(text, this->undefined,
+    "skipped: the quantity is not finite somewhere in them: a formula divides by zero, or takes a "
+    "root or a logarithm of what has none");
   describeCells(text, this->collapsed,
     "skipped: without volume, or smaller than 1e-15 of the bounds of the input");
   for (const auto& [which, cells] : this->misordered)

@@ -22,6 +22,8 @@ enum class Verdict : char
   Unsupported,
   /// Of a derived field.
   Singular,
+  /// Of a formula.
+  Undefined,
   /// By vtkGhostType another piece's, hidden, or replaced.
   Ghost
 };
@@ -58,6 +60,8 @@ struct CellCensus
   SkippedCells level;
   /// Cells in which a derived field may be infinite: the Jacobian determinant is not proven to be positive.
   SkippedCells singular;
+  /// Cells in which a formula is not finite somewhere.
+  SkippedCells undefined;
   /// The Jacobian determinant is zero everywhere, to rounding, or the cell is tiny beside the bounds: no volume.
   SkippedCells collapsed;
   /// By VTK cell type, and by what makes them sound if that is known (MisorderedCells::remedy): partly inverted cells

@@ -4,6 +4,7 @@
 #include "Conversion/ConvertCells.h"
 #include "Conversion/RunUnits.h"
 #include "Elements/FieldExpression.h"
+#include "Elements/RangeArithmetic.h"
 #include "Elements/SampledField.h"
 
 #include "vtkPoints.h"
@@ -58,6 +59,23 @@ double coordinateError(vtkUnstructuredGrid* grid, const ControlNet& net)
               : double(std::numeric_limits<float>::epsilon()));
 }
 
+/// Of the control points, and so of all values of a component.
+Range hullOf(const SourceElement& source, int component)
+{
+  const std::size_t count = source.control.size() / source.width;
+  const auto point = [&](std::size_t i)
+  {
+    const double weight = source.isRational ? source.weights[i] : 1.0;
+    return source.control[i * source.width + component] / weight;
+  };
+  Range range{ point(0), point(0) };
+  for (std::size_t i = 1; i < count; ++i)
+  {
+    range.include(point(i));
+  }
+  return range;
+}
+
 /// The field of a run whose coordinates are divided by a unit. A formula is told of world units.
 FieldFunction functionIn(const InputBlocks& blocks, double unitOfLength)
 {
@@ -109,6 +127,7 @@ private:
     Found& found) const;
   Verdict judge(const Range& range, double slack, int exponent, double& change) const;
   bool straddles(const Range& range, int exponent) const;
+  Range boundsOf(const SourceElement& source, const Derivation& derivation) const;
 
   const InputBlocks& Blocks;
   const std::vector<double>& Isovalues;
@@ -170,13 +189,41 @@ Verdict Deriver::derive(
   const SourceElement source{ cell.basis.domain(), cell.basis.degrees(), net.width, net.control,
     net.weights, !values.weights.empty(), coordinateError(this->Blocks[block].grid, net) };
   const Derivation derivation(source, this->Blocks.quantity());
-  if (!this->straddles(derivation.bounds(), derived.exponent))
+  if (!this->straddles(this->boundsOf(source, derivation), derived.exponent))
   {
     return Verdict::Drop;
   }
   return this->Way == DerivingBy::Products
     ? this->findByProducts(derivation, std::move(derived), found)
     : this->findBySamples(source, derivation, std::move(derived), found);
+}
+
+/// Bounds of the quantity, or of its square where that is derived. A formula is told of world units.
+Range Deriver::boundsOf(const SourceElement& source, const Derivation& derivation) const
+{
+  if (this->Blocks.quantity() != Quantity::Expression)
+  {
+    return derivation.bounds();
+  }
+  FieldBounds in{ {}, {}, derivation.gradientBounds() };
+  for (std::array<Range, 3>& row : in.gradients)
+  {
+    for (Range& entry : row)
+    {
+      entry = scaledBy(1.0 / this->UnitOfLength, entry);
+    }
+  }
+  for (int c = 0; c < source.width; ++c)
+  {
+    const Range range = hullOf(source, c);
+    if (c < 3)
+    {
+      in.x[c] = scaledBy(this->UnitOfLength, range);
+      continue;
+    }
+    in.values.push_back(range);
+  }
+  return this->Blocks.expression()->bounds(in);
 }
 
 /// Derives the whole cell, if it can hold surface.
@@ -229,7 +276,8 @@ Verdict Deriver::findBySamples(
       parts[n], [&](const Range& range) { return this->straddles(range, cell.exponent); });
     if (sampled.element.state != DerivedElement::State::Sound)
     {
-      return Verdict::Singular;
+      return sampled.element.state == DerivedElement::State::NotFinite ? Verdict::Undefined
+                                                                       : Verdict::Singular;
     }
     if (!sampled.canHoldSurface)
     {
@@ -250,6 +298,10 @@ Verdict Deriver::findBySamples(
       part.element = std::move(sampled.element);
       part.place = parts[n];
       part.isResolved = sampled.isResolved;
+      if (!part.isResolved && this->Blocks.quantity() == Quantity::Lambda2)
+      {
+        part.exact = lambdaTwoSource(source, part.place);
+      }
       found.change = std::max(found.change, change);
     }
   }
@@ -314,6 +366,16 @@ JacobianSign writeDerived(const DerivedCell& cell, Quantity quantity, double uni
     c.w = std::ldexp(c.w, cell.exponent - unit);
     isUsable = isUsable && std::abs(c.w) <= largest;
     mesh.coefficients[element.firstCoefficient + i] = c;
+  }
+  if (element.exactField >= 0)
+  {
+    LambdaTwoField& field = mesh.exactFields[element.exactField];
+    const std::size_t first = field.firstDerivative;
+    field = cell.exact.field;
+    field.firstDerivative = first;
+    field.scale = std::ldexp(1.0, cell.exponent - unit);
+    std::copy(cell.exact.derivatives.begin(), cell.exact.derivatives.end(),
+      mesh.derivatives.begin() + static_cast<std::ptrdiff_t>(first));
   }
   if (element.rational)
   {

@@ -24,12 +24,16 @@ struct Room
 {
   std::size_t elements = 0;
   std::size_t coefficients = 0;
+  std::size_t exactFields = 0;
+  std::size_t derivatives = 0;
   bool anyRational = false;
 
   void add(const Room& other)
   {
     this->elements += other.elements;
     this->coefficients += other.coefficients;
+    this->exactFields += other.exactFields;
+    this->derivatives += other.derivatives;
     this->anyRational = this->anyRational || other.anyRational;
   }
 };
@@ -49,6 +53,15 @@ SkippedCells unresolvedCells(const JudgedCells& range)
     }
   }
   return cells;
+}
+
+/// The room that the exact field of kept cell i needs.
+Room roomForExact(const JudgedCells& range, std::size_t i)
+{
+  Room room;
+  room.derivatives = range.derived.empty() ? 0 : range.derived[i].exact.derivatives.size();
+  room.exactFields = room.derivatives > 0 ? 1 : 0;
+  return room;
 }
 
 /// Builds elements of judged cells.
@@ -120,6 +133,8 @@ void Builder::makeElements(const std::vector<JudgedCells>& ranges)
   this->Result.parts.resize(this->AreDivided ? all.elements : 0);
   mesh.coefficients.resize(all.coefficients);
   mesh.weights.resize(all.anyRational ? all.coefficients : 0);
+  mesh.exactFields.resize(all.exactFields);
+  mesh.derivatives.resize(all.derivatives);
   forAll(this->Parallel, ranges.size(),
     [&](std::size_t r) { this->makeElements(ranges[r], before[r]); });
 }
@@ -134,6 +149,7 @@ Room Builder::roomFor(const JudgedCells& range) const
     const Element element = this->elementOf(range, i);
     room.coefficients += coefficientCount(element.domain, element.degrees);
     room.anyRational = room.anyRational || element.rational;
+    room.add(roomForExact(range, i));
   }
   return room;
 }
@@ -141,18 +157,25 @@ Room Builder::roomFor(const JudgedCells& range) const
 /// \param before the room that the elements of earlier ranges need
 void Builder::makeElements(const JudgedCells& range, const Room& before)
 {
-  std::size_t coefficient = before.coefficients;
+  Room next = before;
   for (std::size_t i = 0; i < range.kept.size(); ++i)
   {
     Element& element = this->Result.mesh.elements[before.elements + i];
     element = this->elementOf(range, i);
-    element.firstCoefficient = coefficient;
+    element.firstCoefficient = next.coefficients;
+    const Room exact = roomForExact(range, i);
+    if (exact.exactFields > 0)
+    {
+      element.exactField = static_cast<int>(next.exactFields);
+      this->Result.mesh.exactFields[next.exactFields].firstDerivative = next.derivatives;
+    }
+    next.add(exact);
     this->Result.bases[before.elements + i] = range.kept[i].basis;
     if (!this->Result.parts.empty())
     {
       this->Result.parts[before.elements + i] = range.derived[i].place;
     }
-    coefficient += coefficientCount(element.domain, element.degrees);
+    next.coefficients += coefficientCount(element.domain, element.degrees);
   }
 }
 

@@ -287,8 +287,7 @@ bool GroupRun::distributeInSlabs(
   const SlabMeshes meshes = gatherSlabs(this->Ranks, elements.mesh, this->Blocks.cellCount(),
     this->Slabs, this->Scale.spacing, this->IsSound, std::ref(loops));
   this->attemptAgain(meshes.failure);
-  elements.mesh.coefficients = {};
-  elements.mesh.weights = {};
+  elements.mesh.releaseFields();
   if (!meshes.isComplete)
   {
     return false;
@@ -354,7 +353,7 @@ bool GroupRun::bringSlabsHome(const SlabMeshes& meshes, std::vector<Distribution
   {
     HomeParticles part =
       hop::bringHome(this->Ranks, rankOfSlab(slab, ofSlabs.size(), this->Ranks.size()),
-        ofSlabs[slab], this->IsSound, meshes.meshes[slab], this->Sizes, parallelFor);
+        ofSlabs[slab], this->IsSound, meshes.meshes[slab], this->Sizes, parallelFor, false);
     isComplete = isComplete && part.isComplete;
     this->attempt(
       [&]()
@@ -363,7 +362,7 @@ bool GroupRun::bringSlabsHome(const SlabMeshes& meshes, std::vector<Distribution
         {
           throw std::bad_alloc();
         }
-        add(part.distribution, home);
+        add(std::move(part.distribution), home);
       });
     ofSlabs[slab] = {};
   }
@@ -394,8 +393,7 @@ bool GroupRun::gather(GridElements& elements)
       gatherMesh(this->Ranks, worker, elements.mesh, this->Sizes, this->All);
     }
   }
-  elements.mesh.coefficients = {};
-  elements.mesh.weights = {};
+  elements.mesh.releaseFields();
   return true;
 }
 

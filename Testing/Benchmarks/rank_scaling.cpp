@@ -9,6 +9,7 @@
 // machine may be busy otherwise); the time of one rank over it; particles, and those of the busiest rank; megabytes
 // that all ranks sent.
 
+#include "CountingExchange.h"
 #include "Elements/SlabElements.h"
 #include "Fast/FastDistribution.h"
 #include "Fast/SlabDistribution.h"
@@ -33,40 +34,9 @@ namespace
 {
 
 using namespace hop;
+using hop::testing::CountingExchange;
 
 constexpr double tolerance = 1e-10;
-
-/// Counts what is sent.
-class CountingExchange final : public Exchange
-{
-public:
-  explicit CountingExchange(Exchange& ranks)
-    : Ranks(ranks)
-  {
-  }
-
-  int rank() const override { return this->Ranks.rank(); }
-  int size() const override { return this->Ranks.size(); }
-  std::vector<Bytes> allGather(const Bytes& mine) override
-  {
-    this->Sent += mine.size() * static_cast<std::size_t>(this->size() - 1);
-    return this->Ranks.allGather(mine);
-  }
-  void send(const void* bytes, std::size_t size, int to) override
-  {
-    this->Sent += size;
-    this->Ranks.send(bytes, size, to);
-  }
-  void receive(void* bytes, std::size_t size, int from) override
-  {
-    this->Ranks.receive(bytes, size, from);
-  }
-  std::size_t sent() const { return this->Sent; }
-
-private:
-  Exchange& Ranks;
-  std::size_t Sent = 0;
-};
 
 double threadSeconds()
 {
@@ -148,11 +118,14 @@ std::size_t distributeOn(CountingExchange& exchange, ElementMesh& mine,
     ofSlabs[0] = distributeFast({ &meshes.meshes[0].mesh, 0.0, tolerance }, parameters, {}, {});
   }
   std::size_t distributed = 0;
+  Distribution home;
   for (std::size_t slab = 0; slab < slabs.size(); ++slab)
   {
     distributed += ofSlabs[slab].particles.size();
-    bringHome(exchange, rankOfSlab(slab, slabs.size(), exchange.size()), ofSlabs[slab], true,
-      meshes.meshes[slab], sizes, {});
+    HomeParticles part = bringHome(exchange, rankOfSlab(slab, slabs.size(), exchange.size()),
+      ofSlabs[slab], true, meshes.meshes[slab], sizes, {}, false);
+    add(std::move(part.distribution), home);
+    ofSlabs[slab] = {};
   }
   return distributed;
 }

@@ -1,5 +1,7 @@
 #include "Elements/DerivedField.h"
 
+#include "Elements/RangeArithmetic.h"
+
 #include <glm/glm.hpp>
 
 #include <algorithm>
@@ -36,35 +38,6 @@ constexpr int MostBeforeTrimming = 3 * MaximumDegree / 2;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-Range sum(const Range& a, const Range& b)
-{
-  return { a.lower + b.lower, a.upper + b.upper };
-}
-
-Range scaledBy(double factor, const Range& a)
-{
-  return factor >= 0.0 ? Range{ factor * a.lower, factor * a.upper }
-                       : Range{ factor * a.upper, factor * a.lower };
-}
-
-Range product(const Range& a, const Range& b)
-{
-  const auto [lower, upper] =
-    std::minmax({ a.lower * b.lower, a.lower * b.upper, a.upper * b.lower, a.upper * b.upper });
-  return { lower, upper };
-}
-
-Range square(const Range& a)
-{
-  const double largest = a.magnitude() * a.magnitude();
-  if (a.lower <= 0.0 && a.upper >= 0.0)
-  {
-    return { 0.0, largest };
-  }
-  const double least = std::min(std::abs(a.lower), std::abs(a.upper));
-  return { least * least, largest };
-}
-
 /// Of the Bernstein coefficients, and so of all values.
 Range hullOf(const ScaledPolynomial& polynomial)
 {
@@ -86,41 +59,6 @@ double meanOf(const ScaledPolynomial& polynomial)
 ScaledPolynomial constant(Domain domain, double value)
 {
   return { domain, { 0, 0, 0 }, { value } };
-}
-
-/// `width` components that stand beside each other, as polynomials.
-std::vector<ScaledPolynomial> componentsOf(const SourceElement& source)
-{
-  std::vector<ScaledPolynomial> components;
-  for (int c = 0; c < source.width; ++c)
-  {
-    std::vector<double> values;
-    for (std::size_t i = c; i < source.control.size(); i += source.width)
-    {
-      values.push_back(source.control[i]);
-    }
-    components.push_back(scaled(source.domain, source.degrees, std::move(values)));
-  }
-  return components;
-}
-
-ScaledPolynomial weightOf(const SourceElement& source)
-{
-  return source.isRational ? scaled(source.domain, source.degrees, source.weights)
-                           : constant(source.domain, 1.0);
-}
-
-/// w p' - p w'; the derivative p' where the weight is constant.
-ScaledPolynomial homogeneousDerivative(
-  const ScaledPolynomial& p, const ScaledPolynomial& weight, int axis)
-{
-  if (weight.values.size() == 1)
-  {
-    return derivative(p, axis);
-  }
-  const ScaledPolynomial plus = weight * derivative(p, axis);
-  const ScaledPolynomial minus = p * derivative(weight, axis);
-  return sumOf({ { 1.0, &plus }, { -1.0, &minus } });
 }
 
 /// factor_0 p_0 + factor_1 p_1 + factor_2 p_2.
@@ -243,16 +181,11 @@ Derivation::Derivation(const SourceElement& source, Quantity quantity)
   , Components(source.width - 3)
   , Weight(weightOf(source))
 {
-  const std::vector<ScaledPolynomial> components = componentsOf(source);
-  Columns world;
+  Columns world = homogeneousDerivatives(source);
   glm::dmat3 mean(1.0);
   for (int k = 0; k < 3; ++k)
   {
-    for (int c = 0; c < source.width; ++c)
-    {
-      std::vector<ScaledPolynomial>& column = c < 3 ? world[k] : this->Field[k];
-      column.push_back(homogeneousDerivative(components[c], this->Weight, k));
-    }
+    this->Field[k].assign(world[k].begin() + 3, world[k].end());
     for (int c = 0; c < 3; ++c)
     {
       mean[k][c] = meanOf(world[k][c]);
@@ -273,7 +206,7 @@ Derivation::Derivation(const SourceElement& source, Quantity quantity)
 }
 
 /// Of the gradient with respect to world coordinates, three entries a component.
-std::vector<std::array<Range, 3>> Derivation::gradientRanges() const
+std::vector<std::array<Range, 3>> Derivation::gradientBounds() const
 {
   // J = I + E: (I + E)^-1 differs from I by |E| / (1 - |E|) at most.
   double size2 = 0.0;
@@ -312,16 +245,15 @@ std::vector<std::array<Range, 3>> Derivation::gradientRanges() const
   return ranges;
 }
 
-Range Derivation::bounds() const
+Range boundsFrom(Quantity quantity, const std::vector<std::array<Range, 3>>& g)
 {
-  const std::vector<std::array<Range, 3>> g = this->gradientRanges();
   Range result;
   const auto add = [&](double factor, const Range& term)
   { result = sum(result, scaledBy(factor, term)); };
-  for (int i = 0; i < this->Components; ++i)
+  for (int i = 0; i < static_cast<int>(g.size()); ++i)
   {
     const int j = (i + 1) % 3;
-    switch (this->ItsQuantity)
+    switch (quantity)
     {
       case Quantity::Value:
         break;
@@ -342,7 +274,7 @@ Range Derivation::bounds() const
         add(-1.0, product(g[i][j], g[j][i]));
         break;
       case Quantity::Expression:
-        return { -infinity, infinity };
+        return everything;
       case Quantity::Lambda2:
         // An eigenvalue of S^2 + W^2 is within the largest ones of S^2 and -W^2: the sums of their squares bound both.
         for (const Range& entry : g[i])
@@ -353,10 +285,13 @@ Range Derivation::bounds() const
         break;
     }
   }
+  return result;
+}
+
+Range Derivation::bounds() const
+{
   const double slack = this->rounding();
-  result = sum(result, { -slack, slack });
-  const bool isKnown = result.lower > -infinity && result.upper < infinity; // NaN is not
-  return isKnown ? result : Range{ -infinity, infinity };
+  return knownOr(sum(boundsFrom(this->ItsQuantity, this->gradientBounds()), { -slack, slack }));
 }
 
 double Derivation::rounding() const

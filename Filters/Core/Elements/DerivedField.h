@@ -1,30 +1,13 @@
 #pragma once
 
-#include "Elements/BernsteinProduct.h"
 #include "Elements/Quantity.h"
+#include "Elements/SourceElement.h"
 
 #include <array>
 #include <vector>
 
 namespace hop
 {
-
-/// An element whose field has components, from whose derivatives another field is made.
-struct SourceElement
-{
-  Domain domain = Domain::Hexahedron;
-  Degrees degrees{ 1, 1, 1 };
-  /// 3 + number of the field's components.
-  int width = 4;
-  /// coefficientCount x width values: (x, y, z, u...), homogeneous if rational.
-  const std::vector<double>& control;
-  /// coefficientCount weights; not read unless the element is rational.
-  const std::vector<double>& weights;
-  bool isRational = false;
-  /// Largest error of the coordinates, in their unit. A Jacobian that is of lower degree up to this error is taken to be
-  /// of lower degree: cells with straight edges keep small polynomials although their nodes are rounded.
-  double coordinateError = 0.0;
-};
 
 /// An element with the derived field in the place of f.
 struct DerivedElement
@@ -35,7 +18,9 @@ struct DerivedElement
     /// Its degree would be above MaximumDegree; there are no coefficients.
     DegreeTooHigh,
     /// The determinant is not proven to be positive, so that the field may be infinite; there are no coefficients.
-    Singular
+    Singular,
+    /// The quantity is not finite somewhere, although the derivatives are; there are no coefficients.
+    NotFinite
   };
 
   State state = State::Singular;
@@ -45,6 +30,9 @@ struct DerivedElement
   /// Empty where the field is a polynomial.
   std::vector<double> weights;
 };
+
+/// Bounds of a quantity, or of its square where that is derived, from bounds of the gradient's entries, three a component.
+Range boundsFrom(Quantity quantity, const std::vector<std::array<Range, 3>>& gradient);
 
 /// Derives a field from the field of one element.
 ///
@@ -59,6 +47,10 @@ public:
   /// \param quantity not Value
   /// \pre the mean of the Jacobian is not singular: its determinant is not zero everywhere, nor does it change its sign
   Derivation(const SourceElement& source, Quantity quantity);
+
+  /// Of the gradient with respect to the coordinates, three entries a component, from hulls of first derivatives; infinite
+  /// where the Jacobian changes too much.
+  std::vector<std::array<Range, 3>> gradientBounds() const;
 
   /// Bounds of the quantity, or of its square where that is derived, from the hulls of first derivatives alone: much
   /// cheaper than element().
@@ -80,7 +72,6 @@ public:
 private:
   using Columns = std::array<std::vector<ScaledPolynomial>, 3>;
 
-  std::vector<std::array<Range, 3>> gradientRanges() const;
   Columns adjugate() const;
   std::vector<std::array<ScaledPolynomial, 3>> gradientNumerators(
     const Columns& adjugate, bool mayTrim) const;

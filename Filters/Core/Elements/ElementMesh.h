@@ -2,6 +2,7 @@
 
 #include "Common/Monitor.h"
 #include "Elements/Bernstein.h"
+#include "Elements/LambdaTwoField.h"
 
 #include <cstdint>
 #include <limits>
@@ -28,6 +29,8 @@ struct Element
   /// Index of its first coefficient (and weight) in the mesh.
   std::size_t firstCoefficient = 0;
   bool rational = false;
+  /// Index in the mesh's exactFields, or -1: the polynomial is the field.
+  int exactField = -1;
   /// Cell of the input that the element was made of.
   std::int64_t cell = -1;
   /// A number for each corner. Corners with equal numbers coincide, within the mesh and within the element: a
@@ -48,6 +51,10 @@ struct ElementMesh
   std::vector<Coefficient> coefficients;
   /// As long as `coefficients`, or empty where no element is rational.
   std::vector<double> weights;
+  /// Fields that stand in for those of polynomials wherever particles are; proofs are of the polynomials.
+  std::vector<LambdaTwoField> exactFields;
+  /// The coefficients of exactFields.
+  std::vector<Coefficient> derivatives;
   /// MaximumFaces entries an element; empty until findFaceNeighbors has run.
   std::vector<FaceNeighbor> neighbors;
 
@@ -56,6 +63,26 @@ struct ElementMesh
     const Element& e = this->elements[element];
     return { e.domain, e.degrees, this->coefficients.data() + e.firstCoefficient,
       e.rational ? this->weights.data() + e.firstCoefficient : nullptr };
+  }
+
+  /// The jet that evaluateHessian(form(element), u) gives, or evaluateGradient(), becomes that of the exact field.
+  void makeExact(int element, const ReferencePoint& u, Jet& jet) const
+  {
+    const Element& e = this->elements[element];
+    if (e.exactField >= 0)
+    {
+      const LambdaTwoField& field = this->exactFields[e.exactField];
+      evaluateLambdaTwo(e.domain, field, this->derivatives.data() + field.firstDerivative, u, jet);
+    }
+  }
+
+  /// Leaves the elements without their fields.
+  void releaseFields()
+  {
+    this->coefficients = {};
+    this->weights = {};
+    this->exactFields = {};
+    this->derivatives = {};
   }
 
   const Face& face(int element, int face) const
@@ -75,6 +102,21 @@ struct Location
   int element = -1;
   ReferencePoint u;
 };
+
+/// What particles stand on at a place: value and derivatives to first order, or to second, of the exact field.
+inline Jet exactGradient(const ElementMesh& mesh, const Location& at)
+{
+  Jet jet = evaluateGradient(mesh.form(at.element), at.u);
+  mesh.makeExact(at.element, at.u, jet);
+  return jet;
+}
+
+inline Jet exactHessian(const ElementMesh& mesh, const Location& at)
+{
+  Jet jet = evaluateHessian(mesh.form(at.element), at.u);
+  mesh.makeExact(at.element, at.u, jet);
+  return jet;
+}
 
 /// Diagonal of the bounds of all control points, world units.
 /// \pre there are elements

@@ -1,10 +1,10 @@
 #include "Elements/FieldExpression.h"
 
+#include "Elements/ExpressionTerm.h"
+
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <cstdlib>
-#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -14,18 +14,10 @@ namespace hop
 namespace
 {
 
-/// A scalar, a vector or a tensor (row by row).
-using Value = std::array<double, 9>;
+using Term = ExpressionTerm;
 
-constexpr int ScalarSize = 1;
-constexpr int VectorSize = 3;
-
-/// A part of the formula: how many numbers it has, and what they are at a point.
-struct Term
-{
-  int size = ScalarSize;
-  std::function<Value(const FieldPoint&)> at;
-};
+constexpr int ScalarSize = Term::ScalarSize;
+constexpr int VectorSize = Term::VectorSize;
 
 /// An array of the formula, or a component of it.
 struct Operand
@@ -35,55 +27,28 @@ struct Operand
   int components = 1;
 };
 
-Value scalar(double number)
-{
-  return { number };
-}
-
-/// Calls use(number of a, number of b) for each number.
-template <class Use>
-Term combine(const Term& a, const Term& b, int size, const Use& use)
-{
-  const int stepA = a.size == ScalarSize ? 0 : 1;
-  const int stepB = b.size == ScalarSize ? 0 : 1;
-  return { size,
-    [=](const FieldPoint& at)
-    {
-      const Value left = a.at(at);
-      const Value right = b.at(at);
-      Value result{};
-      for (int i = 0; i < size; ++i)
-      {
-        result[i] = use(left[stepA * i], right[stepB * i]);
-      }
-      return result;
-    } };
-}
-
-double sign(double x)
-{
-  return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : 0.0;
-}
-
-using OfOne = double (*)(double);
-
-/// Functions of one scalar.
-const std::map<std::string, OfOne>& scalarFunctions()
-{
-  static const std::map<std::string, OfOne> functions{ { "abs", std::fabs }, { "acos", std::acos },
-    { "asin", std::asin }, { "atan", std::atan }, { "ceil", std::ceil }, { "cos", std::cos },
-    { "cosh", std::cosh }, { "exp", std::exp }, { "floor", std::floor }, { "ln", std::log },
-    { "log", std::log }, { "log10", std::log10 }, { "sign", sign }, { "sin", std::sin },
-    { "sinh", std::sinh }, { "sqrt", std::sqrt }, { "tan", std::tan }, { "tanh", std::tanh } };
-  return functions;
-}
-
 /// Functions of vectors and of several arguments, and those of arrays.
 const std::vector<std::string>& otherFunctions()
 {
   static const std::vector<std::string> names{ "cross", "curl", "divergence", "dot", "gradient",
     "lambda2", "mag", "magnitude", "max", "min", "norm", "q_criterion" };
   return names;
+}
+
+bool isOneOf(const std::string& name, const std::vector<std::string>& names)
+{
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// "a, b"
+std::string listed(const std::vector<std::string>& names)
+{
+  std::string all;
+  for (const std::string& name : names)
+  {
+    all += (all.empty() ? "" : ", ") + name;
+  }
+  return all;
 }
 
 /// Parses a formula by recursive descent: a sum of products of powers.
@@ -96,7 +61,7 @@ public:
   {
   }
 
-  FieldFunction parse()
+  Term parse()
   {
     const Term all = this->sum();
     this->skipSpace();
@@ -108,7 +73,7 @@ public:
     {
       this->fail("the result is a vector; use magnitude() or a component of it");
     }
-    return [all](const FieldPoint& at) { return all.at(at)[0]; };
+    return all;
   }
 
   const std::vector<NamedArray>& used() const { return this->Used; }
@@ -124,7 +89,6 @@ private:
   Term call(const std::string& name);
   Term callOfArray(const std::string& name);
   Term callOfTwo(const std::string& name, const Term& a, const Term& b);
-  Term norm(const Term& a) const;
   Term coordinates(const std::string& name) const;
   Operand operandNamed(const std::string& name);
   bool findArray(const std::string& name, Operand& operand);
@@ -193,8 +157,8 @@ Term Parser::sum()
     }
     const Term next = this->product();
     this->demand(next, result.size, "scalars and vectors cannot be added");
-    result = isPlus ? combine(result, next, result.size, [](double a, double b) { return a + b; })
-                    : combine(result, next, result.size, [](double a, double b) { return a - b; });
+    result = isPlus ? combined(Operation::Sum, result, next)
+                    : combined(Operation::Difference, result, next);
   }
 }
 
@@ -214,9 +178,8 @@ Term Parser::product()
       this->fail(
         "vectors can be multiplied and divided by scalars only; there are dot() and cross()");
     }
-    const int size = std::max(result.size, next.size);
-    result = isTimes ? combine(result, next, size, [](double a, double b) { return a * b; })
-                     : combine(result, next, size, [](double a, double b) { return a / b; });
+    result = isTimes ? combined(Operation::Product, result, next)
+                     : combined(Operation::Quotient, result, next);
   }
 }
 
@@ -235,10 +198,7 @@ Term Parser::signedPower()
     }
   }
   const Term result = this->power();
-  const Term minusOne{ ScalarSize, [](const FieldPoint&) { return scalar(-1.0); } };
-  return isNegative
-    ? combine(minusOne, result, result.size, [](double a, double b) { return a * b; })
-    : result;
+  return isNegative ? combined(Operation::Product, constantTerm(-1.0), result) : result;
 }
 
 /// Powers are taken from the right: 2^3^2 is 2^9.
@@ -252,7 +212,7 @@ Term Parser::power()
   const Term exponent = this->signedPower();
   this->demand(base, ScalarSize, "only scalars have powers");
   this->demand(exponent, ScalarSize, "an exponent has to be a scalar");
-  return combine(base, exponent, ScalarSize, [](double a, double b) { return std::pow(a, b); });
+  return combined(Operation::Power, base, exponent);
 }
 
 Term Parser::primary()
@@ -297,7 +257,7 @@ Term Parser::number()
     this->fail("that is no number");
   }
   this->Place += end - start;
-  return { ScalarSize, [value](const FieldPoint&) { return scalar(value); } };
+  return constantTerm(value);
 }
 
 /// A name, or what stands between quotation marks.
@@ -350,13 +310,7 @@ Term Parser::named()
       "' is neither a scalar nor a vector of three components; name a component, as " + name +
       "_0");
   }
-  return { operand.components,
-    [operand](const FieldPoint& at)
-    {
-      Value result{};
-      std::copy_n(at.values.begin() + operand.first, operand.components, result.begin());
-      return result;
-    } };
+  return valueTerm(operand.first, operand.components);
 }
 
 Term Parser::coordinates(const std::string& name) const
@@ -364,15 +318,14 @@ Term Parser::coordinates(const std::string& name) const
   const std::string which = name.substr(6);
   if (which.empty())
   {
-    return { VectorSize, [](const FieldPoint& at) { return Value{ at.x.x, at.x.y, at.x.z }; } };
+    return coordinatesTerm();
   }
   const std::size_t axis = std::string("XYZ").find(which);
   if (which.size() != 1 || axis == std::string::npos)
   {
     this->fail("there is no '" + name + "'; there are coords, coordsX, coordsY and coordsZ");
   }
-  const int a = static_cast<int>(axis);
-  return { ScalarSize, [a](const FieldPoint& at) { return scalar(at.x[a]); } };
+  return coordinateTerm(static_cast<int>(axis));
 }
 
 /// Finds an array by its name, and counts it as used.
@@ -429,62 +382,32 @@ Operand Parser::operandNamed(const std::string& name)
     "there is no point array '" + name + "', and no function of that name; the arrays: " + all);
 }
 
-Term Parser::norm(const Term& a) const
-{
-  return { ScalarSize,
-    [a](const FieldPoint& at)
-    {
-      const Value v = a.at(at);
-      double sum = 0.0;
-      for (int i = 0; i < a.size; ++i)
-      {
-        sum += v[i] * v[i];
-      }
-      return scalar(std::sqrt(sum));
-    } };
-}
-
 /// \pre the opening parenthesis has been taken
 Term Parser::call(const std::string& name)
 {
-  const std::vector<std::string>& others = otherFunctions();
-  const auto scalarFunction = scalarFunctions().find(name);
-  const bool isOther = std::find(others.begin(), others.end(), name) != others.end();
-  if (scalarFunction == scalarFunctions().end() && !isOther)
+  const std::vector<std::string> ofScalars = scalarFunctionNames();
+  const bool isOfScalar = isOneOf(name, ofScalars);
+  if (!isOfScalar && !isOneOf(name, otherFunctions()))
   {
-    std::string all;
-    for (const auto& [known, function] : scalarFunctions())
-    {
-      all += known + ", ";
-    }
-    for (const std::string& known : others)
-    {
-      all += known + (known == others.back() ? "" : ", ");
-    }
-    this->fail("there is no function '" + name + "'; there are " + all);
+    this->fail("there is no function '" + name + "'; there are " + listed(ofScalars) + ", " +
+      listed(otherFunctions()));
   }
-  const std::vector<std::string> ofArrays{ "curl", "divergence", "gradient", "lambda2",
-    "q_criterion" };
-  if (std::find(ofArrays.begin(), ofArrays.end(), name) != ofArrays.end())
+  if (isOneOf(name, { "curl", "divergence", "gradient", "lambda2", "q_criterion" }))
   {
     return this->callOfArray(name);
   }
   const Term first = this->sum();
-  if (scalarFunction != scalarFunctions().end())
+  if (isOfScalar)
   {
     this->expect(')');
     this->demand(first, ScalarSize, name + "() takes a scalar");
-    const OfOne function = scalarFunction->second;
-    return { ScalarSize,
-      [first, function](const FieldPoint& at) { return scalar(function(first.at(at)[0])); } };
+    return functionTerm(name, first);
   }
-  if (name == "mag" || name == "magnitude" || name == "norm")
+  if (isOneOf(name, { "mag", "magnitude", "norm" }))
   {
     this->expect(')');
-    const Term length = this->norm(first);
-    return name != "norm"
-      ? length
-      : combine(first, length, first.size, [](double a, double b) { return a / b; });
+    const Term length = lengthOf(first);
+    return name != "norm" ? length : combined(Operation::Quotient, first, length);
   }
   this->expect(',');
   const Term second = this->sum();
@@ -498,22 +421,11 @@ Term Parser::callOfTwo(const std::string& name, const Term& a, const Term& b)
   {
     this->demand(a, ScalarSize, name + "() takes two scalars");
     this->demand(b, ScalarSize, name + "() takes two scalars");
-    return name == "min"
-      ? combine(a, b, ScalarSize, [](double x, double y) { return std::min(x, y); })
-      : combine(a, b, ScalarSize, [](double x, double y) { return std::max(x, y); });
+    return name == "min" ? combined(Operation::Least, a, b) : combined(Operation::Greatest, a, b);
   }
   this->demand(a, VectorSize, name + "() takes two vectors");
   this->demand(b, VectorSize, name + "() takes two vectors");
-  const bool isDot = name == "dot";
-  return { isDot ? ScalarSize : VectorSize,
-    [=](const FieldPoint& at)
-    {
-      const Value u = a.at(at);
-      const Value v = b.at(at);
-      return isDot
-        ? scalar(u[0] * v[0] + u[1] * v[1] + u[2] * v[2])
-        : Value{ u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0] };
-    } };
+  return name == "dot" ? dotOf(a, b) : crossOf(a, b);
 }
 
 /// Derivatives: of arrays, not of what is computed from them.
@@ -526,46 +438,26 @@ Term Parser::callOfArray(const std::string& name)
       "() takes the name of an array or of a component; derivatives of formulas are not supported");
   }
   const Operand operand = this->operandNamed(array);
-  const int first = operand.first;
   if (name == "gradient")
   {
     if (operand.components != ScalarSize && operand.components != VectorSize)
     {
       this->fail("gradient() takes a scalar or a vector of three components");
     }
-    const int size = 3 * operand.components;
-    return { size,
-      [=](const FieldPoint& at)
-      {
-        Value result{};
-        for (int i = 0; i < size; ++i)
-        {
-          result[i] = at.gradients[first + i / 3][i % 3];
-        }
-        return result;
-      } };
+    return gradientTerm(operand.first, operand.components);
   }
   if (operand.components != VectorSize)
   {
     this->fail(name + "() takes a vector of three components");
   }
-  const auto rowsAt = [first](const FieldPoint& at)
-  { return std::vector<glm::dvec3>(&at.gradients[first], &at.gradients[first] + 3); };
   if (name == "curl")
   {
-    return { VectorSize,
-      [=](const FieldPoint& at)
-      {
-        const std::vector<glm::dvec3> g = rowsAt(at);
-        return Value{ g[2].y - g[1].z, g[0].z - g[2].x, g[1].x - g[0].y };
-      } };
+    return curlTerm(operand.first);
   }
-  const FieldFunction function = functionOf(name == "divergence" ? Quantity::Divergence
-      : name == "lambda2"                                        ? Quantity::Lambda2
-                                                                 : Quantity::QCriterion);
-  return { ScalarSize, [=](const FieldPoint& at) {
-            return scalar(function({ at.x, {}, rowsAt(at) }));
-          } };
+  return quantityTerm(name == "divergence" ? Quantity::Divergence
+      : name == "lambda2"                  ? Quantity::Lambda2
+                                           : Quantity::QCriterion,
+    operand.first);
 }
 
 } // namespace
@@ -573,7 +465,9 @@ Term Parser::callOfArray(const std::string& name)
 FieldExpression::FieldExpression(const std::string& text, const std::vector<NamedArray>& arrays)
 {
   Parser parser(text, arrays);
-  this->Function = parser.parse();
+  const Term all = parser.parse();
+  this->Function = [all](const FieldPoint& at) { return all.at(at)[0]; };
+  this->Bounds = [all](const FieldBounds& in) { return all.within(in)[0]; };
   this->Used = parser.used();
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Elements/SampledField.h"
+#include "Elements/ExpressionTerm.h"
 
 #include <string>
 #include <vector>
@@ -31,9 +31,13 @@ public:
 
   double operator()(const FieldPoint& at) const { return this->Function(at); }
 
+  /// Holds all values of the formula in an element; infinite where some of them are not finite or not known.
+  Range bounds(const FieldBounds& in) const { return this->Bounds(in); }
+
 private:
   std::vector<NamedArray> Used;
   FieldFunction Function;
+  std::function<Range(const FieldBounds&)> Bounds;
 };
 
 } // namespace hop

@@ -19,6 +19,8 @@ MeshSize sumOf(const std::vector<MeshSize>& sizes, std::size_t count)
     sum.elements += sizes[r].elements;
     sum.coefficients += sizes[r].coefficients;
     sum.weights += sizes[r].weights;
+    sum.exactFields += sizes[r].exactFields;
+    sum.derivatives += sizes[r].derivatives;
     sum.cells += sizes[r].cells;
   }
   return sum;
@@ -51,8 +53,17 @@ void takeMesh(Exchange& exchange, const ElementMesh& mine, const std::vector<Mes
   // Where any rank has weights there is room for a weight of every coefficient.
   take(exchange, mine.weights,
     all.mesh.weights.data() + (size.weights > 0 ? before.coefficients : 0), size.weights, from);
+  LambdaTwoField* fields = all.mesh.exactFields.data() + before.exactFields;
+  take(exchange, mine.exactFields, fields, size.exactFields, from);
+  take(exchange, mine.derivatives, all.mesh.derivatives.data() + before.derivatives,
+    size.derivatives, from);
+  for (std::int64_t f = 0; f < size.exactFields; ++f)
+  {
+    fields[f].firstDerivative += static_cast<std::size_t>(before.derivatives);
+  }
   for (std::int64_t e = 0; e < size.elements; ++e)
   {
+    elements[e].exactField += elements[e].exactField < 0 ? 0 : static_cast<int>(before.exactFields);
     elements[e].firstCoefficient += static_cast<std::size_t>(before.coefficients);
     elements[e].cell += before.cells;
     all.homes[before.elements + e] = { from, static_cast<int>(e) };
@@ -75,6 +86,8 @@ GatheredMesh roomFor(const std::vector<MeshSize>& sizes)
   {
     all.mesh.coefficients.resize(sum.coefficients);
     all.mesh.weights.resize(sum.weights > 0 ? sum.coefficients : 0);
+    all.mesh.exactFields.resize(sum.exactFields);
+    all.mesh.derivatives.resize(sum.derivatives);
   }
   return all;
 }
@@ -86,6 +99,8 @@ void gatherMesh(Exchange& exchange, int worker, ElementMesh& mine,
   {
     all.mesh.coefficients = std::move(mine.coefficients);
     all.mesh.weights = std::move(mine.weights);
+    all.mesh.exactFields = std::move(mine.exactFields);
+    all.mesh.derivatives = std::move(mine.derivatives);
     all.mesh.elements = mine.elements;
     for (std::size_t e = 0; e < all.homes.size(); ++e)
     {
@@ -104,6 +119,8 @@ void gatherMesh(Exchange& exchange, int worker, ElementMesh& mine,
     sendArray(exchange, mine.elements.data(), mine.elements.size(), worker);
     sendArray(exchange, mine.coefficients.data(), mine.coefficients.size(), worker);
     sendArray(exchange, mine.weights.data(), mine.weights.size(), worker);
+    sendArray(exchange, mine.exactFields.data(), mine.exactFields.size(), worker);
+    sendArray(exchange, mine.derivatives.data(), mine.derivatives.size(), worker);
   }
 }
 
@@ -137,6 +154,17 @@ ElementMesh pickElements(const ElementMesh& mesh, const std::vector<int>& chosen
     const auto count = static_cast<std::ptrdiff_t>(coefficientCount(form.domain, form.degrees));
     Element element = mesh.elements[e];
     element.firstCoefficient = picked.coefficients.size();
+    if (element.exactField >= 0)
+    {
+      LambdaTwoField field = mesh.exactFields[element.exactField];
+      const auto first =
+        mesh.derivatives.begin() + static_cast<std::ptrdiff_t>(field.firstDerivative);
+      element.exactField = static_cast<int>(picked.exactFields.size());
+      field.firstDerivative = picked.derivatives.size();
+      picked.exactFields.push_back(field);
+      picked.derivatives.insert(picked.derivatives.end(), first,
+        first + static_cast<std::ptrdiff_t>(derivativeCount(element.domain, field)));
+    }
     picked.elements.push_back(element);
     picked.coefficients.insert(
       picked.coefficients.end(), form.coefficients, form.coefficients + count);

@@ -17,6 +17,8 @@ struct MeshSize
   std::int64_t coefficients = 0;
   /// 0 where no element is rational.
   std::int64_t weights = 0;
+  std::int64_t exactFields = 0;
+  std::int64_t derivatives = 0;
   /// Cells of the input, with and without surface.
   std::int64_t cells = 0;
 };
@@ -26,7 +28,9 @@ inline MeshSize sizeOf(const ElementMesh& mesh, std::int64_t cells)
 {
   return { static_cast<std::int64_t>(mesh.elements.size()),
     static_cast<std::int64_t>(mesh.coefficients.size()),
-    static_cast<std::int64_t>(mesh.weights.size()), cells };
+    static_cast<std::int64_t>(mesh.weights.size()),
+    static_cast<std::int64_t>(mesh.exactFields.size()),
+    static_cast<std::int64_t>(mesh.derivatives.size()), cells };
 }
 
 /// Where an element came from.

@@ -171,12 +171,15 @@ BernsteinForm formOf(Domain domain, const DerivedElement& element)
   return { domain, element.degrees, element.coefficients.data(), nullptr };
 }
 
+bool isFinite(const glm::dvec3& v)
+{
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
 bool isFinite(const std::vector<Coefficient>& samples)
 {
   return std::all_of(samples.begin(), samples.end(),
-    [](const Coefficient& c) {
-      return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z) && std::isfinite(c.w);
-    });
+    [](const Coefficient& c) { return isFinite(glm::dvec3(c)) && std::isfinite(c.w); });
 }
 
 /// How far coordinates reach.
@@ -259,7 +262,7 @@ FieldSampler::FieldSampler(const SourceElement& source, const FieldFunction& fun
 
 /// x, y, z and the field.
 FieldSampler::Samples FieldSampler::valuesAt(
-  const ReferencePart& part, const std::vector<ReferencePoint>& points) const
+  const ReferencePart& part, const std::vector<ReferencePoint>& points)
 {
   std::vector<ReferencePoint> inWhole;
   inWhole.reserve(points.size());
@@ -294,6 +297,7 @@ FieldSampler::Samples FieldSampler::valuesAt(
     {
       at.values[c] = number(quantity::value, 3 + c);
       at.gradients[c] = inverse * threeOf(3 + c); // J^-T, as columns here are rows of J
+      this->AreDerivativesFinite = this->AreDerivativesFinite && isFinite(at.gradients[c]);
     }
     samples.emplace_back(at.x, this->Function(at));
   }
@@ -301,14 +305,15 @@ FieldSampler::Samples FieldSampler::valuesAt(
 }
 
 /// \param checks the field at spreadPoints()
-SampledPart FieldSampler::interpolated(
-  const ReferencePart& part, int degree, const Samples& checks) const
+SampledPart FieldSampler::interpolated(const ReferencePart& part, int degree, const Samples& checks)
 {
   const Lattice& lattice = latticeOf(this->Source.domain, degree);
   const Samples nodal = this->valuesAt(part, lattice.nodes);
   SampledPart result;
   if (!isFinite(nodal) || !isFinite(checks))
   {
+    result.element.state = this->AreDerivativesFinite ? DerivedElement::State::NotFinite
+                                                      : DerivedElement::State::Singular;
     return result;
   }
   DerivedElement& element = result.element;

@@ -57,8 +57,8 @@ public:
 private:
   using Samples = std::vector<Coefficient>;
 
-  Samples valuesAt(const ReferencePart& part, const std::vector<ReferencePoint>& points) const;
-  SampledPart interpolated(const ReferencePart& part, int degree, const Samples& checks) const;
+  Samples valuesAt(const ReferencePart& part, const std::vector<ReferencePoint>& points);
+  SampledPart interpolated(const ReferencePart& part, int degree, const Samples& checks);
   void judge(SampledPart& sampled, const Samples& checks) const;
 
   const SourceElement& Source;
@@ -66,6 +66,8 @@ private:
   double Noise;
   /// Four components of the source each: x, y, z, u_0; u_1, ...
   std::vector<std::vector<Coefficient>> Groups;
+  /// Whether they are finite wherever valuesAt() has been asked.
+  bool AreDerivativesFinite = true;
   /// Where to begin: the next part is about as smooth as the last one.
   int FirstDegree = 0;
 };

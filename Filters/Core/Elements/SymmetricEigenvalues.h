@@ -3,6 +3,7 @@
 #include <glm/glm.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace hop
@@ -27,6 +28,49 @@ inline double middleEigenvalue(const glm::dmat3& matrix)
   const double angle = std::acos(std::clamp(halfDeterminant, -1.0, 1.0)) / 3.0;
   constexpr double third = 2.0943951023931953;
   return mean + 2.0 * size * std::cos(angle - third);
+}
+
+/// Eigenvalues in ascending order, with the eigenvectors in the columns of a rotation or reflection.
+struct Eigensystem
+{
+  glm::dvec3 values{ 0.0 };
+  glm::dmat3 vectors{ 1.0 };
+};
+
+/// Of a symmetric matrix, by Jacobi's rotations: to a few roundings of the largest eigenvalue, also of equal ones. Finite
+/// for every finite matrix.
+inline Eigensystem eigensystemOf(glm::dmat3 matrix)
+{
+  // Each sweep squares what is left beside the diagonal: five are enough for doubles.
+  constexpr int sweeps = 8;
+  Eigensystem result;
+  for (int n = 0; n < 3 * sweeps; ++n)
+  {
+    const int i = n % 3;
+    const int j = (i + 1) % 3;
+    if (matrix[i][j] == 0.0)
+    {
+      continue;
+    }
+    const double slope = (matrix[j][j] - matrix[i][i]) / (2.0 * matrix[i][j]);
+    const double t = std::copysign(1.0, slope) / (std::abs(slope) + std::hypot(slope, 1.0));
+    const double c = 1.0 / std::hypot(t, 1.0);
+    glm::dmat3 rotation(1.0);
+    rotation[i][i] = rotation[j][j] = c;
+    rotation[j][i] = t * c;
+    rotation[i][j] = -t * c;
+    matrix = glm::transpose(rotation) * matrix * rotation;
+    result.vectors = result.vectors * rotation;
+  }
+  std::array<int, 3> order{ 0, 1, 2 };
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return matrix[a][a] < matrix[b][b]; });
+  const glm::dmat3 vectors = result.vectors;
+  for (int n = 0; n < 3; ++n)
+  {
+    result.values[n] = matrix[order[n]][order[n]];
+    result.vectors[n] = vectors[order[n]];
+  }
+  return result;
 }
 
 } // namespace hop

@@ -188,7 +188,7 @@ bool FastSystem::isFineEnough(const SurfaceBox& box, const SizingFunction& sizin
   Anchor anchor;
   Patch patch;
   const Location place{ element, proxyMiddle(domain, box) };
-  const Jet jet = evaluateHessian(this->Mesh.form(element), place.u);
+  const Jet jet = exactHessian(this->Mesh, place);
   if (!anchorPatch(place, jet, this->Surface.isovalue, anchor, patch))
   {
     return true;
@@ -430,10 +430,7 @@ void FastSystem::fixOuterSeeds()
   this->TargetInSlab = this->seedsLeftFor(inner);
   this->TargetInStrip =
     this->seedsLeftFor({ this->Part.direction, this->Part.end - atEnd, this->Part.end + atEnd });
-  std::unique_ptr<MovingParticles> seeds = std::move(this->Moving);
-  this->Moving = std::make_unique<MovingParticles>(
-    this->Surface, *this->Proxy, std::move(fixed), this->Parallel);
-  this->Moving->append(*seeds);
+  this->Moving->replaceFixed(fixed);
 }
 
 /// Number of particles that are to move in a slab: the seeds there, without what counts for particles on boundary

@@ -143,8 +143,7 @@ void Finish::followSingly()
         Evaluated at;
         if (across.project(start, reach, at) || inside.project(start, reach, at))
         {
-          const BernsteinForm form = surface.mesh->form(at.location.element);
-          this->finish(i, at.location, evaluateHessian(form, at.location.u));
+          this->finish(i, at.location, exactHessian(*surface.mesh, at.location));
           ++this->Evaluations;
         }
       }

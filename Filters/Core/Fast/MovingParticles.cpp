@@ -155,6 +155,12 @@ void MovingParticles::append(const MovingParticles& others)
   this->SweepCount += others.SweepCount;
 }
 
+void MovingParticles::replaceFixed(const Buffer<Patch>& patches)
+{
+  this->Patches.resize(this->count());
+  this->Patches.insert(this->Patches.end(), patches.begin(), patches.end());
+}
+
 void MovingParticles::draw(std::int64_t count, std::uint64_t randomSeed)
 {
   this->add(this->Proxy.seeds(count, Random(randomSeed).uniform(), this->Parallel));
@@ -271,7 +277,7 @@ bool MovingParticles::halveStep(
   {
     step *= 0.5;
     const Location place = this->target(i, step, cost);
-    const Jet jet = evaluateHessian(this->Surface.mesh->form(place.element), place.u);
+    const Jet jet = exactHessian(*this->Surface.mesh, place);
     ++cost;
     if (anchorPatch(place, jet, this->Surface.isovalue, anchor, patch) &&
       accepts(this->Anchors[i], this->Patches[i], anchor, patch))

@@ -52,6 +52,9 @@ public:
   /// \param kept one mark at least for each particle that moves
   void keep(const std::vector<char>& kept);
 
+  /// Replaces the particles that are fixed.
+  void replaceFixed(const Buffer<Patch>& patches);
+
   /// A round of relaxation: sweeps, insertion and deletion, and one evaluation a particle.
   /// \param reached called now and then with the share of the sweeps that is done
   void relax(const Sweeps& sweeps, const Balance& balance,

@@ -3,6 +3,8 @@
 #include "Fast/PatchDistances.h"
 #include "Support/KeepMarked.h"
 
+#include <algorithm>
+
 namespace hop
 {
 namespace
@@ -72,9 +74,12 @@ Buffer<Patch> relaxAround(const Buffer<Patch>& places, Balance::Extent extent,
   return findCrowded(part, parallelFor);
 }
 
-void repairPacking(MovingParticles& moving, const ParallelFor& parallelFor)
+void repairPacking(MovingParticles& moving, const ParallelFor& parallelFor, const Slab& where)
 {
   Buffer<Patch> crowded = findCrowded(moving, parallelFor);
+  crowded.erase(std::remove_if(crowded.begin(), crowded.end(),
+                  [&](const Patch& patch) { return !where.holds(patch.position); }),
+    crowded.end());
   for (int n = 0; n <= Repair::Repeats && !crowded.empty(); ++n)
   {
     const double share = static_cast<double>(crowded.size()) / static_cast<double>(moving.count());

@@ -2,6 +2,7 @@
 
 #include "Fast/MovingParticles.h"
 #include "Fast/PatchRelaxation.h"
+#include "Support/Slab.h"
 
 namespace hop
 {
@@ -24,6 +25,7 @@ Buffer<Patch> relaxAround(const Buffer<Patch>& places, Balance::Extent extent,
 /// Repairs places where particles stand too near to each other, and repeats that where pairs are left, as long as they
 /// are few. The last repair takes short steps: at sharp creases long ones lead back and forth between the patches of
 /// the two sides.
-void repairPacking(MovingParticles& moving, const ParallelFor& parallelFor);
+/// \param where the places have to be
+void repairPacking(MovingParticles& moving, const ParallelFor& parallelFor, const Slab& where = {});
 
 } // namespace hop

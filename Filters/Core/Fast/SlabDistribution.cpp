@@ -6,6 +6,8 @@
 #include "Support/KeepMarked.h"
 
 #include <algorithm>
+#include <cmath>
+#include <initializer_list>
 #include <tuple>
 
 namespace hop
@@ -13,11 +15,36 @@ namespace hop
 namespace
 {
 
-void append(Buffer<Anchor>& anchors, Buffer<Patch>& patches, const SlabParticles& more)
+/// Adds the particles in a slab to some.
+void addThose(const Buffer<Anchor>& anchors, const Buffer<Patch>& patches, const Slab& where,
+  SlabParticles& some)
 {
-  anchors.insert(anchors.end(), more.anchors.begin(), more.anchors.end());
-  patches.insert(patches.end(), more.patches.begin(), more.patches.end());
+  for (std::size_t i = 0; i < anchors.size(); ++i)
+  {
+    if (where.holds(patches[i].position))
+    {
+      some.anchors.push_back(anchors[i]);
+      some.patches.push_back(patches[i]);
+    }
+  }
 }
+
+/// A particle where the particles of two slabs meet.
+struct Meeting
+{
+  Anchor anchor;
+  Patch patch;
+  bool isOwn = false;
+
+  bool operator<(const Meeting& other) const { return this->key() < other.key(); }
+
+private:
+  std::tuple<int, double, double, double> key() const
+  {
+    const Location& place = this->anchor.place;
+    return { place.element, place.u.xyz.x, place.u.xyz.y, place.u.xyz.z };
+  }
+};
 
 /// Those of particles on boundary curves that a slab holds.
 Buffer<BoundaryParticle> heldBy(const Slab& slab, const Buffer<BoundaryParticle>& particles)
@@ -64,8 +91,9 @@ private:
   /// The part of space between two places.
   Slab between(double from, double to) const { return { this->Part.direction, from, to }; }
   void replaceCurves(const Slab& where, bool isBehind, const SlabParticles& by);
-  void relaxStrip(const Slab& strip);
-  std::vector<int> orderOf(const Buffer<Anchor>& anchors, std::size_t own) const;
+  void relaxStrip(const Slab& strip, const SlabParticles& before, const SlabParticles& inside);
+  std::vector<char> takeMeeting(const Buffer<Anchor>& anchors, const Buffer<Patch>& patches,
+    bool areOwn, std::vector<Meeting>& meeting) const;
   void arrangeCanonically(const SlabParticles& before);
 
   /// Particles of the next slab, which stay.
@@ -77,7 +105,7 @@ std::string SlabDistribution::System::relaxAlone()
   const bool exist = !this->Mesh.elements.empty() && this->relax();
   if (exist && this->Parameters.quality != Quality::Draft)
   {
-    repairPacking(*this->Moving, this->Parallel);
+    repairPacking(*this->Moving, this->Parallel, this->Part);
   }
   else if (!exist && this->Proxy)
   {
@@ -90,14 +118,9 @@ std::string SlabDistribution::System::relaxAlone()
 SlabParticles SlabDistribution::System::particlesIn(double from, double to) const
 {
   SlabParticles result;
-  const Slab slab = this->between(from, to);
-  for (std::size_t i = 0; this->Moving && i < this->Moving->count(); ++i)
+  if (this->Moving)
   {
-    if (slab.holds(this->Moving->patches()[i].position))
-    {
-      result.anchors.push_back(this->Moving->anchors()[i]);
-      result.patches.push_back(this->Moving->patches()[i]);
-    }
+    addThose(this->Moving->anchors(), this->Moving->patches(), this->between(from, to), result);
   }
   return result;
 }
@@ -161,20 +184,25 @@ void SlabDistribution::System::settleEnd(const SlabParticles& next)
   const Slab strip = this->between(end - width, end + width);
   this->replaceCurves(
     this->between(end + this->overlap(SlabOverlap::OnPlane), everything), true, next);
-  this->keepIn(this->between(-everything, end));
-  this->Moving->add(next.anchors, next.patches);
-  this->Next = this->particlesIn(strip.end, everything);
-  this->keepIn(this->between(-everything, strip.end));
-  this->relaxStrip(strip);
+  SlabParticles inside = this->particlesIn(strip.begin, end);
+  addThose(next.anchors, next.patches, this->between(end, strip.end), inside);
+  addThose(next.anchors, next.patches, this->between(strip.end, everything), this->Next);
+  const SlabParticles before =
+    this->particlesIn(strip.begin - this->overlap(SlabOverlap::Sight), strip.begin);
+  this->keepIn(this->between(-everything, strip.begin));
+  this->relaxStrip(strip, before, inside);
 }
 
 /// Relaxes the particles of the strip at the slab's end, among others that stay.
-void SlabDistribution::System::relaxStrip(const Slab& strip)
+/// \param before particles before the strip
+/// \param inside the particles of both slabs in it
+void SlabDistribution::System::relaxStrip(
+  const Slab& strip, const SlabParticles& before, const SlabParticles& inside)
 {
   const Slab seen = strip.widened(this->overlap(SlabOverlap::Sight));
   Buffer<Patch> around;
-  SlabParticles before = this->particlesIn(seen.begin, strip.begin);
-  for (const Buffer<Patch>* some : { &before.patches, &this->Next.patches, &this->BoundaryPatches })
+  for (const Buffer<Patch>* some : std::initializer_list<const Buffer<Patch>*>{
+         &before.patches, &this->Next.patches, &this->BoundaryPatches })
   {
     std::copy_if(some->begin(), some->end(), std::back_inserter(around),
       [&](const Patch& patch) { return seen.holds(patch.position); });
@@ -183,8 +211,6 @@ void SlabDistribution::System::relaxStrip(const Slab& strip)
   {
     patch.fixed = true;
   }
-  SlabParticles inside = this->particlesIn(strip.begin, strip.end);
-  this->keepIn(this->between(-std::numeric_limits<double>::infinity(), strip.begin));
   std::unique_ptr<MovingParticles> others = std::move(this->Moving);
   this->Moving = std::make_unique<MovingParticles>(
     this->Surface, *this->Proxy, std::move(around), this->Parallel);
@@ -201,65 +227,51 @@ void SlabDistribution::System::relaxStrip(const Slab& strip)
   this->Moving = std::move(others);
 }
 
-/// The order of particles by their elements. In elements with particles of several workers it is that of their places.
-/// \param own number of the particles of this worker, which come first
-std::vector<int> SlabDistribution::System::orderOf(
-  const Buffer<Anchor>& anchors, std::size_t own) const
+/// Takes the particles where slabs meet out of some.
+/// \return marks the others
+std::vector<char> SlabDistribution::System::takeMeeting(const Buffer<Anchor>& anchors,
+  const Buffer<Patch>& patches, bool areOwn, std::vector<Meeting>& meeting) const
 {
-  std::vector<int> order = orderByElement(anchors, this->Mesh.elements.size(), this->Parallel);
-  std::vector<char> isShared(this->Mesh.elements.size(), 0);
-  for (std::size_t i = own; i < anchors.size(); ++i)
+  const double shift = this->overlap(SlabOverlap::Strip);
+  const double reach = this->overlap(SlabOverlap::Meeting);
+  std::vector<char> others(anchors.size(), 1);
+  for (std::size_t i = 0; i < anchors.size(); ++i)
   {
-    isShared[anchors[i].place.element] = 1;
-  }
-  const auto comesBefore = [&](int a, int b)
-  {
-    const glm::dvec3& u = anchors[a].place.u.xyz;
-    const glm::dvec3& v = anchors[b].place.u.xyz;
-    return std::make_tuple(u.x, u.y, u.z, a) < std::make_tuple(v.x, v.y, v.z, b);
-  };
-  for (std::size_t first = 0; first < order.size();)
-  {
-    const int element = anchors[order[first]].place.element;
-    std::size_t last = first + 1;
-    while (last < order.size() && anchors[order[last]].place.element == element)
+    const double place = this->Part.placeOf(patches[i].position) - shift;
+    if (std::abs(place - this->Part.begin) < reach || std::abs(place - this->Part.end) < reach)
     {
-      ++last;
+      meeting.push_back({ anchors[i], patches[i], areOwn });
+      others[i] = 0;
     }
-    if (isShared[element])
-    {
-      std::sort(order.begin() + static_cast<std::ptrdiff_t>(first),
-        order.begin() + static_cast<std::ptrdiff_t>(last), comesBefore);
-    }
-    first = last;
   }
-  return order;
+  return others;
 }
 
-/// Puts the particles of all workers around into an order on which they agree: which of two that are too near to each
-/// other stays depends on it.
+/// Puts the particles where slabs meet into an order on which their workers agree, behind all others: which of two that
+/// are too near to each other stays depends on it.
 void SlabDistribution::System::arrangeCanonically(const SlabParticles& before)
 {
-  Buffer<Anchor> anchors = this->Moving->anchors();
-  Buffer<Patch> patches;
-  patches.assign(this->Moving->patches().begin(),
-    this->Moving->patches().begin() + static_cast<std::ptrdiff_t>(this->Moving->count()));
-  const std::size_t own = anchors.size();
-  append(anchors, patches, before);
-  append(anchors, patches, this->Next);
-  const std::vector<int> order = this->orderOf(anchors, own);
-  Buffer<Anchor> sortedAnchors;
-  Buffer<Patch> sortedPatches;
-  sortedAnchors.reserve(order.size());
-  sortedPatches.reserve(order.size());
-  for (const int i : order)
+  std::vector<Meeting> meeting;
+  this->Moving->keep(
+    this->takeMeeting(this->Moving->anchors(), this->Moving->patches(), true, meeting));
+  this->IsOwn.assign(this->Moving->count(), 1);
+  for (const SlabParticles* some :
+    std::initializer_list<const SlabParticles*>{ &before, &this->Next })
   {
-    sortedAnchors.push_back(anchors[i]);
-    sortedPatches.push_back(patches[i]);
-    this->IsOwn.push_back(static_cast<std::size_t>(i) < own);
+    const std::vector<char> apart = this->takeMeeting(some->anchors, some->patches, false, meeting);
+    this->Moving->add(marked(some->anchors, apart), marked(some->patches, apart));
   }
-  this->startMoving();
-  this->Moving->add(sortedAnchors, sortedPatches);
+  this->IsOwn.resize(this->Moving->count(), 0);
+  std::sort(meeting.begin(), meeting.end());
+  SlabParticles sorted;
+  for (const Meeting& one : meeting)
+  {
+    sorted.anchors.push_back(one.anchor);
+    sorted.patches.push_back(one.patch);
+    this->IsOwn.push_back(one.isOwn);
+  }
+  this->Moving->add(sorted.anchors, sorted.patches);
+  this->Moving->replaceFixed(this->BoundaryPatches);
 }
 
 Distribution SlabDistribution::System::finishAmong(const SlabParticles& before)

@@ -23,6 +23,9 @@ struct SlabOverlap
   /// How far beyond the strip particles are seen that stay where they are: more than the sqrt(3) over which particles
   /// interact, and the 1.86 over which splats overlap, and a step. Larger: more is sent.
   static constexpr double Sight = 3.0;
+  /// How far from where the particles of two slabs meet both workers put them into one order: more than
+  /// MinimumSeparation, and less than what both of them see. Larger: more is sorted.
+  static constexpr double Meeting = 1.5;
   /// How far beyond a plane a worker distributes particles that it drops later. Gradation reaches 1/0.3 spacings. Larger:
   /// more is done twice; smaller: the strip notices that nothing is beyond.
   static constexpr double Reach = 10.0;

@@ -66,6 +66,7 @@ private:
   void relax();
   bool tell(bool goesForth);
   void pass(std::size_t from, std::size_t to, const Bytes& bytes);
+  void keepErrorsOnly();
 
   Exchange& Ranks;
   const std::vector<Slab>& Slabs;
@@ -189,6 +190,17 @@ bool SlabWorkers::tell(bool goesForth)
   return isWritten && this->areAllSound();
 }
 
+/// Drops what workers of this rank have made before another one failed.
+void SlabWorkers::keepErrorsOnly()
+{
+  for (Distribution& some : this->Result.distributions)
+  {
+    Distribution failed;
+    failed.report.error = std::move(some.report.error);
+    some = std::move(failed);
+  }
+}
+
 SlabResult SlabWorkers::run(const std::vector<GatheredMesh>& meshes, const Isosurface& surface,
   const DistributionParameters& parameters, const Monitor& monitor, const ParallelFor& parallelFor)
 {
@@ -220,6 +232,10 @@ SlabResult SlabWorkers::run(const std::vector<GatheredMesh>& meshes, const Isosu
         this->relax();
       }) &&
     this->tell(false) && this->attempt(settle) && this->tell(true) && this->attempt(finish);
+  if (!this->Result.isComplete)
+  {
+    this->keepErrorsOnly();
+  }
   return std::move(this->Result);
 }
 

@@ -174,8 +174,8 @@ private:
     {
       return std::nullopt;
     }
-    const WorldPoint point{ glm::dvec3(
-      evaluateGradient(mesh.form(this->Number), sheet.middle).value) };
+    const LocalMap point =
+      fieldPoint(evaluateGradient(mesh.form(this->Number), sheet.middle), 0.0).map;
     std::int64_t evaluations = 0;
     return this->Surface.locator->locate(
       point, this->Number, sheet.face, std::numeric_limits<double>::infinity(), evaluations);

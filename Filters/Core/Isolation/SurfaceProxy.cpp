@@ -321,7 +321,7 @@ bool SurfaceProxy::samplePatiently(std::size_t b, std::int64_t& evaluations)
   const auto sample = [&](const Location& place)
   {
     ++evaluations;
-    return this->sampleAt(b, place, evaluateHessian(mesh.form(place.element), place.u));
+    return this->sampleAt(b, place, exactHessian(mesh, place));
   };
   Location start = box.middle;
   if (box.straddles)

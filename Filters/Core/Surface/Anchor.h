@@ -68,7 +68,9 @@ void evaluateInOrder(const ElementMesh& mesh, const std::vector<Location>& place
     evaluateHessians(mesh.form(element), points.data(), static_cast<int>(last - first), jets);
     for (std::ptrdiff_t n = first; n < last; ++n)
     {
-      use(order[n], jets.jet(static_cast<int>(n - first)));
+      Jet jet = jets.jet(static_cast<int>(n - first));
+      mesh.makeExact(element, points[n - first], jet);
+      use(order[n], jet);
     }
     first = last;
   }

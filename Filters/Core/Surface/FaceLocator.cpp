@@ -19,6 +19,10 @@ constexpr double facing = -0.2;
 /// The same of faces that share an edge of the mesh, as halves of a face do with the whole. Larger: the surface goes on at
 /// sharp edges of the mesh, where it ends; smaller: halves of strongly bent faces are not found.
 constexpr double facingAtSharedEdge = -0.9;
+/// The same at one place of both faces, 37 degrees from opposite; chosen by experiment. Larger: the surface goes on
+/// across a reentrant edge of the mesh, beside which the other face is near; smaller: curved faces that approximate each
+/// other badly are not found.
+constexpr double facingAtPlace = -0.8;
 /// Half-space value up to which a control point counts as on a face. Other control points have 1/MaximumDegree at least.
 constexpr double onFaceOfLattice = 1e-9;
 
@@ -233,15 +237,16 @@ bool FaceLocator::mayContinueIn(int element, int face, int other) const
 }
 
 std::optional<LocatedPlace> FaceLocator::locate(
-  const WorldPoint& point, int element, int face, double tolerance, std::int64_t& evaluations) const
+  const LocalMap& point, int element, int face, double tolerance, std::int64_t& evaluations) const
 {
   const OpenFace* from = this->find(element, face);
+  const WorldVector inward = inwardOf(point, this->Mesh.face(element, face));
   std::optional<LocatedPlace> nearest;
   for (std::size_t n = 0; from && n < from->opposite.size(); ++n)
   {
     const OpenFace& to = this->Faces[from->opposite[n]];
     const double reach = std::min({ tolerance, from->reach(), to.reach() });
-    const auto found = this->locateIn(to, point, reach, evaluations);
+    const auto found = this->locateIn(to, point.position, inward, reach, evaluations);
     if (found && (!nearest || found->gap < nearest->gap))
     {
       nearest = found;
@@ -256,9 +261,10 @@ std::optional<LocatedPlace> FaceLocator::locate(
 
 /// Newton's method for T(u) = x, or for the u nearest to x where the element does not hold x. The point counts as
 /// behind the face only if it lies in front of the element, not beside it: what is left from T(u) to x points across
-/// the face for the most part.
-std::optional<LocatedPlace> FaceLocator::locateIn(
-  const OpenFace& to, const WorldPoint& point, double tolerance, std::int64_t& evaluations) const
+/// the face for the most part. Nor if the faces do not face each other there.
+/// \param inward gradient of the half-space value of the face that the point is on
+std::optional<LocatedPlace> FaceLocator::locateIn(const OpenFace& to, const WorldPoint& point,
+  const WorldVector& inward, double tolerance, std::int64_t& evaluations) const
 {
   // Newton's method converges quadratically and needs a few steps; where it takes more it fails.
   constexpr int maximumSteps = 20;
@@ -288,16 +294,18 @@ std::optional<LocatedPlace> FaceLocator::locateIn(
     {
       continue;
     }
-    const WorldVector inward = inwardOf(map, face);
-    const double slope = length(inward);
-    const double across = dot(rest, inward) / slope;
-    const double aside = length(rest - (across / slope) * inward);
+    const WorldVector its = inwardOf(map, face);
+    const double slope = length(its);
+    const double across = dot(rest, its) / slope;
+    const double aside = length(rest - (across / slope) * its);
     const double gap = std::max(length(rest), std::max(0.0, faceMargin(face, u)) / slope);
     const double slack = rounding * to.bounds.diagonal();
     // A point nearer to the far side of a thin element lies behind the far side: two plates that are thinner than the
     // tolerance must not be taken for each other's neighbours through their far sides.
     const bool isNearFace = faceMargin(face, u) <= nearSide;
-    const bool behind = isNearFace && gap <= tolerance + slack && aside <= std::abs(across) + slack;
+    const bool facesIt = dot(inward, its) <= facingAtPlace * length(inward) * slope;
+    const bool behind =
+      isNearFace && facesIt && gap <= tolerance + slack && aside <= std::abs(across) + slack;
     return behind ? std::optional<LocatedPlace>({ { to.element, u }, to.face, gap }) : std::nullopt;
   }
   return std::nullopt;

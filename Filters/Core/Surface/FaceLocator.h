@@ -20,8 +20,9 @@ struct LocatedPlace
 
 /// Finds what lies behind faces that the mesh does not join: beside hanging nodes of refined elements,
 /// or where triangles meet quadrilaterals. Two unmatched faces are opposite to each other if their bounding boxes,
-/// widened by the largest gap, overlap and their outward normals point against each other. Newton's method finds the
-/// place in the opposite face's element (Documentation/algorithm.md, section Walking on the surface).
+/// widened by the largest gap, overlap and their outward normals point against each other, nearly at their middles and
+/// closely at the place itself. Newton's method finds the place in the opposite face's element
+/// (Documentation/algorithm.md, section Walking on the surface).
 ///
 /// Only faces that the isosurface can pass are searched: their coefficients straddle the isovalue.
 class FaceLocator
@@ -42,10 +43,11 @@ public:
 
   /// The place behind a face that is nearest to a point of the face. Of several elements the one with the smallest gap
   /// is chosen, or the first whose gap is zero to rounding.
+  /// \param point with the Jacobian of the face's element
   /// \param tolerance largest gap, world units; gaps beyond LargestGapPerDiagonal are never accepted
   /// \param evaluations is increased by the number of evaluations
-  std::optional<LocatedPlace> locate(const WorldPoint& point, int element, int face,
-    double tolerance, std::int64_t& evaluations) const;
+  std::optional<LocatedPlace> locate(const LocalMap& point, int element, int face, double tolerance,
+    std::int64_t& evaluations) const;
 
   /// Number of evaluations that the constructor made.
   std::int64_t evaluations() const { return this->Evaluations; }
@@ -74,8 +76,8 @@ private:
   std::vector<OpenFace> openFacesOf(int element, double isovalue);
   void findOpposites(const ParallelFor& parallelFor);
   const OpenFace* find(int element, int face) const;
-  std::optional<LocatedPlace> locateIn(
-    const OpenFace& to, const WorldPoint& point, double tolerance, std::int64_t& evaluations) const;
+  std::optional<LocatedPlace> locateIn(const OpenFace& to, const WorldPoint& point,
+    const WorldVector& inward, double tolerance, std::int64_t& evaluations) const;
 
   const ElementMesh& Mesh;
   /// Open faces to which others are opposite, sorted by element and face.

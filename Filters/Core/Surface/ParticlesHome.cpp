@@ -65,19 +65,24 @@ DistributionReport reportOf(const Header& header)
   return report;
 }
 
-/// A rank's part of what the worker has.
-struct Part
+/// Particles of a message. Larger: the worker keeps a larger copy; smaller: messages are many.
+constexpr std::size_t particlesPerMessage = 4096;
+
+/// Calls use(first, count) for the particles of each message.
+template <class Use>
+void forMessages(std::size_t particles, const Use& use)
 {
-  Header header;
-  Buffer<Particle> particles;
-  std::vector<std::int64_t> undecidedCells;
-};
+  for (std::size_t first = 0; first < particles; first += particlesPerMessage)
+  {
+    use(first, std::min(particlesPerMessage, particles - first));
+  }
+}
 
 /// Takes the worker's particles apart, rank by rank.
 class Sorter
 {
 public:
-  Sorter(Exchange& exchange, const Distribution& distribution, const GatheredMesh& all,
+  Sorter(Exchange& exchange, Distribution& distribution, const GatheredMesh& all,
     const std::vector<MeshSize>& sizes, const ParallelFor& parallelFor)
     : Source(distribution)
     , All(all)
@@ -88,36 +93,84 @@ public:
         [&](const Particle& particle) { return all.homes[particle.location.element].rank; },
         parallelFor))
   {
-    // Room for the largest part: writing parts needs no more memory.
-    std::size_t most = 0;
-    for (std::size_t r = 0; r + 1 < this->OfRanks.start.size(); ++r)
-    {
-      most = std::max<std::size_t>(most, this->OfRanks.start[r + 1] - this->OfRanks.start[r]);
-    }
-    this->Room.particles.reserve(most);
-    this->Room.undecidedCells.reserve(distribution.report.undecidedCells.size());
+    // Sending needs no more memory.
+    this->Room.reserve(particlesPerMessage);
+    this->UndecidedCells.reserve(distribution.report.undecidedCells.size());
   }
 
-  /// What belongs to a rank; until the next call.
-  const Part& partOf(int rank)
+  void send(Exchange& exchange, int to)
   {
-    const int begin = this->OfRanks.start[rank];
-    this->Room.particles.resize(this->OfRanks.start[rank + 1] - begin);
-    forAll(this->Parallel, this->Room.particles.size(),
-      [&](std::size_t i)
+    this->findUndecided(to);
+    Header header = headerOf(this->Source.report);
+    header.particles = static_cast<std::int64_t>(this->countOf(to));
+    header.undecidedCells = static_cast<std::int64_t>(this->UndecidedCells.size());
+    sendArray(exchange, &header, 1, to);
+    forMessages(this->countOf(to),
+      [&](std::size_t first, std::size_t count)
       {
-        Particle& particle = this->Room.particles[i];
-        particle = this->Source.particles[this->OfRanks.order[begin + i]];
-        particle.location.element = this->All.homes[particle.location.element].element;
+        this->Room.resize(count);
+        this->copy(to, first, this->Room);
+        sendArray(exchange, this->Room.data(), count, to);
       });
+    sendArray(exchange, this->UndecidedCells.data(), this->UndecidedCells.size(), to);
+  }
+
+  /// What belongs to a rank.
+  /// \param keeps whether the distribution stays; otherwise its memory is used
+  Distribution partOf(int rank, bool keeps)
+  {
     this->findUndecided(rank);
-    this->Room.header = headerOf(this->Source.report);
-    this->Room.header.particles = static_cast<std::int64_t>(this->Room.particles.size());
-    this->Room.header.undecidedCells = static_cast<std::int64_t>(this->Room.undecidedCells.size());
-    return this->Room;
+    Distribution part;
+    part.report = reportOf(headerOf(this->Source.report));
+    part.report.undecidedCells = this->UndecidedCells;
+    if (keeps)
+    {
+      part.particles.resize(this->countOf(rank));
+      this->copy(rank, 0, part.particles);
+    }
+    else
+    {
+      this->keepOnly(rank);
+      part.particles = std::move(this->Source.particles);
+    }
+    return part;
   }
 
 private:
+  std::size_t countOf(int rank) const
+  {
+    return static_cast<std::size_t>(this->OfRanks.start[rank + 1] - this->OfRanks.start[rank]);
+  }
+
+  /// Copies particles of a rank, from its first one on, as many as there is room for.
+  void copy(int rank, std::size_t first, Buffer<Particle>& room) const
+  {
+    const std::size_t begin = static_cast<std::size_t>(this->OfRanks.start[rank]) + first;
+    forAll(this->Parallel, room.size(),
+      [&](std::size_t i)
+      {
+        Particle& particle = room[i];
+        particle = this->Source.particles[this->OfRanks.order[begin + i]];
+        particle.location.element = this->All.homes[particle.location.element].element;
+      });
+  }
+
+  void keepOnly(int rank)
+  {
+    Buffer<Particle>& particles = this->Source.particles;
+    std::size_t kept = 0;
+    for (const Particle& particle : particles)
+    {
+      const ElementHome& home = this->All.homes[particle.location.element];
+      if (home.rank == rank)
+      {
+        particles[kept] = particle;
+        particles[kept++].location.element = home.element;
+      }
+    }
+    particles.resize(kept);
+  }
+
   void findUndecided(int rank)
   {
     std::int64_t first = 0;
@@ -125,30 +178,24 @@ private:
     {
       first += this->Sizes[r].cells;
     }
-    this->Room.undecidedCells.clear();
+    this->UndecidedCells.clear();
     for (const std::int64_t cell : this->Source.report.undecidedCells)
     {
       if (cell >= first && cell < first + this->Sizes[rank].cells)
       {
-        this->Room.undecidedCells.push_back(cell - first);
+        this->UndecidedCells.push_back(cell - first);
       }
     }
   }
 
-  const Distribution& Source;
+  Distribution& Source;
   const GatheredMesh& All;
   const std::vector<MeshSize>& Sizes;
   const ParallelFor& Parallel;
   const Grouping OfRanks;
-  Part Room;
+  Buffer<Particle> Room;
+  std::vector<std::int64_t> UndecidedCells;
 };
-
-void sendPart(Exchange& exchange, const Part& part, int to)
-{
-  sendArray(exchange, &part.header, 1, to);
-  sendArray(exchange, part.particles.data(), part.particles.size(), to);
-  sendArray(exchange, part.undecidedCells.data(), part.undecidedCells.size(), to);
-}
 
 /// Receives a rank's part; where memory does not hold it, it is thrown away.
 /// \return whether there was a part
@@ -167,9 +214,13 @@ bool receivePart(Exchange& exchange, int from, HomeParticles& home)
   {
     home.lacksMemory = true;
   }
-  Particle* particles = home.lacksMemory ? nullptr : result.particles.data();
+  forMessages(static_cast<std::size_t>(header.particles),
+    [&](std::size_t first, std::size_t count)
+    {
+      Particle* particles = home.lacksMemory ? nullptr : result.particles.data() + first;
+      receiveArray(exchange, particles, count, from);
+    });
   std::int64_t* cells = home.lacksMemory ? nullptr : result.report.undecidedCells.data();
-  receiveArray(exchange, particles, header.particles, from);
   receiveArray(exchange, cells, header.undecidedCells, from);
   return header.isDone;
 }
@@ -189,22 +240,26 @@ bool takeAll(Distribution& distribution, const GatheredMesh& all, const Parallel
 }
 
 /// Sends all parts but the worker's own, which it keeps. Where there are none, ranks are told so.
-void sendParts(Exchange& exchange, std::optional<Sorter>& parts, HomeParticles& home)
+void sendParts(Exchange& exchange, std::optional<Sorter>& parts, bool keeps, HomeParticles& home)
 {
   for (int to = 0; to < exchange.size(); ++to)
   {
-    if (to != exchange.rank())
+    if (to != exchange.rank() && parts)
     {
-      sendPart(exchange, parts ? parts->partOf(to) : Part(), to);
+      parts->send(exchange, to);
+    }
+    else if (to != exchange.rank())
+    {
+      const Header none;
+      sendArray(exchange, &none, 1, to);
+      sendArray(exchange, static_cast<const std::int64_t*>(nullptr), 0, to);
     }
   }
   try
   {
     if (parts)
     {
-      const Part& own = parts->partOf(exchange.rank());
-      home.distribution = { own.particles, {}, reportOf(own.header) };
-      home.distribution.report.undecidedCells = own.undecidedCells;
+      home.distribution = parts->partOf(exchange.rank(), keeps);
     }
   }
   catch (const std::exception&)
@@ -213,10 +268,28 @@ void sendParts(Exchange& exchange, std::optional<Sorter>& parts, HomeParticles& 
   }
 }
 
+/// Adds particles behind others, in the memory of either where it has room: a worker's own part leaves some.
+void addBehind(Buffer<Particle>&& more, Buffer<Particle>& particles)
+{
+  const std::size_t before = particles.size();
+  const std::size_t all = before + more.size();
+  if (particles.capacity() >= all || more.capacity() < all)
+  {
+    particles.insert(particles.end(), more.begin(), more.end());
+    return;
+  }
+  const auto end = more.end() - more.begin();
+  more.resize(all);
+  std::copy_backward(more.begin(), more.begin() + end, more.end());
+  std::copy(particles.begin(), particles.end(), more.begin());
+  particles = std::move(more);
+}
+
 } // namespace
 
 HomeParticles bringHome(Exchange& exchange, int worker, Distribution& distribution, bool isDone,
-  const GatheredMesh& all, const std::vector<MeshSize>& sizes, const ParallelFor& parallelFor)
+  const GatheredMesh& all, const std::vector<MeshSize>& sizes, const ParallelFor& parallelFor,
+  bool keeps)
 {
   HomeParticles home;
   bool isHere = isDone;
@@ -238,7 +311,7 @@ HomeParticles bringHome(Exchange& exchange, int worker, Distribution& distributi
     {
       home.lacksMemory = true;
     }
-    sendParts(exchange, parts, home);
+    sendParts(exchange, parts, keeps, home);
     isHere = parts && !home.distribution.report.aborted;
   }
   else
@@ -249,9 +322,9 @@ HomeParticles bringHome(Exchange& exchange, int worker, Distribution& distributi
   return home;
 }
 
-void add(const Distribution& part, Distribution& sum)
+void add(Distribution&& part, Distribution& sum)
 {
-  sum.particles.insert(sum.particles.end(), part.particles.begin(), part.particles.end());
+  addBehind(std::move(part.particles), sum.particles);
   const DistributionReport& more = part.report;
   DistributionReport& report = sum.report;
   report.evaluations += more.evaluations;

@@ -26,10 +26,12 @@ struct HomeParticles
 /// \param all on the worker, the mesh that the distribution is on
 /// \param sizes as gatherMesh() had them
 /// \param parallelFor that ends no loop early: other ranks wait for the particles
+/// \param keeps whether the worker needs its distribution afterwards; else the worker's own part is left in its memory
 HomeParticles bringHome(Exchange& exchange, int worker, Distribution& distribution, bool isDone,
-  const GatheredMesh& all, const std::vector<MeshSize>& sizes, const ParallelFor& parallelFor);
+  const GatheredMesh& all, const std::vector<MeshSize>& sizes, const ParallelFor& parallelFor,
+  bool keeps = true);
 
 /// Adds what one of several workers has distributed to what others have: their particles, and the sums of their reports.
-void add(const Distribution& part, Distribution& sum);
+void add(Distribution&& part, Distribution& sum);
 
 } // namespace hop

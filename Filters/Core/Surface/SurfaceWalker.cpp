@@ -34,7 +34,7 @@ Evaluated SurfaceWalker::evaluate(const Location& location)
     return this->evaluateCurved(location);
   }
   ++this->Evaluations;
-  const Jet jet = evaluateGradient(this->Surface.mesh->form(location.element), location.u);
+  const Jet jet = exactGradient(*this->Surface.mesh, location);
   return { location, fieldPoint(jet, this->Surface.isovalue) };
 }
 
@@ -42,7 +42,7 @@ Evaluated SurfaceWalker::evaluateCurved(const Location& location)
 {
   ++this->Evaluations;
   this->LastPlace = location;
-  this->LastJet = evaluateHessian(this->Surface.mesh->form(location.element), location.u);
+  this->LastJet = exactHessian(*this->Surface.mesh, location);
   Evaluated result{ location, fieldPoint(this->LastJet, this->Surface.isovalue) };
   result.hessian = worldHessian(this->LastJet, result.point);
   return result;
@@ -67,7 +67,7 @@ std::optional<LocatedPlace> SurfaceWalker::placeBehind(const Evaluated& here, in
   {
     return LocatedPlace{ crossFace(*surface.mesh, here.location, face), neighbor.face, 0.0 };
   }
-  return surface.locator->locate(here.point.map.position, element, face,
+  return surface.locator->locate(here.point.map, element, face,
     surface.jumpTolerance(element, face), this->Evaluations);
 }
 

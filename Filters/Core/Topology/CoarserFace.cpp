@@ -32,9 +32,9 @@ glm::dvec3 snapped(const glm::dvec3& u)
     u, corner, glm::lessThanEqual(glm::abs(u - corner), glm::dvec3(Refinement::Rounding)));
 }
 
-WorldPoint positionAt(const ElementMesh& mesh, const Location& location)
+LocalMap mapAt(const ElementMesh& mesh, const Location& location)
 {
-  return { glm::dvec3(evaluateGradient(mesh.form(location.element), location.u).value) };
+  return fieldPoint(evaluateGradient(mesh.form(location.element), location.u), 0.0).map;
 }
 
 /// The place behind a face.
@@ -43,12 +43,12 @@ std::optional<LocatedPlace> locateBehind(
 {
   const Face& what = mesh.face(location.element, face);
   const auto& corners = facts(mesh.elements[location.element].domain).corners;
-  const WorldPoint place = positionAt(mesh, location);
+  const LocalMap place = mapAt(mesh, location);
   double toCorner = std::numeric_limits<double>::infinity();
   for (int c = 0; c < what.cornerCount; ++c)
   {
     const Location corner{ location.element, corners[what.corners[c]] };
-    toCorner = std::min(toCorner, length(place - positionAt(mesh, corner)));
+    toCorner = std::min(toCorner, length(place.position - mapAt(mesh, corner).position));
   }
   std::int64_t evaluations = 0;
   return locator.locate(place, location.element, face, largestGap * toCorner, evaluations);

@@ -1,6 +1,7 @@
 #include "Edges/ClipPlanes.h"
 
 #include "Common/SplatProfile.h"
+#include "Elements/CornerNumbers.h"
 #include "Fast/FastDistribution.h"
 #include "TestMeshes.h"
 
@@ -262,7 +263,7 @@ Distribution distributeInRing(double slope)
 {
   ElementMesh mesh;
   appendRing(mesh, 1.0, [=](const glm::dvec3& x) { return x.z - slope * x.x; });
-  findFaceNeighbors(mesh, 1e-9);
+  joinElements(mesh);
   DistributionParameters parameters;
   parameters.sizing = { spacing, 0.0 };
   return distributeFast({ &mesh, 0.0, 1e-9 }, parameters, {}, {});
@@ -354,7 +355,7 @@ TEST(ClipPlanes, OfBentCreasesTouchThemWhereTheyAreNearest)
   appendRing(mesh, 1.0, [](const glm::dvec3& x) { return x.z; });
   appendRing(
     mesh, 2.0, [](const glm::dvec3& x) { return x.z - 0.3 * (x.x * x.x + x.y * x.y - 4.0); });
-  findFaceNeighbors(mesh, 1e-9);
+  joinElements(mesh); // where the last sectors meet the first ones, too
   DistributionParameters parameters;
   parameters.sizing = { spacing, 0.0 };
   int beside = 0;

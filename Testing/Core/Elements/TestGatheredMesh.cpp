@@ -71,6 +71,59 @@ TEST(GatheredMesh, NumbersTheCellsOfAllRanksThrough)
     });
 }
 
+/// Gives every third element a field of its own: lambda 2 of a vector that depends on the element.
+void addExactFields(ElementMesh& mesh)
+{
+  const std::vector<double> weights;
+  for (std::size_t e = 0; e < mesh.elements.size(); e += 3)
+  {
+    Element& element = mesh.elements[e];
+    const BernsteinForm form = mesh.form(static_cast<int>(e));
+    std::vector<double> control;
+    for (int i = 0; i < static_cast<int>(coefficientCount(form.domain, form.degrees)); ++i)
+    {
+      const Coefficient c = form.coefficients[i];
+      control.insert(
+        control.end(), { c.x, c.y, c.z, -c.y * double(e), c.x + c.z * c.y, c.z * c.x - c.w });
+    }
+    const LambdaTwoSource exact =
+      lambdaTwoSource({ form.domain, form.degrees, 6, control, weights }, {});
+    element.exactField = static_cast<int>(mesh.exactFields.size());
+    mesh.exactFields.push_back(exact.field);
+    mesh.exactFields.back().firstDerivative = mesh.derivatives.size();
+    mesh.derivatives.insert(
+      mesh.derivatives.end(), exact.derivatives.begin(), exact.derivatives.end());
+  }
+}
+
+TEST(GatheredMesh, KeepsExactFieldsWithTheirElements)
+{
+  ElementMesh whole = wavyBoxes();
+  addExactFields(whole);
+  std::vector<std::vector<int>> chosen(3);
+  for (int e = 0; e < static_cast<int>(whole.elements.size()); ++e)
+  {
+    chosen[e % 2 + e % 5 / 4].push_back(e);
+  }
+  runRanks(3,
+    [&](Exchange& exchange)
+    {
+      ElementMesh mine = pickElements(whole, chosen[exchange.rank()]);
+      const GatheredMesh all = gatheredAt(exchange, 1, mine);
+      int differing = 0;
+      for (int e = 0; e < static_cast<int>(all.homes.size()); ++e)
+      {
+        const ElementHome& home = all.homes[e];
+        const Location there{ chosen[home.rank][home.element], { { 0.3, 0.2, 0.4 } } };
+        const Jet jet = exactHessian(all.mesh, { e, there.u });
+        ASSERT_EQ(jet.value, exactHessian(whole, there).value);
+        ASSERT_EQ(jet.second, exactHessian(whole, there).second);
+        differing += jet.value != evaluateHessian(all.mesh.form(e), there.u).value;
+      }
+      EXPECT_EQ(differing, exchange.rank() == 1 ? 9 : 0);
+    });
+}
+
 TEST(GatheredMesh, HoldsRationalElementsBesidePolynomialOnes)
 {
   const ElementMesh whole = wavyBoxes();

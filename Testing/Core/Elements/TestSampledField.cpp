@@ -129,7 +129,7 @@ TEST(SampledField, TellsOfWhatItCannotHold)
   EXPECT_GT(sampled.error, 1e-4);
   const FieldFunction infinite = [](const FieldPoint& at) { return std::log(at.x.x - 0.3); };
   EXPECT_EQ(FieldSampler(source, infinite, 0.0).sample({}, everything).element.state,
-    DerivedElement::State::Singular);
+    DerivedElement::State::NotFinite);
 }
 
 TEST(SymmetricEigenvalues, FindsTheMiddleOne)

@@ -81,6 +81,19 @@ TEST(PackingRepair, OneTooManyIsMadeRoomForOrDeleted)
   EXPECT_LE(crowded.moving->count(), count);
 }
 
+TEST(PackingRepair, LeavesCrowdsOutsideOfASlabAlone)
+{
+  Crowded crowded;
+  const glm::dvec3 along(1.0, 0.0, 0.0);
+  const double place = glm::dot(along, crowded.place);
+  const double reach = crowded.on.sizing.spacing;
+  const std::set<Place> before = placesOf(*crowded.moving);
+  repairPacking(*crowded.moving, {}, { along, place + reach, place + 2.0 * reach });
+  EXPECT_EQ(placesOf(*crowded.moving), before);
+  repairPacking(*crowded.moving, {}, { along, place - reach, place + reach });
+  EXPECT_GE(leastDistance(*crowded.moving), least);
+}
+
 TEST(PackingRepair, RelaxesAroundPlacesOnly)
 {
   for (const double reach : { 1.5, 3.0 })

@@ -2,6 +2,7 @@
 
 #include "Fast/SlabDistribution.h"
 
+#include "CountingExchange.h"
 #include "DistributionMeasures.h"
 #include "Elements/CanonicalOrder.h"
 #include "Fast/FastDistribution.h"
@@ -19,6 +20,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -357,6 +359,78 @@ TEST(SlabDistribution, EndsOnAllRanksWhereOneIsInterrupted)
           parameters, true, monitor, {});
       });
   }
+}
+
+TEST(SlabDistribution, EndsOnAllRanksAtAnyMoment)
+{
+  const SlabCase which = coarse(ellipsoidCase());
+  const std::vector<ElementMesh> parts = scattered(meshOf(which), 2, 1);
+  using Clock = std::chrono::steady_clock;
+  std::atomic<double> whole{ 0.0 }; // seconds of the first run
+  for (int n = 0; n <= 20; ++n)
+  {
+    std::atomic<bool> isStopped{ false };
+    const double share = std::fmod(0.618 * n, 1.0);
+    runRanks(
+      2,
+      [&](Exchange& exchange)
+      {
+        const ElementMesh& mine = parts[exchange.rank()];
+        const std::vector<Slab> slabs = slabsOf(exchange, mine, which, 3);
+        const SlabMeshes meshes =
+          gatherSlabs(exchange, mine, CellsOfRank, slabs, which.sizing.spacing, true, {});
+        const auto begin = Clock::now();
+        const auto seconds = [&]()
+        { return std::chrono::duration<double>(Clock::now() - begin).count(); };
+        const Monitor monitor{ [&](double)
+          {
+            const bool stops = n > 0 && exchange.rank() == n % 2 && seconds() > share * whole;
+            isStopped = isStopped || stops;
+            return !stops;
+          } };
+        const SlabResult result = distributeInSlabs(exchange, slabs, meshes.meshes,
+          { nullptr, 0.0, tolerance }, parametersOf(which), true, monitor, {});
+        if (n == 0 && exchange.rank() == 0)
+        {
+          whole = seconds();
+        }
+        EXPECT_EQ(result.isComplete, !isStopped);
+        std::size_t particles = 0;
+        for (const Distribution& some : result.distributions)
+        {
+          particles += some.particles.size();
+        }
+        EXPECT_EQ(particles > 0, result.isComplete);
+      },
+      longestWait);
+    EXPECT_TRUE(n > 0 || !isStopped);
+  }
+}
+
+TEST(SlabDistribution, SendsNothingAsLargeAsTheMesh)
+{
+  const SlabCase which = ellipsoidCase();
+  const ElementMesh mesh = meshOf(which);
+  const std::size_t ofMesh = mesh.coefficients.size() * sizeof(mesh.coefficients[0]);
+  const std::size_t ofParticles = distributeAlone(which, mesh).particles.size() * sizeof(Particle);
+  constexpr int ranks = 4;
+  const std::vector<ElementMesh> parts = scattered(mesh, ranks, 1);
+  runRanks(
+    ranks,
+    [&](Exchange& inMemory)
+    {
+      CountingExchange exchange(inMemory);
+      const ElementMesh& mine = parts[exchange.rank()];
+      const std::vector<Slab> slabs = slabsOf(exchange, mine, which, ranks);
+      EXPECT_LE(exchange.takeLargest(), 10000u); // what all ranks hear
+      const SlabMeshes meshes =
+        gatherSlabs(exchange, mine, CellsOfRank, slabs, which.sizing.spacing, true, {});
+      EXPECT_LE(exchange.takeLargest(), ofMesh / ranks);
+      distributeInSlabs(exchange, slabs, meshes.meshes, { nullptr, 0.0, tolerance },
+        parametersOf(which), true, {}, {});
+      EXPECT_LE(exchange.takeLargest(), ofParticles / ranks);
+    },
+    longestWait);
 }
 
 TEST(SlabDistribution, EndsOnAllRanksWhereOneRefusesOrHasFailed)

@@ -195,24 +195,35 @@ TEST(SurfaceProxy, SamplesThatMayBeNoSurfaceDoNotLimitSpacings)
   EXPECT_EQ(places(), all - 1);
 }
 
-/// Loops of no length ask the caller for an early end.
-TEST(SurfaceProxy, AsksForAnEarlyEndWhileItLimitsSpacings)
+/// Loops of no length ask the caller for an early end, and any loop may bring it.
+TEST(SurfaceProxy, EndsWithWhicheverLoopTheCallerEnds)
 {
+  struct Ended
+  {
+  };
   const ElementMesh mesh = fineMesh();
-  int questions = 0;
+  const auto boxes = findSurfaceBoxes(mesh, 0.0, 3.0, {});
+  int loops = 0, questions = 0, last = 0;
   const ParallelFor counting = [&](std::ptrdiff_t count, const LoopBody& body)
   {
     questions += count == 0;
+    if (++loops == last)
+    {
+      throw Ended();
+    }
     runInThreads({}, count, body);
   };
-  const auto boxes = findSurfaceBoxes(mesh, 0.0, 3.0, {});
-  const auto questionsAt = [&](double wanted)
+  const auto build = [&] { SurfaceProxy({ &mesh, 0.0, 1e-9 }, { 0.02, 15.0 }, boxes, counting); };
+
+  build();
+  EXPECT_GT(questions, 0);
+  const int all = loops;
+  for (last = 1; last <= all; ++last)
   {
-    questions = 0;
-    const SurfaceProxy proxy({ &mesh, 0.0, 1e-9 }, { wanted, 15.0 }, boxes, counting);
-    return questions;
-  };
-  EXPECT_GT(questionsAt(0.02), 0);
+    loops = 0;
+    EXPECT_THROW(build(), Ended) << "loop " << last;
+    EXPECT_EQ(loops, last);
+  }
 }
 
 TEST(SampleComparison, KnowsSmallJumpsFromLargeOnes)

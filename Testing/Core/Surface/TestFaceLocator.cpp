@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace hop::testing
@@ -106,6 +107,20 @@ bool isAtTheInterface(const Meeting& meeting, const glm::dvec3& x)
   return glm::distance(meeting.map({ 0, x.y, z }), x) < 1e-12;
 }
 
+/// A place of an element as the locator wants it.
+LocalMap mapAt(const ElementMesh& mesh, int element, const ReferencePoint& u)
+{
+  return fieldPoint(evaluateGradient(mesh.form(element), u), 0.0).map;
+}
+
+/// A place on a face of a straight box.
+LocalMap mapOfBox(const glm::dvec3& place)
+{
+  LocalMap map;
+  map.position.xyz = place;
+  return map;
+}
+
 /// Calls use() with random places on faces behind which an element may lie, and what the locator finds there.
 template <class Use>
 void visitPlacesAtOpenFaces(const ElementMesh& mesh, const FaceLocator& locator, const Use& use)
@@ -125,8 +140,8 @@ void visitPlacesAtOpenFaces(const ElementMesh& mesh, const FaceLocator& locator,
         if (insideMargin(domain, u) > -1e-12)
         {
           std::int64_t evaluations = 0;
-          const WorldPoint x{ glm::dvec3(evaluateGradient(mesh.form(e), u).value) };
-          use(e, x, locator.locate(x, e, f, 1e-6, evaluations), evaluations);
+          const LocalMap map = mapAt(mesh, e, u);
+          use(e, map.position, locator.locate(map, e, f, 1e-6, evaluations), evaluations);
         }
       }
     }
@@ -233,12 +248,36 @@ TEST(FaceLocator, FindsNothingBehindSharpEdgesOfTheMesh)
           const ReferencePoint u{ glm::mix(about.corners[face.corners[c]].xyz,
             about.corners[face.corners[(c + 1) % face.cornerCount]].xyz, 0.3) };
           std::int64_t evaluations = 0;
-          const WorldPoint x{ glm::dvec3(evaluateGradient(mesh.form(e), u).value) };
-          EXPECT_FALSE(locator.locate(x, e, f, 1e-6, evaluations)) << domain;
+          EXPECT_FALSE(locator.locate(mapAt(mesh, e, u), e, f, 1e-6, evaluations)) << domain;
         }
       }
     }
   }
+}
+
+TEST(FaceLocator, FindsNothingAcrossAReentrantEdgeWithHangingNodes)
+{
+  // The outer faces of two boxes meet in an edge with 60 degrees of empty space between them. One box is half as long,
+  // so that the faces have at most one corner in common.
+  MeshRecipe recipe;
+  recipe.field = [](const glm::dvec3&) { return 0.0; };
+  recipe.map = [](const glm::dvec3& x)
+  { return x + glm::dvec3(std::sqrt(1.0 / 3.0) * x.y, 0.0, 0.0); };
+  ElementMesh mesh;
+  appendBox(mesh, recipe, { 0, -1, -1 }, { 1, 0, 1 });
+  appendBox(mesh, recipe, { -1, 0, 0 }, { 0, 1, 1 });
+  findFaceNeighbors(mesh, 1e-9);
+  const FaceLocator locator(mesh, 0.0, {});
+  ASSERT_TRUE(locator.mayContinueIn(0, 0, 1)) << "the middles of the faces look at each other";
+  std::int64_t evaluations = 0;
+  for (const double toEdge : { 0.01, 0.05 })
+  {
+    const ReferencePoint inLonger{ { 0.0, 1.0 - toEdge, 0.75 } };
+    const ReferencePoint inShorter{ { 1.0 - toEdge, 0.0, 0.5 } };
+    EXPECT_FALSE(locator.locate(mapAt(mesh, 0, inLonger), 0, 0, 0.1, evaluations));
+    EXPECT_FALSE(locator.locate(mapAt(mesh, 1, inShorter), 1, 2, 0.1, evaluations));
+  }
+  EXPECT_GT(evaluations, 0);
 }
 
 TEST(FaceLocator, KnowsOnlyFacesThatTheSurfacePasses)
@@ -276,7 +315,7 @@ TEST(FaceLocator, FindsNothingBesideASmallerFace)
   const auto found = [&](double y, double z)
   {
     std::int64_t evaluations = 0;
-    return locator.locate({ { 0, y, z } }, 0, 1, 0.05, evaluations).has_value();
+    return locator.locate(mapOfBox({ 0, y, z }), 0, 1, 0.05, evaluations).has_value();
   };
   EXPECT_TRUE(found(0.5, 0.5));
   EXPECT_TRUE(found(1e-9, 0.5));
@@ -297,11 +336,12 @@ TEST(FaceLocator, PassesNoGapWiderThanTolerated)
   const ElementMesh mesh = quarterCovered(gap);
   const FaceLocator locator(mesh, 0.0, {});
   std::int64_t evaluations = 0;
-  const auto near = locator.locate({ { 0, 0.3, 0.6 } }, 0, 1, 1.01 * gap, evaluations);
+  const auto near = locator.locate(mapOfBox({ 0, 0.3, 0.6 }), 0, 1, 1.01 * gap, evaluations);
   ASSERT_TRUE(near.has_value());
   EXPECT_NEAR(near->gap, gap, 1e-9);
   EXPECT_LE(glm::distance(positionAt(mesh, near->location), glm::dvec3(gap, 0.3, 0.6)), 1e-9);
-  EXPECT_FALSE(locator.locate({ { 0, 0.3, 0.6 } }, 0, 1, 0.99 * gap, evaluations).has_value());
+  EXPECT_FALSE(
+    locator.locate(mapOfBox({ 0, 0.3, 0.6 }), 0, 1, 0.99 * gap, evaluations).has_value());
 }
 
 TEST(FaceLocator, SurvivesSingularAndPoisonedElements)
@@ -316,7 +356,7 @@ TEST(FaceLocator, SurvivesSingularAndPoisonedElements)
     }
     const FaceLocator locator(mesh, 0.0, {});
     std::int64_t evaluations = 0;
-    EXPECT_FALSE(locator.locate({ { 0, 0.3, 0.6 } }, 0, 1, 0.1, evaluations).has_value());
+    EXPECT_FALSE(locator.locate(mapOfBox({ 0, 0.3, 0.6 }), 0, 1, 0.1, evaluations).has_value());
     SurfaceWalker walker({ &mesh, 0.0, 0.0, &locator });
     const Evaluated start = walker.evaluate({ 0, { { 0.9, 0.7, 0.7 } } });
     EXPECT_EQ(walker.move(start, { { 0.5, 0, 0 } }).element, 0);

@@ -2,6 +2,7 @@
 
 #include "AnalyticFields.h"
 #include "Classic/ClassicDistribution.h"
+#include "CountingExchange.h"
 #include "ElementCases.h"
 #include "Fast/FastDistribution.h"
 #include "RanksInMemory.h"
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <mutex>
 
 namespace hop::testing
@@ -54,7 +56,8 @@ Bits bitsOf(const Particle& particle)
 }
 
 /// What all ranks have together.
-std::vector<Bits> particlesOf(const ElementMesh& whole, int ranks, int worker, Method method)
+std::vector<Bits> particlesOf(
+  const ElementMesh& whole, int ranks, int worker, Method method, bool keeps = true)
 {
   const std::vector<ElementMesh> parts = scattered(whole, ranks, ranks);
   std::vector<Bits> found;
@@ -70,7 +73,8 @@ std::vector<Bits> particlesOf(const ElementMesh& whole, int ranks, int worker, M
       {
         distribution = distribute(all, method);
       }
-      const HomeParticles home = bringHome(exchange, worker, distribution, true, all, sizes, {});
+      const HomeParticles home =
+        bringHome(exchange, worker, distribution, true, all, sizes, {}, keeps);
       EXPECT_TRUE(home.isComplete);
       const std::lock_guard lock(access);
       for (const Particle& particle : home.distribution.particles)
@@ -101,6 +105,70 @@ TEST_P(OneSurface, HasTheSameBitsOnAnyNumberOfRanks)
   for (const int ranks : { 2, 3, 4, 8, 50 })
   {
     EXPECT_EQ(particlesOf(whole, ranks, ranks / 2, distributeFast), expected) << ranks;
+    EXPECT_EQ(particlesOf(whole, ranks, ranks / 2, distributeFast, false), expected) << ranks;
+  }
+}
+
+TEST(ParticlesHome, SendsManyParticlesInSmallMessages)
+{
+  constexpr int ofEach = 10000;
+  constexpr int worker = 1;
+  const std::vector<ElementMesh> parts = scattered(wholeMesh(Domain::Hexahedron), 2, 1);
+  runRanks(2,
+    [&](Exchange& inMemory)
+    {
+      CountingExchange exchange(inMemory);
+      ElementMesh mine = parts[exchange.rank()];
+      const std::vector<MeshSize> sizes = gatherFromAll(exchange, sizeOf(mine, CellsOfRank));
+      const GatheredMesh all = gatheredAt(exchange, worker, mine);
+      Distribution distribution;
+      std::array<int, 2> counts{};
+      for (std::size_t e = 0; !all.homes.empty() && counts != std::array<int, 2>{ ofEach, ofEach };
+           e = (e + 1) % all.homes.size())
+      {
+        int& count = counts[all.homes[e].rank];
+        if (count < ofEach)
+        {
+          Particle& particle = distribution.particles.emplace_back(Particle());
+          particle.location.element = static_cast<int>(e);
+          particle.residual = count++;
+        }
+      }
+      exchange.takeLargest();
+      const HomeParticles home = bringHome(exchange, worker, distribution, true, all, sizes, {});
+      EXPECT_LT(exchange.takeLargest(), ofEach * sizeof(Particle) / 2);
+      ASSERT_EQ(home.distribution.particles.size(), static_cast<std::size_t>(ofEach));
+      for (int i = 0; i < ofEach; ++i)
+      {
+        ASSERT_LT(home.distribution.particles[i].location.element,
+          static_cast<int>(parts[exchange.rank()].elements.size()));
+      }
+    });
+}
+
+TEST(ParticlesHome, AddsPartsBehindEachOther)
+{
+  const auto partOf = [](std::initializer_list<int> elements, std::size_t room)
+  {
+    Distribution part;
+    part.particles.reserve(room);
+    for (const int element : elements)
+    {
+      part.particles.emplace_back(Particle()).location.element = element;
+    }
+    return part;
+  };
+  // There may be room in the memory of the sum, of the part, or of neither.
+  for (const auto& [roomOfSum, roomOfPart] :
+    { std::array<std::size_t, 2>{ 5, 2 }, { 3, 5 }, { 3, 2 } })
+  {
+    Distribution sum = partOf({ 1, 2, 3 }, roomOfSum);
+    add(partOf({ 4, 5 }, roomOfPart), sum);
+    ASSERT_EQ(sum.particles.size(), 5u);
+    for (int i = 0; i < 5; ++i)
+    {
+      EXPECT_EQ(sum.particles[i].location.element, i + 1);
+    }
   }
 }
 

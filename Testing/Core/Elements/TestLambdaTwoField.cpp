@@ -1,0 +1,203 @@
+#include "Elements/LambdaTwoField.h"
+
+#include "Elements/SampledField.h"
+#include "Elements/SymmetricEigenvalues.h"
+
+#include "ElementCases.h"
+#include "TestMeshes.h"
+
+#include <glm/glm.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace hop::testing
+{
+namespace
+{
+
+/// A bent element with a vector field.
+struct VectorElement
+{
+  template <class Field>
+  VectorElement(const ElementCase& which, bool isRational, const Field& field)
+    : element(which)
+    , rational(isRational)
+  {
+    for (const LatticePoint& point : latticePoints(which.domain, which.degrees))
+    {
+      const glm::dvec3 u = latticePosition(which.degrees, point).xyz;
+      const glm::dvec3 x = u + 0.08 * glm::dvec3(u.y * u.y, std::sin(2.0 * u.z), u.x * u.y);
+      const glm::dvec3 value = field(x);
+      const double weight = isRational ? 1.0 + 0.2 * std::sin(3.0 * u.x + u.y) : 1.0;
+      for (const glm::dvec3& row : { x, value })
+      {
+        this->control.insert(
+          this->control.end(), { weight * row.x, weight * row.y, weight * row.z });
+      }
+      this->weights.push_back(weight);
+    }
+  }
+
+  SourceElement source() const
+  {
+    return { this->element.domain, this->element.degrees, 6, this->control, this->weights,
+      this->rational, 0.0 };
+  }
+
+  /// Lambda 2 from the gradients of one component after the other.
+  double at(const ReferencePoint& u) const
+  {
+    FieldPoint there;
+    for (int c = 0; c < 3; ++c)
+    {
+      std::vector<Coefficient> coefficients;
+      for (std::size_t i = 0; i < this->control.size(); i += 6)
+      {
+        const double* row = &this->control[i];
+        coefficients.emplace_back(row[0], row[1], row[2], row[3 + c]);
+      }
+      const Jet jet =
+        evaluateGradient({ this->element.domain, this->element.degrees, coefficients.data(),
+                           this->rational ? this->weights.data() : nullptr },
+          u);
+      const glm::dmat3 jacobian{ glm::dvec3(jet.first[0]), glm::dvec3(jet.first[1]),
+        glm::dvec3(jet.first[2]) };
+      there.gradients.push_back(gradientOf(jet) * glm::inverse(jacobian));
+    }
+    return functionOf(Quantity::Lambda2)(there);
+  }
+
+  ElementCase element;
+  bool rational;
+  std::vector<double> control;
+  std::vector<double> weights;
+};
+
+Jet jetOf(const VectorElement& some, const LambdaTwoSource& exact, const ReferencePoint& u)
+{
+  Jet jet;
+  evaluateLambdaTwo(some.element.domain, exact.field, exact.derivatives.data(), u, jet);
+  return jet;
+}
+
+ReferencePoint moved(ReferencePoint u, int axis, double step)
+{
+  u.xyz[axis] += step;
+  return u;
+}
+
+const ElementCase cases[] = { { Domain::Hexahedron, { 3, 2, 4 } },
+  { Domain::Tetrahedron, { 4, 4, 4 } }, { Domain::Wedge, { 3, 3, 2 } } };
+
+TEST(LambdaTwoField, AgreesWithTheEigenvaluesOfTheGradient)
+{
+  Random random(31);
+  for (const ElementCase& which : cases)
+  {
+    for (const bool isRational : { false, true })
+    {
+      const VectorElement some(which, isRational,
+        [&](const glm::dvec3&)
+        { return glm::dvec3(randomNumber(random), randomNumber(random), randomNumber(random)); });
+      for (const ReferencePart& part : partsOf(which.domain, 1))
+      {
+        LambdaTwoSource exact = lambdaTwoSource(some.source(), part);
+        EXPECT_EQ(exact.derivatives.size(), derivativeCount(which.domain, exact.field));
+        exact.field.scale = 0.25;
+        const ReferencePoint u =
+          insidePoint(which.domain, { random.uniform(), random.uniform(), random.uniform() });
+        const double expected = 0.25 * some.at(part.inWhole(u));
+        EXPECT_NEAR(jetOf(some, exact, u).value.w, expected, 1e-9 * (1.0 + std::abs(expected)))
+          << which << isRational;
+      }
+    }
+  }
+}
+
+TEST(LambdaTwoField, HasTheDerivativesOfDifferences)
+{
+  Random random(32);
+  constexpr double step = 1e-4;
+  for (const ElementCase& which : cases)
+  {
+    const VectorElement some(which, which.domain == Domain::Wedge,
+      [](const glm::dvec3& x) {
+        return glm::dvec3(std::sin(3.0 * x.y), x.z * x.z + 2.0 * x.x, std::cos(2.0 * x.x) * x.y);
+      });
+    const ReferencePart part = partsOf(which.domain, 1)[4];
+    const LambdaTwoSource exact = lambdaTwoSource(some.source(), part);
+    for (int n = 0; n < 10; ++n)
+    {
+      const ReferencePoint u =
+        insidePoint(which.domain, { random.uniform(), random.uniform(), random.uniform() });
+      const Jet here = jetOf(some, exact, u);
+      const glm::dmat3 hessian = hessianOf(here.second);
+      for (int a = 0; a < 3; ++a)
+      {
+        const Jet after = jetOf(some, exact, moved(u, a, step));
+        const Jet before = jetOf(some, exact, moved(u, a, -step));
+        const double scale = 1.0 + std::abs(hessian[a][a]);
+        EXPECT_NEAR(here.first[a].w, (after.value.w - before.value.w) / (2.0 * step), 1e-5 * scale);
+        const glm::dvec3 second = (gradientOf(after) - gradientOf(before)) / (2.0 * step);
+        EXPECT_LT(glm::distance(hessian[a], second), 1e-4 * scale) << which << a;
+      }
+    }
+  }
+}
+
+/// A vortex with strain: eigenvalues are equal in its axis, or everywhere.
+TEST(LambdaTwoField, IsFiniteWhereEigenvaluesAreEqual)
+{
+  const ElementCase which{ Domain::Hexahedron, { 3, 3, 3 } };
+  for (const double bend : { 0.0, 1.0 })
+  {
+    const VectorElement some(which, false,
+      [bend](const glm::dvec3& x)
+      { return glm::dvec3(-x.y + bend * x.x * x.x, x.x, bend * x.z * x.y); });
+    const LambdaTwoSource exact = lambdaTwoSource(some.source(), {});
+    for (const double t : { 0.0, 0.25, 0.5, 1.0 })
+    {
+      const Jet jet = jetOf(some, exact, { { t, t, t } });
+      double sum = jet.value.w;
+      for (const Coefficient& derivative : jet.first)
+      {
+        sum += derivative.w;
+      }
+      for (const Coefficient& derivative : jet.second)
+      {
+        sum += derivative.w;
+      }
+      EXPECT_TRUE(std::isfinite(sum)) << bend << " " << t;
+    }
+  }
+}
+
+TEST(Eigensystem, DiagonalizesAlsoEqualEigenvalues)
+{
+  Random random(33);
+  for (int n = 0; n < 200; ++n)
+  {
+    glm::dvec3 values(randomNumber(random), randomNumber(random), randomNumber(random));
+    values.y = n % 3 == 0 ? values.x : values.y;
+    const glm::dvec3 a =
+      glm::normalize(glm::dvec3(randomNumber(random), randomNumber(random), randomNumber(random)));
+    const glm::dvec3 b = glm::normalize(glm::cross(a, glm::dvec3(0.3, 0.5, 0.8)));
+    const glm::dmat3 q(a, b, glm::cross(a, b));
+    const glm::dmat3 d(glm::dvec3(values.x, 0.0, 0.0), glm::dvec3(0.0, values.y, 0.0),
+      glm::dvec3(0.0, 0.0, values.z));
+    const glm::dmat3 matrix = q * d * glm::transpose(q);
+    const Eigensystem system = eigensystemOf(0.5 * (matrix + glm::transpose(matrix)));
+    EXPECT_LE(system.values[0], system.values[1]);
+    EXPECT_LE(system.values[1], system.values[2]);
+    for (int i = 0; i < 3; ++i)
+    {
+      const glm::dvec3& v = system.vectors[i];
+      EXPECT_LT(glm::length(matrix * v - system.values[i] * v), 1e-14) << n;
+    }
+  }
+  EXPECT_EQ(eigensystemOf(glm::dmat3(0.0)).values, glm::dvec3(0.0));
+}
+
+} // namespace
+} // namespace hop::testing

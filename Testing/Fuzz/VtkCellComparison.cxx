@@ -1,0 +1,230 @@
+#include "VtkCellComparison.h"
+
+#include "FilterSession.h"
+
+#include <glm/glm.hpp>
+
+#include <vtkBoundingBox.h>
+#include <vtkCell.h>
+#include <vtkCellType.h>
+#include <vtkDataArray.h>
+#include <vtkGenericCell.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hop::testing
+{
+namespace
+{
+
+/// Points of an output that are compared; more take longer.
+constexpr vtkIdType Compared = 40;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+glm::dvec3 vectorOf(const double* x)
+{
+  return { x[0], x[1], x[2] };
+}
+
+double largest(const glm::dvec3& v)
+{
+  const glm::dvec3 size = glm::abs(v);
+  return std::max({ size.x, size.y, size.z });
+}
+
+/// Of the points that are finite.
+double longestSide(vtkPoints& points)
+{
+  vtkBoundingBox box;
+  for (vtkIdType i = 0; i < points.GetNumberOfPoints(); ++i)
+  {
+    double x[3];
+    points.GetPoint(i, x);
+    if (std::isfinite(x[0] + x[1] + x[2]))
+    {
+      box.AddPoint(x);
+    }
+  }
+  return box.IsValid() ? box.GetMaxLength() : 1.0;
+}
+
+/// What VTK's own cell says of a place.
+struct Sample
+{
+  glm::dvec3 position{ 0.0 };
+  /// Of the contoured component, or the magnitude of all.
+  double value = 0.0;
+  /// By how much the value may change over the tolerance; infinite where VTK has no derivatives.
+  double rise = infinity;
+  /// Sizes of the numbers that are added up to the position and to the value.
+  double roundingOfPosition = 0.0, roundingOfValue = 0.0;
+};
+
+/// The values of a cell's nodes: those of one component, or all, row by row.
+struct NodalValues
+{
+  std::vector<double> numbers;
+  int components = 1;
+};
+
+NodalValues nodalValues(vtkCell& cell, vtkDataArray& field, int component)
+{
+  const bool isOne = component < field.GetNumberOfComponents();
+  NodalValues values{ {}, isOne ? 1 : field.GetNumberOfComponents() };
+  for (vtkIdType n = 0; n < cell.GetNumberOfPoints(); ++n)
+  {
+    for (int c = 0; c < values.components; ++c)
+    {
+      values.numbers.push_back(field.GetComponent(cell.GetPointId(n), isOne ? component : c));
+    }
+  }
+  return values;
+}
+
+double largest(const std::vector<double>& numbers)
+{
+  double most = 0.0;
+  for (const double number : numbers)
+  {
+    most = std::max(most, std::abs(number));
+  }
+  return most;
+}
+
+/// Length of a vector of any size, without overflow.
+double magnitude(const std::vector<double>& numbers)
+{
+  const double unit = largest(numbers);
+  double sum = 0.0;
+  for (const double number : numbers)
+  {
+    sum += unit > 0.0 ? (number / unit) * (number / unit) : 0.0;
+  }
+  return unit * std::sqrt(sum);
+}
+
+/// By how much the field may change over a distance. The cell's points are changed: VTK takes cells that are small in
+/// world units for singular.
+double riseOver(double distance, vtkCell& cell, const double* place, const NodalValues& values)
+{
+  const double length = longestSide(*cell.GetPoints());
+  const double height = std::max(largest(values.numbers), std::numeric_limits<double>::min());
+  const glm::dvec3 first = vectorOf(cell.GetPoints()->GetPoint(0));
+  for (vtkIdType n = 0; n < cell.GetNumberOfPoints(); ++n)
+  {
+    const glm::dvec3 x = (vectorOf(cell.GetPoints()->GetPoint(n)) - first) / length;
+    cell.GetPoints()->SetPoint(n, x.x, x.y, x.z);
+  }
+  std::vector<double> scaled = values.numbers;
+  for (double& number : scaled)
+  {
+    number /= height;
+  }
+  std::vector<double> gradients(3 * static_cast<std::size_t>(values.components));
+  cell.Derivatives(0, place, scaled.data(), values.components, gradients.data());
+  const double slope = magnitude(gradients);
+  // Zero in cells that are flat beside their length: VTK takes them for singular.
+  return slope > 0.0 && slope < infinity ? slope * (distance / length) * height : infinity;
+}
+
+bool isBezier(int type)
+{
+  return type >= VTK_BEZIER_TETRAHEDRON && type <= VTK_BEZIER_WEDGE;
+}
+
+Sample sampleOf(vtkCell& cell, const double* place, const NodalValues& values, double distance)
+{
+  Sample sample;
+  int subId = 0;
+  const auto count = static_cast<std::size_t>(cell.GetNumberOfPoints());
+  std::vector<double> weights(count);
+  double position[3];
+  cell.EvaluateLocation(subId, place, position, weights.data());
+  sample.position = vectorOf(position);
+  std::vector<double> value(static_cast<std::size_t>(values.components), 0.0);
+  double rounding = 0.0, farthest = 0.0;
+  for (std::size_t n = 0; n < count; ++n)
+  {
+    rounding += std::abs(weights[n]);
+    farthest = std::max(farthest, largest(vectorOf(cell.GetPoints()->GetPoint(n))));
+    for (std::size_t c = 0; c < value.size(); ++c)
+    {
+      value[c] += weights[n] * values.numbers[n * value.size() + c];
+    }
+  }
+  sample.value = value.size() == 1 ? value[0] : magnitude(value);
+  // Shape functions of high degrees add numbers much larger than their sum.
+  sample.roundingOfPosition = rounding * farthest;
+  sample.roundingOfValue = rounding * largest(values.numbers);
+  if (!isBezier(cell.GetCellType())) // derivatives of VTK's Bezier cells are wrong
+  {
+    sample.rise = riseOver(distance, cell, place, values);
+  }
+  return sample;
+}
+
+bool isEvaluatedByVtk(const GridRecipe& recipe, int type)
+{
+  const bool isRational = isBezier(type) && recipe.count("weights") > 0;
+  return type != VTK_VOXEL && !isRational;
+}
+
+bool isComparable(const GridRecipe& recipe)
+{
+  return recipe.count("NodeSpacing") == 0 && recipe.count("bad") < 7;
+}
+
+} // namespace
+
+void compareWithVtk(const FilterSession& session, vtkUnstructuredGrid& grid, vtkPointSet& output,
+  std::vector<std::string>& found)
+{
+  const GridRecipe& recipe = session.recipe();
+  if (!isComparable(recipe))
+  {
+    return;
+  }
+  vtkPointData& data = *output.GetPointData();
+  vtkDataArray& field = *grid.GetPointData()->GetArray("f");
+  const double side = longestSide(*grid.GetPoints());
+  const vtkIdType count = output.GetNumberOfPoints();
+  const vtkNew<vtkGenericCell> cell;
+  for (vtkIdType n = 0; n < std::min(Compared, count); ++n)
+  {
+    const vtkIdType row = n * (count - 1) / std::max<vtkIdType>(1, std::min(Compared, count) - 1);
+    const auto id = static_cast<vtkIdType>(data.GetArray("vtkOriginalCellIds")->GetTuple1(row));
+    if (!isEvaluatedByVtk(recipe, grid.GetCellType(id)))
+    {
+      continue;
+    }
+    const glm::dvec3 point = vectorOf(output.GetPoint(row));
+    const glm::dvec3 place = vectorOf(data.GetArray("ParametricCoordinates")->GetTuple3(row));
+    const double isovalue = data.GetArray("Isovalue")->GetTuple1(row);
+    grid.GetCell(id, cell);
+    // A diagonal is 1.7 sides at most; coordinates far from the origin are rounded.
+    const double tolerance = 4.0 * recipe["Tolerance"] * side + 2e-15 * largest(point);
+    const NodalValues values = nodalValues(*cell, field, recipe.count("Component"));
+    const Sample sample = sampleOf(*cell, &place.x, values, tolerance);
+    if (!(largest(sample.position - point) / sample.roundingOfPosition <= 1e-8))
+    {
+      found.emplace_back("a particle is not where its parametric coordinates are");
+      return;
+    }
+    const bool isContoured = recipe.count("Quantity") == 0 && recipe.count("Derivatives") == 0;
+    if (isContoured &&
+      !(std::abs(sample.value - isovalue) <= sample.rise + 1e-8 * sample.roundingOfValue))
+    {
+      found.emplace_back("a particle is off the surface");
+      return;
+    }
+  }
+}
+
+} // namespace hop::testing

@@ -1,0 +1,255 @@
+// Feeds the filter with random grids, judges what comes out, and shrinks what fails. Without Python, so that sanitizers
+// see many grids in little time.
+//
+//   grid_fuzz [from=SEED] [to=SEED] [limit=SECONDS]      the recipes of these seeds: default 0 to 300, 10 s
+//   grid_fuzz [limit=SECONDS] FILE                       the recipes of a file, one a line; '#' begins a comment
+//   grid_fuzz from=SEED to=SEED list                     writes such a file
+//
+// A recipe fails if its process ends, if a run of the filter takes more than `limit` seconds of processor time or is
+// silent for a tenth of that, or if OutputJudge.h complains; of every fourth seed, if another number of threads gives
+// another bit. Recipes that fail are shrunk and printed as lines for such a file. The exit status is 1 if one fails.
+
+#include "FilterSession.h"
+#include "GridRecipe.h"
+#include "GuardedRuns.h"
+#include "OutputJudge.h"
+
+#include <vtkDataObject.h>
+#include <vtkLogger.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+using hop::testing::Failure;
+using hop::testing::FilterSession;
+using hop::testing::GridRecipe;
+using hop::testing::Tally;
+
+struct Options
+{
+  std::uint64_t from = 0, to = 300;
+  double limit = 10.0;
+  bool isList = false;
+  std::string file;
+};
+
+/// Recipes that one child process runs before it looks for leaks.
+constexpr std::size_t Batch = 100;
+
+void append(const std::vector<std::string>& complaints, std::string& text)
+{
+  for (const std::string& complaint : complaints)
+  {
+    text += (text.empty() ? "" : "; ") + complaint;
+  }
+}
+
+/// Runs the filter and judges its output.
+void runAndJudge(FilterSession& session, Tally& tally, std::string& found, std::string& outputs)
+{
+  session.run();
+  append(judge(session), found);
+  outputs += contents(session);
+  const vtkIdType points = session.output().GetNumberOfElements(vtkDataObject::POINT);
+  ++tally.runs;
+  tally.runsWithPoints += points > 0 ? 1 : 0;
+  tally.points += points;
+}
+
+/// All runs of a recipe on one number of threads.
+/// \param outputs the bytes of all outputs
+std::string runAll(
+  const GridRecipe& recipe, int threads, double limit, Tally& tally, std::string& outputs)
+{
+  std::string found;
+  FilterSession session(recipe, threads, limit);
+  runAndJudge(session, tally, found, outputs);
+  if (recipe.count("change") > 0)
+  {
+    session.change();
+    append(session.complaints(), found);
+    runAndJudge(session, tally, found, outputs);
+  }
+  return found;
+}
+
+std::string complaintOf(const GridRecipe& recipe, double limit, Tally& tally)
+{
+  std::string outputs, others;
+  const int threads = recipe.count("threads");
+  std::string found = runAll(recipe, threads, limit, tally, outputs);
+  if (found.empty() && recipe.seed() % 4 == 0)
+  {
+    found = runAll(recipe, threads % 4 + 1, limit, tally, others);
+    if (found.empty() && outputs != others)
+    {
+      found = "another number of threads gives another output";
+    }
+  }
+  return found;
+}
+
+/// A recipe's runs are two, or four with other threads: an item may take the limits of all.
+std::vector<Failure> tryAll(const std::vector<GridRecipe>& recipes, double limit, Tally& tally)
+{
+  return hop::testing::runGuarded(
+    recipes.size(), 5.0 * limit,
+    [&](std::size_t i, Tally& ofChild) { return complaintOf(recipes[i], limit, ofChild); }, tally);
+}
+
+/// Letters up to the first number, by which complaints of one kind are known.
+std::string kindOf(const std::string& complaint)
+{
+  return complaint.substr(0, complaint.find_first_of("0123456789;"));
+}
+
+/// The simplest recipe found within a minute that gives a complaint of the same kind.
+GridRecipe shrunk(GridRecipe recipe, const std::string& complaint, double limit)
+{
+  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  Tally tally;
+  for (bool found = true; found;)
+  {
+    found = false;
+    for (const GridRecipe& smaller : recipe.simpler())
+    {
+      const std::vector<Failure> failures = tryAll({ smaller }, limit, tally);
+      found = !failures.empty() && kindOf(failures.front().complaint) == kindOf(complaint);
+      if (found)
+      {
+        recipe = smaller;
+      }
+      if (found || std::chrono::steady_clock::now() > end)
+      {
+        break;
+      }
+    }
+  }
+  return recipe;
+}
+
+/// \return how many have failed
+std::size_t report(
+  const std::vector<GridRecipe>& recipes, const std::vector<Failure>& failures, double limit)
+{
+  for (const auto& [item, complaint] : failures)
+  {
+    if (item == recipes.size())
+    {
+      std::printf("# seeds %llu to %llu: %s\n",
+        static_cast<unsigned long long>(recipes.front().seed()),
+        static_cast<unsigned long long>(recipes.back().seed()), complaint.c_str());
+      continue;
+    }
+    std::printf("# %s: %s\n", recipes[item].text().c_str(), complaint.c_str());
+    std::fflush(stdout);
+    std::printf("%s\n", shrunk(recipes[item], complaint, limit).text().c_str());
+  }
+  std::fflush(stdout);
+  return failures.size();
+}
+
+std::vector<GridRecipe> recipesOf(const std::string& file)
+{
+  std::vector<GridRecipe> recipes;
+  std::ifstream lines(file);
+  for (std::string line; std::getline(lines, line);)
+  {
+    line = line.substr(0, line.find('#'));
+    if (!line.empty())
+    {
+      recipes.emplace_back(line);
+    }
+  }
+  return recipes;
+}
+
+Options parse(int count, char** words)
+{
+  Options options;
+  for (int i = 1; i < count; ++i)
+  {
+    const std::string word = words[i];
+    const std::string value = word.substr(std::min(word.find('=') + 1, word.size()));
+    if (word.rfind("from=", 0) == 0)
+    {
+      options.from = std::stoull(value);
+    }
+    else if (word.rfind("to=", 0) == 0)
+    {
+      options.to = std::stoull(value);
+    }
+    else if (word.rfind("limit=", 0) == 0)
+    {
+      options.limit = std::stod(value);
+    }
+    else if (word == "list")
+    {
+      options.isList = true;
+    }
+    else
+    {
+      options.file = word;
+    }
+  }
+  return options;
+}
+
+void list(const std::vector<GridRecipe>& recipes)
+{
+  for (const GridRecipe& recipe : recipes)
+  {
+    std::printf("%s\n", recipe.text().c_str());
+  }
+}
+
+std::vector<GridRecipe> recipesOf(std::uint64_t begin, std::uint64_t end)
+{
+  std::vector<GridRecipe> recipes;
+  for (std::uint64_t seed = begin; seed < end; ++seed)
+  {
+    recipes.emplace_back(seed);
+  }
+  return recipes;
+}
+
+} // namespace
+
+int main(int count, char** words)
+{
+  const Options options = parse(count, words);
+  vtkLogger::SetStderrVerbosity(
+    vtkLogger::VERBOSITY_OFF); // VTK's own cells have much to say of odd ones
+  if (options.isList)
+  {
+    list(recipesOf(options.from, options.to));
+    return 0;
+  }
+  std::size_t grids = 0, failed = 0;
+  Tally tally;
+  const auto run = [&](const std::vector<GridRecipe>& recipes)
+  {
+    failed += report(recipes, tryAll(recipes, options.limit, tally), options.limit);
+    grids += recipes.size();
+  };
+  if (!options.file.empty())
+  {
+    run(recipesOf(options.file));
+  }
+  for (std::uint64_t seed = options.from; options.file.empty() && seed < options.to; seed += Batch)
+  {
+    run(recipesOf(seed, std::min<std::uint64_t>(options.to, seed + Batch)));
+    std::fprintf(stderr, "up to seed %llu\n", static_cast<unsigned long long>(seed + Batch));
+  }
+  std::printf("# %zu recipes, %lld runs, %lld of them with %lld points, %zu recipes failed\n",
+    grids, static_cast<long long>(tally.runs), static_cast<long long>(tally.runsWithPoints),
+    static_cast<long long>(tally.points), failed);
+  return failed > 0 || grids == 0 ? 1 : 0;
+}
