@@ -1,13 +1,15 @@
 // Where pictures of Surface Splats are wrong, at default settings: a table of pixels, and crops of the worst places.
 //
-//   splat_errors [--size PIXELS] [--near COUNT] [--spacing SHARE] [--crops FOLDER] [--cases FILE] [CASE...]
+//   splat_errors [--size PIXELS] [--near COUNT] [--look X,Y,Z,DX,DY,DZ] [--spacing SHARE] [--crops FOLDER]
+//     [--cases FILE] [CASE...]
 //
 // A case is one of EdgeCases.h, FILE.vtu:ARRAY:ISOVALUE, or one of SurfaceCases.h; FILE holds such cases, one a line,
 // as default_pictures.py writes them. Without any the cases of EdgeCases.h are taken. The spacing of files is the
 // filter's own, or a share of the longest side of the grid.
 // Each is seen from two or more cameras: one that sees all, and COUNT (default 1) near places where the most edges
-// meet. Pictures are held against a ray caster that finds the true polynomial surface (RayCaster.h); PictureErrors.h
-// says what counts as wrong. Wants a display.
+// meet, or one that looks at the place X, Y, Z from the direction D. Where the cameras were is told on the standard
+// error, so that versions whose particles differ can be compared. Pictures are held against a ray caster that finds the
+// true polynomial surface (RayCaster.h); PictureErrors.h says what counts as wrong. Wants a display.
 
 #include "EdgeCases.h"
 #include "PictureErrors.h"
@@ -22,6 +24,7 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -31,6 +34,7 @@ struct Options
 {
   int Size = 512;
   int Near = 1;
+  std::vector<double> Look; // place, and direction to the eye
   double Spacing = 0.;
   std::string Crops;
   std::vector<std::string> Cases;
@@ -53,6 +57,15 @@ Options Parse(int argc, char* argv[])
     else if (argument == "--near" && hasValue)
     {
       options.Near = std::atoi(argv[++i]);
+    }
+    else if (argument == "--look" && hasValue)
+    {
+      std::stringstream text(argv[++i]);
+      for (std::string number; std::getline(text, number, ',');)
+      {
+        options.Look.push_back(std::stod(number));
+      }
+      options.Look.resize(6);
     }
     else if (argument == "--spacing" && hasValue)
     {
@@ -89,6 +102,19 @@ SurfaceCase MakeCase(const std::string& name, double spacing)
   const bool isEdge = std::count(name.begin(), name.end(), ':') == 1 ||
     std::find(edges.begin(), edges.end(), name) != edges.end();
   return isEdge ? MakeEdgeCase(name) : MakeSurfaceCase(name, spacing);
+}
+
+// Those near places where the most edges meet, or the one that was asked for.
+std::vector<hop::testing::PictureCamera> NearViews(
+  const SurfaceCase& surface, const Options& options)
+{
+  if (!options.Look.empty())
+  {
+    const std::vector<double>& look = options.Look;
+    return { ViewNear(
+      surface, options.Size, { look[0], look[1], look[2] }, { look[3], look[4], look[5] }) };
+  }
+  return ViewsOfCorners(surface, options.Size, options.Near);
 }
 
 // The name of a file or case without folders, as part of the name of a picture.
@@ -137,9 +163,13 @@ int main(int argc, char* argv[])
       const SurfaceCase surface = MakeCase(name, options.Spacing);
       Measure(surface, "all", ViewOfAll(surface, options.Size), options.Crops);
       int number = 0;
-      for (const auto& camera : ViewsOfCorners(surface, options.Size, options.Near))
+      for (const auto& camera : NearViews(surface, options))
       {
-        Measure(surface, "near" + std::to_string(++number), camera, options.Crops);
+        const glm::dvec3& x = camera.centre;
+        const glm::dvec3& d = camera.back;
+        std::fprintf(stderr, "near%d: --look %.9g,%.9g,%.9g,%.6f,%.6f,%.6f\n", ++number, x.x, x.y,
+          x.z, d.x, d.y, d.z);
+        Measure(surface, "near" + std::to_string(number), camera, options.Crops);
       }
     }
     catch (const std::exception& problem)

@@ -240,6 +240,20 @@ std::vector<int> CountEdges(vtkPolyData* particles)
 }
 }
 
+PictureCamera ViewNear(
+  const SurfaceCase& surface, int size, const glm::dvec3& place, const glm::dvec3& back)
+{
+  const double half = NearView * surface.Spacing;
+  PictureCamera camera;
+  camera.centre = place;
+  camera.back = glm::normalize(back);
+  camera.halfHeight = half;
+  camera.distance = 4. * half;
+  camera.nearest = 2.5 * half;
+  camera.size = size;
+  return camera;
+}
+
 std::vector<PictureCamera> ViewsOfCorners(const SurfaceCase& surface, int size, int count)
 {
   vtkPolyData* particles = surface.Particles;
@@ -271,15 +285,8 @@ std::vector<PictureCamera> ViewsOfCorners(const SurfaceCase& surface, int size, 
     double x[3], normal[3];
     particles->GetPoint(id, x);
     particles->GetPointData()->GetNormals()->GetTuple(id, normal);
-    PictureCamera camera;
-    camera.centre = { x[0], x[1], x[2] };
-    camera.back =
-      glm::normalize(glm::dvec3(normal[0], normal[1], normal[2]) + glm::dvec3(0.31, 0.17, 0.23));
-    camera.halfHeight = half;
-    camera.distance = 4. * half;
-    camera.nearest = 2.5 * half;
-    camera.size = size;
-    cameras.push_back(camera);
+    cameras.push_back(ViewNear(surface, size, { x[0], x[1], x[2] },
+      glm::dvec3(normal[0], normal[1], normal[2]) + glm::dvec3(0.31, 0.17, 0.23)));
     locator->FindPointsWithinRadius(1.5 * half, x, near);
     for (vtkIdType k = 0; k < near->GetNumberOfIds(); ++k)
     {

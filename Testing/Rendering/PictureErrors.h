@@ -42,6 +42,10 @@ void WriteCrops(const SurfacePicture& drawn, const SurfacePicture& reference,
 // A view of all, as default pictures have it.
 hop::testing::PictureCamera ViewOfAll(const SurfaceCase& surface, int size);
 
+// A view, eight spacings to each side, of a place from a direction.
+hop::testing::PictureCamera ViewNear(
+  const SurfaceCase& surface, int size, const glm::dvec3& place, const glm::dvec3& back);
+
 // Views, eight spacings to each side, of the places with the most particles at two edges, the first with the most.
 std::vector<hop::testing::PictureCamera> ViewsOfCorners(
   const SurfaceCase& surface, int size, int count);
