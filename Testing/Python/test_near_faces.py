@@ -1,14 +1,16 @@
 """Surfaces that run almost in faces of elements, as the neutral plane of a bent beam does: nothing is missing, however
-near to the faces they are."""
+near to the faces they are, and they end where the beam does."""
 
 import numpy as np
 import pytest
 from paraview import simple
 from paraview.vtk.util.numpy_support import numpy_to_vtk
-from support import add_point_array, distances_to, nearest_neighbors, output_of, points_of, run
+from pictures import read_png
+from support import add_point_array, distances_to, make_filter, nearest_neighbors, output_of, points_of, run
 
 LENGTH, RADIUS = 8.0, 6.0
-CELLS = {"hexahedra": "Lagrange Hexahedron", "wedges": "Lagrange Wedge", "tetrahedra": "Lagrange Tetrahedron"}
+CELLS = {"hexahedra": "Lagrange Hexahedron", "wedges": "Lagrange Wedge", "tetrahedra": "Lagrange Tetrahedron",
+         "Bezier hexahedra": "Bezier Hexahedron"}
 # Of the isovalue, where values reach 1; an element is half a unit thick.
 OFFSETS = (0.0, 1e-16, 1e-14, 1e-13, 1e-12, 1e-10, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2)
 
@@ -60,3 +62,27 @@ def test_no_particle_is_missing(beam, offset):
     # largest distance is 0.66 to 0.93 in flat tetrahedra, less in the other cells.
     assert distances_to(particles, places).max() < 0.928 * spacing, "no hole"
     assert nearest_neighbors(particles).min() > 0.6
+
+
+def silhouette(grid, offset, path):
+    """Which pixels show surface, seen along the normal of the flat beam."""
+    size = [1024, 400]
+    particles, _ = make_filter(grid, "u", offset, Spacing=0.08)
+    view = simple.CreateRenderView(ViewSize=size, OrientationAxesVisibility=0, CameraParallelProjection=1)
+    view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [4, 9, 0], [4, 0, 0], [0, 0, 1]
+    view.CameraParallelScale = 1.7
+    display = simple.Show(particles, view, ColorArrayName=["POINTS", ""], Ambient=1, Diffuse=0)
+    display.SetRepresentationType("Surface Splats")
+    simple.SaveScreenshot(str(path), view, ImageResolution=size)
+    return read_png(path).sum(axis=2) > 500
+
+
+def test_splats_end_where_the_beam_ends(beam, tmp_path):
+    """Where the surface is within rounding of faces, its boundary curves run within rounding of the edges of cells."""
+    grid, is_bent = beam
+    clear = silhouette(grid, 1e-6, tmp_path / "clear.png")
+    assert clear.sum() > 80000
+    for offset in (0.0, 1e-13, 3e-12, 1e-11):
+        near = silhouette(grid, offset, tmp_path / "near.png")
+        # A bent beam ends where it is seen almost edge-on.
+        assert (clear != near).sum() <= (300 if is_bent else 0), offset

@@ -241,7 +241,8 @@ void BoundarySampler::follow(const BoundaryHint& hint, const ParallelFor& parall
   }
   const auto start =
     this->Tracer.project(crossing.location, crossing.face, Tracing::LongestWay * nearby);
-  if (!start || this->Tracer.isTraced(*start) || !this->Tracer.isOnBoundary(*start))
+  if (!start || this->Tracer.isTraced(*start) || !this->Tracer.crosses(*start) ||
+    !this->Tracer.isOnBoundary(*start))
   {
     return;
   }

@@ -74,10 +74,10 @@ PlaceKind BoundaryFinisher::finish(const BoundaryPlace& place, BoundaryParticle&
   return PlaceKind::OnCurve;
 }
 
-/// How the surface ends at a face; nothing for no face.
+/// How the surface ends at a face; nothing for no face, and where the surface lies in the face.
 BoundarySide BoundaryFinisher::sideAt(int face, const Evaluated& at, const Jet& jet) const
 {
-  if (face < 0)
+  if (face < 0 || !this->Exact.crosses({ at, face }))
   {
     return {};
   }

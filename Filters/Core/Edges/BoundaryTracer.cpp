@@ -505,15 +505,34 @@ bool BoundaryTracer::staysOnFace(const BoundaryPoint& from, const BoundaryPoint&
   return true;
 }
 
+/// The face of a point, and another one that holds the point and that a step leaves by no more than rounding: where the
+/// surface all but lies in that face, the curve runs along it. Where the surface lies in the face, the edge is passed.
+ActiveFaces BoundaryTracer::facesAlong(const BoundaryPoint& from, const ReferenceVector& step) const
+{
+  constexpr double inFace = 1e-14; // half-space value: rounding of places on a face
+  const Location& here = from.at.location;
+  ActiveFaces faces;
+  faces.add(from.face);
+  for (int f = 0; f < this->faceCount(here) && faces.count < 2; ++f)
+  {
+    const ReferenceVector& inward = this->Surface.mesh->face(here.element, f).inward;
+    if (f != from.face && isOnFace(*this->Surface.mesh, here, f) &&
+      faceMargin(this->Surface.mesh->face(here.element, f), here.u) > inFace &&
+      std::abs(dot(inward, step)) < OnFace)
+    {
+      faces.add(f);
+    }
+  }
+  return faces;
+}
+
 /// The next vertex, `step` ahead or on the next edge of the mesh.
 BoundaryTracer::Ahead BoundaryTracer::advance(const Heading& heading, double step)
 {
   const BoundaryPoint& from = heading.here;
   const Domain domain = this->Surface.mesh->elements[from.at.location.element].domain;
-  ActiveFaces held;
-  held.add(from.face);
   const ReferenceVector du = this->predict(heading, step);
-  const Exit exit = findExit(domain, from.at.location.u, du, held);
+  const Exit exit = findExit(domain, from.at.location.u, du, this->facesAlong(from, du));
   const ReferencePoint u = from.at.location.u + exit.fraction * du;
   if (exit.face >= 0)
   {

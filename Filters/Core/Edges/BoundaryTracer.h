@@ -115,6 +115,14 @@ public:
     return this->Passer.endsAt(point.at, point.face);
   }
 
+  /// Whether the surface crosses the face of a point at more than rounding's angle: otherwise the surface lies in the
+  /// face, and there is no curve to follow.
+  bool crosses(const BoundaryPoint& point) const
+  {
+    const WorldVector along = this->tangent(point);
+    return dot(along, along) > 0.0;
+  }
+
   /// Follows the boundary curve in direction n x w, n the surface's normal and w the inward normal of the
   /// boundary face, and from a dead end also the other way.
   /// Ends where it meets a boundary curve that was traced before: its own start, as a rule. (Where the field jumps
@@ -188,6 +196,7 @@ private:
   std::optional<BoundaryVertex> advanceAtMost(double& chord, double step, const Heading& heading);
   Ahead advance(const Heading& heading, double step);
   ReferenceVector predict(const Heading& heading, double step) const;
+  ActiveFaces facesAlong(const BoundaryPoint& from, const ReferenceVector& step) const;
   bool staysOnFace(const BoundaryPoint& from, const BoundaryPoint& to) const;
   Ahead passEdge(const BoundaryPoint& from, const ReferencePoint& u, int otherFace, double step);
   std::optional<Evaluated> projectAlongEdge(

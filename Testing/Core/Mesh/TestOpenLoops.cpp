@@ -66,7 +66,8 @@ TEST(OpenLoops, AreNotAtTheEndOfTheSurface)
   EXPECT_EQ(loops[0].particles, (std::vector<int>{ 0, 1, 2 }));
 }
 
-TEST(OpenLoops, MayBeChains)
+/// Where boundary curves end in the midst of the surface an edge leads from the one end to the other.
+TEST(OpenLoops, OfChainsAreClosed)
 {
   FlatSheet sheet({ { { 0, 0 }, { 0.1, 0 }, { 0, 0.1 } } }, 0.1);
   sheet.distribution.edges.segments.pop_back();
@@ -74,9 +75,9 @@ TEST(OpenLoops, MayBeChains)
   const std::vector<OpenLoop> loops =
     findOpenLoops(sheet.distribution.particles, edges, fansOf(3, {}), {});
   ASSERT_EQ(loops.size(), 1u);
-  EXPECT_FALSE(loops[0].isClosed);
+  EXPECT_TRUE(loops[0].isClosed);
   EXPECT_EQ(loops[0].particles, (std::vector<int>{ 0, 1, 2 }));
-  EXPECT_EQ(loops[0].edgeCount(), 2u);
+  EXPECT_EQ(loops[0].edgeCount(), 3u);
 }
 
 } // namespace
