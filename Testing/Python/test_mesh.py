@@ -1,6 +1,7 @@
 """Triangles and curved triangles: closed, on the surface, and at home in ParaView's other filters and files."""
 
 import re
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
@@ -148,6 +149,75 @@ def test_all_open_edges_are_boundary_curves(data, plugin, file, array, value):
     assert support.reported(mesh, "MeshOpenLoops") == support.reported(mesh, "MeshUnusedParticles") == 0
     edges = np.sort(corners_of(mesh)[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
     assert np.unique(edges, axis=0, return_counts=True)[1].max() == 2
+
+
+@dataclass(frozen=True)
+class SolverSurface:
+    """An isosurface of a continuous field in a solver's file."""
+
+    file: str
+    array: str
+    isovalue: float
+    # Of its triangles at a quarter of the default spacing, world units squared (mesh_table finer=4).
+    area: float
+    component: int = None
+    # Largest relative error of the area.
+    error: float = 2e-3
+    # Folds above so many degrees count as creases.
+    crease: float = 10
+
+    def __str__(self):
+        return f"{self.file.split('.')[0]}-{self.array}"
+
+
+SOLVER_SURFACES = [
+    SolverSurface("mfem_hex1_p8.vtu", "u", 0.2, 1.7362),
+    SolverSurface("mfem_torus_wedge_p4.vtu", "f", 0.3, 1.46398),
+    SolverSurface("mfem_cylinder_hex_prism_p3.vtu", "phi", 0.3, 21.1824),
+    SolverSurface("mfem_amr_hanging_hex_p3.vtu", "u", 0.0, 4.20138),
+    SolverSurface("dolfinx_tet_p3.vtu", "u", 0.5, 3.21145),
+    SolverSurface("dealii_shell_p3_00.pvtu", "u", 0.4, 5.64913),
+    # Creases are little farther apart than particles: next to lesser ones 1% of the angles are below 19 degrees.
+    SolverSurface("ngsolve_cylinder_ns_tet_p3.vtu", "pressure", 0.6, 0.10648, crease=6),
+    SolverSurface("ngsolve_cylinder_ns_tet_p3.vtu", "velocity", 0.1, 2.02304, component=0),
+    SolverSurface("yeti_pipe_bezier_rational_p333.vtu", "disp", -1e-4, 5.40986, component=0),
+    SolverSurface("yeti_pipe_bezier_rational_p423.vtu", "disp", -1e-4, 5.39307, component=0),
+    SolverSurface("vtkdata_pyramid_quadratic.vtu", "Polynomial", 4.01, 7.46918),
+    # Some hundred triangles.
+    SolverSurface("vtkdata_notch_quadratic_hex20_wedge15.vtu", "Nodal Displacement", 1.68e-6, 3.64582e-4, component=0,
+                  error=1e-2),
+]
+
+
+def smallest_angles(mesh):
+    """Of each triangle, degrees."""
+    corners = points_of(mesh)[corners_of(mesh)]
+    sides = np.roll(corners, -1, axis=1) - corners
+    sides /= np.linalg.norm(sides, axis=2, keepdims=True)
+    return np.degrees(np.arccos(-np.einsum("tix,tix->ti", sides, np.roll(sides, 1, axis=1)).clip(-1, 1))).min(axis=1)
+
+
+def away_from_edges(mesh, angle):
+    """Whether a triangle has no corner where the surface ends, or folds by more than an angle, degrees."""
+    edges = vtkFeatureEdges()
+    edges.SetInputData(mesh)
+    edges.SetFeatureAngle(angle)
+    edges.Update()
+    at_edges = set(map(bytes, points_of(edges.GetOutput())))
+    apart = np.array([bytes(point) not in at_edges for point in points_of(mesh)])
+    return apart[corners_of(mesh)].all(axis=1)
+
+
+@pytest.mark.parametrize("case", SOLVER_SURFACES, ids=str)
+def test_meshes_of_solvers_are_closed_well_shaped_and_of_the_right_area(data, plugin, case):
+    component = {} if case.component is None else {"Component": case.component}
+    mesh = support.run_quietly(support.read(data(case.file)), case.array, case.isovalue, OutputType="Triangles", **component)
+    assert support.reported(mesh, "MeshOpenLoops") == support.reported(mesh, "MeshUnusedParticles") == 0
+    a, b, c = np.moveaxis(points_of(mesh)[corners_of(mesh)], 1, 0)
+    assert np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2 == pytest.approx(case.area, rel=case.error)
+    assert array_of(mesh, "Area").sum() == pytest.approx(case.area, rel=case.error)
+    angles = smallest_angles(mesh)[away_from_edges(mesh, case.crease)]
+    assert np.median(angles) >= 50 and np.quantile(angles, 0.01) >= 30
 
 
 def test_topology_of_a_field_with_jumps_is_not_proven(data, plugin):
