@@ -135,8 +135,8 @@ void gatherElements(Exchange& exchange, int worker, ElementMesh& part,
   }
   for (int from = 0; from < exchange.size(); ++from)
   {
-    take(exchange, homes, all.homes.data() + sumOf(sizes, from).elements, sizes[from].elements,
-      from);
+    take(
+      exchange, homes, all.homes.data() + sumOf(sizes, from).elements, sizes[from].elements, from);
   }
 }
 
