@@ -17,6 +17,7 @@
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkHardwareSelector.h"
+#include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
 #include "vtkMath.h"
 #include "vtkObjectFactory.h"
@@ -33,6 +34,7 @@
 #include "vtkShaderProgram.h"
 #include "vtkShaderProperty.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkUnsignedIntArray.h"
 
 #include <algorithm>
 #include <array>
@@ -862,9 +864,20 @@ void vtkSurfaceSplatMapper::ProcessSelectorPixelBuffers(
   const int pass = selector->GetCurrentPass();
   const bool cells =
     pass == vtkHardwareSelector::CELL_ID_LOW24 || pass == vtkHardwareSelector::CELL_ID_HIGH24;
-  if (cells && this->Internal->CellIds.empty())
+  vtkPolyData* input = this->CurrentInput;
+  auto* ranks = vtkUnsignedIntArray::SafeDownCast(input && this->ProcessIdArrayName
+      ? input->GetPointData()->GetArray(this->ProcessIdArrayName)
+      : nullptr);
+  if (pass == vtkHardwareSelector::PROCESS_PASS && ranks && selector->GetUseProcessIdFromData())
   {
-    hop::SelectCells(this->CurrentInput, selector, pixels);
+    // The base class leaves the rank that draws (VTK 9.2).
+    hop::SelectRanks(ranks, selector, pixels);
+  }
+  else if (cells && input && this->Internal->CellIds.empty())
+  {
+    vtkDataArray* ids =
+      this->CellIdArrayName ? input->GetCellData()->GetArray(this->CellIdArrayName) : nullptr;
+    hop::SelectCells(input, vtkIdTypeArray::SafeDownCast(ids), selector, pixels);
   }
   else
   {

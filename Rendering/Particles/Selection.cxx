@@ -2,13 +2,33 @@
 
 #include "vtkDataObject.h"
 #include "vtkHardwareSelector.h"
+#include "vtkIdTypeArray.h"
 #include "vtkPolyData.h"
 #include "vtkStaticCellLinksTemplate.h"
+#include "vtkUnsignedIntArray.h"
 
 #include <algorithm>
 
 namespace hop
 {
+namespace
+{
+// The number in a pixel of two passes.
+vtkIdType ReadNumber(const unsigned char* low, const unsigned char* high, unsigned int pixel)
+{
+  return low[pixel] | low[pixel + 1] << 8 | low[pixel + 2] << 16 |
+    static_cast<vtkIdType>(high ? high[pixel] : 0) << 24;
+}
+
+void WriteNumber(vtkIdType number, unsigned char* pixel)
+{
+  for (int byte = 0; byte < 3; ++byte)
+  {
+    pixel[byte] = static_cast<unsigned char>((number >> (8 * byte)) & 0xff);
+  }
+}
+}
+
 //------------------------------------------------------------------------------
 std::string SelectionCode(int pass)
 {
@@ -31,8 +51,8 @@ std::string SelectionCode(int pass)
 }
 
 //------------------------------------------------------------------------------
-void SelectCells(
-  vtkPolyData* input, vtkHardwareSelector* selector, const std::vector<unsigned int>& pixels)
+void SelectCells(vtkPolyData* input, vtkIdTypeArray* ids, vtkHardwareSelector* selector,
+  const std::vector<unsigned int>& pixels)
 {
   const unsigned char* low = selector->GetRawPixelBuffer(vtkHardwareSelector::CELL_ID_LOW24);
   const unsigned char* high = selector->GetRawPixelBuffer(vtkHardwareSelector::CELL_ID_HIGH24);
@@ -43,18 +63,31 @@ void SelectCells(
   links.BuildLinks(input);
   for (unsigned int pixel : pixels)
   {
-    const vtkIdType point = low[pixel] | low[pixel + 1] << 8 | low[pixel + 2] << 16 |
-      static_cast<vtkIdType>(high ? high[pixel] : 0) << 24;
+    const vtkIdType point = ReadNumber(low, high, pixel);
     const bool used = point < input->GetNumberOfPoints() && links.GetNcells(point) > 0;
     const vtkIdType cell = used ? links.GetCells(point)[0] : 0;
-    for (int byte = 0; byte < 3; ++byte)
-    {
-      selector->GetPixelBuffer(pass)[pixel + byte] =
-        static_cast<unsigned char>((cell >> (shift + 8 * byte)) & 0xff);
-    }
+    const vtkIdType id = used && ids ? ids->GetValue(cell) : cell;
+    WriteNumber(id >> shift, selector->GetPixelBuffer(pass) + pixel);
     if (!used && byCells)
     {
       std::fill_n(selector->GetPixelBuffer(vtkHardwareSelector::ACTOR_PASS) + pixel, 3, 0);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void SelectRanks(vtkUnsignedIntArray* ranks, vtkHardwareSelector* selector,
+  const std::vector<unsigned int>& pixels)
+{
+  const unsigned char* low = selector->GetRawPixelBuffer(vtkHardwareSelector::POINT_ID_LOW24);
+  const unsigned char* high = selector->GetRawPixelBuffer(vtkHardwareSelector::POINT_ID_HIGH24);
+  unsigned char* written = selector->GetPixelBuffer(vtkHardwareSelector::PROCESS_PASS);
+  for (unsigned int pixel : pixels)
+  {
+    const vtkIdType point = low ? ReadNumber(low, high, pixel) : ranks->GetNumberOfValues();
+    if (point < ranks->GetNumberOfValues())
+    {
+      WriteNumber(ranks->GetValue(point) + 1, written + pixel); // 0 is no rank
     }
   }
 }

@@ -9,7 +9,9 @@
 #include <vector>
 
 class vtkHardwareSelector;
+class vtkIdTypeArray;
 class vtkPolyData;
+class vtkUnsignedIntArray;
 
 namespace hop
 {
@@ -25,8 +27,17 @@ std::string SelectionCode(int pass);
 /**
  * Replaces the numbers of points in the pixels of a selection by cells. The cell of a point is the first one that uses
  * it. A point that no cell uses is not selected.
+ * @param ids the number by which each cell is selected; nullptr: its place in the input
  * @param pixels where the pixels that show the input begin in the selector's buffers
  */
-void SelectCells(
-  vtkPolyData* input, vtkHardwareSelector* selector, const std::vector<unsigned int>& pixels);
+void SelectCells(vtkPolyData* input, vtkIdTypeArray* ids, vtkHardwareSelector* selector,
+  const std::vector<unsigned int>& pixels);
+
+/**
+ * Writes the rank of the point into the pixels of a selection, after the passes for numbers of points.
+ * @param ranks one a point of the input
+ * @param pixels where the pixels that show the input begin in the selector's buffers
+ */
+void SelectRanks(vtkUnsignedIntArray* ranks, vtkHardwareSelector* selector,
+  const std::vector<unsigned int>& pixels);
 }

@@ -1,5 +1,6 @@
 #include "GhostParticles.h"
 
+#include "SplatInput.h"
 #include "vtkBoundingBox.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -322,6 +323,16 @@ void Mark(vtkPolyData* particles, unsigned char type, int rank)
   particles->GetPointData()->AddArray(ranks);
 }
 
+// A rank's own particles, marked as no ghosts, with their numbers on the rank, by which selections name them.
+vtkSmartPointer<vtkPolyData> MarkOwn(vtkPolyData* own, int rank)
+{
+  auto marked = vtkSmartPointer<vtkPolyData>::New();
+  marked->ShallowCopy(own);
+  Mark(marked, 0, rank);
+  SplatInput::EnsureIds(marked);
+  return marked;
+}
+
 // The disks without those of hidden particles.
 vtkSmartPointer<vtkDoubleArray> DrawnOf(vtkPolyData* particles, vtkDoubleArray* disks)
 {
@@ -420,9 +431,7 @@ vtkSmartPointer<vtkPolyData> GhostParticles::Add(
   {
     return own;
   }
-  auto marked = vtkSmartPointer<vtkPolyData>::New();
-  marked->ShallowCopy(own);
-  Mark(marked, 0, controller->GetLocalProcessId());
+  const auto marked = MarkOwn(own, controller->GetLocalProcessId());
   const auto ghosts = GhostsOfAll(marked, DrawnOf(marked, disks), controller);
   return own->GetNumberOfPoints() > 0 ? Append(marked, ghosts) : marked;
 }
@@ -435,9 +444,7 @@ vtkSmartPointer<vtkPolyData> GhostParticles::Gather(
   {
     return own;
   }
-  auto marked = vtkSmartPointer<vtkPolyData>::New();
-  marked->ShallowCopy(own);
-  Mark(marked, 0, controller->GetLocalProcessId());
+  const auto marked = MarkOwn(own, controller->GetLocalProcessId());
   if (controller->GetLocalProcessId() > 0)
   {
     controller->Send(marked, 0, Tag);

@@ -85,13 +85,8 @@ void GiveCells(vtkPolyData* particles, const char* name, unsigned int value)
 void RememberBlock(vtkPolyData* particles, unsigned int flatIndex)
 {
   using namespace SplatInput;
-  const vtkIdType cells = particles->GetNumberOfCells();
   GiveCells(particles, BlockIndexName, flatIndex);
-  if (!particles->GetCellData()->HasArray(BlockCellIdName))
-  {
-    particles->GetCellData()->AddArray(Numbers(BlockCellIdName, cells));
-  }
-  particles->GetPointData()->AddArray(Numbers(BlockPointIdName, particles->GetNumberOfPoints()));
+  EnsureIds(particles);
 }
 
 // Selections find the block of a particle through its vertex cell, which stands for a cell at its point.
@@ -280,6 +275,19 @@ vtkSmartPointer<vtkPolyData> SplatInput::AsParticles(vtkDataObject* data, const 
   }
   auto* points = vtkPointSet::SafeDownCast(data);
   return points && points->GetPoints() ? PointSetAsParticles(points) : particles;
+}
+
+//------------------------------------------------------------------------------
+void SplatInput::EnsureIds(vtkPolyData* particles)
+{
+  if (!particles->GetPointData()->HasArray(BlockPointIdName))
+  {
+    particles->GetPointData()->AddArray(Numbers(BlockPointIdName, particles->GetNumberOfPoints()));
+  }
+  if (!particles->GetCellData()->HasArray(BlockCellIdName))
+  {
+    particles->GetCellData()->AddArray(Numbers(BlockCellIdName, particles->GetNumberOfCells()));
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -22,7 +22,8 @@ namespace SplatInput
 {
 /**
  * Names of arrays that lead from particles back to the input, for selections: of a merged input to its blocks, of a
- * grid to its vertex cells. -1 stands for no cell. Particles from polydata do not have these arrays.
+ * grid to its vertex cells. -1 stands for no cell. Particles from polydata have these arrays only on several ranks, see
+ * EnsureIds().
  */
 constexpr const char* BlockPointIdName = "SurfaceSplatPointId";
 constexpr const char* BlockCellIdName = "SurfaceSplatCellId";
@@ -60,6 +61,9 @@ struct Blocks
  * points.
  */
 vtkSmartPointer<vtkPolyData> AsParticles(vtkDataObject* data, const Blocks& blocks = {});
+
+/** Gives particles the arrays with numbers of points and cells if they have none: their places. */
+void EnsureIds(vtkPolyData* particles);
 
 /**
  * A shallow copy as it is offered to users: without the arrays named above, and with the blocks' numbers as field data.

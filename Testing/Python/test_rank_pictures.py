@@ -61,15 +61,16 @@ def shoot(name, view):
     simple.SaveScreenshot(f"{folder}/{name}.png", view, ImageResolution=size)
 
 
-def pick(view):
+def pick(name, view, rectangle, select=simple.SelectSurfacePoints):
     # The particles that are seen.
-    simple.SelectSurfacePoints(Rectangle=[0, 0, size[0] - 1, size[1] - 1], View=view)
+    select(Rectangle=rectangle, View=view)
     selected = simple.ExtractSelection(Input=compact)
     selected.Selection = compact.GetSelectionInput(compact.Port)
-    simple.SaveData(f"{folder}/picked.csv", selected, Precision=17, UseScientificNotation=1)
+    simple.SaveData(f"{folder}/{name}.csv", selected, Precision=17, UseScientificNotation=1)
     simple.ClearSelection(compact)
 
 
+all, part = [0, 0, size[0] - 1, size[1] - 1], [300, 150, 550, 400]
 compact, scattered = surface_of(pieces("compact")), surface_of(pieces("scattered"))
 view, display = show(compact, "Mean_Curvature")
 if int(port):
@@ -77,15 +78,19 @@ if int(port):
         view.RemoteRenderThreshold = threshold
         shoot(name, view)
         print(name, "draws remotely:", bool(view.GetClientSideObject().GetUseDistributedRenderingForRender()))
+        pick(name + " points", view, part)
+        pick(name + " cells", view, part, simple.SelectSurfaceCells)
     display.Opacity = 0.5
     for name, threshold in [("server", 0.0), ("client", 1e6)]:
         view.RemoteRenderThreshold = threshold
         shoot(name + " translucent", view)
+        pick(name + " translucent points", view, part)
     simple.Disconnect()
     sys.exit()
 
 shoot("compact", view)
-pick(view)
+pick("picked", view, all)
+pick("picked part", view, part)
 display.Opacity = 0.5
 shoot("translucent", view)
 view, display = show(scattered, "Mean_Curvature")
@@ -229,12 +234,18 @@ def places_of(path):
     return [tuple(place) for place in np.column_stack([table[f"Points:{axis}"] for axis in range(3)])]
 
 
-@pytest.mark.parametrize("ranks", RANKS[1:])
-def test_selections_have_each_visible_particle_once(runs, ranks):
-    found, expected = (places_of(runs[n] / "picked.csv") for n in (ranks, 1))
+def assert_has_each_once(found, expected):
+    """found, expected: tables of picked particles."""
+    found, expected = places_of(found), places_of(expected)
     assert len(expected) > 200 and len(set(found)) == len(found)
     # Which of two particles is seen in a pixel that both are as near to may be another one.
     assert len(set(found) ^ set(expected)) < 0.01 * len(expected)
+
+
+@pytest.mark.parametrize("name", ["picked", "picked part"])
+@pytest.mark.parametrize("ranks", RANKS[1:])
+def test_selections_have_each_visible_particle_once(runs, ranks, name):
+    assert_has_each_once(runs[ranks] / f"{name}.csv", runs[1] / f"{name}.csv")
 
 
 @pytest.fixture
@@ -268,3 +279,6 @@ def test_a_client_shows_what_two_ranks_of_a_server_have(runs, files, script, plu
     for name, expected in (("server", "compact"), ("client", "compact"), ("server translucent", "translucent"),
                            ("client translucent", "translucent")):
         assert decibels(tmp_path / f"{name}.png", runs[1] / f"{expected}.png") > LEAST_DECIBELS, name
+    for name in ("server points", "server cells", "client points", "client cells", "server translucent points",
+                 "client translucent points"):
+        assert_has_each_once(tmp_path / f"{name}.csv", runs[1] / "picked part.csv")

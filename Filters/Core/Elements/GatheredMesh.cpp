@@ -125,23 +125,18 @@ void gatherMesh(Exchange& exchange, int worker, ElementMesh& mine,
 }
 
 void gatherElements(Exchange& exchange, int worker, ElementMesh& part,
-  const std::vector<int>& chosen, const std::vector<MeshSize>& sizes, GatheredMesh& all)
+  const std::vector<ElementHome>& homes, const std::vector<MeshSize>& sizes, GatheredMesh& all)
 {
   gatherMesh(exchange, worker, part, sizes, all);
   if (exchange.rank() != worker)
   {
-    sendArray(exchange, chosen.data(), chosen.size(), worker);
+    sendArray(exchange, homes.data(), homes.size(), worker);
     return;
   }
-  std::vector<int> numbers(all.homes.size());
   for (int from = 0; from < exchange.size(); ++from)
   {
     take(
-      exchange, chosen, numbers.data() + sumOf(sizes, from).elements, sizes[from].elements, from);
-  }
-  for (std::size_t e = 0; e < numbers.size(); ++e)
-  {
-    all.homes[e].element = numbers[e];
+      exchange, homes, all.homes.data() + sumOf(sizes, from).elements, sizes[from].elements, from);
   }
 }
 

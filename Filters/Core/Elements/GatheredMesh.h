@@ -61,12 +61,13 @@ GatheredMesh roomFor(const std::vector<MeshSize>& sizes);
 void gatherMesh(Exchange& exchange, int worker, ElementMesh& mine,
   const std::vector<MeshSize>& sizes, GatheredMesh& all);
 
-/// The same of some of every rank's elements.
+/// The same of some of every rank's elements. It needs no memory beside the room: a rank without memory would leave the
+/// others waiting for its messages.
 /// \param part the chosen elements of this rank (pickElements()); it may be emptied
-/// \param chosen their indices in this rank's mesh
+/// \param homes of these elements
 /// \param sizes of all ranks' parts, with the cells of their whole meshes
 void gatherElements(Exchange& exchange, int worker, ElementMesh& part,
-  const std::vector<int>& chosen, const std::vector<MeshSize>& sizes, GatheredMesh& all);
+  const std::vector<ElementHome>& homes, const std::vector<MeshSize>& sizes, GatheredMesh& all);
 
 /// Some elements of a mesh, as a mesh without neighbours.
 ElementMesh pickElements(const ElementMesh& mesh, const std::vector<int>& chosen);

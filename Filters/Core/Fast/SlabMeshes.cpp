@@ -18,7 +18,6 @@ public:
     , Slabs(slabs)
     , IsSound(isSound)
   {
-    this->Result.meshes.resize(slabs.size());
   }
 
   SlabMeshes run(
@@ -43,13 +42,18 @@ private:
 bool SlabGathering::gather(const ElementMesh& mine, std::int64_t cells, const Slab& slab,
   int worker, GatheredMesh& all, const ParallelFor& parallelFor)
 {
-  std::vector<int> chosen;
+  std::vector<ElementHome> homes;
   ElementMesh part;
   if (!this->attempt(
         [&]()
         {
-          chosen = elementsIn(mine, slab, parallelFor);
+          const std::vector<int> chosen = elementsIn(mine, slab, parallelFor);
           part = pickElements(mine, chosen);
+          homes.reserve(chosen.size());
+          for (const int element : chosen)
+          {
+            homes.push_back({ this->Ranks.rank(), element });
+          }
         }))
   {
     return false;
@@ -66,7 +70,7 @@ bool SlabGathering::gather(const ElementMesh& mine, std::int64_t cells, const Sl
   {
     return false;
   }
-  gatherElements(this->Ranks, worker, part, chosen, sizes, all);
+  gatherElements(this->Ranks, worker, part, homes, sizes, all);
   return true;
 }
 
@@ -74,6 +78,10 @@ SlabMeshes SlabGathering::run(
   const ElementMesh& mine, std::int64_t cells, double spacing, const ParallelFor& parallelFor)
 {
   std::vector<GatheredMesh>& meshes = this->Result.meshes;
+  if (!this->attempt([&]() { meshes.resize(this->Slabs.size()); }))
+  {
+    return std::move(this->Result);
+  }
   for (std::size_t slab = 0; slab < meshes.size(); ++slab)
   {
     if (!this->gather(mine, cells, this->Slabs[slab].widened(SlabOverlap::Reach * spacing),

@@ -11,6 +11,7 @@
 #include "Fast/SlabWorkers.h"
 #include "Isolation/SurfaceBoxes.h"
 #include "RanksInMemory.h"
+#include "ScarceMemory.h"
 #include "ScatteredMesh.h"
 #include "SurfaceSeeds.h"
 #include "TestMeshes.h"
@@ -404,6 +405,56 @@ TEST(SlabDistribution, EndsOnAllRanksAtAnyMoment)
       },
       longestWait);
     EXPECT_TRUE(n > 0 || !isStopped);
+  }
+}
+
+/// Gathers the elements of slabs on two ranks, one of which lacks memory for one of its allocations.
+/// \return whether that rank has come so far
+bool gatherWithoutMemory(const std::vector<ElementMesh>& parts, const std::vector<Slab>& slabs,
+  double spacing, int rank, long failing)
+{
+  constexpr std::size_t leastSize = 256; // more than what ranks tell each other of their sizes
+  std::atomic<bool> hasFailed{ false };
+  runRanks(2,
+    [&](Exchange& inMemory)
+    {
+      ExchangeWithMemory exchange(inMemory);
+      SlabMeshes meshes;
+      {
+        const ScarceMemory memory(exchange.rank() == rank ? failing : NeverFails, leastSize);
+        meshes =
+          gatherSlabs(exchange, parts[exchange.rank()], CellsOfRank, slabs, spacing, true, {});
+        hasFailed = hasFailed || memory.hasFailed();
+      }
+      const bool isWithout = exchange.rank() == rank && hasFailed;
+      EXPECT_EQ(static_cast<bool>(meshes.failure), isWithout);
+      EXPECT_EQ(meshes.isComplete, allAgree(exchange, !isWithout));
+    });
+  return hasFailed;
+}
+
+TEST(SlabDistribution, RanksDoNotWaitForOneWithoutMemoryForElements)
+{
+  const SlabCase which = coarse(ellipsoidCase());
+  const std::vector<ElementMesh> parts = scattered(meshOf(which), 2, 1);
+  std::vector<Slab> slabs;
+  runRanks(2,
+    [&](Exchange& exchange)
+    {
+      const std::vector<Slab> planned = slabsOf(exchange, parts[exchange.rank()], which, 3);
+      if (exchange.rank() == 0)
+      {
+        slabs = planned;
+      }
+    });
+  for (const int rank : { 0, 1 })
+  {
+    long failing = 0;
+    while (gatherWithoutMemory(parts, slabs, which.sizing.spacing, rank, failing))
+    {
+      ++failing;
+    }
+    EXPECT_GT(failing, 20);
   }
 }
 
