@@ -268,7 +268,9 @@ Verdict Deriver::findBySamples(
 {
   const std::vector<ReferencePart>& parts = this->Parts[static_cast<std::size_t>(source.domain)];
   const double rounding = derivation.rounding();
-  FieldSampler sampler(source, this->Function, rounding);
+  const bool hasExact = this->Blocks.quantity() == Quantity::Lambda2;
+  FieldSampler sampler(
+    source, this->Function, rounding, hasExact ? StandIn::Proof : StandIn::Surface);
   Verdict verdict = Verdict::Drop;
   for (std::size_t n = 0; n < parts.size(); ++n)
   {
@@ -298,7 +300,7 @@ Verdict Deriver::findBySamples(
       part.element = std::move(sampled.element);
       part.place = parts[n];
       part.isResolved = sampled.isResolved;
-      if (!part.isResolved && this->Blocks.quantity() == Quantity::Lambda2)
+      if (!part.isResolved && hasExact)
       {
         part.exact = lambdaTwoSource(source, part.place);
       }

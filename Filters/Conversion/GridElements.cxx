@@ -382,11 +382,11 @@ int firstHalvings(Quantity quantity)
   return isAlwaysSampled(quantity) ? 1 : 0;
 }
 
-bool isWorthDividing(const ResolvedCounts& counts, int halvings)
+bool isWorthDividing(Quantity quantity, const ResolvedCounts& counts, int halvings)
 {
   // More halvings take eight times the memory and time each. A few elements that are not resolved, beside places where
   // the field is not smooth, are not worth that. Chosen by experiment.
-  constexpr int mostHalvings = 2;
+  const int mostHalvings = quantity == Quantity::Lambda2 ? 1 : 2;
   constexpr double fewElements = 0.02;
   const auto number = [&](int kind)
   { return counts.count(kind) > 0 ? static_cast<double>(counts.at(kind)) : 0.0; };
@@ -468,7 +468,7 @@ GridElements buildGridElements(const InputBlocks& blocks, NodeSpacing spacing,
   GridConversion conversion(blocks, spacing, isovalues, originFor(valueRange(blocks)), 1.0);
   UnitCounts counts = conversion.judge(parallelFor);
   for (int halvings = firstHalvings(blocks.quantity());
-       isWorthDividing(conversion.countResolved(), halvings);)
+       isWorthDividing(blocks.quantity(), conversion.countResolved(), halvings);)
   {
     counts = conversion.divideCells(++halvings, parallelFor);
   }

@@ -79,9 +79,10 @@ std::array<double, 2> valueRange(const InputBlocks& blocks);
 int firstHalvings(Quantity quantity);
 
 /// Whether all cells of derived fields are to be divided further: where products have too high a degree, and where
-/// interpolations do not hold the field in more than a few elements.
+/// interpolations do not hold the field in more than a few elements. Lambda 2 is halved once: where it is not held,
+/// particles stand on lambda 2 itself.
 /// \param counts of all ranks
-bool isWorthDividing(const ResolvedCounts& counts, int halvings);
+bool isWorthDividing(Quantity quantity, const ResolvedCounts& counts, int halvings);
 
 /// Converts the cells of all blocks, stage by stage: between the stages ranks agree on what they have found out.
 class GridConversion

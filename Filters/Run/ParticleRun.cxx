@@ -208,7 +208,7 @@ std::optional<GridElements> GroupRun::convert(const Work& work)
   const auto countResolved = [&]()
   { return sumOfRanks(this->Ranks, conversion ? conversion->countResolved() : ResolvedCounts{}); };
   for (int halvings = firstHalvings(this->Blocks.quantity());
-       isWorthDividing(countResolved(), halvings);)
+       isWorthDividing(this->Blocks.quantity(), countResolved(), halvings);)
   {
     ++halvings;
     this->attempt(

@@ -39,6 +39,9 @@ struct Sampling
   /// 10, by NodalBasis::conversionNorm), and an evaluation costs as much as one of several parts.
   static constexpr int LowestDegree = 4;
   static constexpr int DegreeStep = 2;
+  /// Steps in a row that promise too little before a proof does without higher degrees. Fewer: polynomials just before
+  /// the degree that holds them are given up; more: creases cost more (derived_costs.py).
+  static constexpr int PoorSteps = 2;
 };
 
 /// Of a hexahedron Gauss-Lobatto-Legendre nodes allow a higher degree than equispaced ones.
@@ -216,6 +219,26 @@ SampledPart simplestOf(std::vector<SampledPart> tried)
     tried.begin(), tried.end(), [&](const SampledPart& one) { return one.error <= most; }));
 }
 
+/// Whether none of the last steps, if the ones that are left lower the error by the same factor, leads to the
+/// tolerance: errors of smooth fields fall geometrically, those beside creases hardly.
+bool isHopeless(const std::vector<SampledPart>& tried, int stepsLeft, double tolerance)
+{
+  const int last = static_cast<int>(tried.size()) - 1;
+  if (last < Sampling::PoorSteps)
+  {
+    return false;
+  }
+  for (int i = last; i > last - Sampling::PoorSteps; --i)
+  {
+    const double ratio = tried[i].error / tried[i - 1].error;
+    if (tried[i].error * std::pow(ratio, stepsLeft + last - i) <= tolerance)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 } // namespace
 
 FieldFunction functionOf(Quantity quantity)
@@ -240,10 +263,12 @@ FieldFunction functionOf(Quantity quantity)
   return {};
 }
 
-FieldSampler::FieldSampler(const SourceElement& source, const FieldFunction& function, double noise)
+FieldSampler::FieldSampler(
+  const SourceElement& source, const FieldFunction& function, double noise, StandIn standIn)
   : Source(source)
   , Function(function)
   , Noise(noise)
+  , ItsStandIn(standIn)
   , FirstDegree(Sampling::LowestDegree)
 {
   const std::size_t rows = source.control.size() / source.width;
@@ -338,10 +363,14 @@ void FieldSampler::judge(SampledPart& sampled, const Samples& checks) const
     sampled.error = std::max(sampled.error, std::abs(value.w - checks[n].w));
     ofGeometry = std::max(ofGeometry, glm::distance(glm::dvec3(value), glm::dvec3(checks[n])));
   }
-  const double tolerance =
-    std::max(Sampling::Tolerance * largestField(checks), Sampling::Caution * this->Noise);
-  sampled.isResolved = sampled.error <= tolerance &&
+  sampled.isResolved = sampled.error <= this->toleranceOf(checks) &&
     ofGeometry <= Sampling::GeometryTolerance * extentOf(checks) + this->Source.coordinateError;
+}
+
+/// Of the field, in its unit.
+double FieldSampler::toleranceOf(const Samples& checks) const
+{
+  return std::max(Sampling::Tolerance * largestField(checks), Sampling::Caution * this->Noise);
 }
 
 SampledPart FieldSampler::sample(
@@ -366,7 +395,10 @@ SampledPart FieldSampler::sample(
       return result;
     }
     tried.push_back(std::move(result));
-    if (degree + Sampling::DegreeStep > highest)
+    const int stepsLeft = (highest - degree) / Sampling::DegreeStep;
+    if (stepsLeft == 0 ||
+      (this->ItsStandIn == StandIn::Proof &&
+        isHopeless(tried, stepsLeft, this->toleranceOf(checks))))
     {
       this->FirstDegree = Sampling::LowestDegree;
       return simplestOf(std::move(tried));

@@ -38,6 +38,15 @@ struct SampledPart
   bool canHoldSurface = true;
 };
 
+/// What a polynomial that does not hold its field is for.
+enum class StandIn
+{
+  /// Particles stand on it: it is the best that is found.
+  Surface,
+  /// Particles stand on the field itself: higher degrees are given up once they do not seem to reach the tolerance.
+  Proof
+};
+
 /// Fields of elements by interpolation, for what is no polynomial of low degree: on a part of the element the polynomial
 /// is taken that has the field's values at the nodes of a lattice, of the lowest degree that holds the field. The error is seen
 /// at points between the nodes, but not proven: a field that bends much faster between two of these points would be
@@ -47,7 +56,8 @@ class FieldSampler
 public:
   /// \param noise values of the field that differ less cannot be told apart
   /// \pre all arguments outlive the sampler
-  FieldSampler(const SourceElement& source, const FieldFunction& function, double noise);
+  FieldSampler(const SourceElement& source, const FieldFunction& function, double noise,
+    StandIn standIn = StandIn::Surface);
 
   /// Parts that cannot hold surface are left as they are at a low degree.
   /// \param canHoldSurface whether the field has an isovalue in a range
@@ -60,10 +70,12 @@ private:
   Samples valuesAt(const ReferencePart& part, const std::vector<ReferencePoint>& points);
   SampledPart interpolated(const ReferencePart& part, int degree, const Samples& checks);
   void judge(SampledPart& sampled, const Samples& checks) const;
+  double toleranceOf(const Samples& checks) const;
 
   const SourceElement& Source;
   const FieldFunction& Function;
   double Noise;
+  StandIn ItsStandIn;
   /// Four components of the source each: x, y, z, u_0; u_1, ...
   std::vector<std::vector<Coefficient>> Groups;
   /// Whether they are finite wherever valuesAt() has been asked.

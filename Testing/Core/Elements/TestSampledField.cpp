@@ -132,6 +132,41 @@ TEST(SampledField, TellsOfWhatItCannotHold)
     DerivedElement::State::NotFinite);
 }
 
+/// Beside a crease higher degrees cost much and help little.
+TEST(SampledField, GivesUpHigherDegreesOfProofsBesideACrease)
+{
+  Random random(25);
+  const Bent bent({ Domain::Hexahedron, { 2, 2, 2 } }, true, random);
+  const SourceElement source = bent.source();
+  int points = 0;
+  const FieldFunction folded = [&](const FieldPoint& at)
+  {
+    ++points;
+    return std::abs(at.x.x - 0.3);
+  };
+  const SampledPart best = FieldSampler(source, folded, 0.0).sample({}, everything);
+  const int ofBest = points;
+  points = 0;
+  const SampledPart proof =
+    FieldSampler(source, folded, 0.0, StandIn::Proof).sample({}, everything);
+  EXPECT_FALSE(proof.isResolved);
+  EXPECT_LT(6 * points, ofBest);
+  EXPECT_LT(proof.error, 4.0 * best.error);
+}
+
+/// What is smooth is not given up.
+TEST(SampledField, HoldsSmoothFieldsOfProofs)
+{
+  Random random(26);
+  const Bent bent({ Domain::Hexahedron, { 2, 2, 2 } }, true, random);
+  const SourceElement source = bent.source();
+  const FieldFunction smooth = [](const FieldPoint& at)
+  { return std::sin(2.0 * at.x.x) * std::exp(at.x.y * at.x.z); };
+  const SampledPart sampled =
+    FieldSampler(source, smooth, 0.0, StandIn::Proof).sample({}, everything);
+  EXPECT_TRUE(sampled.isResolved);
+}
+
 TEST(SymmetricEigenvalues, FindsTheMiddleOne)
 {
   Random random(24);
