@@ -63,7 +63,7 @@ public:
 
   Term parse()
   {
-    const Term all = this->sum();
+    Term all = this->sum();
     this->skipSpace();
     if (this->Place < this->Text.size())
     {
