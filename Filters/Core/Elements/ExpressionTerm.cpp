@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <type_traits>
 
 namespace hop
 {
@@ -309,29 +310,19 @@ ExpressionTerm combined(Operation operation, const ExpressionTerm& a, const Expr
   const int size = std::max(a.size, b.size);
   const int stepA = a.size == ScalarSize ? 0 : 1;
   const int stepB = b.size == ScalarSize ? 0 : 1;
-  return { size,
-    [=](const FieldPoint& at)
+  const auto eachComponent = [=](const auto& left, const auto& right, const auto& combine)
+  {
+    std::decay_t<decltype(left)> result{};
+    for (int i = 0; i < size; ++i)
     {
-      const Value left = a.at(at);
-      const Value right = b.at(at);
-      Value result{};
-      for (int i = 0; i < size; ++i)
-      {
-        result[i] = valueOf(operation, left[stepA * i], right[stepB * i]);
-      }
-      return result;
-    },
-    [=](const FieldBounds& in)
-    {
-      const Bounds left = a.within(in);
-      const Bounds right = b.within(in);
-      Bounds result{};
-      for (int i = 0; i < size; ++i)
-      {
-        result[i] = boundsOf(operation, left[stepA * i], right[stepB * i]);
-      }
-      return result;
-    } };
+      result[i] = combine(operation, left[stepA * i], right[stepB * i]);
+    }
+    return result;
+  };
+  const auto bounds = [](Operation which, const Range& left, const Range& right)
+  { return boundsOf(which, left, right); };
+  return { size, [=](const FieldPoint& at) { return eachComponent(a.at(at), b.at(at), valueOf); },
+    [=](const FieldBounds& in) { return eachComponent(a.within(in), b.within(in), bounds); } };
 }
 
 ExpressionTerm lengthOf(const ExpressionTerm& a)

@@ -5,6 +5,7 @@
 
 #include "ElementCases.h"
 #include "TestMeshes.h"
+#include "VectorElements.h"
 
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
@@ -48,24 +49,7 @@ struct VectorElement
   /// Lambda 2 from the gradients of one component after the other.
   double at(const ReferencePoint& u) const
   {
-    FieldPoint there;
-    for (int c = 0; c < 3; ++c)
-    {
-      std::vector<Coefficient> coefficients;
-      for (std::size_t i = 0; i < this->control.size(); i += 6)
-      {
-        const double* row = &this->control[i];
-        coefficients.emplace_back(row[0], row[1], row[2], row[3 + c]);
-      }
-      const Jet jet =
-        evaluateGradient({ this->element.domain, this->element.degrees, coefficients.data(),
-                           this->rational ? this->weights.data() : nullptr },
-          u);
-      const glm::dmat3 jacobian{ glm::dvec3(jet.first[0]), glm::dvec3(jet.first[1]),
-        glm::dvec3(jet.first[2]) };
-      there.gradients.push_back(gradientOf(jet) * glm::inverse(jacobian));
-    }
-    return functionOf(Quantity::Lambda2)(there);
+    return functionOf(Quantity::Lambda2)(vectorFieldAt(this->source(), u));
   }
 
   ElementCase element;

@@ -3,6 +3,7 @@
 
 #include "ElementCases.h"
 #include "TestMeshes.h"
+#include "VectorElements.h"
 
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
@@ -39,27 +40,7 @@ struct Bent
   }
 
   /// By differences of nothing: gradients of one component after the other.
-  FieldPoint at(const ReferencePoint& u) const
-  {
-    FieldPoint result;
-    for (int c = 0; c < 3; ++c)
-    {
-      std::vector<Coefficient> coefficients;
-      for (std::size_t i = 0; i < this->control.size(); i += 6)
-      {
-        const double* row = &this->control[i];
-        coefficients.emplace_back(row[0], row[1], row[2], row[3 + c]);
-      }
-      const Jet jet = evaluateGradient(
-        { this->element.domain, this->element.degrees, coefficients.data(), nullptr }, u);
-      const glm::dmat3 jacobian{ glm::dvec3(jet.first[0]), glm::dvec3(jet.first[1]),
-        glm::dvec3(jet.first[2]) };
-      result.x = glm::dvec3(jet.value);
-      result.values.push_back(jet.value.w);
-      result.gradients.push_back(gradientOf(jet) * glm::inverse(jacobian));
-    }
-    return result;
-  }
+  FieldPoint at(const ReferencePoint& u) const { return vectorFieldAt(this->source(), u); }
 
   ElementCase element;
   std::vector<double> control;

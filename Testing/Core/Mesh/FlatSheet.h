@@ -11,6 +11,21 @@
 namespace hop::testing
 {
 
+/// Particles in a plane, one spacing of 1 apart where their places differ by 1.
+inline Buffer<Particle> particlesAt(const std::vector<glm::dvec2>& places)
+{
+  Buffer<Particle> particles;
+  for (const glm::dvec2& place : places)
+  {
+    Particle p;
+    p.position = { glm::dvec3(place, 0.0) };
+    p.normal = { { 0, 0, 1 } };
+    p.spacing = 1.0;
+    particles.push_back(p);
+  }
+  return particles;
+}
+
 /// Flat surfaces z = 0 with a border of straight lines, and particles on them: evenly on the border, in hexagonal
 /// packing inside.
 class FlatSheet

@@ -1,5 +1,7 @@
 #include "Mesh/EdgeChains.h"
 
+#include "FlatSheet.h"
+
 #include <gtest/gtest.h>
 
 namespace hop::testing
@@ -8,21 +10,6 @@ namespace
 {
 
 using Edges = std::vector<std::array<int, 2>>;
-
-/// Particles of a flat surface in these places, one spacing of 1 apart where they differ by 1.
-Buffer<Particle> particlesAt(const std::vector<glm::dvec2>& places)
-{
-  Buffer<Particle> particles;
-  for (const glm::dvec2& place : places)
-  {
-    Particle particle;
-    particle.position = { glm::dvec3(place, 0.0) };
-    particle.normal = { { 0.0, 0.0, 1.0 } };
-    particle.spacing = 1.0;
-    particles.push_back(particle);
-  }
-  return particles;
-}
 
 Edges closed(const Buffer<Particle>& particles, Edges edges)
 {

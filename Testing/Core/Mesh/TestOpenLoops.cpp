@@ -10,21 +10,6 @@ namespace hop::testing
 namespace
 {
 
-/// Particles in a plane.
-Buffer<Particle> particlesAt(const std::vector<glm::dvec2>& places)
-{
-  Buffer<Particle> particles;
-  for (const glm::dvec2& place : places)
-  {
-    Particle p;
-    p.position = { glm::dvec3(place, 0.0) };
-    p.normal = { { 0, 0, 1 } };
-    p.spacing = 1.0;
-    particles.push_back(p);
-  }
-  return particles;
-}
-
 const ConstrainedEdges none{ Distribution() };
 
 TEST(OpenLoops, RunClockwiseAroundPieces)
