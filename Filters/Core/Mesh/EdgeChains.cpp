@@ -188,11 +188,26 @@ private:
   std::vector<std::vector<int>> Ways;
 };
 
+/// Whether as many edges end at each particle as begin there, as where no field jumps.
+bool areClosed(const std::vector<Edge>& edges, std::size_t particleCount)
+{
+  std::vector<int> surplus(particleCount, 0);
+  for (const auto& [from, to] : edges)
+  {
+    --surplus[from];
+    ++surplus[to];
+  }
+  return std::all_of(surplus.begin(), surplus.end(), [](int more) { return more == 0; });
+}
+
 } // namespace
 
 void closeChains(const Buffer<Particle>& particles, std::vector<Edge>& edges)
 {
-  ChainCloser(particles, edges).run();
+  if (!areClosed(edges, particles.size()))
+  {
+    ChainCloser(particles, edges).run();
+  }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
 }

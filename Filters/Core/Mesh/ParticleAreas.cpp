@@ -133,11 +133,19 @@ private:
     this->Whole.start(ParticleNeighbors::LargestRadius, neighbors + this->At->clips.size() + 2);
   }
 
-  /// Cuts the cell off half-way to all neighbours, and at boundary curves that are not nearer than `nearest`. (Creases
+  /// Cuts the cell off at boundary curves that are not nearer than `nearest`, and half-way to all neighbours. (Creases
   /// have particles of their own where the surface turns much; where it turns little the cells of both sides meet as on a
   /// smooth surface.)
   void cutCell(const std::vector<FlatNeighbor>& neighbors, double nearest)
   {
+    for (const ClipPlane& plane : this->At->clips)
+    {
+      const double distance = plane.distance / this->At->spacing;
+      if (plane.isBoundary() && distance >= nearest)
+      {
+        this->Whole.cut(this->View.plane().directionOf(plane.normal.xyz), distance);
+      }
+    }
     double reach = this->Whole.reachSquared();
     for (const FlatNeighbor& neighbor : neighbors)
     {
@@ -149,14 +157,6 @@ private:
       }
     }
     this->ReachSquared = std::max(this->ReachSquared, reach);
-    for (const ClipPlane& plane : this->At->clips)
-    {
-      const double distance = plane.distance / this->At->spacing;
-      if (plane.isBoundary() && distance >= nearest)
-      {
-        this->Whole.cut(this->View.plane().directionOf(plane.normal.xyz), distance);
-      }
-    }
   }
 
   /// Squares of the spacing.
@@ -193,23 +193,30 @@ private:
     return bend * length * length * length / 24.0;
   }
 
+  /// Counterclockwise from one direction to another.
+  /// \pre half a turn at most
+  double areaOfWedge(
+    const TangentView::Sector& sector, const glm::dvec2& from, const glm::dvec2& to)
+  {
+    this->startCell(sector.neighbors.size());
+    this->Whole.cut({ from.y, -from.x }, 0.0);
+    this->Whole.cut({ -to.y, to.x }, 0.0);
+    return this->areaOfCell(sector.neighbors, AtEdge);
+  }
+
   double areaOf(const TangentView::Sector& sector)
   {
     const glm::dvec2 first = sector.neighbors[sector.first].place;
     const glm::dvec2 last = sector.neighbors[sector.last].place;
-    constexpr double fullTurn = 6.283185307179586;
-    const double begin = std::atan2(first.y, first.x);
-    const double width = sector.first == sector.last ? fullTurn : turnFrom(first, last);
-    const int parts = width > 0.5 * fullTurn ? 2 : 1; // convex ones: half a turn at most
     double area = 0.0;
-    for (int part = 0; part < parts; ++part)
+    if (sector.first == sector.last || crossOf(first, last) < 0.0)
     {
-      const double from = begin + width * part / parts;
-      const double to = begin + width * (part + 1) / parts;
-      this->startCell(sector.neighbors.size());
-      this->Whole.cut({ std::sin(from), -std::cos(from) }, 0.0);
-      this->Whole.cut({ -std::sin(to), std::cos(to) }, 0.0);
-      area += this->areaOfCell(sector.neighbors, AtEdge);
+      // More than half a turn: half a turn, and the rest.
+      area = this->areaOfWedge(sector, first, -first) + this->areaOfWedge(sector, -first, last);
+    }
+    else
+    {
+      area = this->areaOfWedge(sector, first, last);
     }
     return area + this->areaBeyond(first, 1.0) + this->areaBeyond(last, -1.0);
   }

@@ -27,11 +27,10 @@ struct SameSheet
 };
 
 /// Whether the line from the origin to a place crosses the segment from a to b between their ends.
+/// \pre a is before b, counterclockwise
 bool crosses(const glm::dvec2& place, const glm::dvec2& a, const glm::dvec2& b)
 {
-  const glm::dvec2 along = b - a;
-  return crossOf(place, a) * crossOf(place, b) < 0.0 &&
-    crossOf(along, -a) * crossOf(along, place - a) < 0.0;
+  return crossOf(a, place) > 0.0 && crossOf(place, b) > 0.0 && crossOf(b - a, place - a) < 0.0;
 }
 
 /// The largest angle by which the surface turns at creases between a particle and a place, radians.
@@ -113,89 +112,135 @@ bool TangentView::isOnSheet(int particle) const
     (cosine > SameSheet::Alike || this->turnsAsExpected(particle));
 }
 
-/// The constrained edges that end at a neighbour and have the middle to their left. Others bound the other side of a
-/// jump, which reaches over this one.
-void TangentView::collectEdges()
-{
-  this->FlatEdges.clear();
-  const auto add = [this](int from, int to)
-  {
-    const FlatEdge edge{ this->flat(from), this->flat(to) };
-    if (from != this->Middle && to != this->Middle && crossOf(edge.from.place, edge.to.place) > 0.0)
-    {
-      this->FlatEdges.push_back(edge);
-    }
-  };
-  std::vector<int>& collected = this->EdgesCollected;
-  collected.clear();
-  for (const FlatNeighbor& neighbor : this->Neighbors)
-  {
-    if (!this->Edges.isOnEdge(neighbor.index) || this->isAcrossSlit(neighbor))
-    {
-      continue;
-    }
-    collected.push_back(neighbor.index);
-    for (const int next : this->Edges.after(neighbor.index))
-    {
-      add(neighbor.index, next);
-    }
-  }
-  for (const int end : collected)
-  {
-    for (const int previous : this->Edges.before(end))
-    {
-      // Edges that begin at a neighbour are there already.
-      if (std::find(collected.begin(), collected.end(), previous) == collected.end())
-      {
-        add(previous, end);
-      }
-    }
-  }
-}
-
-/// Whether a neighbour on constrained edges has the middle on the side of them on which its surface is: clockwise from
-/// the direction to the middle there is first an edge that begins at the neighbour.
-bool TangentView::isSeenFromTheLeft(const FlatNeighbor& neighbor) const
-{
-  const Span<int> after = this->Edges.after(neighbor.index);
-  const Span<int> before = this->Edges.before(neighbor.index);
-  if (after.empty() || before.empty())
-  {
-    return true;
-  }
-  const auto leastTurn = [&](const Span<int>& ends)
-  {
-    double least = FullRank;
-    for (const int end : ends)
-    {
-      const glm::dvec2 place = end == this->Middle ? glm::dvec2(0.0) : this->flat(end).place;
-      least = std::min(least, turnRank(place - neighbor.place, -neighbor.place));
-    }
-    return least;
-  };
-  return this->Edges.joins(this->Middle, neighbor.index) || leastTurn(after) <= leastTurn(before);
-}
-
 /// Whether a neighbour and the middle are on the two sides of a slit, whose sheets may reach over each other. At the
 /// slit's tip an edge joins them.
 bool TangentView::isAcrossSlit(const FlatNeighbor& neighbor) const
 {
   const Particle& here = this->Particles.particles[this->Middle];
   const Particle& there = this->Particles.particles[neighbor.index];
-  return here.location.element != there.location.element && here.jump != 0.0 && there.jump != 0.0 &&
+  return here.jump != 0.0 && there.jump != 0.0 && here.location.element != there.location.element &&
     this->Edges.isOnEdge(this->Middle) && this->Edges.isOnEdge(neighbor.index) &&
     !this->Edges.joins(this->Middle, neighbor.index) && endOppositely(here, there);
 }
 
+/// Collects the constrained edges that end at a neighbour and have the middle to their left. Others bound the other side
+/// of a jump, which reaches over this one.
+/// \return whether the middle is on the side of the neighbour's edges on which its surface is: clockwise from the
+///   direction to the middle there is first an edge that begins at the neighbour
+bool TangentView::collectEdgesOf(const FlatNeighbor& neighbor)
+{
+  const auto isLeftOf = [](const FlatEdge& edge)
+  { return crossOf(edge.from.place, edge.to.place) > 0.0; };
+  const auto turnTo = [&](const FlatNeighbor& end)
+  { return turnRank(end.place - neighbor.place, -neighbor.place); };
+  double afterTurn = FullRank;
+  double beforeTurn = FullRank;
+  bool isSeen = false;
+  this->EdgesCollected.push_back(neighbor.index);
+  for (const int next : this->Edges.after(neighbor.index))
+  {
+    const FlatEdge edge{ neighbor, this->flat(next) };
+    afterTurn = std::min(afterTurn, turnTo(edge.to));
+    isSeen = isSeen || next == this->Middle;
+    if (isLeftOf(edge))
+    {
+      this->FlatEdges.push_back(edge);
+    }
+  }
+  for (const int previous : this->Edges.before(neighbor.index))
+  {
+    const FlatEdge edge{ this->flat(previous), neighbor };
+    beforeTurn = std::min(beforeTurn, turnTo(edge.from));
+    isSeen = isSeen || previous == this->Middle;
+    if (isLeftOf(edge))
+    {
+      this->IncomingEdges.push_back(edge);
+    }
+  }
+  return isSeen || this->Edges.after(neighbor.index).empty() ||
+    this->Edges.before(neighbor.index).empty() || afterTurn <= beforeTurn;
+}
+
+/// Drops the neighbours that constrained edges hide.
+void TangentView::lookAtEdges()
+{
+  this->FlatEdges.clear();
+  this->IncomingEdges.clear();
+  std::vector<int>& collected = this->EdgesCollected;
+  collected.clear();
+  std::vector<FlatNeighbor>& neighbors = this->Neighbors;
+  const auto isTurnedAway = [this](const FlatNeighbor& neighbor)
+  {
+    return this->Edges.isOnEdge(neighbor.index) &&
+      (this->isAcrossSlit(neighbor) || !this->collectEdgesOf(neighbor));
+  };
+  neighbors.erase(
+    std::remove_if(neighbors.begin(), neighbors.end(), isTurnedAway), neighbors.end());
+  for (const FlatEdge& edge : this->IncomingEdges)
+  {
+    // Edges that begin at a neighbour are there already.
+    if (std::find(collected.begin(), collected.end(), edge.from.index) == collected.end())
+    {
+      this->FlatEdges.push_back(edge);
+    }
+  }
+  neighbors.erase(std::remove_if(neighbors.begin(), neighbors.end(),
+                    [this](const FlatNeighbor& n) { return this->isHidden(n); }),
+    neighbors.end());
+}
+
 bool TangentView::isHidden(const FlatNeighbor& neighbor) const
 {
-  return !this->isSeenFromTheLeft(neighbor) || this->isAcrossSlit(neighbor) ||
-    std::any_of(this->FlatEdges.begin(), this->FlatEdges.end(),
-      [&](const FlatEdge& edge)
-      {
-        return edge.from.index != neighbor.index && edge.to.index != neighbor.index &&
-          crosses(neighbor.place, edge.from.place, edge.to.place);
-      });
+  return std::any_of(this->FlatEdges.begin(), this->FlatEdges.end(),
+    [&](const FlatEdge& edge)
+    {
+      return crosses(neighbor.place, edge.from.place, edge.to.place) &&
+        edge.from.index != neighbor.index && edge.to.index != neighbor.index;
+    });
+}
+
+TangentView::Sector& TangentView::nextSector()
+{
+  if (this->SectorCount == this->Sectors.size())
+  {
+    this->Sectors.emplace_back();
+  }
+  Sector& sector = this->Sectors[this->SectorCount++];
+  sector.neighbors.clear();
+  sector.last = 0;
+  return sector;
+}
+
+/// From an edge at the particle to the next one counterclockwise.
+void TangentView::makeSector(const FlatNeighbor& start)
+{
+  FlatNeighbor end = start;
+  double width = FullRank;
+  for (const FlatNeighbor& other : this->Ends)
+  {
+    const bool isSamePlace = other.place == start.place; // a crease's two sides, where it fades
+    const double turn = isSamePlace ? FullRank : turnRank(start.place, other.place);
+    if (turn < width)
+    {
+      width = turn;
+      end = other;
+    }
+  }
+  Sector& sector = this->nextSector();
+  sector.neighbors.push_back(start);
+  if (end.index != start.index)
+  {
+    sector.neighbors.push_back(end);
+    sector.last = 1;
+  }
+  for (const FlatNeighbor& neighbor : this->Neighbors)
+  {
+    if (neighbor.index != start.index && neighbor.index != end.index &&
+      turnRank(start.place, neighbor.place) < width)
+    {
+      sector.neighbors.push_back(neighbor);
+    }
+  }
 }
 
 /// From each edge that begins at the particle to the next edge counterclockwise: one that ends there, unless the edges
@@ -204,40 +249,18 @@ void TangentView::makeSectors()
 {
   const Span<int> after = this->Edges.after(this->Middle);
   const Span<int> before = this->Edges.before(this->Middle);
-  std::vector<int> all(after.begin(), after.end());
-  all.insert(all.end(), before.begin(), before.end());
-  for (const int first : after.empty() ? before : after)
+  this->Ends.clear();
+  for (const Span<int>& ends : { after, before })
   {
-    const FlatNeighbor start = this->flat(first);
-    FlatNeighbor end = start;
-    double width = FullRank;
-    for (const int last : all)
+    for (const int end : ends)
     {
-      const FlatNeighbor other = this->flat(last);
-      const bool isSamePlace = other.place == start.place; // a crease's two sides, where it fades
-      const double turn = isSamePlace ? FullRank : turnRank(start.place, other.place);
-      if (turn < width)
-      {
-        width = turn;
-        end = other;
-      }
+      this->Ends.push_back(this->flat(end));
     }
-    Sector sector;
-    sector.neighbors.push_back(start);
-    if (end.index != start.index)
-    {
-      sector.neighbors.push_back(end);
-      sector.last = 1;
-    }
-    for (const FlatNeighbor& neighbor : this->Neighbors)
-    {
-      if (neighbor.index != start.index && neighbor.index != end.index &&
-        turnRank(start.place, neighbor.place) < width)
-      {
-        sector.neighbors.push_back(neighbor);
-      }
-    }
-    this->Sectors.push_back(std::move(sector));
+  }
+  const std::size_t count = after.empty() ? before.size() : after.size();
+  for (std::size_t n = 0; n < count; ++n)
+  {
+    this->makeSector(this->Ends[n]);
   }
 }
 
@@ -248,7 +271,7 @@ void TangentView::lookFrom(int particle, Span<int> near)
   this->Plane = TangentPlane(this->Particles.points.positions[particle], this->Normal,
     this->Particles.points.spacings[particle]);
   this->Neighbors.clear();
-  this->Sectors.clear();
+  this->SectorCount = 0;
   this->IsNearEdge = this->Edges.isOnEdge(particle);
   for (const int j : near)
   {
@@ -264,10 +287,7 @@ void TangentView::lookFrom(int particle, Span<int> near)
   }
   if (this->IsNearEdge)
   {
-    this->collectEdges();
-    this->Neighbors.erase(std::remove_if(this->Neighbors.begin(), this->Neighbors.end(),
-                            [this](const FlatNeighbor& n) { return this->isHidden(n); }),
-      this->Neighbors.end());
+    this->lookAtEdges();
   }
   if (this->Edges.isOnEdge(particle))
   {

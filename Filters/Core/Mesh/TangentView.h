@@ -82,7 +82,7 @@ public:
   /// Whether there are constrained edges around.
   bool isNearEdge() const { return this->IsNearEdge; }
   /// Empty for a particle that is on no constrained edge.
-  const std::vector<Sector>& sectors() const { return this->Sectors; }
+  Span<Sector> sectors() const { return { this->Sectors.data(), this->SectorCount }; }
 
 private:
   struct FlatEdge
@@ -96,11 +96,13 @@ private:
   {
     return { this->Plane.flat(this->Particles.points.positions[particle]), particle };
   }
-  void collectEdges();
-  bool isHidden(const FlatNeighbor& neighbor) const;
   bool isAcrossSlit(const FlatNeighbor& neighbor) const;
-  bool isSeenFromTheLeft(const FlatNeighbor& neighbor) const;
+  void lookAtEdges();
+  bool collectEdgesOf(const FlatNeighbor& neighbor);
+  bool isHidden(const FlatNeighbor& neighbor) const;
   void makeSectors();
+  void makeSector(const FlatNeighbor& start);
+  Sector& nextSector();
 
   const ParticlePlaces& Particles;
   const ConstrainedEdges& Edges;
@@ -108,10 +110,16 @@ private:
   glm::vec3 Normal{ 0.0f };
   TangentPlane Plane;
   std::vector<FlatNeighbor> Neighbors;
+  /// Edges with the middle to their left that end at neighbours.
   std::vector<FlatEdge> FlatEdges;
-  /// The neighbours whose edges FlatEdges holds.
+  /// The neighbours whose edges are collected; edges that end at them, which may begin at others.
   std::vector<int> EdgesCollected;
+  std::vector<FlatEdge> IncomingEdges;
+  /// The other ends of the edges at the middle.
+  std::vector<FlatNeighbor> Ends;
+  /// Their memory only grows.
   std::vector<Sector> Sectors;
+  std::size_t SectorCount = 0;
   bool IsNearEdge = false;
 };
 
