@@ -103,8 +103,7 @@ glm::dvec3 farthestSquared(const glm::dmat3& inverse, const DerivativeRows& rows
   {
     glm::dvec3 deviation = inverse * glm::dvec3(rows[i], rows[i + 1], rows[i + 2]);
     deviation[k] -= 1.0;
-    farthest =
-      glm::max(deviation * deviation, farthest);
+    farthest = glm::max(deviation * deviation, farthest);
   }
   return farthest;
 }
