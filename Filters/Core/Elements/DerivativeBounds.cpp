@@ -95,6 +95,16 @@ glm::dvec3 meanOf(const DerivativeRows& rows, int width)
   return sum * (static_cast<double>(width) / static_cast<double>(rows.size()));
 }
 
+/// Whether a matrix is singular, or so nearly that rounding may have made its inverse. True also if it is not finite.
+bool isSliver(const glm::dmat3& matrix)
+{
+  // The determinant over the product of the columns' lengths. Larger: more thin cells are derived that hold no surface;
+  // smaller: flat cells, of which rounding errors of coordinates are the volume, pass for cells without surface.
+  constexpr double sliver = 1e-6;
+  const double lengths = glm::length(matrix[0]) * glm::length(matrix[1]) * glm::length(matrix[2]);
+  return !(std::abs(glm::determinant(matrix)) > sliver * lengths);
+}
+
 /// For each world coordinate the square of its largest deviation from 0.
 glm::dvec3 farthestSquared(const glm::dmat3& inverse, const DerivativeRows& rows, int width, int k)
 {
@@ -121,8 +131,7 @@ DerivativeBounds::DerivativeBounds(const SourceElement& source)
   }
   this->Inverse = glm::inverse(mean);
   // M^-1 J = I + E: (I + E)^-1 differs from I by |E| / (1 - |E|) at most.
-  double size2 =
-    glm::determinant(this->Inverse) * 0.0; // not a number where the inverse is not finite
+  double size2 = isSliver(mean) ? infinity : 0.0;
   for (int k = 0; k < 3; ++k)
   {
     const glm::dvec3 farthest = farthestSquared(this->Inverse, rows[k], source.width, k);

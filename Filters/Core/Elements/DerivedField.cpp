@@ -1,5 +1,7 @@
 #include "Elements/DerivedField.h"
 
+#include "Elements/LatticeRows.h"
+
 #include <glm/glm.hpp>
 
 #include <algorithm>
@@ -105,12 +107,13 @@ bool vanishesAt(const ScaledPolynomial& polynomial, const LineEnd& end)
   double largest = 0.0;
   double there = 0.0;
   std::size_t n = 0;
-  for (const LatticePoint& point : latticePoints(polynomial.domain, polynomial.degrees))
-  {
-    const double size = std::abs(coefficients[n++]);
-    largest = std::max(largest, size);
-    there = std::max(there, end.holds(point, polynomial.degrees) ? size : 0.0);
-  }
+  visitLatticePoints(polynomial.domain, polynomial.degrees,
+    [&](const LatticePoint& point)
+    {
+      const double size = std::abs(coefficients[n++]);
+      largest = std::max(largest, size);
+      there = std::max(there, end.holds(point, polynomial.degrees) ? size : 0.0);
+    });
   return there <= RoundingShare::CollapsedFace * largest;
 }
 
@@ -136,14 +139,15 @@ ScaledPolynomial withoutFactor(const ScaledPolynomial& polynomial, const LineEnd
   ScaledPolynomial result{ polynomial.domain, polynomial.degrees, {} };
   --result.degrees[end.axis];
   std::size_t n = 0;
-  for (const LatticePoint& point : latticePoints(polynomial.domain, polynomial.degrees))
-  {
-    if (!end.holds(point, polynomial.degrees))
+  visitLatticePoints(polynomial.domain, polynomial.degrees,
+    [&](const LatticePoint& point)
     {
-      result.values.push_back(polynomial.values[n]);
-    }
-    ++n;
-  }
+      if (!end.holds(point, polynomial.degrees))
+      {
+        result.values.push_back(polynomial.values[n]);
+      }
+      ++n;
+    });
   return result;
 }
 
