@@ -9,6 +9,7 @@
 #include "Fast/SlabWorkers.h"
 #include "Input/BlockGroups.h"
 #include "Output/ParticlePacker.h"
+#include "Run/EarlyEnd.h"
 #include "Run/RankBlocks.h"
 #include "Run/Ranks.h"
 #include "Run/RunMessages.h"
@@ -512,6 +513,8 @@ RunResult ParticleRun::run(const InputBlocks& mine) const
   std::vector<std::set<int>> groups;
   result.isComplete =
     allAgree(*exchange, messages.empty()) && this->findGroups(*exchange, blocks, groups);
+  EarlyEnd early(this->Caller);
+  const RunCaller& caller = early.ofAllRanks();
   for (std::size_t g = 0; g < groups.size(); ++g)
   {
     const double share = 1.0 / static_cast<double>(groups.size());
@@ -520,9 +523,9 @@ RunResult ParticleRun::run(const InputBlocks& mine) const
     withThreads(
       [&](const ParallelFor& parallelFor)
       {
-        const Work whole{ { this->Caller.report }, parallelFor };
+        const Work whole{ { caller.report }, parallelFor };
         GroupRun group(
-          *exchange, members, g, this->Properties, this->Scale, this->Caller, this->Previous);
+          *exchange, members, g, this->Properties, this->Scale, caller, this->Previous);
         if (!group.run(whole.part(begin, begin + share), result.counts))
         {
           empty(members);
@@ -530,6 +533,7 @@ RunResult ParticleRun::run(const InputBlocks& mine) const
         }
       });
   }
+  early.settle(*exchange);
   return result;
 }
 
