@@ -69,7 +69,9 @@ def silhouette(grid, offset, path):
     size = [1024, 400]
     particles, _ = make_filter(grid, "u", offset, Spacing=0.08)
     view = simple.CreateRenderView(ViewSize=size, OrientationAxesVisibility=0, CameraParallelProjection=1)
-    view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [4, 9, 0], [4, 0, 0], [0, 0, 1]
+    # Half a pixel from the middle: no end of a beam then runs through the middles of a column of pixels, where rounding
+    # would decide whether they are covered. From x = 4 on the bent end lies 0.015 pixels beside them.
+    view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [4.004, 9, 0], [4.004, 0, 0], [0, 0, 1]
     view.CameraParallelScale = 1.7
     display = simple.Show(particles, view, ColorArrayName=["POINTS", ""], Ambient=1, Diffuse=0)
     display.SetRepresentationType("Surface Splats")
@@ -77,12 +79,19 @@ def silhouette(grid, offset, path):
     return read_png(path).sum(axis=2) > 500
 
 
-def test_splats_end_where_the_beam_ends(beam, tmp_path):
+# Pixels drawn beyond the end of bent beams, which should be none: 75 at one place of the long side in tetrahedra at 0,
+# 28 at the end in wedges at 3e-12 and 1e-11. Their cause is not known. In all other cases there are none.
+PIXELS_BEYOND = {("tetrahedra", 0.0): 75, ("wedges", 3e-12): 28, ("wedges", 1e-11): 28}
+
+
+def test_splats_end_where_the_beam_ends(request, beam, tmp_path):
     """Where the surface is within rounding of faces, its boundary curves run within rounding of the edges of cells."""
     grid, is_bent = beam
+    cells = request.node.callspec.params["beam"][0]
     clear = silhouette(grid, 1e-6, tmp_path / "clear.png")
     assert clear.sum() > 80000
     for offset in (0.0, 1e-13, 3e-12, 1e-11):
         near = silhouette(grid, offset, tmp_path / "near.png")
-        # A bent beam ends where it is seen almost edge-on.
-        assert (clear != near).sum() <= (300 if is_bent else 0), offset
+        assert not (clear & ~near).any(), f"no hole at {offset}"
+        beyond = PIXELS_BEYOND.get((cells, offset), 0) if is_bent else 0
+        assert (near & ~clear).sum() <= beyond, offset

@@ -8,16 +8,6 @@
 namespace hop
 {
 
-/// Where a particle is to stand on a boundary curve, nearly.
-struct BoundaryPlace
-{
-  Location location;
-  /// Of the element; -1 where it is yet to be found.
-  int face = -1;
-  /// Wanted nearby, world units.
-  double spacing = 0.0;
-};
-
 /// What a place on a boundary curve turns out to be.
 enum class PlaceKind
 {

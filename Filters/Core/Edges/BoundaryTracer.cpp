@@ -448,7 +448,8 @@ BoundaryTracer::Ahead BoundaryTracer::passEdge(
     return {};
   }
   BoundaryVertex vertex{ { *at, from.face }, *beyond, false };
-  vertex.corner = this->isCutAt(vertex.arriving) || this->isCutAt(vertex.leaving) ||
+  vertex.corner = isCutAt(this->Surface, vertex.arriving) ||
+    isCutAt(this->Surface, vertex.leaving) ||
     dot(this->tangent(vertex.arriving), this->tangent(vertex.leaving)) < TraceAngles::CornerCosine;
   return { vertex, false };
 }
@@ -617,7 +618,7 @@ bool BoundaryTracer::follow(const BoundaryPoint& start, double step, double dire
       const bool isClosed = distanceToSegment(begin, position.xyz, next->position()) <
         (this->HasCuts ? std::max(0.5 * moved, ChordLengths::PassShare * firstChord) : 0.5 * moved);
       if (isClosed && direction > 0.0 && next->corner &&
-        (this->isCutAt(next->arriving) || this->isCutAt(next->leaving)))
+        (isCutAt(this->Surface, next->arriving) || isCutAt(this->Surface, next->leaving)))
       {
         vertices.front() = *next; // the start lies on the edge, or right behind it
       }

@@ -18,6 +18,22 @@ struct BoundaryPoint
   int face = -1;
 };
 
+/// Whether the surface is cut along the face of a point.
+inline bool isCutAt(const Isosurface& surface, const BoundaryPoint& point)
+{
+  return surface.isCutAt(point.at.location.element, point.face);
+}
+
+/// Where a particle is to stand on a boundary curve, nearly.
+struct BoundaryPlace
+{
+  Location location;
+  /// Of the element; -1 where it is yet to be found.
+  int face = -1;
+  /// Wanted nearby, world units.
+  double spacing = 0.0;
+};
+
 /// A vertex of a traced boundary curve. On an edge of the mesh it has two faces: one on which the curve comes, one on
 /// which it goes on.
 struct BoundaryVertex
@@ -189,10 +205,6 @@ private:
 
   bool follow(const BoundaryPoint& start, double step, double direction,
     std::vector<BoundaryVertex>& vertices, const ParallelFor& parallelFor);
-  bool isCutAt(const BoundaryPoint& point) const
-  {
-    return this->Surface.isCutAt(point.at.location.element, point.face);
-  }
   std::optional<BoundaryVertex> advanceAtMost(double& chord, double step, const Heading& heading);
   Ahead advance(const Heading& heading, double step);
   ReferenceVector predict(const Heading& heading, double step) const;

@@ -197,11 +197,10 @@ private:
   {
     const glm::dvec2 first = sector.neighbors[sector.first].place;
     const glm::dvec2 last = sector.neighbors[sector.last].place;
-    // Convex parts: less than half a turn each.
-    constexpr int parts = 3;
-    const double begin = std::atan2(first.y, first.x);
     constexpr double fullTurn = 6.283185307179586;
+    const double begin = std::atan2(first.y, first.x);
     const double width = sector.first == sector.last ? fullTurn : turnFrom(first, last);
+    const int parts = width > 0.5 * fullTurn ? 2 : 1; // convex ones: half a turn at most
     double area = 0.0;
     for (int part = 0; part < parts; ++part)
     {

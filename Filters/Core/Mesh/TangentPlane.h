@@ -31,6 +31,20 @@ inline double turnAround(const glm::dvec2& from, const glm::dvec2& to)
   return from == to ? fullTurn : turnFrom(from, to);
 }
 
+/// Grows with turnFrom(), from 0 to FullRank, without its arc tangent: to compare turns by. Zero where a direction has no
+/// length.
+inline double turnRank(const glm::dvec2& from, const glm::dvec2& to)
+{
+  const double up = crossOf(from, to);
+  const double ahead = glm::dot(from, to);
+  const double sum = std::abs(up) + std::abs(ahead);
+  const double share = sum > 0.0 ? ahead / sum : 1.0;
+  return up < 0.0 ? 3.0 + share : 1.0 - share;
+}
+
+/// The rank of a full turn.
+constexpr double FullRank = 4.0;
+
 /// The tangent plane of a particle. Places around it are laid into the plane at their distance in space, and measured
 /// in units of the particle's spacing.
 struct TangentPlane

@@ -26,8 +26,6 @@ struct SameSheet
   static constexpr double Unexplained = 0.4;
 };
 
-constexpr double fullTurn = 6.283185307179586;
-
 /// Whether the line from the origin to a place crosses the segment from a to b between their ends.
 bool crosses(const glm::dvec2& place, const glm::dvec2& a, const glm::dvec2& b)
 {
@@ -128,19 +126,29 @@ void TangentView::collectEdges()
       this->FlatEdges.push_back(edge);
     }
   };
+  std::vector<int>& collected = this->EdgesCollected;
+  collected.clear();
   for (const FlatNeighbor& neighbor : this->Neighbors)
   {
-    if (this->isAcrossSlit(neighbor))
+    if (!this->Edges.isOnEdge(neighbor.index) || this->isAcrossSlit(neighbor))
     {
       continue;
     }
+    collected.push_back(neighbor.index);
     for (const int next : this->Edges.after(neighbor.index))
     {
       add(neighbor.index, next);
     }
-    for (const int previous : this->Edges.before(neighbor.index))
+  }
+  for (const int end : collected)
+  {
+    for (const int previous : this->Edges.before(end))
     {
-      add(previous, neighbor.index);
+      // Edges that begin at a neighbour are there already.
+      if (std::find(collected.begin(), collected.end(), previous) == collected.end())
+      {
+        add(previous, end);
+      }
     }
   }
 }
@@ -157,11 +165,11 @@ bool TangentView::isSeenFromTheLeft(const FlatNeighbor& neighbor) const
   }
   const auto leastTurn = [&](const Span<int>& ends)
   {
-    double least = fullTurn;
+    double least = FullRank;
     for (const int end : ends)
     {
       const glm::dvec2 place = end == this->Middle ? glm::dvec2(0.0) : this->flat(end).place;
-      least = std::min(least, turnFrom(place - neighbor.place, -neighbor.place));
+      least = std::min(least, turnRank(place - neighbor.place, -neighbor.place));
     }
     return least;
   };
@@ -202,11 +210,12 @@ void TangentView::makeSectors()
   {
     const FlatNeighbor start = this->flat(first);
     FlatNeighbor end = start;
-    double width = fullTurn;
+    double width = FullRank;
     for (const int last : all)
     {
       const FlatNeighbor other = this->flat(last);
-      const double turn = last == first ? fullTurn : turnAround(start.place, other.place);
+      const bool isSamePlace = other.place == start.place; // a crease's two sides, where it fades
+      const double turn = isSamePlace ? FullRank : turnRank(start.place, other.place);
       if (turn < width)
       {
         width = turn;
@@ -223,7 +232,7 @@ void TangentView::makeSectors()
     for (const FlatNeighbor& neighbor : this->Neighbors)
     {
       if (neighbor.index != start.index && neighbor.index != end.index &&
-        turnFrom(start.place, neighbor.place) < width)
+        turnRank(start.place, neighbor.place) < width)
       {
         sector.neighbors.push_back(neighbor);
       }

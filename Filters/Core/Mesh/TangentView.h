@@ -109,6 +109,8 @@ private:
   TangentPlane Plane;
   std::vector<FlatNeighbor> Neighbors;
   std::vector<FlatEdge> FlatEdges;
+  /// The neighbours whose edges FlatEdges holds.
+  std::vector<int> EdgesCollected;
   std::vector<Sector> Sectors;
   bool IsNearEdge = false;
 };

@@ -1,9 +1,12 @@
 #include "Mesh/ParticleStars.h"
 
 #include "FlatSheet.h"
+#include "Mesh/TangentPlane.h"
 #include "MeshMeasures.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace hop::testing
 {
@@ -17,6 +20,26 @@ TriangleFans starsOf(const Distribution& distribution)
   const ConstrainedEdges edges(distribution);
   const ParticleNeighbors neighbors(distribution.particles, {});
   return agreedTriangles(neighbors, edges, {});
+}
+
+TEST(TangentPlane, RanksTurnsInTheirOrder)
+{
+  const glm::dvec2 from(0.6, -1.7);
+  double before = -1.0;
+  constexpr int steps = 720;
+  for (int n = 0; n < steps; ++n)
+  {
+    const double turn = 2.0 * 3.14159265358979 * n / steps;
+    const double c = std::cos(turn), s = std::sin(turn), length = 0.1 + n % 7;
+    const glm::dvec2 to = length * glm::dvec2(c * from.x - s * from.y, s * from.x + c * from.y);
+    const double rank = n == 0 ? turnRank(from, from) : turnRank(from, to);
+    EXPECT_GT(rank, before) << n;
+    EXPECT_LT(rank, FullRank);
+    before = rank;
+  }
+  EXPECT_EQ(turnRank(from, from), 0.0);
+  EXPECT_EQ(turnRank(from, -from), 0.5 * FullRank);
+  EXPECT_EQ(turnRank(from, { 0.0, 0.0 }), 0.0);
 }
 
 TEST(ParticleStars, AgreeAllOverAPlane)
