@@ -338,7 +338,8 @@ void GroupRun::distributeSlabsOf(
       }
     });
   this->IsSound = this->IsSound && result.isComplete && !this->Caller.isAborted();
-  if (!this->bringSlabsHome(meshes, result.distributions, work.parallelFor, some.distribution))
+  if (!result.isComplete ||
+    !this->bringSlabsHome(meshes, result.distributions, work.parallelFor, some.distribution))
   {
     this->IsSound = false;
   }
