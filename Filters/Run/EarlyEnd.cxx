@@ -21,12 +21,8 @@ public:
     if (!this->AreSent)
     {
       this->AreSent = true;
-      this->forOthers(
-        [this](int rank)
-        {
-          this->Requests.emplace_back();
-          this->Controller->NoBlockSend(&this->Note, 1, rank, Tag, this->Requests.back());
-        });
+      this->forOthers([this](int rank)
+        { this->Controller->NoBlockSend(&this->Note, 1, rank, Tag, this->Requests[rank]); });
     }
   }
 
@@ -56,10 +52,14 @@ public:
           this->Controller->Receive(&note, 1, rank, Tag);
         }
       });
-    for (vtkMPICommunicator::Request& request : this->Requests)
-    {
-      request.Wait();
-    }
+    this->forOthers(
+      [this](int rank)
+      {
+        if (this->AreSent)
+        {
+          this->Requests[rank].Wait();
+        }
+      });
   }
 
 private:
@@ -84,7 +84,9 @@ private:
   const unsigned char Note = 1;
   bool AreSent = false;
   bool HasArrived = false;
-  std::vector<vtkMPICommunicator::Request> Requests;
+  /// One a rank, made before any is needed: nothing may fail between two of the messages for which others wait.
+  std::vector<vtkMPICommunicator::Request> Requests = std::vector<vtkMPICommunicator::Request>(
+    this->Controller ? this->Controller->GetNumberOfProcesses() : 0);
 };
 
 #else
