@@ -225,7 +225,7 @@ TEST(JacobianTest, AgreesWithManySamples)
 TEST(JacobianTest, SmallWeightsFoldAnElement)
 {
   constexpr Degrees degrees{ 3, 3, 3 };
-  constexpr std::array<double, 4> weightsAlong{ 1.0, 0.1, 1.0, 1.0 };
+  constexpr std::array<double, 4> weightsAlong{ 1.0, 0.2, 1.0, 1.0 };
   std::vector<double> weights;
   std::vector<Coefficient> coefficients;
   for (const LatticePoint& point : latticePoints(Domain::Hexahedron, degrees))
