@@ -1,5 +1,7 @@
 #include "vtkHighOrderParticleIsosurface.h"
 
+#include "Conversion/CellBases.h"
+#include "Conversion/CellValues.h"
 #include "Input/Fingerprint.h"
 #include "Input/GatherBlocks.h"
 #include "Input/InputChecks.h"
@@ -342,9 +344,17 @@ hop::CheckedBlocks vtkHighOrderParticleIsosurface::FindScalars(const hop::Gather
   const auto quantity = static_cast<hop::Quantity>(this->Quantity);
   const hop::CheckedBlocks checked =
     hop::checkQuantity(hop::checkBlocks(gathered, this->GetInputArrayInformation(0)), quantity);
-  return this->Derivatives == AVERAGED_AT_NODES
-    ? hop::averagedAtNodes(checked, hop::componentOf(checked.sound, this->Component, quantity))
-    : checked;
+  if (this->Derivatives != AVERAGED_AT_NODES)
+  {
+    return checked;
+  }
+  // VTK's cells end the program where the number of points is wrong.
+  hop::CellBases bases(hop::NodeSpacing::Uniform);
+  hop::BasisLookup lookup(bases);
+  hop::CellValues values;
+  return hop::averagedAtNodes(checked, hop::componentOf(checked.sound, this->Component, quantity),
+    [&](vtkUnstructuredGrid* grid, vtkIdType cell)
+    { return lookup.basisOf(grid, cell) && hop::readIds(grid, cell, values); });
 }
 
 hop::RunProperties vtkHighOrderParticleIsosurface::PropertiesOfRun()

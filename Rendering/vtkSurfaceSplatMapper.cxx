@@ -3,15 +3,12 @@
 #include "vtkSurfaceSplatMapper.h"
 
 #include "Drawing/SplatDrawing.h"
-#include "Drawing/SplatPrimitives.h"
 #include "Drawing/SplatView.h"
-#include "Particles/CellColors.h"
-#include "Particles/ParticleColors.h"
+#include "Particles/ParticleInput.h"
 #include "Particles/Selection.h"
-#include "Particles/SplatBuffers.h"
-#include "Particles/SplatParticles.h"
+#include "Particles/UploadedParticles.h"
+#include "Passes/IsovalueLayers.h"
 #include "Passes/PictureTiles.h"
-#include "Passes/SplatLayer.h"
 #include "Shading/ShaderText.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
@@ -40,7 +37,6 @@
 #include <array>
 #include <cmath>
 #include <string>
-#include <tuple>
 
 namespace
 {
@@ -61,137 +57,32 @@ constexpr int Field = 2;
 // with a smaller one inner surfaces are missing more often. Chosen by experiment.
 constexpr int MaximumNumberOfLayeredIsovalues = 8;
 
-/** Memory for the textures of the layers on the GPU. */
-struct LayerMemory
-{
-  /**
-   * Bytes of all layers at most: one GiB, a choice that no measurement made. With less memory isovalues share layers,
-   * and their splats are summed up anew in each pass of depth peeling; with more the driver may run out of memory.
-   */
-  static constexpr double MostBytes = 1024. * 1024. * 1024.;
-  /**
-   * Bytes of a front and a back layer per pixel, about. Either has three sums of 16 bytes, three depths and a number of
-   * 4 bytes each, and marks of 2 bytes.
-   */
-  static constexpr double BytesPerPixel = 128.;
-};
-
-// Radius of all particles without a radius array, as a share of their distance. Hexagons are covered from 0.577 =
-// 1 / sqrt(3) on; three quarters leave some room for unevenness. Smaller disks leave holes, larger ones stand out more.
-constexpr double FallbackRadiusShare = 0.75;
-
-// Difference of depths, in diameters of the mean splat, from which on neighbouring pixels show different parts of the
-// surface. Chosen by experiment: a smaller one takes slants for folds, a larger one misses folds that are near.
-constexpr double FoldJump = 5.;
-
 vtkOpenGLRenderWindow* WindowOf(vtkRenderer* renderer)
 {
   return vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
 }
 
-// Bounds of the points that are finite.
-void GetFiniteBounds(vtkPolyData* input, double bounds[6])
-{
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    input->GetPoints()->GetData()->GetFiniteRange(bounds + 2 * axis, axis);
-  }
 }
-
-bool HasNormals(vtkPolyData* input)
-{
-  return hop::ParticleArrays::IfComplete(
-           input->GetPointData()->GetNormals(), input->GetNumberOfPoints()) != nullptr;
-}
-}
-
-// What is seen of one isovalue, or of all together.
-struct vtkSurfaceSplatMapper::IsovalueLayers
-{
-  hop::SplatLayer Front{ hop::LayerSide::Front };
-  hop::SplatLayer Back{ hop::LayerSide::Back }; // of translucent surfaces
-
-  void ReleaseGraphicsResources(vtkWindow* window)
-  {
-    this->Front.ReleaseGraphicsResources(window);
-    this->Back.ReleaseGraphicsResources(window);
-  }
-};
 
 struct vtkSurfaceSplatMapper::Internals
 {
-  hop::SplatBuffers Buffers;
+  hop::UploadedParticles Particles;
   hop::SplatView View;
-  std::vector<std::unique_ptr<IsovalueLayers>> Layers;
+  hop::IsovalueLayers Layers;
   const hop::SplatDrawing* Drawing = nullptr; // set while it goes on, as are the next two members
   hop::SplatLayer* DrawnLayer = nullptr;
   const hop::SplatLayer* FrontLayer = nullptr; // of the same isovalue
   int DrawnTiles = 0;
   bool Translucent = false;
   hop::SplatColoring Coloring;
-  bool ClipsColors = false; // colours end where cells end
-  bool DrawsEdges = false;  // lines are drawn there
+  bool DrawsEdges = false;  // lines are drawn where cells end
   bool HasGhosts = false;   // ghosts are blended
   bool HasBackface = false; // the shaders know of a backface property
   bool CannotSplat = false; // the driver has no floating-point targets
 
-  std::vector<vtkIdType> PointIds; // of the particles on the GPU, to colour them
-  std::vector<vtkIdType> CellIds;
-
-  // What the particles on the GPU were made from: the input (compared, never dereferenced) and its time, the
-  // radius without an array, the names of the arrays of radii and of cells' colours.
-  std::tuple<vtkPolyData*, vtkMTimeType, double, std::string, std::string> Uploaded;
-
   bool SaidNoNormals = false;
   bool SaidNoRadius = false;
   bool SaidWarped = false;
-
-  // The layers of an isovalue. As far as memory goes each isovalue has its own, so that each pass of depth peeling
-  // finds them drawn.
-  IsovalueLayers& LayersOf(int isovalue)
-  {
-    const double bytes =
-      LayerMemory::BytesPerPixel * this->View.GetWidth() * this->View.GetHeight();
-    const auto index = static_cast<std::size_t>(
-      std::min<double>(isovalue, std::max(1., LayerMemory::MostBytes / bytes) - 1.));
-    while (this->Layers.size() <= index)
-    {
-      this->Layers.push_back(std::make_unique<IsovalueLayers>());
-    }
-    return *this->Layers[index];
-  }
-
-  // Whether the values by which particles are coloured jump where cells end; their gradients, if they do.
-  bool ColorsJump(const std::vector<float>& values, std::vector<std::array<float, 2>>* gradients)
-  {
-    bool jump = false;
-    this->Buffers.Read(
-      [&](const hop::SplatBuffers::Mapped& particles)
-      {
-        const vtkIdType count = this->Buffers.GetNumberOfParticles();
-        if (particles.Borders)
-        {
-          const hop::CellColors colors(
-            { particles.CentreRadius, particles.Normal, particles.Borders, count }, values);
-          jump = colors.JumpBetweenCells();
-          if (jump && gradients)
-          {
-            *gradients = colors.FitGradients();
-          }
-        }
-      },
-      true);
-    return jump;
-  }
-
-  // Releases all layers but the first ones.
-  void ReleaseLayers(std::size_t left, vtkWindow* window)
-  {
-    for (; this->Layers.size() > left; this->Layers.pop_back())
-    {
-      this->Layers.back()->ReleaseGraphicsResources(window);
-    }
-  }
 };
 
 vtkStandardNewMacro(vtkSurfaceSplatMapper);
@@ -218,9 +109,8 @@ void vtkSurfaceSplatMapper::ReleaseGraphicsResources(vtkWindow* window)
   // The base class makes the right context current and then calls this method again, so that the
   // buffers are released in the inner call; after that there is nothing left to release.
   this->Superclass::ReleaseGraphicsResources(window);
-  this->Internal->Buffers.ReleaseGraphicsResources(window);
-  this->Internal->ReleaseLayers(0, window);
-  this->Internal->Uploaded = {};
+  this->Internal->Particles.ReleaseGraphicsResources(window);
+  this->Internal->Layers.Release(0, window);
   this->Internal->CannotSplat = false; // another window may have another driver
 }
 
@@ -245,34 +135,9 @@ void vtkSurfaceSplatMapper::ShallowCopy(vtkAbstractMapper* mapper)
 }
 
 //------------------------------------------------------------------------------
-vtkDataArray* vtkSurfaceSplatMapper::GetRadiusArray(vtkPolyData* input)
+hop::ParticleInput vtkSurfaceSplatMapper::Describe(vtkPolyData* input) const
 {
-  return this->RadiusArrayName
-    ? hop::ParticleArrays::IfComplete(
-        input->GetPointData()->GetArray(this->RadiusArrayName), input->GetNumberOfPoints())
-    : nullptr;
-}
-
-//------------------------------------------------------------------------------
-hop::ParticleArrays vtkSurfaceSplatMapper::DescribeArrays(vtkPolyData* input)
-{
-  auto arrays =
-    hop::ParticleArrays::FromPointData(input->GetPointData(), input->GetNumberOfPoints());
-  arrays.Radii = this->GetRadiusArray(input);
-  return arrays;
-}
-
-//------------------------------------------------------------------------------
-double vtkSurfaceSplatMapper::GetFallbackRadius(vtkPolyData* input)
-{
-  if (this->Radius > 0.)
-  {
-    return this->Radius;
-  }
-  double bounds[6];
-  GetFiniteBounds(input, bounds);
-  const double distance = hop::SplatParticles::EstimateDistance(bounds, input->GetNumberOfPoints());
-  return distance > 0. ? FallbackRadiusShare * distance : 1.;
+  return { input, this->RadiusArrayName, this->CellColorArrayName, this->Radius };
 }
 
 //------------------------------------------------------------------------------
@@ -292,53 +157,23 @@ void vtkSurfaceSplatMapper::ComputeBounds()
 void vtkSurfaceSplatMapper::GetDiskBounds(vtkPolyData* input, double bounds[6])
 {
   vtkMath::UninitializeBounds(bounds);
-  if (!input || input->GetNumberOfPoints() == 0)
+  if (input)
   {
-    return;
-  }
-  double range[2] = { 0., this->GetFallbackRadius(input) };
-  if (vtkDataArray* radii = this->GetRadiusArray(input))
-  {
-    radii->GetFiniteRange(range, 0);
-  }
-  const double margin = this->GetDrawnRadiusScale() * std::max(range[1], 0.);
-  GetFiniteBounds(input, bounds);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    bounds[2 * axis] -= margin;
-    bounds[2 * axis + 1] += margin;
+    this->Describe(input).GetDiskBounds(this->GetDrawnRadiusScale(), bounds);
   }
 }
 
 //------------------------------------------------------------------------------
 vtkSmartPointer<vtkDoubleArray> vtkSurfaceSplatMapper::GetDisks(vtkPolyData* input)
 {
-  auto disks = vtkSmartPointer<vtkDoubleArray>::New();
-  disks->SetNumberOfComponents(4);
-  disks->SetNumberOfTuples(input->GetNumberOfPoints());
-  disks->Fill(0.);
-  const hop::ParticleArrays all = this->DescribeArrays(input);
-  hop::ParticleArrays arrays;
-  arrays.Radii = all.Radii;
-  arrays.FallbackRadius = this->Radius;
-  arrays.Normals = all.Normals;
-  arrays.Placements = all.Placements;
-  arrays.Ghosts = all.Ghosts;
-  const auto particles = hop::SplatParticles::FromPolyData(input, arrays);
-  for (vtkIdType i = 0; i < particles.GetNumberOfParticles(); ++i)
-  {
-    double* disk = disks->GetPointer(4 * particles.PointIds[i]);
-    input->GetPoint(particles.PointIds[i], disk);
-    disk[3] = this->RadiusScale * particles.CentreRadius[4 * i + 3];
-  }
-  return disks;
+  return this->Describe(input).GetDisks(this->RadiusScale);
 }
 
 //------------------------------------------------------------------------------
 void vtkSurfaceSplatMapper::UpdateBufferObjects(vtkRenderer* renderer, vtkActor* actor)
 {
   // The base class would go on to index buffers of the selected cells, which disks do not use.
-  const bool colorsAreOld = this->GetCellColors(this->CurrentInput) &&
+  const bool colorsAreOld = this->Describe(this->CurrentInput).GetCellColors() &&
     this->VBOBuildTime.GetMTime() < actor->GetProperty()->GetMTime();
   if (colorsAreOld || this->GetNeedToRebuildBufferObjects(renderer, actor))
   {
@@ -360,17 +195,18 @@ void vtkSurfaceSplatMapper::BuildBufferObjects(vtkRenderer* renderer, vtkActor* 
     primitive.IBO->IndexCount = 0;
   }
   this->Primitives[PrimitiveTris].IBO->IndexCount = 3 *
-    static_cast<size_t>(
-      std::max(this->Internal->Buffers.GetNumberOfParticles(), input->GetNumberOfCells()));
+    static_cast<size_t>(std::max(
+      this->Internal->Particles.Buffers.GetNumberOfParticles(), input->GetNumberOfCells()));
   this->VBOBuildTime.Modified();
 }
 
 //------------------------------------------------------------------------------
 void vtkSurfaceSplatMapper::WarnOfMissingArrays(vtkPolyData* input)
 {
+  const hop::ParticleInput particles = this->Describe(input);
   const bool empty = input->GetNumberOfPoints() == 0;
-  const bool noNormals = !empty && !HasNormals(input);
-  const bool noRadius = !empty && !this->GetRadiusArray(input);
+  const bool noNormals = !empty && !particles.HasNormals();
+  const bool noRadius = !empty && !particles.GetRadii();
   if (noNormals && !this->Internal->SaidNoNormals)
   {
     vtkWarningMacro("The particles have no point normals: their disks face the viewer and show no "
@@ -381,7 +217,7 @@ void vtkSurfaceSplatMapper::WarnOfMissingArrays(vtkPolyData* input)
   {
     vtkWarningMacro("The particles have no point array '"
       << (this->RadiusArrayName ? this->RadiusArrayName : "")
-      << "' with their radii: all have the radius " << this->GetFallbackRadius(input) << ".");
+      << "' with their radii: all have the radius " << particles.GetFallbackRadius() << ".");
   }
   this->Internal->SaidNoNormals = noNormals;
   this->Internal->SaidNoRadius = noRadius;
@@ -391,25 +227,18 @@ void vtkSurfaceSplatMapper::WarnOfMissingArrays(vtkPolyData* input)
 void vtkSurfaceSplatMapper::UploadParticles(vtkRenderer* renderer, vtkPolyData* input)
 {
   Internals& gpu = *this->Internal;
-  const auto key = std::make_tuple(input, input->GetMTime(), this->Radius,
-    std::string(this->RadiusArrayName ? this->RadiusArrayName : ""),
-    std::string(this->CellColorArrayName ? this->CellColorArrayName : ""));
-  if (gpu.Uploaded == key)
+  const auto report = gpu.Particles.Upload(WindowOf(renderer), this->Describe(input));
+  if (!report)
   {
     return;
   }
-  hop::ParticleArrays arrays = this->DescribeArrays(input);
-  arrays.FallbackRadius = this->GetFallbackRadius(input);
-  arrays.CellColors = this->GetCellColors(input);
-  hop::SplatParticles particles = hop::SplatParticles::FromPolyData(input, arrays);
-  gpu.Buffers.Upload(WindowOf(renderer), particles);
-  if (gpu.Buffers.GetNumberOfParticles() < particles.GetNumberOfParticles())
+  const vtkIdType drawn = gpu.Particles.Buffers.GetNumberOfParticles();
+  if (drawn < report->Particles)
   {
     vtkWarningMacro("This graphics driver addresses only the first "
-      << gpu.Buffers.GetNumberOfParticles() << " of " << particles.GetNumberOfParticles()
-      << " particles; the others are not drawn.");
+      << drawn << " of " << report->Particles << " particles; the others are not drawn.");
   }
-  if (particles.Warped && !gpu.SaidWarped)
+  if (report->Warped && !gpu.SaidWarped)
   {
     vtkWarningMacro("The particles have been moved, and not all of them by one affine map such as "
                     "a rotation: their "
@@ -417,42 +246,22 @@ void vtkSurfaceSplatMapper::UploadParticles(vtkRenderer* renderer, vtkPolyData* 
                     "of the surface "
                     "before. Move the grid instead, and compute the particles on it.");
   }
-  gpu.SaidWarped = particles.Warped;
-  vtkDebugMacro(<< particles.Skipped << " particles cannot be drawn");
-  gpu.PointIds = std::move(particles.PointIds);
-  gpu.CellIds = std::move(particles.CellIds);
-  gpu.Uploaded = key;
+  gpu.SaidWarped = report->Warped;
 }
 
 //------------------------------------------------------------------------------
-vtkDataArray* vtkSurfaceSplatMapper::GetCellColors(vtkPolyData* input)
-{
-  vtkDataArray* colors = input && this->CellColorArrayName
-    ? hop::ParticleArrays::IfComplete(
-        input->GetCellData()->GetArray(this->CellColorArrayName), input->GetNumberOfVerts())
-    : nullptr;
-  return colors && colors->GetNumberOfComponents() == 4 && colors->GetNumberOfTuples() > 0
-    ? colors
-    : nullptr;
-}
-
 bool vtkSurfaceSplatMapper::HasOpaqueGeometry()
 {
-  vtkDataArray* cellColors = this->GetCellColors(this->GetInput());
+  vtkPolyData* input = this->GetInput();
   return !this->Superclass::HasTranslucentPolygonalGeometry() &&
-    (!cellColors || cellColors->GetRange(3)[1] >= 1.);
+    !(input && this->Describe(input).HasOnlyTranslucentCells());
 }
 
 bool vtkSurfaceSplatMapper::HasTranslucentPolygonalGeometry()
 {
+  vtkPolyData* input = this->GetInput();
   return this->Superclass::HasTranslucentPolygonalGeometry() ||
-    this->HasTranslucentCells(this->GetInput());
-}
-
-bool vtkSurfaceSplatMapper::HasTranslucentCells(vtkPolyData* input)
-{
-  vtkDataArray* cellColors = this->GetCellColors(input);
-  return cellColors && cellColors->GetRange(3)[0] < 1.;
+    (input && this->Describe(input).HasTranslucentCells());
 }
 
 //------------------------------------------------------------------------------
@@ -460,8 +269,9 @@ void vtkSurfaceSplatMapper::UploadColors(vtkRenderer* renderer, vtkActor* actor)
 {
   // Colours are looked up between particles only, so that disks and points need none of it. Cells' own colours are
   // no numbers to be looked up; and the shaders of the base class want coordinates wherever it has a texture for them.
+  hop::UploadedParticles& particles = this->Internal->Particles;
   vtkDataArray* cellColors =
-    this->Internal->CellIds.empty() ? nullptr : this->GetCellColors(this->CurrentInput);
+    particles.AreCells() ? this->Describe(this->CurrentInput).GetCellColors() : nullptr;
   const vtkTypeBool interpolate = this->InterpolateScalarsBeforeMapping;
   this->InterpolateScalarsBeforeMapping =
     interpolate && this->DrawsSplats() && !cellColors && this->HasScalars(this->CurrentInput);
@@ -469,24 +279,25 @@ void vtkSurfaceSplatMapper::UploadColors(vtkRenderer* renderer, vtkActor* actor)
   vtkUnsignedCharArray* colors = this->MapScalars(this->CurrentInput, 1.0, source);
   this->InterpolateScalarsBeforeMapping = interpolate;
 
-  const bool clippedBefore = this->Internal->ClipsColors;
-  this->Internal->ClipsColors = false;
+  const bool clippedBefore = particles.GetClipsColors();
+  particles.ForgetColors();
   hop::SplatColoring coloring;
   coloring.OpacityIsInColors = cellColors != nullptr;
   coloring.OfScalars = colors || this->ColorCoordinates;
+  const hop::UploadedParticles::ScalarColors scalars{ colors, source == Cells,
+    source == Field ? this->FieldDataTupleId : -1 };
   if (this->ColorCoordinates)
   {
     this->UploadLookupCoordinates(renderer);
     coloring.From = Source::Lookup;
   }
-  else if (this->UploadMappedColors(
-             renderer, actor, this->MappedColors(colors, source), cellColors, source == Cells))
+  else if (particles.UploadColors(WindowOf(renderer), scalars, cellColors, actor->GetProperty()))
   {
     const bool categorical = colors && this->LookupTable && this->LookupTable->GetIndexedLookup() &&
       this->ColorMode != VTK_COLOR_MODE_DIRECT_SCALARS;
     coloring.From = categorical ? Source::Strongest : Source::Colors;
   }
-  if (coloring != this->Internal->Coloring || clippedBefore != this->Internal->ClipsColors)
+  if (coloring != this->Internal->Coloring || clippedBefore != particles.GetClipsColors())
   {
     this->Internal->Coloring = coloring;
     this->ForgetShaders();
@@ -503,61 +314,13 @@ void vtkSurfaceSplatMapper::ForgetShaders()
 }
 
 //------------------------------------------------------------------------------
-// The colours that scalars give the particles. Empty if scalars give none.
-std::vector<unsigned char> vtkSurfaceSplatMapper::MappedColors(
-  vtkUnsignedCharArray* colors, int source)
-{
-  const std::vector<vtkIdType>& ids =
-    source == Cells ? this->Internal->CellIds : this->Internal->PointIds;
-  const vtkIdType count = this->Internal->Buffers.GetNumberOfParticles();
-  const bool single = source == Field && this->FieldDataTupleId >= 0;
-  return hop::GatherColors(
-    colors, single ? std::vector<vtkIdType>(count, this->FieldDataTupleId) : ids, count);
-}
-
-//------------------------------------------------------------------------------
-// False if nothing gives particles colours of their own.
-bool vtkSurfaceSplatMapper::UploadMappedColors(vtkRenderer* renderer, vtkActor* actor,
-  std::vector<unsigned char> rgba, vtkDataArray* cellColors, bool ofCells)
-{
-  Internals& internal = *this->Internal;
-  if (cellColors)
-  {
-    hop::ReplaceColors(rgba, cellColors, internal.CellIds, internal.Buffers.GetNumberOfParticles(),
-      actor->GetProperty());
-  }
-  if (rgba.empty())
-  {
-    return false;
-  }
-  internal.Buffers.UploadColors(WindowOf(renderer), rgba);
-  // The colours of cells jump, if they differ at all.
-  internal.ClipsColors = internal.Buffers.GetHasBorders() &&
-    (ofCells || internal.ColorsJump(hop::BrightnessOf(rgba), nullptr));
-  return true;
-}
-
-//------------------------------------------------------------------------------
-// Where values jump from cell to cell they end there, and are averaged with their gradients.
-void vtkSurfaceSplatMapper::AddGradients(std::vector<float>& lookupTexels)
-{
-  std::vector<std::array<float, 2>> gradients;
-  this->Internal->ClipsColors =
-    this->Internal->ColorsJump(hop::PositionsOf(lookupTexels), &gradients);
-  for (std::size_t i = 0; i < gradients.size(); ++i)
-  {
-    std::copy_n(gradients[i].data(), 2, &lookupTexels[4 * i + 2]);
-  }
-}
-
-//------------------------------------------------------------------------------
 bool vtkSurfaceSplatMapper::HasScalars(vtkPolyData* input)
 {
   int cells = 0;
   vtkAbstractArray* scalars = vtkAbstractMapper::GetAbstractScalars(
     input, this->ScalarMode, this->ArrayAccessMode, this->ArrayId, this->ArrayName, cells);
   return scalars && scalars->GetNumberOfTuples() > 0 &&
-    this->Internal->Buffers.GetNumberOfParticles() > 0;
+    this->Internal->Particles.Buffers.GetNumberOfParticles() > 0;
 }
 
 //------------------------------------------------------------------------------
@@ -570,17 +333,15 @@ void vtkSurfaceSplatMapper::UploadLookupCoordinates(vtkRenderer* renderer)
     this->InternalColorTexture->RepeatOff();
   }
   this->InternalColorTexture->SetInputData(this->ColorTextureMap);
-  std::vector<float> texels = hop::LookupTexels(vtkFloatArray::SafeDownCast(this->ColorCoordinates),
-    this->Internal->PointIds, this->Internal->Buffers.GetNumberOfParticles());
-  this->AddGradients(texels);
-  this->Internal->Buffers.UploadColors(WindowOf(renderer), texels);
+  this->Internal->Particles.UploadLookup(
+    WindowOf(renderer), vtkFloatArray::SafeDownCast(this->ColorCoordinates));
 }
 
 //------------------------------------------------------------------------------
 void vtkSurfaceSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor)
 {
   Internals& internal = *this->Internal;
-  if (internal.Buffers.GetNumberOfParticles() == 0)
+  if (internal.Particles.Buffers.GetNumberOfParticles() == 0)
   {
     return;
   }
@@ -594,16 +355,16 @@ void vtkSurfaceSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* act
   }
   double bounds[6];
   this->GetDiskBounds(this->CurrentInput, bounds);
-  internal.View.Update(renderer, actor, internal.Buffers.GetOrigin(), bounds);
+  internal.View.Update(renderer, actor, internal.Particles.Buffers.GetOrigin(), bounds);
   if (internal.View.GetWidth() == 0 || internal.View.GetHeight() == 0)
   {
     return; // there are no framebuffers without pixels
   }
   const bool hasBackface = actor->GetBackfaceProperty() != nullptr;
   const bool drawsEdges =
-    actor->GetProperty()->GetEdgeVisibility() && internal.Buffers.GetHasBorders();
+    actor->GetProperty()->GetEdgeVisibility() && internal.Particles.Buffers.GetHasBorders();
   // Of ghosts, every rank would leave out others where particles are thinned out.
-  const bool hasGhosts = internal.Buffers.GetHasGhosts() && this->BlendGhosts &&
+  const bool hasGhosts = internal.Particles.Buffers.GetHasGhosts() && this->BlendGhosts &&
     this->DrawsSplats() && this->Stride == 1;
   if (hasBackface != internal.HasBackface || drawsEdges != internal.DrawsEdges ||
     hasGhosts != internal.HasGhosts)
@@ -615,12 +376,12 @@ void vtkSurfaceSplatMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* act
   }
   const hop::SplatDrawing drawing = this->DescribeDrawing(renderer, actor);
   internal.Drawing = &drawing;
-  internal.Buffers.Activate();
+  internal.Particles.Buffers.Activate();
   if (!this->DrawsSplats() || !this->DrawSplats(renderer, actor))
   {
     this->DrawPrimitives(renderer, actor);
   }
-  internal.Buffers.Deactivate();
+  internal.Particles.Buffers.Deactivate();
   internal.Drawing = nullptr;
 }
 
@@ -641,10 +402,10 @@ bool vtkSurfaceSplatMapper::DrawSplats(vtkRenderer* renderer, vtkActor* actor)
   }
   if (!actor->HasTranslucentPolygonalGeometry())
   {
-    this->Internal->ReleaseLayers(1, renderer->GetRenderWindow());
+    this->Internal->Layers.Release(1, renderer->GetRenderWindow());
   }
   // Translucent surfaces of different isovalues shine through each other: each has layers of its own.
-  const int allIsovalues = this->Internal->Buffers.GetNumberOfIsovalues();
+  const int allIsovalues = this->Internal->Particles.Buffers.GetNumberOfIsovalues();
   const int isovalues =
     translucent && allIsovalues <= MaximumNumberOfLayeredIsovalues ? allIsovalues : 1;
   for (int isovalue = 0; isovalue < isovalues; ++isovalue)
@@ -654,7 +415,7 @@ bool vtkSurfaceSplatMapper::DrawSplats(vtkRenderer* renderer, vtkActor* actor)
     {
       drawing.Isovalue = isovalue;
     }
-    IsovalueLayers& layers = this->Internal->LayersOf(isovalue);
+    hop::IsovalueLayers::Pair& layers = this->Internal->Layers.Of(isovalue, this->Internal->View);
     if ((translucent && !layers.Back.Update(drawing)) || !layers.Front.Update(drawing))
     {
       vtkWarningMacro("This graphics driver cannot draw into floating-point textures: the "
@@ -679,19 +440,20 @@ hop::SplatDrawing vtkSurfaceSplatMapper::DescribeDrawing(vtkRenderer* renderer, 
 {
   hop::SplatDrawing drawing;
   const Source source = this->Internal->Coloring.From;
-  drawing.ChooseParticles(renderer, actor, this->HasTranslucentCells(this->CurrentInput));
+  const hop::ParticleInput input = this->Describe(this->CurrentInput);
+  drawing.ChooseParticles(renderer, actor, input.HasTranslucentCells());
   drawing.Window = WindowOf(renderer);
-  drawing.Buffers = &this->Internal->Buffers;
+  drawing.Buffers = &this->Internal->Particles.Buffers;
   drawing.View = &this->Internal->View;
   drawing.RadiusScale = this->GetDrawnRadiusScale();
   drawing.Sharpness = this->Sharpness;
   drawing.Stride = this->Stride;
-  drawing.FacesViewer = !HasNormals(this->CurrentInput);
+  drawing.FacesViewer = !input.HasNormals();
   drawing.Colors = source == Source::Colors || source == Source::Lookup;
   drawing.Ghosts = this->Internal->HasGhosts;
   drawing.Strongest =
     drawing.Ghosts || source == Source::Strongest || renderer->GetSelector() != nullptr;
-  drawing.ClipsColors = this->Internal->ClipsColors;
+  drawing.ClipsColors = this->Internal->Particles.GetClipsColors();
   drawing.ColorGradients = drawing.ClipsColors && source == Source::Lookup;
   drawing.EdgeWidth = this->Internal->DrawsEdges ? actor->GetProperty()->GetLineWidth() : 0.;
   drawing.NumberOfClippingPlanes = this->GetShiftedClippingPlanes(actor, drawing.ClippingPlanes);
@@ -794,7 +556,7 @@ hop::ShaderText vtkSurfaceSplatMapper::DescribeShaders(vtkActor* actor) const
     : translucent       ? Part::BackLayer
                         : Part::Outline;
   shaders.Coloring = this->Internal->Coloring;
-  shaders.ClipsColors = this->Internal->ClipsColors;
+  shaders.ClipsColors = this->Internal->Particles.GetClipsColors();
   shaders.DrawsEdges = this->Internal->DrawsEdges && this->DrawsSplats();
   shaders.ColorsBySide = this->ColorByNormalDirection;
   shaders.HasBackface = this->Internal->HasBackface;
@@ -873,7 +635,7 @@ void vtkSurfaceSplatMapper::ProcessSelectorPixelBuffers(
     // The base class leaves the rank that draws (VTK 9.2).
     hop::SelectRanks(ranks, selector, pixels);
   }
-  else if (cells && input && this->Internal->CellIds.empty())
+  else if (cells && input && !this->Internal->Particles.AreCells())
   {
     vtkDataArray* ids =
       this->CellIdArrayName ? input->GetCellData()->GetArray(this->CellIdArrayName) : nullptr;
@@ -896,14 +658,7 @@ void vtkSurfaceSplatMapper::SetMapperShaderParameters(
   drawing.SetUniforms(program);
   if (const hop::SplatLayer* layer = this->Internal->DrawnLayer)
   {
-    const double diameter = 2. * drawing.RadiusScale * this->Internal->Buffers.GetMeanRadius() *
-      this->Internal->View.GetScale();
-    layer->SetSamplers(program, *this->Internal->FrontLayer);
-    // Half the least summed weight of a pixel with surface. Pixels without surface have none.
-    program->SetUniformf("splatLeastWeight",
-      static_cast<float>(0.5 * hop::SplatPrimitives::GetLeastWeight(this->Sharpness)));
-    program->SetUniformf("splatLayerDistance", static_cast<float>(diameter));
-    program->SetUniformf("splatJump", static_cast<float>(FoldJump * diameter));
+    layer->SetUniforms(program, *this->Internal->FrontLayer, drawing);
     hop::PictureTiles(this->Internal->View).SetUniforms(program, this->Internal->DrawnTiles);
   }
   if (drawing.EdgeWidth > 0. && program->IsUniformUsed("splatEdgeColor"))
@@ -950,7 +705,7 @@ void vtkSurfaceSplatMapper::SetPropertyShaderParameters(
 int vtkSurfaceSplatMapper::GetShiftedClippingPlanes(vtkActor* actor, float planes[6][4])
 {
   const int count = std::min(this->GetNumberOfClippingPlanes(), 6); // the limit of the base class
-  const std::array<double, 3>& origin = this->Internal->Buffers.GetOrigin();
+  const std::array<double, 3>& origin = this->Internal->Particles.Buffers.GetOrigin();
   hop::GetModelToWorld(actor, this->TempMatrix4);
   for (int i = 0; i < count; ++i)
   {

@@ -89,7 +89,7 @@ class vtkDoubleArray;
 namespace hop
 {
 class SplatLayer;
-struct ParticleArrays;
+struct ParticleInput;
 struct SplatDrawing;
 struct ShaderText;
 }
@@ -278,21 +278,13 @@ private:
   vtkSurfaceSplatMapper(const vtkSurfaceSplatMapper&) = delete;
   void operator=(const vtkSurfaceSplatMapper&) = delete;
 
-  vtkDataArray* GetRadiusArray(vtkPolyData* input);
-  hop::ParticleArrays DescribeArrays(vtkPolyData* input);
-  double GetFallbackRadius(vtkPolyData* input);
+  hop::ParticleInput Describe(vtkPolyData* input) const;
   double GetDrawnRadiusScale() const;
   void WarnOfMissingArrays(vtkPolyData* input);
   void UploadParticles(vtkRenderer* renderer, vtkPolyData* input);
   void UploadColors(vtkRenderer* renderer, vtkActor* actor);
-  vtkDataArray* GetCellColors(vtkPolyData* input);
-  bool HasTranslucentCells(vtkPolyData* input);
-  std::vector<unsigned char> MappedColors(vtkUnsignedCharArray* colors, int source);
   bool HasScalars(vtkPolyData* input);
   void UploadLookupCoordinates(vtkRenderer* renderer);
-  bool UploadMappedColors(vtkRenderer* renderer, vtkActor* actor, std::vector<unsigned char> rgba,
-    vtkDataArray* cellColors, bool ofCells);
-  void AddGradients(std::vector<float>& lookupTexels);
 
   bool DrawsSplats() const;
   bool DrawSplats(vtkRenderer* renderer, vtkActor* actor);
@@ -306,7 +298,6 @@ private:
   hop::ShaderText DescribeShaders(vtkActor* actor) const;
   int GetShiftedClippingPlanes(vtkActor* actor, float planes[6][4]);
 
-  struct IsovalueLayers;
   struct Internals; // what lives on the GPU
   std::unique_ptr<Internals> Internal;
 };

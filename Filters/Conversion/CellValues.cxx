@@ -32,15 +32,6 @@ bool isGoodWeight(double weight)
   return weight > 0.0 && std::isfinite(weight);
 }
 
-/// \return whether all ids are in the grid
-bool readIds(vtkUnstructuredGrid* grid, vtkIdType cell, CellValues& values)
-{
-  cellPoints(grid->GetCells(), cell, values.count, values.ids, values.copiedIds);
-  const vtkIdType points = grid->GetNumberOfPoints();
-  return std::all_of(values.ids, values.ids + values.count,
-    [points](vtkIdType id) { return id >= 0 && id < points; });
-}
-
 /// \return whether all values are usable
 bool readField(const InputBlocks& blocks, vtkDataArray* scalars, CellValues& values)
 {
@@ -78,6 +69,14 @@ bool readWeights(vtkDataArray* weights, CellValues& values)
 }
 
 } // namespace
+
+bool readIds(vtkUnstructuredGrid* grid, vtkIdType cell, CellValues& values)
+{
+  cellPoints(grid->GetCells(), cell, values.count, values.ids, values.copiedIds);
+  const vtkIdType points = grid->GetNumberOfPoints();
+  return std::all_of(values.ids, values.ids + values.count,
+    [points](vtkIdType id) { return id >= 0 && id < points; });
+}
 
 vtkDataArray* rationalWeights(const InputBlock& block, const CellBasis& cell)
 {

@@ -29,6 +29,10 @@ struct CellValues
   std::vector<double> weights;
 };
 
+/// Reads the ids of a cell's points.
+/// \return whether all ids are in the grid
+bool readIds(vtkUnstructuredGrid* grid, vtkIdType cell, CellValues& values);
+
 /// The point array with the weights of a block's cells of one kind; nullptr where these cells are not rational.
 vtkDataArray* rationalWeights(const InputBlock& block, const CellBasis& cell);
 

@@ -174,9 +174,10 @@ JacobianSign convert(const InputBlocks& blocks, const CellBasis& cell, const Fie
     return JacobianSign::NotFinite;
   }
   ControlNet net = controlNet(blocks, where, cell, values, units.length);
-  if (net.sign == JacobianSign::NotFinite || net.sign == JacobianSign::Zero)
+  const JacobianSign sign = signOf(cell, net);
+  if (sign == JacobianSign::NotFinite || sign == JacobianSign::Zero)
   {
-    return net.sign;
+    return sign;
   }
   Coefficient* coefficients = &mesh.coefficients[element.firstCoefficient];
   if (blocks.isMagnitude())
@@ -197,7 +198,7 @@ JacobianSign convert(const InputBlocks& blocks, const CellBasis& cell, const Fie
   {
     std::copy(net.weights.begin(), net.weights.end(), &mesh.weights[element.firstCoefficient]);
   }
-  return net.sign;
+  return sign;
 }
 
 } // namespace
@@ -210,15 +211,17 @@ ControlNet controlNet(const InputBlocks& blocks, const BlockCell& where, const C
   net.control = controlRows(cell,
     nodalRows(blocks[where.block].grid, cell.basis.nodeCount(), values, unitOfLength), net.width);
   net.weights = controlWeights(cell, values);
-  const std::vector<Coefficient> plain = coefficientsOf(net.control, net.width);
-  net.sign = jacobianSign(cell,
-    { cell.basis.domain(), cell.basis.degrees(), plain.data(),
-      values.weights.empty() ? nullptr : net.weights.data() });
-  if (net.sign != JacobianSign::NotFinite && isPoint(plain))
-  {
-    net.sign = JacobianSign::Zero;
-  }
+  net.isRational = !values.weights.empty();
   return net;
+}
+
+JacobianSign signOf(const CellBasis& cell, const ControlNet& net)
+{
+  const std::vector<Coefficient> plain = coefficientsOf(net.control, net.width);
+  const JacobianSign sign = jacobianSign(cell,
+    { cell.basis.domain(), cell.basis.degrees(), plain.data(),
+      net.isRational ? net.weights.data() : nullptr });
+  return sign != JacobianSign::NotFinite && isPoint(plain) ? JacobianSign::Zero : sign;
 }
 
 std::vector<JacobianSign> convertCells(const InputBlocks& blocks,

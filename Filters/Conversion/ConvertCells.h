@@ -29,14 +29,17 @@ struct ControlNet
   std::vector<double> control;
   /// Ones where the cell is not rational.
   std::vector<double> weights;
-  /// NotFinite and Zero: there is no element. Zero also for cells that are points beside the bounds of all input.
-  JacobianSign sign = JacobianSign::NotFinite;
+  bool isRational = false;
 };
 
 /// \param values what readCell() has read, with the field in the unit in which it is wanted
 /// \param unitOfLength divides the coordinates
 ControlNet controlNet(const InputBlocks& blocks, const BlockCell& where, const CellBasis& cell,
   const CellValues& values, double unitOfLength);
+
+/// Of the Jacobian determinant. NotFinite and Zero: there is no element. Zero also for cells that are points beside the
+/// bounds of all input.
+JacobianSign signOf(const CellBasis& cell, const ControlNet& net);
 
 /// Writes the coefficients of all elements, in the given units. Rational cells receive homogeneous coefficients and weights; where a
 /// magnitude is contoured, the coefficients describe its square.

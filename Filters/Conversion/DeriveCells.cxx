@@ -3,6 +3,7 @@
 #include "Conversion/CellValues.h"
 #include "Conversion/ConvertCells.h"
 #include "Conversion/RunUnits.h"
+#include "Elements/DerivativeBounds.h"
 #include "Elements/FieldExpression.h"
 #include "Elements/RangeArithmetic.h"
 #include "Elements/SampledField.h"
@@ -122,12 +123,13 @@ private:
   };
 
   Verdict derive(std::size_t block, const KeptCell& kept, CellValues& values, Found& found) const;
-  Verdict findByProducts(const Derivation& derivation, DerivedCell cell, Found& found) const;
-  Verdict findBySamples(const SourceElement& source, const Derivation& derivation, DerivedCell cell,
-    Found& found) const;
+  Verdict findByProducts(
+    const SourceElement& source, double rounding, DerivedCell cell, Found& found) const;
+  Verdict findBySamples(
+    const SourceElement& source, double rounding, DerivedCell cell, Found& found) const;
   Verdict judge(const Range& range, double slack, int exponent, double& change) const;
   bool straddles(const Range& range, int exponent) const;
-  Range boundsOf(const SourceElement& source, const Derivation& derivation) const;
+  Range boundsOf(const SourceElement& source, const DerivativeBounds& bounds) const;
 
   const InputBlocks& Blocks;
   const std::vector<double>& Isovalues;
@@ -178,34 +180,41 @@ Verdict Deriver::derive(
   }
   const int unit = this->Blocks.quantity() == Quantity::Expression ? 0 : scaleField(values);
   const ControlNet net = controlNet(this->Blocks, where, cell, values, this->UnitOfLength);
+  const SourceElement source{ cell.basis.domain(), cell.basis.degrees(), net.width, net.control,
+    net.weights, net.isRational, coordinateError(this->Blocks[block].grid, net) };
+  const DerivativeBounds bounds(source);
+  const int exponent = orderOf(this->Blocks.quantity()) * (unit - std::ilogb(this->UnitOfLength));
+  const bool canHoldSurface = this->straddles(this->boundsOf(source, bounds), exponent);
+  if (!canHoldSurface && bounds.isRegular())
+  {
+    return Verdict::Drop;
+  }
   DerivedCell derived;
-  derived.sign = net.sign;
-  if (net.sign != JacobianSign::Positive && net.sign != JacobianSign::Negative)
+  derived.exponent = exponent;
+  derived.sign = signOf(cell, net);
+  if (derived.sign != JacobianSign::Positive && derived.sign != JacobianSign::Negative)
   {
     found.cells.push_back(std::move(derived));
     return Verdict::Keep;
   }
-  derived.exponent = orderOf(this->Blocks.quantity()) * (unit - std::ilogb(this->UnitOfLength));
-  const SourceElement source{ cell.basis.domain(), cell.basis.degrees(), net.width, net.control,
-    net.weights, !values.weights.empty(), coordinateError(this->Blocks[block].grid, net) };
-  const Derivation derivation(source, this->Blocks.quantity());
-  if (!this->straddles(this->boundsOf(source, derivation), derived.exponent))
+  if (!canHoldSurface)
   {
     return Verdict::Drop;
   }
+  const double rounding = bounds.rounding(this->Blocks.quantity());
   return this->Way == DerivingBy::Products
-    ? this->findByProducts(derivation, std::move(derived), found)
-    : this->findBySamples(source, derivation, std::move(derived), found);
+    ? this->findByProducts(source, rounding, std::move(derived), found)
+    : this->findBySamples(source, rounding, std::move(derived), found);
 }
 
 /// Bounds of the quantity, or of its square where that is derived. A formula is told of world units.
-Range Deriver::boundsOf(const SourceElement& source, const Derivation& derivation) const
+Range Deriver::boundsOf(const SourceElement& source, const DerivativeBounds& bounds) const
 {
   if (this->Blocks.quantity() != Quantity::Expression)
   {
-    return derivation.bounds();
+    return bounds.of(this->Blocks.quantity());
   }
-  FieldBounds in{ {}, {}, derivation.gradientBounds() };
+  FieldBounds in{ {}, {}, bounds.gradient() };
   for (std::array<Range, 3>& row : in.gradients)
   {
     for (Range& entry : row)
@@ -227,8 +236,10 @@ Range Deriver::boundsOf(const SourceElement& source, const Derivation& derivatio
 }
 
 /// Derives the whole cell, if it can hold surface.
-Verdict Deriver::findByProducts(const Derivation& derivation, DerivedCell cell, Found& found) const
+Verdict Deriver::findByProducts(
+  const SourceElement& source, double rounding, DerivedCell cell, Found& found) const
 {
+  const Derivation derivation(source, this->Blocks.quantity());
   const Degrees most = derivation.degreesAtMost();
   const bool isTooHigh =
     !derivation.isAffine() && *std::max_element(most.begin(), most.end()) > MostOfProducts;
@@ -252,7 +263,7 @@ Verdict Deriver::findByProducts(const Derivation& derivation, DerivedCell cell, 
       range.include(
         element.coefficients[i].w / (element.weights.empty() ? 1.0 : element.weights[i]));
     }
-    const Verdict verdict = this->judge(range, derivation.rounding(), cell.exponent, found.change);
+    const Verdict verdict = this->judge(range, rounding, cell.exponent, found.change);
     if (verdict != Verdict::Keep)
     {
       return verdict;
@@ -264,10 +275,9 @@ Verdict Deriver::findByProducts(const Derivation& derivation, DerivedCell cell, 
 
 /// Derives the parts of the cell that can hold surface.
 Verdict Deriver::findBySamples(
-  const SourceElement& source, const Derivation& derivation, DerivedCell cell, Found& found) const
+  const SourceElement& source, double rounding, DerivedCell cell, Found& found) const
 {
   const std::vector<ReferencePart>& parts = this->Parts[static_cast<std::size_t>(source.domain)];
-  const double rounding = derivation.rounding();
   const bool hasExact = this->Blocks.quantity() == Quantity::Lambda2;
   FieldSampler sampler(
     source, this->Function, rounding, hasExact ? StandIn::Proof : StandIn::Surface);

@@ -84,7 +84,8 @@ vtkSmartPointer<vtkDataArray> sideBySide(
 class NodalGradients
 {
 public:
-  NodalGradients(vtkUnstructuredGrid* grid, vtkDataArray* field, int component)
+  NodalGradients(
+    vtkUnstructuredGrid* grid, vtkDataArray* field, int component, const CellTest& isSound)
     : Grid(grid)
     , Field(field)
     , First(component == InputBlocks::Magnitude ? 0 : component)
@@ -97,9 +98,9 @@ public:
     vtkUnsignedCharArray* ghosts = grid->GetCellGhostArray();
     for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
     {
-      grid->GetCell(c, cell);
-      if (cell->GetCellDimension() == 3 && !isGhostCell(ghosts, c))
+      if (!isGhostCell(ghosts, c) && isSound(grid, c))
       {
+        grid->GetCell(c, cell);
         this->add(cell);
       }
     }
@@ -208,9 +209,9 @@ void NodalGradients::join()
 }
 
 vtkSmartPointer<vtkDataArray> quantityAtNodes(
-  const InputBlock& block, Quantity quantity, int component)
+  const InputBlock& block, Quantity quantity, int component, const CellTest& isSound)
 {
-  const NodalGradients gradients(block.grid, block.scalars, component);
+  const NodalGradients gradients(block.grid, block.scalars, component, isSound);
   const FieldFunction function = functionOf(quantity);
   const auto values = vtkSmartPointer<vtkDoubleArray>::New();
   values->SetName(block.scalars->GetName());
@@ -282,7 +283,7 @@ CheckedBlocks checkExpression(const GatheredBlocks& gathered, const std::string&
   return checked;
 }
 
-CheckedBlocks averagedAtNodes(CheckedBlocks checked, int component)
+CheckedBlocks averagedAtNodes(CheckedBlocks checked, int component, const CellTest& isSound)
 {
   if (checked.quantity == Quantity::Value)
   {
@@ -299,7 +300,7 @@ CheckedBlocks averagedAtNodes(CheckedBlocks checked, int component)
   }
   for (InputBlock& block : checked.sound)
   {
-    block.scalars = quantityAtNodes(block, checked.quantity, component);
+    block.scalars = quantityAtNodes(block, checked.quantity, component, isSound);
   }
   checked.quantity = Quantity::Value;
   return checked;

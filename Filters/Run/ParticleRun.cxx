@@ -9,6 +9,7 @@
 #include "Fast/SlabWorkers.h"
 #include "Input/BlockGroups.h"
 #include "Output/ParticlePacker.h"
+#include "Run/EarlyEnd.h"
 #include "Run/RankBlocks.h"
 #include "Run/Ranks.h"
 #include "Run/RunMessages.h"
@@ -337,7 +338,8 @@ void GroupRun::distributeSlabsOf(
       }
     });
   this->IsSound = this->IsSound && result.isComplete && !this->Caller.isAborted();
-  if (!this->bringSlabsHome(meshes, result.distributions, work.parallelFor, some.distribution))
+  if (!result.isComplete ||
+    !this->bringSlabsHome(meshes, result.distributions, work.parallelFor, some.distribution))
   {
     this->IsSound = false;
   }
@@ -512,6 +514,8 @@ RunResult ParticleRun::run(const InputBlocks& mine) const
   std::vector<std::set<int>> groups;
   result.isComplete =
     allAgree(*exchange, messages.empty()) && this->findGroups(*exchange, blocks, groups);
+  EarlyEnd early(this->Caller);
+  const RunCaller& caller = early.ofAllRanks();
   for (std::size_t g = 0; g < groups.size(); ++g)
   {
     const double share = 1.0 / static_cast<double>(groups.size());
@@ -520,9 +524,9 @@ RunResult ParticleRun::run(const InputBlocks& mine) const
     withThreads(
       [&](const ParallelFor& parallelFor)
       {
-        const Work whole{ { this->Caller.report }, parallelFor };
+        const Work whole{ { caller.report }, parallelFor };
         GroupRun group(
-          *exchange, members, g, this->Properties, this->Scale, this->Caller, this->Previous);
+          *exchange, members, g, this->Properties, this->Scale, caller, this->Previous);
         if (!group.run(whole.part(begin, begin + share), result.counts))
         {
           empty(members);
@@ -530,6 +534,7 @@ RunResult ParticleRun::run(const InputBlocks& mine) const
         }
       });
   }
+  early.settle(*exchange);
   return result;
 }
 

@@ -40,8 +40,9 @@ public:
   void Deactivate();
   ///@}
 
-  /** Tells a program where the textures of this layer and of the front layer are. Both layers must be active. */
-  void SetSamplers(vtkShaderProgram* program, const SplatLayer& front) const;
+  /** Tells a program that resolves the sums where those of this layer and of the front layer are. Both must be active. */
+  void SetUniforms(
+    vtkShaderProgram* program, const SplatLayer& front, const SplatDrawing& drawing) const;
 
   void ReleaseGraphicsResources(vtkWindow* window);
 

@@ -25,6 +25,8 @@
 #include "Common/VtkThreads.h"
 #include "Conversion/GridElements.h"
 #include "DistributionMeasures.h"
+#include "Elements/CornerNumbers.h"
+#include "Elements/GatheredMesh.h"
 #include "Fast/FastDistribution.h"
 #include "Measurement.h"
 #include "Output/ParticlePacker.h"
@@ -153,6 +155,17 @@ hop::InputBlocks blocksOf(const Request& request, vtkPolyData* output)
   return hop::InputBlocks({ { request.grid, array, output, "" } }, 0);
 }
 
+/// Puts elements into the order in which the filter distributes particles on them.
+void orderAsTheFilter(hop::ElementMesh& mesh, const hop::ParallelFor& parallelFor)
+{
+  hop::GatheredMesh all;
+  all.homes.resize(mesh.elements.size());
+  all.mesh = std::move(mesh);
+  hop::orderCanonically(all, parallelFor);
+  mesh = std::move(all.mesh);
+  hop::joinElements(mesh, parallelFor);
+}
+
 void runStages(const Request& request, Stages& stages)
 {
   const vtkNew<vtkPolyData> output;
@@ -165,6 +178,7 @@ void runStages(const Request& request, Stages& stages)
     {
       stages.elements = hop::buildGridElements(
         blocks, hop::NodeSpacing::Uniform, { request.isovalue }, parallelFor);
+      orderAsTheFilter(stages.elements.mesh, parallelFor);
     });
   stages.surface = { &stages.elements.mesh, stages.elements.fieldIsovalue(request.isovalue),
     tolerancePerDiagonal * vtkBoundingBox(request.grid->GetBounds()).GetDiagonalLength() };

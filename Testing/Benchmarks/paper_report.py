@@ -9,6 +9,7 @@ other work, processor times are the ones to compare. REPORT.md and its PNGs are 
 import argparse
 import json
 import resource
+import signal
 import subprocess
 from pathlib import Path
 
@@ -49,7 +50,11 @@ def measure(program, limit, **arguments):
     command = [program] + [f"{key}={value}" for key, value in arguments.items()]
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                           preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit, limit)))
-    return json.loads(done.stdout) if done.returncode == 0 else None
+    if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
+        return None
+    if done.returncode != 0:
+        raise RuntimeError(f"{' '.join(command)}: {done.stderr.decode()}")
+    return json.loads(done.stdout)
 
 
 def runs_of(asked, found):

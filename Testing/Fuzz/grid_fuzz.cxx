@@ -7,7 +7,8 @@
 //
 // A recipe fails if its process ends, if a run of the filter takes more than `limit` seconds of processor time or is
 // silent for a tenth of that, or if OutputJudge.h complains; of every fourth seed, if another number of threads gives
-// another bit. Recipes that fail are shrunk and printed as lines for such a file. The exit status is 1 if one fails.
+// another bit. Recipes that fail are printed at once as lines for such a file; at the end the first one of each kind of
+// complaint is shrunk, for a minute at most. The exit status is 1 if one fails.
 
 #include "FilterSession.h"
 #include "GridRecipe.h"
@@ -21,6 +22,7 @@
 #include <chrono>
 #include <cstdio>
 #include <fstream>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -39,6 +41,16 @@ struct Options
   bool isList = false;
   std::string file;
 };
+
+/// A recipe that has failed.
+struct Report
+{
+  GridRecipe recipe;
+  std::string complaint;
+};
+
+/// The first of each kind of complaint; see kindOf().
+using Reports = std::map<std::string, Report>;
 
 /// Recipes that one child process runs before it looks for leaks.
 constexpr std::size_t Batch = 20;
@@ -135,9 +147,9 @@ GridRecipe shrunk(GridRecipe recipe, const std::string& complaint, double limit)
   return recipe;
 }
 
-/// \return how many have failed
-std::size_t report(
-  const std::vector<GridRecipe>& recipes, const std::vector<Failure>& failures, double limit)
+/// Prints failures, and keeps those of a new kind.
+void report(
+  const std::vector<GridRecipe>& recipes, const std::vector<Failure>& failures, Reports& kept)
 {
   for (const auto& [item, complaint] : failures)
   {
@@ -148,12 +160,22 @@ std::size_t report(
         static_cast<unsigned long long>(recipes.back().seed()), complaint.c_str());
       continue;
     }
-    std::printf("# %s: %s\n", recipes[item].text().c_str(), complaint.c_str());
-    std::fflush(stdout);
-    std::printf("%s\n", shrunk(recipes[item], complaint, limit).text().c_str());
+    std::printf("# %s\n%s\n", complaint.c_str(), recipes[item].text().c_str());
+    kept.try_emplace(kindOf(complaint), Report{ recipes[item], complaint });
   }
   std::fflush(stdout);
-  return failures.size();
+}
+
+void shrinkAll(const Reports& kept, double limit)
+{
+  for (const auto& [kind, first] : kept)
+  {
+    const GridRecipe simplest = shrunk(first.recipe, first.complaint, limit);
+    std::printf("# shrunk from seed %llu: %s\n%s\n",
+      static_cast<unsigned long long>(first.recipe.seed()), first.complaint.c_str(),
+      simplest.text().c_str());
+    std::fflush(stdout);
+  }
 }
 
 std::vector<GridRecipe> recipesOf(const std::string& file)
@@ -234,9 +256,12 @@ int main(int count, char** words)
   }
   std::size_t grids = 0, failed = 0;
   Tally tally;
+  Reports kept;
   const auto run = [&](const std::vector<GridRecipe>& recipes)
   {
-    failed += report(recipes, tryAll(recipes, options.limit, tally), options.limit);
+    const std::vector<Failure> failures = tryAll(recipes, options.limit, tally);
+    report(recipes, failures, kept);
+    failed += failures.size();
     grids += recipes.size();
   };
   if (!options.file.empty())
@@ -248,6 +273,7 @@ int main(int count, char** words)
     run(recipesOf(seed, std::min<std::uint64_t>(options.to, seed + Batch)));
     std::fprintf(stderr, "up to seed %llu\n", static_cast<unsigned long long>(seed + Batch));
   }
+  shrinkAll(kept, options.limit);
   std::printf("# %zu recipes, %lld runs, %lld of them with %lld points, %zu recipes failed\n",
     grids, static_cast<long long>(tally.runs), static_cast<long long>(tally.runsWithPoints),
     static_cast<long long>(tally.points), failed);

@@ -627,6 +627,27 @@ def test_point_ids_outside_the_grid_in_the_first_cell(good, id):
     assert particles.GetNumberOfPoints() > 400
 
 
+AVERAGES = {"Quantity": "Gradient Magnitude", "Derivatives": "Averaged At Nodes"}
+
+
+def test_averages_leave_out_point_counts_that_fit_no_degree(good):
+    """VTK's own cell would end the program."""
+    good.InsertNextCell(VTK_LAGRANGE_HEXAHEDRON, 26, list(range(26)))
+    particles, messages = support.run(good, **{**SPHERE, **AVERAGES, "isovalues": 0.9})
+    assert_one_warning(messages, "1 cell of type vtkLagrangeHexahedron skipped", "fits no degree")
+    assert particles.GetNumberOfPoints() > 0
+    assert_clean(particles)
+
+
+@pytest.mark.parametrize("id", [-1, 10**6])
+def test_averages_leave_out_point_ids_outside_the_grid(good, id):
+    good.GetCells().GetConnectivityArray().SetTuple1(4 * 27 + 5, id)
+    particles, messages = support.run(good, **{**SPHERE, **AVERAGES, "isovalues": 0.9})
+    assert_one_warning(messages, "1 cell skipped", "point ids outside the grid", "first: cell 4")
+    assert particles.GetNumberOfPoints() > 0
+    assert_clean(particles)
+
+
 # Shapes
 
 

@@ -368,6 +368,26 @@ def test_says_where_the_quantity_is_not_smooth():
     assert any("not smooth enough" in text for text in messages.warnings)
 
 
+@pytest.mark.parametrize("name", ["TETRA", "HEXAHEDRON", "LAGRANGE_TETRAHEDRON", "LAGRANGE_HEXAHEDRON", "LAGRANGE_WEDGE"])
+@pytest.mark.parametrize("isovalue", [0.1, 1e9])
+def test_counts_flat_cells_in_any_plane(name, isovalue):
+    """The derivatives of a flat cell are no numbers: no bound of them tells that it holds no surface."""
+    sound = cells.straight_grid(name, order=2, blocks=1)
+    points = support.points_of(sound)
+    flat = cells.straight_grid(name, order=2, blocks=1)
+    normal = np.array([0.36, 0.48, 0.8])
+    cells.set_points(flat, points - np.outer(points @ normal, normal) + [0.1, 0.7, 0.3])
+    for grid in (sound, flat):
+        support.add_point_array(grid, "f", points[:, 0])
+    both = cells.append([sound, flat])
+    support.add_point_array(both, "u", np.tile(np.sin(3.0 * points[:, [1, 2, 0]]), (2, 1)))
+    particles, messages = support.run(both, "u", isovalue, Quantity="Q Criterion", Spacing=0.2)
+    count = flat.GetNumberOfCells()
+    assert messages.errors == []
+    assert any(f"{count} cell" in text and "without volume" in text for text in messages.warnings)
+    assert support.reported(particles, "CellsSkipped") == count
+
+
 def test_constant_gradients_are_no_surface():
     grid = cells.straight_grid("LAGRANGE_HEXAHEDRON", order=2, blocks=2)
     support.add_point_array(grid, "u", support.points_of(grid))

@@ -69,7 +69,9 @@ def silhouette(grid, offset, path):
     size = [1024, 400]
     particles, _ = make_filter(grid, "u", offset, Spacing=0.08)
     view = simple.CreateRenderView(ViewSize=size, OrientationAxesVisibility=0, CameraParallelProjection=1)
-    view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [4, 9, 0], [4, 0, 0], [0, 0, 1]
+    # Half a pixel from the middle: no end of a beam then runs through the middles of a column of pixels, where rounding
+    # would decide whether they are covered. From x = 4 on the bent end lies 0.015 pixels beside them.
+    view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [4.004, 9, 0], [4.004, 0, 0], [0, 0, 1]
     view.CameraParallelScale = 1.7
     display = simple.Show(particles, view, ColorArrayName=["POINTS", ""], Ambient=1, Diffuse=0)
     display.SetRepresentationType("Surface Splats")
@@ -79,10 +81,9 @@ def silhouette(grid, offset, path):
 
 def test_splats_end_where_the_beam_ends(beam, tmp_path):
     """Where the surface is within rounding of faces, its boundary curves run within rounding of the edges of cells."""
-    grid, is_bent = beam
+    grid, _ = beam
     clear = silhouette(grid, 1e-6, tmp_path / "clear.png")
     assert clear.sum() > 80000
     for offset in (0.0, 1e-13, 3e-12, 1e-11):
         near = silhouette(grid, offset, tmp_path / "near.png")
-        # A bent beam ends where it is seen almost edge-on.
-        assert (clear != near).sum() <= (300 if is_bent else 0), offset
+        assert (near == clear).all(), f"no hole and nothing beyond the end at {offset}"

@@ -19,7 +19,7 @@ SHELL_CELLS = 236
 # Every rank runs this script, and writes case by case what it has: the particles' places and arrays, and what the
 # filter said.
 SCRIPT = """
-import json, os, sys
+import json, os, sys, time
 import numpy as np
 from paraview import servermanager, simple
 from paraview.vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -171,6 +171,29 @@ def warm(grid):
     return run(surface)
 
 
+def called_off(grid):
+    # Rank 1 is aborted while rank 0 is in the middle of a step. Says what rank 0 reports afterwards.
+    surface = filter_of(grid, Spacing=0.025, ParticlesPerWorker=2000)
+    algorithm = surface.GetClientSideObject()
+    flag, later = f"{folder}/called-off", []
+
+    def hear(*_):
+        if later or algorithm.GetProgress() > 0.15:
+            if rank == 1:
+                algorithm.SetAbortExecute(1)
+                open(flag, "w").close()
+                return
+            while not os.path.exists(flag):
+                time.sleep(0.01)
+            time.sleep(0.2)  # the message is on its way
+            later.append(algorithm.GetProgress())
+
+    algorithm.AddObserver("ProgressEvent", hear)
+    output = run(surface)
+    messages[:] = [str(fraction) for fraction in later if fraction < 1]
+    return output
+
+
 def nodes_of_cells(grid):
     # Coordinates and values; + 0.0 makes zeros of negative ones.
     nodes = np.column_stack([support.points_of(grid), support.array_of(grid, "u")]) + 0.0
@@ -237,6 +260,9 @@ cases = {
 }
 if os.path.exists(redistributed):
     cases["redistributed"] = lambda: run(filter_of(whole(redistributed)))
+if ranks == 2:
+    cases["called off"] = lambda: called_off(scattered(grid))
+    cases["after that"] = lambda: run(filter_of(scattered(grid)))
 if ranks > 1:
     cases["no array"] = lambda: run(filter_of(without_array_here(scattered(grid))))
 
@@ -400,6 +426,14 @@ def test_a_given_number_is_that_of_all_ranks(runs, ranks):
 @pytest.mark.parametrize("ranks", RANKS)
 def test_an_abort_on_one_rank_ends_the_run_on_all(runs, case, ranks):
     assert runs[ranks].counts(case) == [0] * ranks
+
+
+def test_an_abort_ends_other_ranks_in_the_middle_of_their_step(runs):
+    assert runs[2].counts("called off") == [0, 0]
+    reports = json.loads((runs[2].folder / "0.json").read_text())["called off"]
+    assert 0 < len(reports) < 5 and float(reports[-1]) < 0.5
+    # No message is left that would end the next run.
+    assert np.array_equal(runs[2].particles("after that"), runs[1].particles("scattered"))
 
 
 def test_several_workers_have_about_as_many_particles_as_one(runs):

@@ -17,9 +17,6 @@ struct ClassicParticle
   /// Step lengths lambda in units of h^2; the paper divides and multiplies them by ten. In hexagonal packing the second
   /// derivative of the energy along the surface is about 4.5/h^2, so that a Newton step has lambda = 0.22.
   static constexpr double InitialLambda = 0.2;
-  /// Keeps lambda finite at particles that hardly feel a force: the paper has no bound, as steps beyond h are rejected
-  /// and cost no evaluation. Larger: more such rejections; smaller: small forces move particles less.
-  static constexpr double LargestLambda = 2e3;
   /// The step length of a particle whose energy no try has lowered: it stays where it is. Chosen by experiment: a
   /// ten-thousandth of h a unit of force.
   static constexpr double SmallestLambda = 1e-4;

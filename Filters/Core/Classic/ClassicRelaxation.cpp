@@ -1,7 +1,5 @@
 #include "Classic/ClassicRelaxation.h"
 
-#include <algorithm>
-
 namespace hop
 {
 namespace
@@ -62,7 +60,8 @@ EnergyAndForce interact(
   return sum;
 }
 
-/// Moves particle i by the first of ever shorter steps that lowers its energy. Steps longer than h are not tried.
+/// Moves particle i by the first of ever shorter steps that lowers its energy. Steps longer than h are not tried. So
+/// lambda, which has no bound, stays below ten steps of h under the least force.
 void relax(ClassicParticles& particles, std::size_t i)
 {
   const ClassicParticle start = particles.movers[i];
@@ -91,8 +90,7 @@ void relax(ClassicParticles& particles, std::size_t i)
     if (energy < here.energy)
     {
       trial.energy = energy;
-      trial.lambda =
-        isFirstTry ? std::min(ClassicParticle::LargestLambda, LambdaFactor::Grow * lambda) : lambda;
+      trial.lambda = isFirstTry ? LambdaFactor::Grow * lambda : lambda;
       particles.movers[i] = trial;
       return;
     }

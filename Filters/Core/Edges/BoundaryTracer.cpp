@@ -193,15 +193,21 @@ std::optional<BoundaryPoint> BoundaryTracer::project(
   }
   ActiveFaces held;
   held.add(found);
-  return BoundaryPoint{ this->polished(at, held), found };
+  return BoundaryPoint{ this->polished(at, held, maximumTravel), found };
 }
 
 /// A rough point after more of Newton's method along the faces that hold it. Steps are long where the surface is nearly
-/// tangent to a face, and the field may have changed there: only at the end of a long step it is evaluated.
-Evaluated BoundaryTracer::polished(Evaluated at, const ActiveFaces& held)
+/// tangent to a face, and the field may have changed there: only at the end of a long step it is evaluated. Where the
+/// surface all but lies in the face, all of the edge is within the tolerance, and such a step would lead to another
+/// place of the curve.
+/// \param farthest length of the chord that led to the point
+Evaluated BoundaryTracer::polished(Evaluated at, const ActiveFaces& held, double farthest)
 {
   constexpr double longStep =
     2.0; // in units of the tolerance; chosen by experiment, a smaller one costs evaluations
+  // Of the chord. With a larger one curves along edges of elements end where F is c to the last bit; a smaller one
+  // leaves rough points.
+  constexpr double longestShare = 0.25;
   constexpr int mostSteps = 4; // where that is not enough, the point stays as it is
   const Domain domain = this->Surface.mesh->elements[at.location.element].domain;
   for (int n = 0; this->IsRough && n < mostSteps; ++n)
@@ -216,6 +222,10 @@ Evaluated BoundaryTracer::polished(Evaluated at, const ActiveFaces& held)
       return at;
     }
     const WorldVector step = (-point.value / rate) * along;
+    if (length(step) > longestShare * farthest)
+    {
+      return at;
+    }
     if (length(step) <= longStep * this->Surface.tolerance)
     {
       at.location.u = at.location.u + du;
@@ -269,7 +279,7 @@ std::optional<Evaluated> BoundaryTracer::projectAlongEdge(
     }
     if (std::abs(at.point.value) <= this->Surface.tolerance * slope)
     {
-      return this->polished(at, edge);
+      return this->polished(at, edge, maximumTravel);
     }
     const WorldVector along = at.point.map.push({ direction });
     const double rate = dot(along, at.point.gradient);
@@ -507,10 +517,12 @@ bool BoundaryTracer::staysOnFace(const BoundaryPoint& from, const BoundaryPoint&
 }
 
 /// The face of a point, and another one that holds the point and that a step leaves by no more than rounding: where the
-/// surface all but lies in that face, the curve runs along it. Where the surface lies in the face, the edge is passed.
-ActiveFaces BoundaryTracer::facesAlong(const BoundaryPoint& from, const ReferenceVector& step) const
+/// surface all but lies in that face, the curve runs along it. Where the surface lies in the face, the edge is passed,
+/// but for a curve that has just passed an edge without moving: the element behind might send it back.
+ActiveFaces BoundaryTracer::facesAlong(const Heading& heading, const ReferenceVector& step) const
 {
   constexpr double inFace = 1e-14; // half-space value: rounding of places on a face
+  const BoundaryPoint& from = heading.here;
   const Location& here = from.at.location;
   ActiveFaces faces;
   faces.add(from.face);
@@ -518,7 +530,8 @@ ActiveFaces BoundaryTracer::facesAlong(const BoundaryPoint& from, const Referenc
   {
     const ReferenceVector& inward = this->Surface.mesh->face(here.element, f).inward;
     if (f != from.face && isOnFace(*this->Surface.mesh, here, f) &&
-      faceMargin(this->Surface.mesh->face(here.element, f), here.u) > inFace &&
+      (heading.standsStill ||
+        faceMargin(this->Surface.mesh->face(here.element, f), here.u) > inFace) &&
       std::abs(dot(inward, step)) < OnFace)
     {
       faces.add(f);
@@ -533,7 +546,7 @@ BoundaryTracer::Ahead BoundaryTracer::advance(const Heading& heading, double ste
   const BoundaryPoint& from = heading.here;
   const Domain domain = this->Surface.mesh->elements[from.at.location.element].domain;
   const ReferenceVector du = this->predict(heading, step);
-  const Exit exit = findExit(domain, from.at.location.u, du, this->facesAlong(from, du));
+  const Exit exit = findExit(domain, from.at.location.u, du, this->facesAlong(heading, du));
   const ReferencePoint u = from.at.location.u + exit.fraction * du;
   if (exit.face >= 0)
   {
@@ -596,7 +609,8 @@ bool BoundaryTracer::follow(const BoundaryPoint& start, double step, double dire
   {
     askCaller(parallelFor);
     const ReferenceVector velocity = this->velocity(here);
-    const auto next = this->advanceAtMost(chord, step, { here, velocity, direction, before });
+    const auto next =
+      this->advanceAtMost(chord, step, { here, velocity, direction, before, standstills > 0 });
     if (!next)
     {
       break;

@@ -189,6 +189,8 @@ private:
     ReferenceVector velocity;
     double direction = 1.0;
     std::optional<Passed> before;
+    /// Whether the latest chord did not move.
+    bool standsStill = false;
   };
 
   /// A place on an edge of the mesh, on the way around the edge from one element to the next.
@@ -208,7 +210,7 @@ private:
   std::optional<BoundaryVertex> advanceAtMost(double& chord, double step, const Heading& heading);
   Ahead advance(const Heading& heading, double step);
   ReferenceVector predict(const Heading& heading, double step) const;
-  ActiveFaces facesAlong(const BoundaryPoint& from, const ReferenceVector& step) const;
+  ActiveFaces facesAlong(const Heading& heading, const ReferenceVector& step) const;
   bool staysOnFace(const BoundaryPoint& from, const BoundaryPoint& to) const;
   Ahead passEdge(const BoundaryPoint& from, const ReferencePoint& u, int otherFace, double step);
   std::optional<Evaluated> projectAlongEdge(
@@ -216,7 +218,7 @@ private:
   std::optional<BoundaryPoint> walkAroundEdge(const Evaluated& at, int boundaryFace, int face);
   std::optional<BoundaryPoint> crossAtEdge(EdgeWalk& walk);
   void lookAtCrease(const Location& here, int face, const Location& there);
-  Evaluated polished(Evaluated at, const ActiveFaces& held);
+  Evaluated polished(Evaluated at, const ActiveFaces& held, double farthest);
   std::vector<std::int64_t> cornersOf(const Location& location, int face) const;
   std::vector<std::int64_t> edgeBetween(const Location& location, int faceA, int faceB) const;
   int faceCount(const Location& location) const;

@@ -3,8 +3,8 @@
 #include "Elements/LatticeRows.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace hop
@@ -93,12 +93,18 @@ ScaledPolynomial one(Domain domain, const Degrees& degrees)
 
 /// A lattice point's numbers in a simplex of its domain: along its axes, then the rest up to the degree, which belongs to
 /// b = 1 - u (- v - w).
-std::vector<int> barycentric(
+std::array<int, 4> barycentric(
   const SimplexFactor& factor, const Degrees& degrees, const LatticePoint& point)
 {
   const std::array<int, 3> index{ point.i, point.j, point.k };
-  std::vector<int> result(index.begin() + factor.axis, index.begin() + factor.end());
-  result.push_back(degrees[factor.axis] - std::accumulate(result.begin(), result.end(), 0));
+  std::array<int, 4> result{};
+  int rest = degrees[factor.axis];
+  for (int n = 0; n < factor.dimension; ++n)
+  {
+    result[n] = index[factor.axis + n];
+    rest -= result[n];
+  }
+  result[factor.dimension] = rest;
   return result;
 }
 
@@ -111,45 +117,100 @@ LatticePoint oneMore(const SimplexFactor& factor, LatticePoint point, int number
     point.k + step * (axis == 2) };
 }
 
-/// The quotient of a polynomial and 1 = u (+ v + w) + b in a simplex of its domain: of one degree less there. What the
-/// division leaves over is dropped. A coefficient p_a of the product is the sum of all quotient's q_(a - e_k), so that
-/// each q follows from those nearer to a corner of the simplex; starting at the nearest corner errors hardly grow.
-/// \pre the degree is positive
-ScaledPolynomial dividedByOne(const ScaledPolynomial& polynomial, const SimplexFactor& factor)
+/// A zero polynomial of one degree less in a simplex of its domain.
+ScaledPolynomial oneDegreeLess(const ScaledPolynomial& polynomial, const SimplexFactor& factor)
 {
-  const Domain domain = polynomial.domain;
-  ScaledPolynomial result{ domain, polynomial.degrees, {} };
+  ScaledPolynomial result{ polynomial.domain, polynomial.degrees, {} };
   for (int a = factor.axis; a < factor.end(); ++a)
   {
     --result.degrees[a];
   }
-  const std::vector<LatticePoint> points = latticePoints(domain, result.degrees);
-  result.values.resize(points.size());
+  result.values.resize(coefficientCount(result.domain, result.degrees));
+  return result;
+}
+
+/// The quotient of a polynomial and 1 = u (+ v + w) + b in a triangle or tetrahedron of its domain: of one degree less
+/// there. What the division leaves over is dropped. A coefficient p_a of the product is the sum of all quotient's
+/// q_(a - e_k), so that each q follows from those nearer to a corner of the simplex; starting at the nearest corner
+/// errors hardly grow.
+/// \pre the degree is positive
+ScaledPolynomial dividedByOne(const ScaledPolynomial& polynomial, const SimplexFactor& factor)
+{
+  const Domain domain = polynomial.domain;
+  ScaledPolynomial result = oneDegreeLess(polynomial, factor);
+  const auto quotientAt =
+    [&](const LatticePoint& point, const std::array<int, 4>& numbers, int corner)
+  {
+    const LatticePoint upper = oneMore(factor, point, corner);
+    double value = polynomial.values[coefficientIndex(domain, polynomial.degrees, upper)];
+    for (int other = 0; other <= factor.dimension; ++other)
+    {
+      const LatticePoint step = oneMore(factor, {}, other);
+      const LatticePoint before{ upper.i - step.i, upper.j - step.j, upper.k - step.k };
+      if (other != corner && numbers[other] > 0)
+      {
+        value -= result.values[coefficientIndex(domain, result.degrees, before)];
+      }
+    }
+    return value;
+  };
   for (int largest = result.degrees[factor.axis]; largest >= 0; --largest)
   {
-    for (std::size_t n = 0; n < points.size(); ++n)
-    {
-      const std::vector<int> numbers = barycentric(factor, result.degrees, points[n]);
-      const auto most = std::max_element(numbers.begin(), numbers.end());
-      if (*most != largest)
+    std::size_t n = 0;
+    visitLatticePoints(domain, result.degrees,
+      [&](const LatticePoint& point)
       {
-        continue;
-      }
-      const int corner = static_cast<int>(most - numbers.begin());
-      const LatticePoint upper = oneMore(factor, points[n], corner);
-      double value = polynomial.values[coefficientIndex(domain, polynomial.degrees, upper)];
-      for (int other = 0; other <= factor.dimension; ++other)
-      {
-        const LatticePoint step = oneMore(factor, {}, other);
-        const LatticePoint before{ upper.i - step.i, upper.j - step.j, upper.k - step.k };
-        if (other != corner && numbers[other] > 0)
+        const std::array<int, 4> numbers = barycentric(factor, result.degrees, point);
+        const auto end = numbers.begin() + factor.dimension + 1;
+        const auto most = std::max_element(numbers.begin(), end);
+        if (*most == largest)
         {
-          value -= result.values[coefficientIndex(domain, result.degrees, before)];
+          result.values[n] = quotientAt(point, numbers, static_cast<int>(most - numbers.begin()));
         }
-      }
-      result.values[n] = value;
-    }
+        ++n;
+      });
   }
+  return result;
+}
+
+/// Calls visit(start) for every line of the lattice along an axis that is a factor of its own.
+template <class Visit>
+void visitLines(const ScaledPolynomial& polynomial, int axis, const Visit& visit)
+{
+  Degrees ends = polynomial.degrees;
+  ends[axis] = 0;
+  visitLatticePoints(polynomial.domain, ends, visit);
+}
+
+/// Distance of coefficients that are neighbours on such a line.
+int stepAlong(const ScaledPolynomial& polynomial, int axis)
+{
+  return coefficientIndex(
+    polynomial.domain, polynomial.degrees, { axis == 0, axis == 1, axis == 2 });
+}
+
+/// dividedByOne() along a line: from both of its ends to the middle.
+ScaledPolynomial dividedByOneAlong(const ScaledPolynomial& polynomial, int axis)
+{
+  const Domain domain = polynomial.domain;
+  ScaledPolynomial result = oneDegreeLess(polynomial, factorOf(domain, axis));
+  const int degree = result.degrees[axis];
+  const int pStep = stepAlong(polynomial, axis);
+  const int qStep = stepAlong(result, axis);
+  visitLines(polynomial, axis,
+    [&](const LatticePoint& start)
+    {
+      const double* p = &polynomial.values[coefficientIndex(domain, polynomial.degrees, start)];
+      double* q = &result.values[coefficientIndex(domain, result.degrees, start)];
+      for (int i = degree; 2 * i >= degree; --i)
+      {
+        q[i * qStep] = p[(i + 1) * pStep] - (i < degree ? q[(i + 1) * qStep] : 0.0);
+      }
+      for (int i = 0; 2 * i < degree; ++i)
+      {
+        q[i * qStep] = p[i * pStep] - (i > 0 ? q[(i - 1) * qStep] : 0.0);
+      }
+    });
   return result;
 }
 
@@ -158,56 +219,47 @@ ScaledPolynomial dividedByOne(const ScaledPolynomial& polynomial, const SimplexF
 /// and Reif 1999, Polynomial degree reduction in the L2-norm equals best Euclidean approximation of Bezier coefficients).
 ScaledPolynomial nearestOfLowerDegree(ScaledPolynomial polynomial, int axis)
 {
-  const Domain domain = polynomial.domain;
   const int n = polynomial.degrees[axis];
   // In the scaled basis the coefficients are C(n,i) a_i, and what is taken away is (-1)^i C(n,i)^2.
-  std::vector<double> binomials;
   double norm2 = 0.0;
   for (int i = 0; i <= n; ++i)
   {
-    binomials.push_back(binomial(n, i));
-    norm2 += binomials.back() * binomials.back();
+    norm2 += binomial(n, i) * binomial(n, i);
   }
-  for (const LatticePoint& start : latticePoints(domain, polynomial.degrees))
-  {
-    const std::array<int, 3> index{ start.i, start.j, start.k };
-    if (index[axis] != 0)
+  const int step = stepAlong(polynomial, axis);
+  visitLines(polynomial, axis,
+    [&](const LatticePoint& start)
     {
-      continue;
-    }
-    const auto at = [&](int i) -> double&
-    {
-      const LatticePoint point{ start.i + i * (axis == 0), start.j + i * (axis == 1),
-        start.k + i * (axis == 2) };
-      return polynomial.values[coefficientIndex(domain, polynomial.degrees, point)];
-    };
-    double difference = 0.0;
-    for (int i = 0; i <= n; ++i)
-    {
-      difference += (i % 2 == 0 ? 1.0 : -1.0) * at(i);
-    }
-    for (int i = 0; i <= n; ++i)
-    {
-      at(i) -= (i % 2 == 0 ? 1.0 : -1.0) * binomials[i] * binomials[i] * difference / norm2;
-    }
-  }
+      double* line =
+        &polynomial.values[coefficientIndex(polynomial.domain, polynomial.degrees, start)];
+      double difference = 0.0;
+      for (int i = 0; i <= n; ++i)
+      {
+        difference += (i % 2 == 0 ? 1.0 : -1.0) * line[i * step];
+      }
+      for (int i = 0; i <= n; ++i)
+      {
+        line[i * step] -=
+          (i % 2 == 0 ? 1.0 : -1.0) * binomial(n, i) * binomial(n, i) * difference / norm2;
+      }
+    });
   return polynomial;
 }
 
-/// Largest difference of Bernstein coefficients of two polynomials of the same degrees.
-double largestDifference(const ScaledPolynomial& a, const ScaledPolynomial& b)
+/// Whether some Bernstein coefficients of two polynomials of the same degrees differ by more than a tolerance.
+bool differ(const ScaledPolynomial& a, const ScaledPolynomial& b, double tolerance)
 {
-  ScaledPolynomial difference = a;
-  for (std::size_t i = 0; i < b.values.size(); ++i)
-  {
-    difference.values[i] -= b.values[i];
-  }
-  double largest = 0.0;
-  for (const double value : unscaled(std::move(difference)))
-  {
-    largest = std::max(largest, std::abs(value));
-  }
-  return largest;
+  bool result = false;
+  std::size_t n = 0;
+  visitLatticePoints(a.domain, a.degrees,
+    [&](const LatticePoint& point)
+    {
+      result = result ||
+        std::abs((a.values[n] - b.values[n]) / multiplicity(a.domain, a.degrees, point)) >
+          tolerance;
+      ++n;
+    });
+  return result;
 }
 
 } // namespace
@@ -215,20 +267,17 @@ double largestDifference(const ScaledPolynomial& a, const ScaledPolynomial& b)
 ScaledPolynomial scaled(Domain domain, const Degrees& degrees, std::vector<double> coefficients)
 {
   auto value = coefficients.begin();
-  for (const LatticePoint& point : latticePoints(domain, degrees))
-  {
-    *value++ *= multiplicity(domain, degrees, point);
-  }
+  visitLatticePoints(domain, degrees,
+    [&](const LatticePoint& point) { *value++ *= multiplicity(domain, degrees, point); });
   return { domain, degrees, std::move(coefficients) };
 }
 
 std::vector<double> unscaled(ScaledPolynomial polynomial)
 {
   auto value = polynomial.values.begin();
-  for (const LatticePoint& point : latticePoints(polynomial.domain, polynomial.degrees))
-  {
-    *value++ /= multiplicity(polynomial.domain, polynomial.degrees, point);
-  }
+  visitLatticePoints(polynomial.domain, polynomial.degrees,
+    [&](const LatticePoint& point)
+    { *value++ /= multiplicity(polynomial.domain, polynomial.degrees, point); });
   return std::move(polynomial.values);
 }
 
@@ -245,9 +294,10 @@ ScaledPolynomial lowered(ScaledPolynomial polynomial, double tolerance)
   {
     while (polynomial.degrees[factor.axis] > 0)
     {
-      ScaledPolynomial lower = dividedByOne(
-        factor.dimension == 1 ? nearestOfLowerDegree(polynomial, factor.axis) : polynomial, factor);
-      if (largestDifference(elevated(lower, polynomial.degrees), polynomial) > tolerance)
+      ScaledPolynomial lower = factor.dimension == 1
+        ? dividedByOneAlong(nearestOfLowerDegree(polynomial, factor.axis), factor.axis)
+        : dividedByOne(polynomial, factor);
+      if (differ(elevated(lower, polynomial.degrees), polynomial, tolerance))
       {
         break;
       }
@@ -267,24 +317,20 @@ ScaledPolynomial derivative(const ScaledPolynomial& polynomial, int axis)
     result.values.assign(polynomial.values.size(), 0.0);
     return result;
   }
-  for (int a = factor.axis; a < factor.end(); ++a)
-  {
-    --result.degrees[a];
-  }
+  result = oneDegreeLess(polynomial, factor);
   // In the scaled basis: d/du of s u^i v^j b^l, with b = 1 - u - v of degree l = p - i - j.
-  for (const LatticePoint& point : latticePoints(domain, result.degrees))
-  {
-    const std::array<int, 3> index{ point.i, point.j, point.k };
-    int rest = result.degrees[axis];
-    for (int a = factor.axis; a < factor.end(); ++a)
+  const auto at = [&](const LatticePoint& place)
+  { return polynomial.values[coefficientIndex(domain, polynomial.degrees, place)]; };
+  auto value = result.values.begin();
+  visitLatticePoints(domain, result.degrees,
+    [&](const LatticePoint& point)
     {
-      rest -= index[a];
-    }
-    const LatticePoint next{ point.i + (axis == 0), point.j + (axis == 1), point.k + (axis == 2) };
-    const auto at = [&](const LatticePoint& place)
-    { return polynomial.values[coefficientIndex(domain, polynomial.degrees, place)]; };
-    result.values.push_back((index[axis] + 1) * at(next) - (rest + 1) * at(point));
-  }
+      const std::array<int, 4> numbers = barycentric(factor, result.degrees, point);
+      const int along = numbers[axis - factor.axis];
+      const int rest = numbers[factor.dimension];
+      const LatticePoint next = oneMore(factor, point, axis - factor.axis);
+      *value++ = (along + 1) * at(next) - (rest + 1) * at(point);
+    });
   return result;
 }
 

@@ -1,12 +1,11 @@
 #include "Elements/DerivedField.h"
 
-#include "Elements/RangeArithmetic.h"
+#include "Elements/LatticeRows.h"
 
 #include <glm/glm.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -25,8 +24,6 @@ struct RoundingShare
   /// Of the largest coefficient: what the determinant leaves in a face where it vanishes. Chosen between rounding, some
   /// 1e-15, and the least value that a determinant has in cells that are not collapsed.
   static constexpr double CollapsedFace = 1e-11;
-  /// Of the products of the largest derivatives.
-  static constexpr double Field = 1e-13;
   /// Of the largest coefficient of a gradient, a determinant, a numerator or a denominator: their degrees are lowered
   /// as far as this allows, in several steps. Smaller: bent elements of degree 4 cost up to ten times as much; larger:
   /// particles are off their isovalue by as much.
@@ -35,8 +32,6 @@ struct RoundingShare
 
 /// Highest degree that the products may have before their degrees are lowered. Larger: a cell takes seconds to derive.
 constexpr int MostBeforeTrimming = 3 * MaximumDegree / 2;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Of the Bernstein coefficients, and so of all values.
 Range hullOf(const ScaledPolynomial& polynomial)
@@ -112,12 +107,13 @@ bool vanishesAt(const ScaledPolynomial& polynomial, const LineEnd& end)
   double largest = 0.0;
   double there = 0.0;
   std::size_t n = 0;
-  for (const LatticePoint& point : latticePoints(polynomial.domain, polynomial.degrees))
-  {
-    const double size = std::abs(coefficients[n++]);
-    largest = std::max(largest, size);
-    there = std::max(there, end.holds(point, polynomial.degrees) ? size : 0.0);
-  }
+  visitLatticePoints(polynomial.domain, polynomial.degrees,
+    [&](const LatticePoint& point)
+    {
+      const double size = std::abs(coefficients[n++]);
+      largest = std::max(largest, size);
+      there = std::max(there, end.holds(point, polynomial.degrees) ? size : 0.0);
+    });
   return there <= RoundingShare::CollapsedFace * largest;
 }
 
@@ -143,14 +139,15 @@ ScaledPolynomial withoutFactor(const ScaledPolynomial& polynomial, const LineEnd
   ScaledPolynomial result{ polynomial.domain, polynomial.degrees, {} };
   --result.degrees[end.axis];
   std::size_t n = 0;
-  for (const LatticePoint& point : latticePoints(polynomial.domain, polynomial.degrees))
-  {
-    if (!end.holds(point, polynomial.degrees))
+  visitLatticePoints(polynomial.domain, polynomial.degrees,
+    [&](const LatticePoint& point)
     {
-      result.values.push_back(polynomial.values[n]);
-    }
-    ++n;
-  }
+      if (!end.holds(point, polynomial.degrees))
+      {
+        result.values.push_back(polynomial.values[n]);
+      }
+      ++n;
+    });
   return result;
 }
 
@@ -203,116 +200,6 @@ Derivation::Derivation(const SourceElement& source, Quantity quantity)
       this->Map[k].push_back(lowered(combined(row, world[k]), std::max(RoundingShare::Map, error)));
     }
   }
-}
-
-/// Of the gradient with respect to world coordinates, three entries a component.
-std::vector<std::array<Range, 3>> Derivation::gradientBounds() const
-{
-  // J = I + E: (I + E)^-1 differs from I by |E| / (1 - |E|) at most.
-  double size2 = 0.0;
-  for (int k = 0; k < 3; ++k)
-  {
-    for (int c = 0; c < 3; ++c)
-    {
-      const double entry =
-        sum(hullOf(this->Map[k][c]), { -double(k == c), -double(k == c) }).magnitude();
-      size2 += entry * entry;
-    }
-  }
-  const double size = std::sqrt(size2);
-  const double deviation = size < 1.0 ? size / (1.0 - size) : infinity;
-  std::vector<std::array<Range, 3>> ranges(this->Components);
-  for (int i = 0; i < this->Components; ++i)
-  {
-    std::array<Range, 3> row;
-    double length2 = 0.0;
-    for (int k = 0; k < 3; ++k)
-    {
-      row[k] = hullOf(this->Field[k][i]);
-      length2 += row[k].magnitude() * row[k].magnitude();
-    }
-    const double radius = length2 > 0.0 ? deviation * std::sqrt(length2) : 0.0;
-    for (int j = 0; j < 3; ++j)
-    {
-      for (int k = 0; k < 3; ++k)
-      {
-        const Range entry = sum(row[k], { -radius, radius });
-        const double factor = this->Inverse[j][k];
-        ranges[i][j] = factor == 0.0 ? ranges[i][j] : sum(ranges[i][j], scaledBy(factor, entry));
-      }
-    }
-  }
-  return ranges;
-}
-
-Range boundsFrom(Quantity quantity, const std::vector<std::array<Range, 3>>& g)
-{
-  Range result;
-  const auto add = [&](double factor, const Range& term)
-  { result = sum(result, scaledBy(factor, term)); };
-  for (int i = 0; i < static_cast<int>(g.size()); ++i)
-  {
-    const int j = (i + 1) % 3;
-    switch (quantity)
-    {
-      case Quantity::Value:
-        break;
-      case Quantity::GradientMagnitude:
-        for (const Range& entry : g[i])
-        {
-          add(1.0, square(entry));
-        }
-        break;
-      case Quantity::Divergence:
-        add(1.0, g[i][i]);
-        break;
-      case Quantity::VorticityMagnitude:
-        add(1.0, square(sum(g[i][j], scaledBy(-1.0, g[j][i]))));
-        break;
-      case Quantity::QCriterion:
-        add(-0.5, square(g[i][i]));
-        add(-1.0, product(g[i][j], g[j][i]));
-        break;
-      case Quantity::Expression:
-        return everything;
-      case Quantity::Lambda2:
-        // An eigenvalue of S^2 + W^2 is within the largest ones of S^2 and -W^2: the sums of their squares bound both.
-        for (const Range& entry : g[i])
-        {
-          const double size2 = entry.magnitude() * entry.magnitude();
-          result = sum(result, { -size2, size2 });
-        }
-        break;
-    }
-  }
-  return result;
-}
-
-Range Derivation::bounds() const
-{
-  const double slack = this->rounding();
-  return knownOr(sum(boundsFrom(this->ItsQuantity, this->gradientBounds()), { -slack, slack }));
-}
-
-double Derivation::rounding() const
-{
-  if (this->ItsQuantity == Quantity::Expression)
-  {
-    return 0.0; // not known
-  }
-  double largest = 0.0;
-  for (int i = 0; i < this->Components; ++i)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      const double derivative = hullOf(this->Field[k][i]).magnitude();
-      for (int j = 0; j < 3; ++j)
-      {
-        largest += derivative * std::abs(this->Inverse[j][k]);
-      }
-    }
-  }
-  return RoundingShare::Field * (orderOf(this->ItsQuantity) == 1 ? largest : largest * largest);
 }
 
 /// adj(Y') Inverse: entry [k][j] takes a derivative along coordinate k to one along world axis j, times the determinant

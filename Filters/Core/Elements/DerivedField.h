@@ -31,9 +31,6 @@ struct DerivedElement
   std::vector<double> weights;
 };
 
-/// Bounds of a quantity, or of its square where that is derived, from bounds of the gradient's entries, three a component.
-Range boundsFrom(Quantity quantity, const std::vector<std::array<Range, 3>>& gradient);
-
 /// Derives a field from the field of one element.
 ///
 /// With x = X/w and u = U/w, and the columns X'_k = w dX/du_k - X dw/du_k (dX/du_k where w = 1), the gradient is
@@ -48,23 +45,11 @@ public:
   /// \pre the mean of the Jacobian is not singular: its determinant is not zero everywhere, nor does it change its sign
   Derivation(const SourceElement& source, Quantity quantity);
 
-  /// Of the gradient with respect to the coordinates, three entries a component, from hulls of first derivatives; infinite
-  /// where the Jacobian changes too much.
-  std::vector<std::array<Range, 3>> gradientBounds() const;
-
-  /// Bounds of the quantity, or of its square where that is derived, from the hulls of first derivatives alone: much
-  /// cheaper than element().
-  Range bounds() const;
-
   /// Bounds on the degrees of element(), from those of its factors.
   Degrees degreesAtMost() const;
 
   /// Whether the map is affine, so that the field is a polynomial.
   bool isAffine() const;
-
-  /// Values that differ less cannot be told apart: a small multiple of what rounding makes of sums and products of the
-  /// largest derivatives.
-  double rounding() const;
 
   /// \return its field is the quantity, or its square
   DerivedElement element() const;

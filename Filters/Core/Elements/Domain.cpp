@@ -208,14 +208,7 @@ std::vector<LatticePoint> latticePoints(Domain domain, const Degrees& degrees)
 {
   std::vector<LatticePoint> points;
   points.reserve(coefficientCount(domain, degrees));
-  visitLatticeRows(domain, degrees,
-    [&](int j, int k, int count)
-    {
-      for (int i = 0; i < count; ++i)
-      {
-        points.push_back({ i, j, k });
-      }
-    });
+  visitLatticePoints(domain, degrees, [&](const LatticePoint& point) { points.push_back(point); });
   return points;
 }
 

@@ -1,5 +1,6 @@
 #include "Elements/ExpressionTerm.h"
 
+#include "Elements/DerivativeBounds.h"
 #include "Elements/DerivedField.h"
 #include "Elements/RangeArithmetic.h"
 

@@ -85,6 +85,30 @@ Largest largest(const std::vector<glm::dvec4>& vectors)
   return result;
 }
 
+glm::dvec4 meanOf(const std::vector<glm::dvec4>& vectors)
+{
+  return std::accumulate(vectors.begin(), vectors.end(), glm::dvec4(0.0)) /
+    static_cast<double>(vectors.size());
+}
+
+/// Whether the spectral radius of a matrix without negative entries is proven to be below one: there are weights d > 0
+/// with A d < d. Then 1 + E is regular for all |E| <= A, and its determinant is positive.
+bool isContraction(const glm::dmat4& matrix)
+{
+  // Terms of the series 1 + A + A^2 + ..., whose sum times any d > 0 are such weights. Fewer: more elements go the long
+  // way; more are hardly of use.
+  constexpr int terms = 8;
+  // The margin covers rounding. Smaller: more elements go the long way.
+  constexpr double belowOne = 0.999;
+  const glm::dvec4 one(1.0);
+  glm::dvec4 weights = one;
+  for (int n = 1; n < terms; ++n)
+  {
+    weights = one + matrix * weights;
+  }
+  return glm::all(glm::lessThan(matrix * weights, belowOne * weights));
+}
+
 /// Looks for a negative value of a polynomial by bisection. Coefficients at corners of pieces are values.
 class SignSearch
 {
@@ -180,6 +204,7 @@ struct JacobianTest::ControlNet
     for (int i = 0; i < count; ++i)
     {
       const double weight = this->rational ? form.weights[i] : 1.0;
+      this->largestWeight = std::max(this->largestWeight, weight);
       const glm::dvec3 x(controlPoint(form, i));
       this->points.emplace_back(weight * (x - origin), weight);
       this->isFinite = this->isFinite && std::isfinite(x.x + x.y + x.z + form.coefficients[i].w);
@@ -225,6 +250,7 @@ struct JacobianTest::ControlNet
 
   bool rational;
   bool isFinite = true;
+  double largestWeight = 0.0;
   std::vector<glm::dvec4> points;
   std::array<std::vector<glm::dvec4>, 3> derivatives;
   /// Rounding errors of the coordinates themselves; the same plus errors of the conversion. World units.
@@ -250,46 +276,65 @@ JacobianTest::JacobianTest(Domain domain, const Degrees& degrees)
   }
 }
 
-/// Whether M^-1 J is strictly diagonally dominant everywhere.
-/// \param determinantOfMean receives det M, which has the sign of det J then
+/// Whether M^-1 times (w, X) and its derivatives is strictly diagonally dominant everywhere, with weights of columns.
+/// \param determinantOfMean receives a number with the sign of det M, which is that of det J then
+///
+/// Relative to the mean c of the control points the mean of (w, X) is (W, 0). With the means J and g of the derivatives
+/// of X and w, M = (W g; 0 J), so that det M has the sign of det J, and M^-1 (w, X) = ((w - g y) / W, y), y = J^-1 X.
 bool JacobianTest::isFarFromSingular(const ControlNet& net, double& determinantOfMean) const
 {
+  const glm::dvec4 meanPoint = meanOf(net.points);
+  const glm::dvec3 center = glm::dvec3(meanPoint) / meanPoint.w;
+  const auto centered = [&center](const glm::dvec4& x) { return glm::dvec3(x) - x.w * center; };
   glm::dmat3 mean;
+  glm::dvec3 meanOfWeights;
   double lengths = 1.0;
   for (int axis = 0; axis < 3; ++axis)
   {
-    glm::dvec4 sum(0.0);
-    for (const glm::dvec4& d : net.derivatives[axis])
-    {
-      sum += d;
-    }
-    mean[axis] = glm::dvec3(sum) / static_cast<double>(net.derivatives[axis].size());
+    const glm::dvec4 d = meanOf(net.derivatives[axis]);
+    mean[axis] = centered(d);
+    meanOfWeights[axis] = d.w;
     lengths *= glm::length(mean[axis]);
   }
-  // |det M| over the product of its columns' lengths from which on M^-1 is trusted. Larger: more elements go the long
+  // |det J| over the product of its columns' lengths from which on J^-1 is trusted. Larger: more elements go the long
   // way; smaller: the inverse's rounding errors, some epsilon / sliver, come near the margin that belowOne leaves.
   constexpr double sliver = 1e-6;
   determinantOfMean = glm::determinant(mean);
-  if (net.rational || !(std::abs(determinantOfMean) > sliver * lengths))
+  if (!(std::abs(determinantOfMean) > sliver * lengths))
   {
     return false;
   }
   const glm::dmat3 inverse = glm::inverse(mean);
   const glm::dvec3 rowLengths =
     glm::sqrt(inverse[0] * inverse[0] + inverse[1] * inverse[1] + inverse[2] * inverse[2]);
-  glm::dvec3 deviation(0.0);
+  // The absolute value of M^-1 times a vector, its errors included.
+  const auto magnitudes = [&](const glm::dvec3& x, double w, double error)
+  {
+    const glm::dvec3 y = inverse * x;
+    const glm::dvec3 unsure = error * rowLengths;
+    const double first =
+      std::abs(w - glm::dot(meanOfWeights, y)) + glm::dot(glm::abs(meanOfWeights), unsure);
+    return glm::dvec4(first / meanPoint.w, glm::abs(y) + unsure);
+  };
+  const double error = net.largestWeight * net.error;
+  glm::dmat4 deviation(0.0);
   for (int axis = 0; axis < 3; ++axis)
   {
-    glm::dvec3 farthest(0.0);
     for (const glm::dvec4& d : net.derivatives[axis])
     {
-      farthest = glm::max(farthest, glm::abs(inverse * (glm::dvec3(d) - mean[axis])));
+      deviation[axis + 1] = glm::max(deviation[axis + 1],
+        magnitudes(centered(d) - mean[axis], d.w - meanOfWeights[axis],
+          2.0 * this->ItsDegrees[axis] * error));
     }
-    deviation += farthest + 2.0 * this->ItsDegrees[axis] * net.error * rowLengths;
   }
-  // Row sums |M^-1 J - 1| below 1 prove dominance; the margin covers rounding. Smaller: more elements go the long way.
-  constexpr double belowOne = 0.999;
-  return std::max({ deviation.x, deviation.y, deviation.z }) < belowOne;
+  if (net.rational)
+  {
+    for (const glm::dvec4& x : net.points)
+    {
+      deviation[0] = glm::max(deviation[0], magnitudes(centered(x), x.w - meanPoint.w, error));
+    }
+  }
+  return isContraction(deviation);
 }
 
 ScaledPolynomial JacobianTest::determinant(const ControlNet& net) const

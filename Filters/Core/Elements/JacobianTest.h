@@ -23,8 +23,9 @@ enum class JacobianSign
 /// (Documentation/algorithm.md, section Elements). Prepared once for a domain and degrees.
 ///
 /// First a cheap test that most elements pass: with M the mean of J, every M^-1 J(u) lies in the hull of
-/// its Bernstein coefficients; if all matrices of that hull are strictly diagonally dominant, det J nowhere
-/// vanishes (Gershgorin's circle theorem). Else det J itself is multiplied out: a polynomial of degrees 3p - 1 (less
+/// its Bernstein coefficients; if all matrices of that hull are strictly diagonally dominant with the same positive
+/// weights of the columns, det J nowhere vanishes (Gershgorin's circle theorem). For rational elements J is the 4 x 4
+/// matrix of the determinant below. Else det J itself is multiplied out: a polynomial of degrees 3p - 1 (less
 /// on simplices); for rational elements x = X/w the polynomial of degrees 4p - 1 (less on simplices)
 ///   w^4 det J = w |X_u X_v X_w| - w_u |X X_v X_w| + w_v |X X_u X_w| - w_w |X X_u X_v|,
 /// which is the 4 x 4 determinant of (X, w) and its derivatives. Where its coefficients differ in sign it

@@ -39,4 +39,18 @@ void visitLatticeRows(Domain domain, const Degrees& degrees, const Visit& visit)
   }
 }
 
+/// Calls visit(point) for every lattice point, in storage order.
+template <class Visit>
+void visitLatticePoints(Domain domain, const Degrees& degrees, const Visit& visit)
+{
+  visitLatticeRows(domain, degrees,
+    [&](int j, int k, int length)
+    {
+      for (int i = 0; i < length; ++i)
+      {
+        visit(LatticePoint{ i, j, k });
+      }
+    });
+}
+
 } // namespace hop

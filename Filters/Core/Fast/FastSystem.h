@@ -17,6 +17,28 @@
 namespace hop
 {
 
+/// Particles on boundary curves.
+struct OnBoundary
+{
+  /// Share of a particle for which each of them counts: half of the area around it lies beyond the surface's end.
+  static constexpr double Count = 0.5;
+  /// Least distance of a seed from them, in units of the spacing: half the distance sqrt(3)/2 between two rows of
+  /// hexagonal packing, so that the first row of seeds comes to lie there on average. Larger: a gap along the curve;
+  /// smaller: a crowded row.
+  static constexpr double SeedDistance = 0.433;
+};
+
+/// Progress, 0 to 1, at the end of the stages: roughly the part of the time that is over. Chosen by experiment; nothing
+/// but progress bars depends on it.
+struct ProgressAt
+{
+  static constexpr double Estimated = 0.05;
+  static constexpr double Isolated = 0.3;
+  static constexpr double Prepared = 0.35;
+  static constexpr double Seeded = 0.45;
+  static constexpr double Relaxed = 0.9;
+};
+
 /// A part of the run, between two values of its progress.
 struct Section
 {
@@ -26,7 +48,7 @@ struct Section
 };
 
 /// The stages of the Fast distribution, and what they leave to each other. See FastDistribution.h; workers of a part of
-/// the surface go on from there (SlabDistribution.h).
+/// the surface go on from there (SlabDistribution.h). Each group of functions has a file named after it.
 class FastSystem
 {
 public:
@@ -53,6 +75,7 @@ public:
   std::vector<double> countsOfElements();
 
 protected:
+  // The stages, one after the other: FastDistribution.cpp.
   bool relax();
   Distribution takeResult();
   /// Reports how far the work is; may throw Interrupted.
@@ -61,6 +84,9 @@ protected:
     this->Work.raiseFraction(fraction);
     this->Work.ask();
   }
+  double overlap(double spacings) const { return spacings * this->Parameters.sizing.spacing; }
+
+  // The surface's boxes and boundary curves: FastSurface.cpp.
   bool isFineEnough(const SurfaceBox& box, const SizingFunction& sizing);
   bool isOutOfReach(const SurfaceBox& box) const;
   SurfaceProxy proxyOfBoxesAt(const SizingFunction& sizing, double shareOfRun);
@@ -68,32 +94,39 @@ protected:
   static double countAlongStrips(const SurfaceProxy& proxy);
   bool estimateCount();
   void prepareSurface();
+  void traceBoundaryCurves();
+  void keepCurvesIn(const Slab& slab);
+  std::vector<SurfaceBox> undecidedBoxes();
+
+  // The spacing that goes with a given number of particles: FastSpacing.cpp.
+  bool countIsGiven() const { return this->Parameters.particleCount > 0; }
   double targetCount() const;
   void matchSpacing(std::int64_t count);
   double guessSpacing(double count);
   void keepOnBoundary(std::size_t most);
-  void traceBoundaryCurves();
   std::int64_t placesOnCurves() const;
   std::int64_t sizeForGivenNumber() const;
-  void dropNearBoundaryCurves(double nearest);
-  void startMoving();
-  void addSamples(const std::vector<int>& boxes);
+
+  // First positions of particles: FastSeeds.cpp.
   void makeSeeds(std::int64_t count);
+  void startMoving();
   void continueFrom(const std::vector<Location>& places);
   void addSeedsBetween(std::int64_t count);
-  double overlap(double spacings) const { return spacings * this->Parameters.sizing.spacing; }
-  void keepIn(const Slab& slab);
-  void keepCurvesIn(const Slab& slab);
+  void dropNearBoundaryCurves(double nearest);
+  void addSamples(const std::vector<int>& boxes);
+  void coverBoxes(const Slab& where);
   void fixOuterSeeds();
   double seedsLeftFor(const Slab& slab) const;
-  void dropOthers();
-  std::vector<SurfaceBox> undecidedBoxes();
-  bool countIsGiven() const { return this->Parameters.particleCount > 0; }
-  void coverBoxes(const Slab& where);
+  void keepIn(const Slab& slab);
+
+  // Rounds of relaxation: FastRounds.cpp.
   void relaxInRounds();
   void relaxOnce(int sweeps, bool isLast, const Section& section);
   Balance balanceOf(bool isLast) const;
+
+  // Finished particles: FastFinish.cpp.
   void finish();
+  void dropOthers();
 
   Isosurface Surface;
   const ElementMesh& Mesh;

@@ -38,7 +38,7 @@ struct Estimate
 struct WorkSums
 {
   /// In each part of the sweep, of all isovalues.
-  std::vector<std::int64_t> ofParts = std::vector<std::int64_t>(Estimate::Parts, 0);
+  std::vector<std::int64_t> ofParts;
   /// Of each isovalue.
   std::vector<std::int64_t> ofIsovalues;
 };
@@ -155,6 +155,7 @@ WorkSums sumOver(const std::vector<std::vector<Piece>>& pieces,
   const std::vector<double>& isovalues, const std::array<double, 2>& whole)
 {
   WorkSums sums;
+  sums.ofParts.resize(Estimate::Parts);
   sums.ofIsovalues.resize(isovalues.size());
   const double perPart = (whole[1] - whole[0]) / Estimate::Parts;
   for (const std::vector<Piece>& ofElement : pieces)
@@ -176,26 +177,32 @@ WorkSums sumOver(const std::vector<std::vector<Piece>>& pieces,
   return sums;
 }
 
-/// Adds up the sums of all ranks.
-WorkSums sumOfAll(Exchange& exchange, const WorkSums& mine)
+/// Sums as a message to other ranks.
+Bytes written(const WorkSums& sums)
 {
-  const auto sumUp = [&](const std::vector<std::int64_t>& some)
+  Bytes bytes;
+  for (const std::vector<std::int64_t>* some : { &sums.ofParts, &sums.ofIsovalues })
   {
-    Bytes bytes(some.size() * sizeof(std::int64_t));
-    std::memcpy(bytes.data(), some.data(), bytes.size());
-    std::vector<std::int64_t> sum(some.size(), 0);
-    for (const Bytes& theirs : exchange.allGather(bytes))
+    const auto* first = reinterpret_cast<const unsigned char*>(some->data());
+    bytes.insert(bytes.end(), first, first + some->size() * sizeof(std::int64_t));
+  }
+  return bytes;
+}
+
+/// Adds what another rank has written.
+void add(const Bytes& bytes, WorkSums& sums)
+{
+  const unsigned char* at = bytes.data();
+  for (std::vector<std::int64_t>* some : { &sums.ofParts, &sums.ofIsovalues })
+  {
+    for (std::int64_t& sum : *some)
     {
-      for (std::size_t i = 0; i < sum.size(); ++i)
-      {
-        std::int64_t value = 0;
-        std::memcpy(&value, theirs.data() + i * sizeof(value), sizeof(value));
-        sum[i] += value;
-      }
+      std::int64_t more = 0;
+      std::memcpy(&more, at, sizeof(more));
+      at += sizeof(more);
+      sum += more;
     }
-    return sum;
-  };
-  return { sumUp(mine.ofParts), sumUp(mine.ofIsovalues) };
+  }
 }
 
 /// Places that cut the sweep into slabs of equal work.
@@ -263,6 +270,30 @@ OwnWork ownWork(
   return work;
 }
 
+/// \param particles that a worker is worth
+std::vector<Slab> slabsFor(
+  const WorkSums& sums, const std::array<double, 2>& whole, double spacing, double particles)
+{
+  const double most =
+    static_cast<double>(*std::max_element(sums.ofIsovalues.begin(), sums.ofIsovalues.end()));
+  const double thickness = SlabOverlap::Thickness * spacing;
+  const double mostSlabs = std::max(1.0, (whole[1] - whole[0]) / thickness);
+  auto count = static_cast<std::size_t>(
+    std::clamp(most / (Estimate::Units * particles), 1.0, std::min(mostSlabs, 1e6)));
+  std::vector<double> cuts = cutsFor(count, sums.ofParts, whole);
+  while (!areThick(cuts, thickness))
+  {
+    cuts = cutsFor(--count, sums.ofParts, whole);
+  }
+  std::vector<Slab> slabs(count, Slab{ sweepDirection() });
+  for (std::size_t n = 0; n < cuts.size(); ++n)
+  {
+    slabs[n].end = cuts[n];
+    slabs[n + 1].begin = cuts[n];
+  }
+  return slabs;
+}
+
 } // namespace
 
 SlabPlan planSlabs(Exchange& exchange, const ElementMesh& mine,
@@ -270,43 +301,46 @@ SlabPlan planSlabs(Exchange& exchange, const ElementMesh& mine,
   const ParallelFor& parallelFor)
 {
   SlabPlan plan;
+  bool isSound = true;
+  const auto attempt = [&](const auto& use)
+  { return attemptOnAll(exchange, isSound, plan.failure, use); };
   OwnWork own;
-  try
+  if (!attempt([&]() { own = ownWork(mine, sizing, parallelFor); }))
   {
-    own = ownWork(mine, sizing, parallelFor);
-  }
-  catch (...)
-  {
-    plan.failure = std::current_exception();
-    own = {};
+    return plan;
   }
   std::array<double, 2> whole = own.extent;
   for (const auto& [first, last] : gatherFromAll(exchange, own.extent))
   {
     whole = { std::min(whole[0], first), std::max(whole[1], last) };
   }
-  plan.slabs.assign(1, Slab{ sweepDirection() });
   if (!(whole[0] < whole[1]))
+  {
+    plan.slabs.assign(1, Slab{ sweepDirection() });
+    return plan;
+  }
+  WorkSums sums;
+  Bytes message;
+  const auto sumUp = [&]()
+  {
+    sums = sumOver(own.pieces, isovalues, whole);
+    message = written(sums);
+  };
+  if (!attempt(sumUp))
   {
     return plan;
   }
-  const WorkSums sums = sumOfAll(exchange, sumOver(own.pieces, isovalues, whole));
-  const double most =
-    static_cast<double>(*std::max_element(sums.ofIsovalues.begin(), sums.ofIsovalues.end()));
-  const double thickness = SlabOverlap::Thickness * sizing.spacing;
-  const double mostSlabs = std::max(1.0, (whole[1] - whole[0]) / thickness);
-  auto slabs = static_cast<std::size_t>(
-    std::clamp(most / (Estimate::Units * particles), 1.0, std::min(mostSlabs, 1e6)));
-  std::vector<double> cuts = cutsFor(slabs, sums.ofParts, whole);
-  while (!areThick(cuts, thickness))
+  const std::vector<Bytes> messages = exchange.allGather(message);
+  for (int rank = 0; rank < exchange.size(); ++rank)
   {
-    cuts = cutsFor(--slabs, sums.ofParts, whole);
+    if (rank != exchange.rank())
+    {
+      add(messages[rank], sums);
+    }
   }
-  plan.slabs.resize(slabs, plan.slabs[0]);
-  for (std::size_t n = 0; n < cuts.size(); ++n)
+  if (!attempt([&]() { plan.slabs = slabsFor(sums, whole, sizing.spacing, particles); }))
   {
-    plan.slabs[n].end = cuts[n];
-    plan.slabs[n + 1].begin = cuts[n];
+    plan.slabs = {};
   }
   return plan;
 }

@@ -14,7 +14,7 @@ namespace hop
 /// How many workers a surface has, and which part of it each has.
 struct SlabPlan
 {
-  /// In their order along canonicalOrder()'s sweep; the same on all ranks.
+  /// In their order along canonicalOrder()'s sweep; the same on all ranks. Empty where one of them has failed.
   std::vector<Slab> slabs;
   /// What went wrong on this rank, if anything did.
   std::exception_ptr failure;

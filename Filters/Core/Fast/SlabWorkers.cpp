@@ -40,7 +40,6 @@ public:
     , Slabs(slabs)
     , IsSound(isSound)
   {
-    this->Result.distributions.resize(slabs.size());
   }
 
   SlabResult run(const std::vector<GatheredMesh>& meshes, const Isosurface& surface,
@@ -65,7 +64,7 @@ private:
     const ParallelFor& parallelFor);
   void relax();
   bool tell(bool goesForth);
-  void pass(std::size_t from, std::size_t to, const Bytes& bytes);
+  void pass(std::size_t from, std::size_t to, Bytes&& bytes);
   void keepErrorsOnly();
 
   Exchange& Ranks;
@@ -128,13 +127,13 @@ void SlabWorkers::relax()
 }
 
 /// Passes a message on from one slab to the one beside it.
-void SlabWorkers::pass(std::size_t from, std::size_t to, const Bytes& bytes)
+void SlabWorkers::pass(std::size_t from, std::size_t to, Bytes&& bytes)
 {
   const auto rankOf = [&](std::size_t slab)
   { return rankOfSlab(slab, this->Slabs.size(), this->Ranks.size()); };
   if (this->isHere(from) && this->isHere(to))
   {
-    this->workerOf(to).heard = bytes;
+    this->workerOf(to).heard = std::move(bytes);
   }
   else if (this->isHere(from))
   {
@@ -167,10 +166,11 @@ void SlabWorkers::pass(std::size_t from, std::size_t to, const Bytes& bytes)
 bool SlabWorkers::tell(bool goesForth)
 {
   const std::size_t cuts = this->Slabs.size() - 1;
-  std::vector<Bytes> messages(cuts);
+  std::vector<Bytes> messages;
   const bool isWritten = this->attempt(
     [&]()
     {
+      messages.resize(cuts);
       for (std::size_t cut = 0; cut < cuts; ++cut)
       {
         const std::size_t from = goesForth ? cut : cut + 1;
@@ -185,7 +185,7 @@ bool SlabWorkers::tell(bool goesForth)
     });
   for (std::size_t cut = 0; isWritten && cut < cuts; ++cut)
   {
-    this->pass(goesForth ? cut : cut + 1, goesForth ? cut + 1 : cut, messages[cut]);
+    this->pass(goesForth ? cut : cut + 1, goesForth ? cut + 1 : cut, std::move(messages[cut]));
   }
   return isWritten && this->areAllSound();
 }
@@ -228,6 +228,7 @@ SlabResult SlabWorkers::run(const std::vector<GatheredMesh>& meshes, const Isosu
     this->attempt(
       [&]()
       {
+        this->Result.distributions.resize(this->Slabs.size());
         this->makeWorkers(meshes, surface, parameters, monitor, parallelFor);
         this->relax();
       }) &&

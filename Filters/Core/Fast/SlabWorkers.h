@@ -24,7 +24,8 @@ inline int rankOfSlab(std::size_t slab, std::size_t slabs, int ranks)
 /// What the workers of this rank have distributed.
 struct SlabResult
 {
-  /// One a slab; without particles for slabs of other ranks, and for all where one of the ranks has failed.
+  /// One a slab; without particles for slabs of other ranks, and for all where one of the ranks has failed. Empty where
+  /// this rank has failed before it began.
   std::vector<Distribution> distributions;
   /// Whether all workers have come to an end; the same on all ranks.
   bool isComplete = false;

@@ -61,6 +61,10 @@ public:
   void split(int element, const ParallelFor& parallelFor, const ReportProgress& progress,
     std::vector<SurfaceBox>& boxes);
 
+  /// Appends the boxes of an element on the caller's thread, unless that takes long: nothing is appended then.
+  /// \return whether the element is done
+  bool splitIfShort(int element, std::vector<SurfaceBox>& boxes);
+
 private:
   /// What becomes of a piece: nothing, boxes, an undecided box, or pieces of the next level.
   struct Outcome
@@ -72,6 +76,8 @@ private:
     std::vector<Piece> next;
   };
 
+  bool splitWithin(std::size_t mostPieces, int element, const ParallelFor& parallelFor,
+    const ReportProgress& progress, std::vector<SurfaceBox>& boxes);
   void prepareFor(const Element& element);
   std::vector<Outcome> decideAll(std::vector<Piece>& level, const StopRule& rule,
     const ParallelFor& parallelFor, IsolationProgress& progress) const;

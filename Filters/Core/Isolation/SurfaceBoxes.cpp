@@ -46,23 +46,37 @@ std::vector<SurfaceBox> splitInTurn(const ElementMesh& mesh, double isovalue,
   return boxes;
 }
 
-/// Splits many elements at a time, each by one thread. Parameters are those of splitInTurn.
+/// Splits many elements at a time, each by one thread, and then those that take long by all threads. Parameters are those of splitInTurn.
 std::vector<SurfaceBox> splitAtOnce(const ElementMesh& mesh, double isovalue,
   const IsSmall& isFineEnough, const ParallelFor& parallelFor, const ReportProgress& progress)
 {
   const PreparedKinds kinds(mesh, isovalue);
   std::atomic<int> done{ 0 };
   std::vector<std::vector<SurfaceBox>> ofElement(mesh.elements.size());
+  std::vector<char> isLong(mesh.elements.size(), 0);
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(mesh.elements.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       ElementSplitter splitter(mesh, isovalue, kinds, isFineEnough);
       for (std::ptrdiff_t e = begin; e < end; ++e)
       {
-        splitter.split(static_cast<int>(e), {}, {}, ofElement[e]);
-        progress(++done);
+        isLong[e] = !splitter.splitIfShort(static_cast<int>(e), ofElement[e]);
+        if (!isLong[e])
+        {
+          progress(++done);
+        }
       }
     });
+  ElementSplitter splitter(mesh, isovalue, kinds, isFineEnough);
+  for (std::size_t e = 0; e < isLong.size(); ++e)
+  {
+    if (isLong[e])
+    {
+      const auto report = [&](double share) { progress(done + share); };
+      splitter.split(static_cast<int>(e), parallelFor, report, ofElement[e]);
+      progress(++done);
+    }
+  }
   return joined(ofElement);
 }
 

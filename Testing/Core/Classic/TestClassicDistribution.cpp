@@ -484,6 +484,35 @@ TEST(ClassicDistribution, MakesFewParticlesWhereAFieldTouchesTheIsovalueInAPoint
   EXPECT_LE(result.particles.size(), 20u);
 }
 
+/// Why the user is not asked for them. That all four take effect: SplitAndDelete.ThresholdsOfTheCoinCanBeChosen, and
+/// here the sweeps.
+TEST(ClassicDistribution, StaysEvenWithAFifthMoreOrLessOfThePapersConstants)
+{
+  const ElementMesh mesh = straightMesh(sphere({ 0, 0, 0 }, 0.6));
+  const Distribution usual = distribute(mesh, withSpacing(0.1));
+  const auto count = static_cast<double>(usual.particles.size());
+  for (double ClassicParameters::*constant :
+    { &ClassicParameters::splitBelow, &ClassicParameters::deleteAbove,
+      &ClassicParameters::settledShare, &ClassicParameters::steadyChange })
+  {
+    for (const double factor : { 0.8, 1.2 })
+    {
+      DistributionParameters parameters = withSpacing(0.1);
+      parameters.classic.*constant *= factor;
+      const Distribution result = distribute(mesh, parameters);
+      EXPECT_TRUE(result.report.converged);
+      EXPECT_NEAR(static_cast<double>(result.particles.size()), count, 0.02 * count);
+      const std::vector<double> nearest = nearestSpacings(result.particles);
+      EXPECT_GE(smallest(nearest), 0.8);
+      EXPECT_NEAR(mean(nearest), 1.0, 0.1);
+      if (constant == &ClassicParameters::steadyChange)
+      {
+        EXPECT_EQ(result.report.iterations > usual.report.iterations, factor < 1.0);
+      }
+    }
+  }
+}
+
 TEST(ClassicDistribution, DoesNotDependOnTheUnitOfLength)
 {
   const auto countAt = [](double scale)

@@ -120,6 +120,7 @@ TEST(ClassicRelaxation, NoneGoesFartherThanASpacing)
 TEST(ClassicRelaxation, StepThatRaisesTheEnergyIsNotTaken)
 {
   // Between two rows that are so near that the longest step leads into one of them.
+  constexpr double large = 2e3;
   ClassicLattice lattice(0.0);
   const ClassicParticle centre = lattice.particles.movers[0];
   lattice.particles.movers.clear();
@@ -133,11 +134,11 @@ TEST(ClassicRelaxation, StepThatRaisesTheEnergyIsNotTaken)
   }
   for (ClassicParticle& m : lattice.particles.movers)
   {
-    m.lambda = ClassicParticle::LargestLambda;
+    m.lambda = large;
   }
   sweep(lattice);
   const ClassicParticle& moved = lattice.particles.movers[0];
-  EXPECT_LT(moved.lambda, ClassicParticle::LargestLambda);
+  EXPECT_LT(moved.lambda, large);
   EXPECT_LE(distance(moved, centre), 0.01 * spacing);
 }
 
@@ -168,6 +169,15 @@ TEST(ClassicRelaxation, StepLengthsGrowAndShrinkByTen)
   sweep(pair);
   EXPECT_DOUBLE_EQ(pair.particles.movers[0].lambda, 0.01);
   EXPECT_DOUBLE_EQ(pair.particles.movers[1].lambda, 1.0);
+}
+
+/// At r = 0.995 the force is 5.6e-5/h: the step is 0.17 h, and taken.
+TEST(ClassicRelaxation, StepLengthsHaveNoBound)
+{
+  ClassicLattice pair = pairAt(0.995 / HexagonalDistance);
+  pair.particles.movers[0].lambda = 3e3;
+  sweep(pair);
+  EXPECT_DOUBLE_EQ(pair.particles.movers[0].lambda, 3e4);
 }
 
 /// The step is 2.48 lambda h: with 200, 20 and 2 it is longer than h, with 0.2 it is taken.

@@ -63,6 +63,11 @@ TEST(SplitAndDelete, ThresholdsOfTheCoinCanBeChosen)
   parameters.settledShare = 1.1;
   loose = withEnergies(0.66);
   EXPECT_FALSE(splitAndDelete(loose.particles, random, parameters));
+
+  parameters = {};
+  parameters.deleteAbove = 0.3;
+  ClassicLattice dense = withEnergies(1.74);
+  EXPECT_TRUE(splitAndDelete(dense.particles, random, parameters));
 }
 
 TEST(SplitAndDelete, ChildrenStandHalfASpacingFromTheirParents)

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -218,6 +219,26 @@ TEST(JacobianTest, AgreesWithManySamples)
   }
   EXPECT_GT(mixed, 50);
   EXPECT_GT(valid, 50);
+}
+
+/// The homogeneous coordinate along u is linear, while the element folds back where one weight is small.
+TEST(JacobianTest, SmallWeightsFoldAnElement)
+{
+  constexpr Degrees degrees{ 3, 3, 3 };
+  constexpr std::array<double, 4> weightsAlong{ 1.0, 0.2, 1.0, 1.0 };
+  std::vector<double> weights;
+  std::vector<Coefficient> coefficients;
+  for (const LatticePoint& point : latticePoints(Domain::Hexahedron, degrees))
+  {
+    const double w = weightsAlong[point.i];
+    const glm::dvec3 u = latticePosition(degrees, point).xyz;
+    weights.push_back(w);
+    coefficients.emplace_back(u.x - 0.5, w * (u.y - 0.5), w * (u.z - 0.5), 0.0);
+  }
+  const BernsteinForm form{ Domain::Hexahedron, degrees, coefficients.data(), weights.data() };
+  EXPECT_LT(determinantAt(form, ReferencePoint{ { 0.0, 0.5, 0.5 } }), 0.0);
+  EXPECT_GT(determinantAt(form, ReferencePoint{ { 1.0, 0.5, 0.5 } }), 0.0);
+  EXPECT_EQ(signOf(form), JacobianSign::Mixed);
 }
 
 TEST(JacobianTest, ElementsWithoutVolumeAreZero)

@@ -291,6 +291,27 @@ TEST(SurfaceBoxes, WhereTheSurfaceCrossesItselfBoxesAreBounded)
   }
 }
 
+TEST(SurfaceBoxes, NoThreadIsLeftAloneWithAnElementThatTakesLong)
+{
+  // The surface crosses itself in three of 27 elements, which are split each by one thread at first.
+  MeshRecipe recipe;
+  recipe.degrees = { 2, 2, 2 };
+  recipe.cells = 3;
+  recipe.field = [](const glm::dvec3& x) { return (x.x - 0.113) * (x.y + 0.207); };
+  const ElementMesh mesh = makeMesh(recipe);
+  int loops = 0;
+  const ParallelFor counting = [&](std::ptrdiff_t count, const LoopBody& body)
+  {
+    ++loops;
+    runInThreads({}, count, body);
+  };
+  const auto boxes = findSurfaceBoxes(mesh, 0.0, 10.0, counting);
+  EXPECT_GT(loops, 3 * 10); // one a level
+  EXPECT_EQ(boxes.size(), findSurfaceBoxes(mesh, 0.0, 10.0, threadedFor(4)).size());
+  EXPECT_TRUE(std::is_sorted(boxes.begin(), boxes.end(),
+    [](const SurfaceBox& a, const SurfaceBox& b) { return a.middle.element < b.middle.element; }));
+}
+
 TEST(SurfaceBoxes, ASphereIsFoundBesideATangency)
 {
   const glm::dvec3 center(0.312, -0.417, 0.233);

@@ -1,0 +1,92 @@
+#include "Fast/FastSystem.h"
+
+#include "Edges/ClipPlanes.h"
+#include "Edges/SmallComponents.h"
+#include "Fast/FinishParticles.h"
+#include "Fast/PatchDistances.h"
+#include "Support/KeepMarked.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace hop
+{
+namespace
+{
+
+/// Least distance between particles of drafts, in units of their spacing; see MinimumSeparation. Pairs are many in one
+/// round without a repair. Chosen by experiment. Larger: holes where particles were dropped; smaller: pairs that crowd.
+constexpr double draftSeparation = 0.4;
+
+} // namespace
+
+/// Takes all particles to the tolerance, and evaluates there what belongs to a finished particle. In a slab the particles
+/// of other slabs are there as neighbours, and are dropped at last.
+void FastSystem::finish()
+{
+  FinishedParticles finished =
+    finishParticles(*this->Moving, this->Jumps, this->Sizing, this->Parallel);
+  this->Evaluations += finished.evaluations;
+  DistributionReport& report = this->Result.report;
+  std::vector<char>& kept = finished.converged;
+  for (std::size_t i = 0; i < kept.size(); ++i)
+  {
+    report.particlesRejected += !kept[i] && (this->IsOwn.empty() || this->IsOwn[i]);
+  }
+  if (!this->countIsGiven())
+  {
+    const bool isDraft = this->Parameters.quality == Quality::Draft;
+    kept = thinOut(
+      this->Moving->patches(), kept, isDraft ? draftSeparation : MinimumSeparation, this->Parallel);
+  }
+  Buffer<Particle>& particles = this->Result.particles;
+  particles = std::move(finished.particles);
+  particles.resize(closeGaps(particles, particles.size(), kept));
+  this->IsOwn.resize(closeGaps(this->IsOwn, this->IsOwn.size(), kept));
+  const ParticleGrid all(particles, this->Curves.particles, this->Parallel);
+  markClipPlanes(this->Surface, all, this->Curves.thinned, this->Parallel);
+  const int first = static_cast<int>(particles.size());
+  const auto addAll = [first](const std::vector<std::array<int, 2>>& pairs)
+  {
+    std::vector<std::array<int, 2>> result;
+    result.reserve(pairs.size());
+    for (const auto& [a, b] : pairs)
+    {
+      result.push_back({ first + a, first + b });
+    }
+    return result;
+  };
+  const SurfaceEdges& edges = this->Curves.edges;
+  this->Result.edges = { addAll(edges.segments), addAll(edges.directed), addAll(edges.coincident) };
+  for (const BoundaryParticle& boundary : this->Curves.particles)
+  {
+    particles.push_back(boundary.particle);
+  }
+  const FacePassages faces =
+    countFacePassages(this->Mesh, *this->Proxy, this->Jumps, this->Parallel);
+  report.facesReached = faces.reached;
+  report.facesEnded = faces.ended;
+  fitSmallComponents(*this->Proxy, all, particles, this->Parallel);
+  this->dropOthers();
+  report.particlesUndersampled = std::count_if(
+    particles.begin(), particles.end(), [](const Particle& p) { return p.isUndersampled(); });
+}
+
+/// Drops finished particles that are at home in other slabs.
+void FastSystem::dropOthers()
+{
+  if (this->Part.isEverything())
+  {
+    return;
+  }
+  Buffer<Particle>& particles = this->Result.particles;
+  const Slab own = this->Part.shifted(this->overlap(SlabOverlap::OnPlane));
+  std::vector<char> kept = this->IsOwn;
+  for (std::size_t i = kept.size(); i < particles.size(); ++i)
+  {
+    kept.push_back(own.holds(particles[i].position.xyz));
+  }
+  keepMarked(particles, kept);
+}
+
+} // namespace hop

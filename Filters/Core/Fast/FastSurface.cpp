@@ -1,0 +1,258 @@
+#include "Fast/FastSystem.h"
+
+#include "Edges/CreaseSpacings.h"
+#include "Support/KeepMarked.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace hop
+{
+namespace
+{
+
+/// Largest diagonals of the boxes in which the surface is sampled, in units of the spacing there: a box then holds some
+/// five particles. Chosen by experiment. Smaller boxes cost more evaluations; in larger ones a single sample tells the
+/// area and the spacing less exactly, and with them the number of particles.
+struct BoxDiagonal
+{
+  static constexpr double Hexahedron = 6.0;
+  /// More than in a hexahedron, as wedges and tetrahedra fill less of their bounds.
+  static constexpr double Wedge = 7.0;
+  static constexpr double Tetrahedron = 7.5;
+  /// For drafts, in all elements. Larger: holes.
+  static constexpr double Draft = 9.0;
+  /// Where the gradient of the field vanishes nearby (SurfaceBox::risesWeakly), so that one sample tells less.
+  static constexpr double Weak = 3.0;
+  /// Where the surface is thinner than a spacing: each box gets a particle of its own.
+  static constexpr double Thin = 1.0;
+  /// Curvature magnitude times spacing from which on the surface counts as thin: its radius is a spacing.
+  static constexpr double ThinBend = 1.0;
+
+  static double of(Domain domain)
+  {
+    switch (domain)
+    {
+      case Domain::Hexahedron:
+        return Hexahedron;
+      case Domain::Wedge:
+        return Wedge;
+      case Domain::Tetrahedron:
+        return Tetrahedron;
+    }
+    unknownDomain();
+  }
+};
+
+/// Spacing at which particles are counted before memory is allocated, in units of the mesh's diagonal. A flat surface
+/// across the mesh takes some 400,000 particles at it, so that no estimate is needed where the spacing asked for is
+/// larger. Chosen by experiment. Larger: a cheaper estimate that tells curvature less exactly; smaller: the estimate
+/// itself takes time and memory.
+constexpr double estimateSpacingPerExtent = 0.001;
+
+/// Marks the particles on curves that the relaxation sees: of those in one place one a sheet, as several would repel
+/// others several times.
+std::vector<char> onePerSheet(const BoundaryCurves& curves)
+{
+  std::vector<char> seen(curves.particles.size(), 1);
+  std::map<int, std::vector<int>> inPlace;
+  for (const auto& [first, other] : curves.edges.coincident)
+  {
+    std::vector<int>& chosen = inPlace.emplace(first, std::vector<int>{ first }).first->second;
+    const WorldVector& normal = curves.particles[other].particle.normal;
+    seen[other] = std::none_of(chosen.begin(), chosen.end(),
+      [&](int one) { return dot(curves.particles[one].particle.normal, normal) > SheetCosine; });
+    if (seen[other])
+    {
+      chosen.push_back(other);
+    }
+  }
+  return seen;
+}
+
+} // namespace
+
+/// Whether one sample tells enough about the surface in a box. It tells less where the gradient of the field vanishes
+/// nearby; where the surface is thinner than a spacing every box gets a particle of its own.
+bool FastSystem::isFineEnough(const SurfaceBox& box, const SizingFunction& sizing)
+{
+  const int element = box.middle.element;
+  const Domain domain = this->Mesh.elements[element].domain;
+  const double perSpacing =
+    this->Parameters.quality == Quality::Draft ? BoxDiagonal::Draft : BoxDiagonal::of(domain);
+  const double largest = perSpacing * sizing.spacing;
+  const double smallest = (box.mayBeThin ? 1.0 : perSpacing) * sizing.smallest();
+  if (this->isOutOfReach(box))
+  {
+    return true;
+  }
+  if (box.size > largest || box.size <= smallest ||
+    (sizing.angularDensity == 0.0 && !box.mayBeThin))
+  {
+    return box.size <= largest;
+  }
+  ++this->Evaluations;
+  Anchor anchor;
+  Patch patch;
+  const Location place{ element, proxyMiddle(domain, box) };
+  const Jet jet = exactHessian(this->Mesh, place);
+  if (!anchorPatch(place, jet, this->Surface.isovalue, anchor, patch))
+  {
+    return true;
+  }
+  const double spacing = sizing.at(patch.curvatureMagnitude());
+  const bool isThin = patch.curvatureMagnitude() * spacing > BoxDiagonal::ThinBend ||
+    (box.risesWeakly && std::abs(anchor.offset) > MovingParticles::SeedOffset * spacing);
+  const double perOwnSpacing = isThin ? BoxDiagonal::Thin
+    : box.risesWeakly                 ? BoxDiagonal::Weak
+                                      : perSpacing;
+  return box.size <= perOwnSpacing * spacing;
+}
+
+/// Whether a box is so far from the slab that no particles are wanted in it.
+bool FastSystem::isOutOfReach(const SurfaceBox& box) const
+{
+  const int element = box.middle.element;
+  return !this->ReachesOut.empty() && this->ReachesOut[element] &&
+    !this->Part.widened(this->overlap(SlabOverlap::Reach) + box.size)
+       .holds(glm::dvec3(evaluateGradient(this->Mesh.form(element), box.middle.u).value));
+}
+
+/// \param sizing decides how fine the boxes are; the proxy's spacings follow the sizing function that is asked for
+/// \param shareOfRun fraction of the run that is over when the surface is found
+SurfaceProxy FastSystem::proxyOfBoxesAt(const SizingFunction& sizing, double shareOfRun)
+{
+  const auto isFineEnough = [&](const SurfaceBox& box) { return this->isFineEnough(box, sizing); };
+  const auto found = [&](double share) { this->Work.raiseFraction(shareOfRun * share); };
+  SurfaceProxy proxy(this->Surface, this->Sizing,
+    findSurfaceBoxes(this->Mesh, this->Surface.isovalue, isFineEnough, this->Parallel, found),
+    this->Parallel);
+  this->Evaluations += proxy.evaluations();
+  return proxy;
+}
+
+bool FastSystem::tooMany(double count)
+{
+  this->Result.report.error = this->Parameters.refusal(count);
+  return !this->Result.report.error.empty();
+}
+
+/// Particles along strips of the surface that are narrower than a spacing, as in cells like slivers: more than go by
+/// their area. Only boxes many spacings wide count: a surface that is no strip takes more there by its area.
+double FastSystem::countAlongStrips(const SurfaceProxy& proxy)
+{
+  constexpr double narrowest = 100.0; // box, in spacings
+  double count = 0.0;
+  for (std::size_t b = 0; b < proxy.boxes().size(); ++b)
+  {
+    const double spacings = proxy.boxes()[b].size / proxy.samples()[b].patch.spacing;
+    count += proxy.samples()[b].found && spacings > narrowest ? spacings : 0.0;
+  }
+  return count;
+}
+
+/// Counts the particles on a coarse proxy, before memory is allocated. The proxy's boxes are coarse; its spacings
+/// are the ones asked for, as a number that is scaled up from coarse spacings would count curvature twice.
+/// \return whether there are few enough
+bool FastSystem::estimateCount()
+{
+  if (this->Parameters.particleCount > 0)
+  {
+    return !this->tooMany(static_cast<double>(this->Parameters.particleCount));
+  }
+  const SizingFunction coarse{ meshExtent(this->Mesh) * estimateSpacingPerExtent,
+    this->Sizing.angularDensity };
+  if (coarse.smallest() <= this->Sizing.smallest())
+  {
+    return true;
+  }
+  const SurfaceProxy rough = this->proxyOfBoxesAt(coarse, ProgressAt::Estimated);
+  return !this->tooMany(std::max(rough.particleCount(), countAlongStrips(rough)));
+}
+
+/// Makes the proxy, and traces the boundary curves. From then on the surface ends where the field jumps, and the
+/// sizing function is lowered at creases, but not in drafts.
+void FastSystem::prepareSurface()
+{
+  this->Surface.jumpTolerances = nullptr;
+  this->Proxy =
+    std::make_unique<SurfaceProxy>(this->proxyOfBoxesAt(this->Sizing, ProgressAt::Isolated));
+  this->Work.ask();
+  this->Jumps = findFaceJumps(this->Surface, *this->Proxy, this->Parallel);
+  std::int64_t cost = this->Jumps.evaluations;
+  if (this->Parameters.quality != Quality::Draft)
+  {
+    this->Proxy->limitSpacings(
+      findCreaseSpacings(this->Surface, *this->Proxy, this->Jumps, this->Parallel, cost),
+      this->Parallel);
+  }
+  this->Surface.jumpTolerances = &this->Jumps.jumpTolerances;
+  this->Work.ask();
+  this->traceBoundaryCurves();
+  this->Evaluations += cost + this->Curves.evaluations;
+}
+
+void FastSystem::traceBoundaryCurves()
+{
+  const Slab inReach = this->Part.widened(this->overlap(SlabOverlap::Reach));
+  const bool withCreases = this->Parameters.onCreases && this->CreasesFit;
+  this->Curves = findBoundaryCurves(this->Surface, this->Jumps, *this->Proxy, this->Sizing,
+    withCreases ? SampledCurves::BoundaryAndCreases : SampledCurves::Boundary, this->Parallel,
+    this->Part, inReach);
+  this->keepCurvesIn(inReach);
+  this->BoundaryPatches.clear();
+  this->BoundaryCount = 0.0;
+  const std::vector<char> seen = onePerSheet(this->Curves);
+  for (std::size_t n = 0; n < seen.size(); ++n)
+  {
+    const BoundaryParticle& boundary = this->Curves.particles[n];
+    if (seen[n])
+    {
+      this->BoundaryPatches.push_back(boundary.patch);
+      this->BoundaryCount +=
+        boundary.side.exists() || !boundary.isOnCrease ? OnBoundary::Count : 0.0;
+    }
+  }
+}
+
+/// Drops what is on boundary curves outside of a slab.
+void FastSystem::keepCurvesIn(const Slab& slab)
+{
+  if (slab.isEverything())
+  {
+    return;
+  }
+  const auto isOutside = [&](const BoundaryParticle& some)
+  { return !slab.holds(some.patch.position); };
+  for (Buffer<BoundaryParticle>* some : { &this->Curves.particles, &this->Curves.thinned })
+  {
+    some->erase(std::remove_if(some->begin(), some->end(), isOutside), some->end());
+  }
+  // Segments are for meshes, which are not made of slabs.
+  this->Curves.edges = {};
+}
+
+/// Boxes within the slab that isolation could not decide.
+std::vector<SurfaceBox> FastSystem::undecidedBoxes()
+{
+  std::vector<SurfaceBox> undecided;
+  for (std::size_t b = 0; b < this->Proxy->boxes().size(); ++b)
+  {
+    const SurfaceBox& box = this->Proxy->boxes()[b];
+    const SurfaceProxy::Sample& sample = this->Proxy->samples()[b];
+    const auto position = [&]()
+    {
+      return sample.found
+        ? sample.patch.position
+        : glm::dvec3(evaluateGradient(this->Mesh.form(box.middle.element), box.middle.u).value);
+    };
+    if (!box.certified && this->Part.holds(position()))
+    {
+      undecided.push_back(box);
+    }
+  }
+  return undecided;
+}
+
+} // namespace hop
