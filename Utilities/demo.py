@@ -3,9 +3,8 @@
     pvbatch demo.py PLUGIN [FILE.vtu|.pvtu] [OUT.png] [--array NAME] [--isovalue C ...] [--color NAME]
                     [--spacing S] [--density RHO] [--method NAME]
 
-Without --array the first scalar point array is taken, without --isovalue the middle of its range. Several
-isosurfaces are coloured by that array, a single one, unless told otherwise, by another array of the file or
-by its mean curvature.
+What is not given is left to the filter, as in ParaView's window. Several isosurfaces are coloured by the contoured
+array, a single one, unless told otherwise, by another array of the file or by its mean curvature.
 """
 
 import argparse
@@ -69,12 +68,11 @@ def solution_arrays(reader):
     return {a.GetName(): a for a in reader.PointData.values() if not a.GetName().startswith(BOOKKEEPING)}
 
 
-def choose_array(reader, name):
+def contoured_array(reader, particles):
+    name = particles.ContourBy[1]
     arrays = {a.GetName(): a for a in reader.PointData.values()}
-    if name is None:
-        name = next((n for n, a in solution_arrays(reader).items() if a.GetNumberOfComponents() == 1), None)
     if name not in arrays:
-        raise SystemExit(f"error: no point array {name or 'with one component'}; there are: {', '.join(arrays)}")
+        raise SystemExit(f"error: no point array {name or 'to contour'}; there are: {', '.join(arrays) or 'none'}")
     return arrays[name]
 
 
@@ -85,18 +83,23 @@ def choose_color(reader, particles, array):
     return next((name for name in solution_arrays(reader) if name != array.GetName()), "Mean_Curvature")
 
 
-def make_particles(reader, array, arguments):
-    """The filter, run. Returns it and the seconds it took."""
-    options = {"PassDiagnostics": 1, "Spacing": arguments.spacing, "AngularDensity": arguments.density, "Method": arguments.method}
-    particles = simple.HighOrderParticleIsosurface(
-        Input=reader,
-        ContourBy=["POINTS", array.GetName()],
-        Isosurfaces=arguments.isovalue or [sum(array.GetRange(0)) / 2],
-        **{key: value for key, value in options.items() if value is not None},
-    )
+def make_filter(reader, arguments):
+    options = {
+        "ContourBy": arguments.array and ["POINTS", arguments.array],
+        "Isosurfaces": arguments.isovalue,
+        "PassDiagnostics": 1,
+        "Spacing": arguments.spacing,
+        "AngularDensity": arguments.density,
+        "Method": arguments.method,
+    }
+    given = {key: value for key, value in options.items() if value is not None}
+    return simple.HighOrderParticleIsosurface(Input=reader, **given)
+
+
+def seconds_of_run(particles):
     start = time.perf_counter()
     particles.UpdatePipeline()
-    return particles, time.perf_counter() - start
+    return time.perf_counter() - start
 
 
 def draw(reader, particles, color, output):
@@ -151,7 +154,7 @@ def report(reader, particles, array, seconds, output):
         print(f"largest residual          {residual:.2e} ({residual / diagonal(reader):.1e} of the bounding diagonal)")
     else:
         print("the surface is empty      choose another value with --isovalue; the array's range is "
-              "[{:g}, {:g}]".format(*array.GetRange(0)))
+              "[{:g}, {:g}]".format(*array.GetRange(-1)))
     print(f"picture                   {output}")
 
 
@@ -160,8 +163,9 @@ def main():
     fill_in(arguments)
     simple.LoadPlugin(arguments.plugin, remote=False, ns=vars(simple))
     reader = read(arguments.file)
-    array = choose_array(reader, arguments.array)
-    particles, seconds = make_particles(reader, array, arguments)
+    particles = make_filter(reader, arguments)
+    array = contoured_array(reader, particles)
+    seconds = seconds_of_run(particles)
     draw(reader, particles, arguments.color or choose_color(reader, particles, array), arguments.output)
     report(reader, particles, array, seconds, arguments.output)
 
