@@ -206,8 +206,8 @@ Evaluated BoundaryTracer::polished(Evaluated at, const ActiveFaces& held, double
   constexpr double longStep =
     2.0; // in units of the tolerance; chosen by experiment, a smaller one costs evaluations
   // Of the chord. With a larger one curves along edges of elements end where F is c to the last bit; a smaller one
-  // leaves rough points.
-  constexpr double longestShare = 0.25;
+  // leaves rough points where chords are short.
+  constexpr double longestShare = 1.0;
   constexpr int mostSteps = 4; // where that is not enough, the point stays as it is
   const Domain domain = this->Surface.mesh->elements[at.location.element].domain;
   for (int n = 0; this->IsRough && n < mostSteps; ++n)
