@@ -342,7 +342,7 @@ hop::CheckedBlocks vtkHighOrderParticleIsosurface::FindScalars(const hop::Gather
     return hop::checkExpression(gathered, this->Expression);
   }
   const auto quantity = static_cast<hop::Quantity>(this->Quantity);
-  const hop::CheckedBlocks checked =
+  hop::CheckedBlocks checked =
     hop::checkQuantity(hop::checkBlocks(gathered, this->GetInputArrayInformation(0)), quantity);
   if (this->Derivatives != AVERAGED_AT_NODES)
   {
