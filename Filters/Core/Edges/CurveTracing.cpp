@@ -229,6 +229,12 @@ bool CurveTracing::standsStill(const BoundaryTrace& trace, double spacing) const
 /// Takes a boundary curve over. A closed one begins, and ends, at a corner if it has one.
 void CurveTracing::keep(BoundaryTrace trace, double spacing)
 {
+  std::vector<BoundaryVertex>& vertices = trace.vertices;
+  // First: such a start would pass for a corner near a plane.
+  if (this->standsStill(trace, spacing))
+  {
+    vertices.erase(vertices.begin());
+  }
   for (const double plane : { this->Part.begin, this->Part.end })
   {
     if (std::isfinite(plane))
@@ -236,14 +242,9 @@ void CurveTracing::keep(BoundaryTrace trace, double spacing)
       this->cutAtPlane(plane, trace);
     }
   }
-  std::vector<BoundaryVertex>& vertices = trace.vertices;
   if (vertices.size() < 2 && !trace.closed)
   {
     return;
-  }
-  if (this->standsStill(trace, spacing))
-  {
-    vertices.erase(vertices.begin());
   }
   // A crease of one chord may have been followed several times.
   const auto isBack = [&](const BoundaryVertex& vertex)
