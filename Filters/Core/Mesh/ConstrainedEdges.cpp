@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace hop
 {
@@ -74,7 +75,10 @@ void group(const std::vector<std::array<int, 2>>& edges, int by, std::size_t par
 
 ConstrainedEdges::ConstrainedEdges(const Distribution& distribution)
 {
-  std::vector<Edge> edges = distribution.edges.directed;
+  // A curve shorter than a spacing may have one particle, and lead from it to itself.
+  std::vector<Edge> edges;
+  std::copy_if(distribution.edges.directed.begin(), distribution.edges.directed.end(),
+    std::back_inserter(edges), [](const Edge& edge) { return edge[0] != edge[1]; });
   std::sort(edges.begin(), edges.end());
   const auto isDirected = [known = edges](const Edge& segment)
   {
