@@ -133,7 +133,8 @@ struct OwnBox
       return face;
     }
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    constexpr std::array<std::array<int, 2>, 4> around{ { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } } };
+    constexpr std::array<std::array<int, 2>, 4> around{ { { 0, 0 }, { 1, 0 }, { 1, 1 },
+      { 0, 1 } } };
     for (const auto& [atU, atV] : around)
     {
       glm::dvec3 corner = moved[end];

@@ -22,7 +22,8 @@ void addCounts(vtkFieldData* from, vtkFieldData* to)
   for (int a = 0; a < to->GetNumberOfArrays(); ++a)
   {
     auto* sum = vtkIdTypeArray::SafeDownCast(to->GetAbstractArray(a));
-    auto* more = sum ? vtkIdTypeArray::SafeDownCast(from->GetAbstractArray(sum->GetName())) : nullptr;
+    auto* more =
+      sum ? vtkIdTypeArray::SafeDownCast(from->GetAbstractArray(sum->GetName())) : nullptr;
     if (more && more->GetNumberOfValues() == 1 && sum->GetNumberOfValues() == 1)
     {
       sum->SetValue(0, sum->GetValue(0) + more->GetValue(0));

@@ -58,8 +58,7 @@ void prove(const Isosurface& surface, const Buffer<Particle>& particles,
     }
   }
   const FaceLocator locator(*surface.mesh, surface.isovalue, parallelFor);
-  SurfaceTopology topology =
-    findTopology(*surface.mesh, surface.isovalue, &locator, parallelFor);
+  SurfaceTopology topology = findTopology(*surface.mesh, surface.isovalue, &locator, parallelFor);
   for (SurfaceComponent& component : topology.components)
   {
     component.proven = component.proven && !isCut;

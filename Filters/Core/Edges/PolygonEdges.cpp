@@ -75,10 +75,10 @@ private:
 /// The place of the mesh at a target on the surface, by Newton's method from a place nearby.
 std::optional<Evaluated> EdgeSampler::reach(const Location& start, const glm::dvec3& target)
 {
-  constexpr int mostSteps = 12; // Newton's method takes some five, from element to element some more
+  constexpr int mostSteps =
+    12; // Newton's method takes some five, from element to element some more
   constexpr double epsilons = 16.0;
-  const double rounding =
-    epsilons * std::numeric_limits<double>::epsilon() * glm::length(target);
+  const double rounding = epsilons * std::numeric_limits<double>::epsilon() * glm::length(target);
   const double accuracy = std::max(0.01 * this->Surface.tolerance, rounding);
   Evaluated at = this->Walker.evaluate(start);
   for (int n = 0; n < mostSteps && !at.point.map.singular; ++n)
@@ -94,8 +94,8 @@ std::optional<Evaluated> EdgeSampler::reach(const Location& start, const glm::dv
 }
 
 /// Looks for the places of an edge in the mesh.
-void EdgeSampler::find(std::vector<EdgePlace>& places, std::size_t edge,
-  const Buffer<Anchor>& near, const Buffer<Patch>& nearPatches)
+void EdgeSampler::find(std::vector<EdgePlace>& places, std::size_t edge, const Buffer<Anchor>& near,
+  const Buffer<Patch>& nearPatches)
 {
   constexpr std::size_t mostStarts = 4;
   const double farthest = PolygonReach::Start * this->Spacing;
@@ -201,14 +201,13 @@ std::optional<BoundaryParticle> EdgeSampler::particleAt(const EdgePlace& place)
   const Evaluated& at = *place.found;
   result.patch.spacing = static_cast<float>(this->Spacing);
   result.patch.fixed = true;
-  result.particle = hop::particleAt(
-    at.location, at.point, curvature(at.point.gradient, at.hessian), this->Spacing);
+  result.particle =
+    hop::particleAt(at.location, at.point, curvature(at.point.gradient, at.hessian), this->Spacing);
   markCellBorders(
     *this->Surface.mesh, this->Walker.jetAt(at.location), at.point.map, result.particle);
   result.side = this->sideOf(place.edge);
-  result.otherSide = place.isCorner
-    ? this->sideOf(place.edge + this->Polygon.corners.size() - 1)
-    : place.meshSide;
+  result.otherSide =
+    place.isCorner ? this->sideOf(place.edge + this->Polygon.corners.size() - 1) : place.meshSide;
   return result;
 }
 
@@ -217,8 +216,9 @@ void keepOnCurves(const std::vector<char>& kept, BoundaryCurves& curves)
 {
   for (auto* pairs : { &curves.edges.segments, &curves.edges.directed, &curves.edges.coincident })
   {
-    pairs->erase(std::remove_if(pairs->begin(), pairs->end(),
-                   [&](const std::array<int, 2>& pair) { return !kept[pair[0]] || !kept[pair[1]]; }),
+    pairs->erase(
+      std::remove_if(pairs->begin(), pairs->end(),
+        [&](const std::array<int, 2>& pair) { return !kept[pair[0]] || !kept[pair[1]]; }),
       pairs->end());
     renumber(*pairs, kept);
   }
@@ -234,8 +234,7 @@ void cutCurves(const PlanePolygon& polygon, const std::vector<EdgePlace>& places
     const glm::dvec3& position = some.particle.position.xyz;
     return polygon.beyond(position) <= 0.0 &&
       std::none_of(places.begin(), places.end(),
-        [&](const EdgePlace& place)
-        {
+        [&](const EdgePlace& place) {
           return place.found &&
             glm::distance(place.position, position) < PolygonReach::Least * spacing;
         });
@@ -296,9 +295,8 @@ std::size_t addPolygonEdges(const Isosurface& surface, const PlanePolygon& polyg
   makeRoomAtEnds(places, spacing);
   for (EdgePlace& place : places)
   {
-    const int next = place.isEnd
-      ? nextOnCurve(curves, curves.particles.size(), place.position, spacing)
-      : -1;
+    const int next =
+      place.isEnd ? nextOnCurve(curves, curves.particles.size(), place.position, spacing) : -1;
     place.meshSide = next >= 0 ? curves.particles[next].side : BoundarySide{};
   }
   cutCurves(polygon, places, spacing, curves);
