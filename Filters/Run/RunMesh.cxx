@@ -44,9 +44,11 @@ std::vector<MeshComponent> partsOf(const ElementMesh& elements, const Buffer<Par
 }
 
 /// Compares a mesh with what is proven of the surface.
+/// \param isCut whether the mesh covers a part of the surface only, of which nothing is proven
 /// \param mesh whose vertices are known; receives what comes out
 void prove(const Isosurface& surface, const Buffer<Particle>& particles,
-  std::vector<std::array<int, 3>> triangles, ParticleMesh& mesh, const ParallelFor& parallelFor)
+  std::vector<std::array<int, 3>> triangles, bool isCut, ParticleMesh& mesh,
+  const ParallelFor& parallelFor)
 {
   for (std::array<int, 3>& corners : triangles)
   {
@@ -56,10 +58,16 @@ void prove(const Isosurface& surface, const Buffer<Particle>& particles,
     }
   }
   const FaceLocator locator(*surface.mesh, surface.isovalue, parallelFor);
-  const SurfaceTopology topology =
-    findTopology(*surface.mesh, surface.isovalue, &locator, parallelFor);
-  const TopologyComparison comparison =
-    compareTopology(topology, particles, triangles, parallelFor);
+  SurfaceTopology topology = findTopology(*surface.mesh, surface.isovalue, &locator, parallelFor);
+  for (SurfaceComponent& component : topology.components)
+  {
+    component.proven = component.proven && !isCut;
+  }
+  TopologyComparison comparison = compareTopology(topology, particles, triangles, parallelFor);
+  if (isCut)
+  {
+    comparison.missingComponents.clear();
+  }
   mesh.components = static_cast<std::int64_t>(comparison.meshComponents.size());
   mesh.parts = partsOf(*surface.mesh, particles, topology, comparison);
   mesh.unprovenComponents = std::count_if(
@@ -145,8 +153,8 @@ void mergePlaces(const ParticleMesh& mesh, Buffer<Particle>& particles)
 
 } // namespace
 
-void addMesh(const Isosurface& surface, OutputType type, int order, IsovalueParticles& some,
-  const Monitor& monitor, const ParallelFor& parallelFor)
+void addMesh(const Isosurface& surface, OutputType type, int order, bool isCut,
+  IsovalueParticles& some, const Monitor& monitor, const ParallelFor& parallelFor)
 {
   Distribution& distribution = some.distribution;
   std::vector<std::array<int, 3>> triangles;
@@ -165,7 +173,7 @@ void addMesh(const Isosurface& surface, OutputType type, int order, IsovaluePart
     some.mesh.vertices = firstInPlace(distribution.edges, distribution.particles.size());
     some.mesh.shared = sharedPlaces(some.mesh.vertices);
     Interruptible loops(monitor, parallelFor);
-    prove(surface, distribution.particles, triangles, some.mesh, std::ref(loops));
+    prove(surface, distribution.particles, triangles, isCut, some.mesh, std::ref(loops));
   }
   std::vector<double> areas = particleAreas(distribution, monitor, parallelFor);
   shareAreas(copies, areas);

@@ -33,6 +33,7 @@ void FastSystem::finish()
   {
     report.particlesRejected += !kept[i] && (this->IsOwn.empty() || this->IsOwn[i]);
   }
+  this->dropBeyondPolygon(finished.particles, kept);
   if (!this->countIsGiven())
   {
     const bool isDraft = this->Parameters.quality == Quality::Draft;
