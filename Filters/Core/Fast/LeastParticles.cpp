@@ -39,11 +39,11 @@ struct OnComponent
   static constexpr int Sweeps = 10;
 };
 
+/// Whether a particle within the reach of a sample does.
 bool standsOn(const Patch& sample, const Patch& particle)
 {
   const glm::dvec2 t = sample.inPlane(particle.position);
-  if (glm::distance(sample.position, particle.position) > OnPatch::Reach * sample.spacing ||
-    std::abs(sample.heightOf(particle.position)) > OnPatch::Height * sample.spacing)
+  if (std::abs(sample.heightOf(particle.position)) > OnPatch::Height * sample.spacing)
   {
     return false;
   }
@@ -71,7 +71,13 @@ std::vector<int> sparseBoxes(
       if (count == 0)
       {
         grid.visit(sample.position, sample.spacing,
-          [&](int j) { count += count < LeastParticles && standsOn(sample, patches[j]); });
+          [&](int j)
+          {
+            count += count < LeastParticles &&
+              glm::distance(points.positions[j], sample.position) <
+                OnPatch::Reach * sample.spacing &&
+              standsOn(sample, patches[j]);
+          });
       }
       sparse[b] = count < LeastParticles;
     });
