@@ -584,6 +584,18 @@ std::optional<BoundaryVertex> BoundaryTracer::advanceAtMost(
   return std::nullopt;
 }
 
+/// Whether the last vertex of a closed curve knows better than the first one how the curve comes there: the start lies on
+/// an edge of the mesh, or right behind a corner.
+/// \param start of which `corner` tells that it lies on an edge
+bool BoundaryTracer::replacesStart(const BoundaryVertex& last, const BoundaryVertex& start) const
+{
+  const BoundaryPoint& to = start.leaving;
+  const bool leadsToStart =
+    last.leaving.at.location.element == to.at.location.element && last.leaving.face == to.face;
+  const bool isCut = isCutAt(this->Surface, last.arriving) || isCutAt(this->Surface, last.leaving);
+  return leadsToStart ? last.corner || start.corner : last.corner && isCut;
+}
+
 /// Follows a boundary curve in one direction, and adds its vertices behind the start.
 /// \param direction 1 or -1, of velocity()
 /// \return whether the boundary curve came back to its start
@@ -631,10 +643,9 @@ bool BoundaryTracer::follow(const BoundaryPoint& start, double step, double dire
       const glm::dvec3& begin = start.at.point.map.position.xyz;
       const bool isClosed = distanceToSegment(begin, position.xyz, next->position()) <
         (this->HasCuts ? std::max(0.5 * moved, ChordLengths::PassShare * firstChord) : 0.5 * moved);
-      if (isClosed && direction > 0.0 && next->corner &&
-        (isCutAt(this->Surface, next->arriving) || isCutAt(this->Surface, next->leaving)))
+      if (isClosed && direction > 0.0 && this->replacesStart(*next, vertices.front()))
       {
-        vertices.front() = *next; // the start lies on the edge, or right behind it
+        vertices.front() = *next;
       }
       return isClosed;
     }

@@ -205,6 +205,7 @@ private:
     std::vector<std::int64_t> corners;
   };
 
+  bool replacesStart(const BoundaryVertex& last, const BoundaryVertex& start) const;
   bool follow(const BoundaryPoint& start, double step, double direction,
     std::vector<BoundaryVertex>& vertices, const ParallelFor& parallelFor);
   std::optional<BoundaryVertex> advanceAtMost(double& chord, double step, const Heading& heading);
