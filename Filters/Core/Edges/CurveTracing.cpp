@@ -229,13 +229,6 @@ bool CurveTracing::standsStill(const BoundaryTrace& trace, double spacing) const
 /// Takes a boundary curve over. A closed one begins, and ends, at a corner if it has one.
 void CurveTracing::keep(BoundaryTrace trace, double spacing)
 {
-  for (const double plane : { this->Part.begin, this->Part.end })
-  {
-    if (std::isfinite(plane))
-    {
-      this->cutAtPlane(plane, trace);
-    }
-  }
   std::vector<BoundaryVertex>& vertices = trace.vertices;
   if (vertices.size() < 2 && !trace.closed)
   {
@@ -252,6 +245,14 @@ void CurveTracing::keep(BoundaryTrace trace, double spacing)
       isSame(vertex, vertices.front(), spacing);
   };
   vertices.erase(std::find_if(vertices.begin() + 1, vertices.end(), isBack), vertices.end());
+  // Only now corners are true ones: two workers, who trace a curve from different starts, have the same.
+  for (const double plane : { this->Part.begin, this->Part.end })
+  {
+    if (std::isfinite(plane))
+    {
+      this->cutAtPlane(plane, trace);
+    }
+  }
   if (trace.closed)
   {
     const auto corner = std::find_if(
