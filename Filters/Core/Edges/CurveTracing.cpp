@@ -230,13 +230,21 @@ bool CurveTracing::standsStill(const BoundaryTrace& trace, double spacing) const
 void CurveTracing::keep(BoundaryTrace trace, double spacing)
 {
   std::vector<BoundaryVertex>& vertices = trace.vertices;
-  if (vertices.size() < 2 && !trace.closed)
-  {
-    return;
-  }
+  // First: such a start would pass for a corner near a plane.
   if (this->standsStill(trace, spacing))
   {
     vertices.erase(vertices.begin());
+  }
+  for (const double plane : { this->Part.begin, this->Part.end })
+  {
+    if (std::isfinite(plane))
+    {
+      this->cutAtPlane(plane, trace);
+    }
+  }
+  if (vertices.size() < 2 && !trace.closed)
+  {
+    return;
   }
   // A crease of one chord may have been followed several times.
   const auto isBack = [&](const BoundaryVertex& vertex)
@@ -245,14 +253,6 @@ void CurveTracing::keep(BoundaryTrace trace, double spacing)
       isSame(vertex, vertices.front(), spacing);
   };
   vertices.erase(std::find_if(vertices.begin() + 1, vertices.end(), isBack), vertices.end());
-  // Only now corners are true ones: two workers, who trace a curve from different starts, have the same.
-  for (const double plane : { this->Part.begin, this->Part.end })
-  {
-    if (std::isfinite(plane))
-    {
-      this->cutAtPlane(plane, trace);
-    }
-  }
   if (trace.closed)
   {
     const auto corner = std::find_if(
