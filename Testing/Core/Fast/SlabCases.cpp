@@ -22,16 +22,6 @@ namespace hop::testing
 namespace
 {
 
-/// Turns the z axis into the direction along which slabs follow each other.
-glm::dmat3 turned()
-{
-  const glm::dvec3 along = sweepDirection();
-  const glm::dvec3 aside = glm::normalize(glm::cross(along, glm::dvec3(1, 0, 0)));
-  return { aside, glm::cross(along, aside), along };
-}
-
-constexpr double barWidth = 0.2;
-
 /// Adds what a worker has made of one isovalue.
 void add(const Distribution& distribution, std::size_t worker, Together& together)
 {
@@ -42,6 +32,13 @@ void add(const Distribution& distribution, std::size_t worker, Together& togethe
 }
 
 } // namespace
+
+glm::dmat3 barTurn()
+{
+  const glm::dvec3 along = sweepDirection();
+  const glm::dvec3 aside = glm::normalize(glm::cross(along, glm::dvec3(1, 0, 0)));
+  return { aside, glm::cross(along, aside), along };
+}
 
 SlabCase SlabCase::coarse() const
 {
@@ -91,14 +88,14 @@ SlabCase steppedCase(const char* name, double jump)
 
 ElementMesh meshOf(const SlabCase& which)
 {
-  const glm::dmat3 turn = turned();
+  const glm::dmat3 turn = barTurn();
   MeshRecipe recipe;
   recipe.domain = which.domain;
   recipe.degrees = { 3, 3, 3 };
   recipe.cells = 6;
   const Map bend = wavyMap(which.bend);
   recipe.map = [=](const glm::dvec3& x)
-  { return turn * (glm::dvec3(barWidth, barWidth, 1.0) * bend(x)); };
+  { return turn * (glm::dvec3(BarWidth, BarWidth, 1.0) * bend(x)); };
   recipe.field = [=](const glm::dvec3& x) { return which.field(glm::transpose(turn) * x); };
   ElementMesh mesh = makeMesh(recipe);
   for (std::size_t e = 0; e < mesh.elements.size(); ++e)

@@ -13,8 +13,13 @@ namespace hop::testing
 {
 
 constexpr double SlabTolerance = 1e-9;
+/// Of the bar, across z, before it is turned: a fifth of its length.
+constexpr double BarWidth = 0.2;
 /// Workers wait for each other longer than messages take.
 constexpr std::chrono::seconds LongestWait{ 120 };
+
+/// Turns the z axis into the direction along which slabs follow each other.
+glm::dmat3 barTurn();
 
 /// A surface in a long bar, to be cut across.
 struct SlabCase

@@ -78,8 +78,8 @@ struct Needles
 
   static ElementMesh mesh()
   {
-    const glm::dmat3 turn = turned();
-    const glm::dvec3 size(barWidth, barWidth, 1.0);
+    const glm::dmat3 turn = barTurn();
+    const glm::dvec3 size(BarWidth, BarWidth, 1.0);
     MeshRecipe recipe;
     recipe.cells = Cells;
     recipe.map = [=](const glm::dvec3& x) { return turn * (size * x); };
@@ -98,8 +98,8 @@ struct Needles
     std::vector<int> counts(Cells * Cells * Cells);
     for (const Particle& particle : particles)
     {
-      const glm::dvec3 x = glm::transpose(turned()) * particle.position.xyz;
-      const glm::ivec3 cell(inElements(x / glm::dvec3(barWidth, barWidth, 1.0)));
+      const glm::dvec3 x = glm::transpose(barTurn()) * particle.position.xyz;
+      const glm::ivec3 cell(inElements(x / glm::dvec3(BarWidth, BarWidth, 1.0)));
       ++counts[(cell.z * Cells + cell.y) * Cells + cell.x];
     }
     return counts;
