@@ -42,10 +42,11 @@ def pictures(name, path, array, isovalue, density, spacing):
     display.SetRepresentationType("Points")
     count = particles.GetDataInformation().GetNumberOfPoints()
     display.PointSize = 2 if count < 5000 else 1
-    caption = simple.Show(simple.Text(Text=f"{name}, \u03c1 = {density}: {count:,} particles"), view)
+    caption = simple.Show(simple.Text(Text=f"{name}, rho = {density}: {count:,} particles"), view)
     caption.Color, caption.FontSize, caption.WindowLocation = [0, 0, 0], 14, "Lower Center"
     view.CameraPosition, view.CameraViewUp = [-1, -1.8, 1.1], [0, 0, 1]
     simple.ResetCamera(view)
+    view.GetActiveCamera().Zoom(0.9)
     points = grab(view)
     display.SetRepresentationType("Surface Splats")
     splats = grab(view)
