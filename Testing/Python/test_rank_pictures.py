@@ -105,8 +105,10 @@ shoot("cells", show(scattered, "piece", "CELLS")[0])
 shoot("two values", show(surface_of(pieces("scattered"), [0.3, 0.32]), "Mean_Curvature")[0])
 
 
-def shoot_both(name, surface, array="Mean_Curvature"):
-    view, display = show(surface, array)
+def shoot_both(name, surface, middle=[0, 0, 0]):
+    view, display = show(surface, "Mean_Curvature")
+    view.CameraPosition = [a + b for a, b in zip(view.CameraPosition, middle)]
+    view.CameraFocalPoint = middle
     shoot(name, view)
     display.Opacity = 0.5
     shoot(name + " translucent", view)
@@ -114,8 +116,9 @@ def shoot_both(name, surface, array="Mean_Curvature"):
 
 shoot_both("composite", surface_of(simple.GroupDatasets(Input=[pieces("odd"), pieces("even")])))
 shoot("workers", show(surface_of(pieces("scattered"), ParticlesPerWorker=1500), "Mean_Curvature")[0])
-shoot_both("creases", surface_of(pieces("creases"), [0.5]))
-shoot_both("workers at creases", surface_of(pieces("creases"), [0.5], ParticlesPerWorker=1000))
+middle = [1.4, 0, 0.5]  # of the tetrahedra
+shoot_both("creases", surface_of(pieces("creases"), [0.5]), middle)
+shoot_both("workers at creases", surface_of(pieces("creases"), [0.5], ParticlesPerWorker=1000), middle)
 
 simple.SaveData(f"{folder}/particles.csv", compact)
 information = compact.GetDataInformation()
