@@ -234,15 +234,15 @@ std::optional<GridElements> GroupRun::convert(const Work& work)
   return this->areAllSound() ? std::move(elements) : std::nullopt;
 }
 
-/// Finds out how many workers an isosurface has. More than one make neither meshes nor given numbers, and remember
-/// nothing for the next run.
+/// Finds out how many workers an isosurface has. More than one make neither meshes, given numbers nor
+/// polygons, and remember nothing for the next run.
 /// \return false, on all ranks, where one of them has failed
 bool GroupRun::plan(const GridElements& elements, const Work& work)
 {
   const RunProperties& asked = this->Properties;
   this->Slabs.assign(1, Slab());
   if (asked.particlesPerWorker == 0 || asked.isClassic || asked.numberOfParticles > 0 ||
-    asked.isWarmStart || asked.outputType != OutputType::Particles)
+    asked.isWarmStart || asked.outputType != OutputType::Particles || !asked.polygons.empty())
   {
     return true;
   }

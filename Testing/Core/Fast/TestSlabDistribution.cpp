@@ -65,6 +65,63 @@ TEST_P(Slabs, HaveTheSameBitsOnAnyRanksAndThreads)
   EXPECT_EQ(bitsOf(distributeTogether(which, mesh, workers, 1, threads).particles), expected);
 }
 
+/// The bar of 6 x 6 x 6 straight elements, with a closed component in each: needles, three spacings long.
+struct Needles
+{
+  static constexpr int Cells = 6;
+  static constexpr double Level = 0.97;
+
+  static SlabCase sizing() { return { "Needles", Domain::Hexahedron, {}, { 0.02, 0.0 } }; }
+
+  /// In units of elements, from 0 to Cells, from coordinates of the cube [-1,1]^3.
+  static glm::dvec3 inElements(const glm::dvec3& x) { return 0.5 * Cells * (x + 1.0); }
+
+  static ElementMesh mesh()
+  {
+    const glm::dmat3 turn = turned();
+    const glm::dvec3 size(barWidth, barWidth, 1.0);
+    MeshRecipe recipe;
+    recipe.cells = Cells;
+    recipe.map = [=](const glm::dvec3& x) { return turn * (size * x); };
+    recipe.field = [=](const glm::dvec3& x)
+    {
+      const glm::dvec3 t = glm::fract(inElements(glm::transpose(turn) * x / size));
+      const glm::dvec3 bump = 4.0 * t * (1.0 - t);
+      return bump.x * bump.y * bump.z - Level;
+    };
+    return makeMesh(recipe);
+  }
+
+  /// Number of particles in each element.
+  static std::vector<int> counts(const Buffer<Particle>& particles)
+  {
+    std::vector<int> counts(Cells * Cells * Cells);
+    for (const Particle& particle : particles)
+    {
+      const glm::dvec3 x = glm::transpose(turned()) * particle.position.xyz;
+      const glm::ivec3 cell(inElements(x / glm::dvec3(barWidth, barWidth, 1.0)));
+      ++counts[(cell.z * Cells + cell.y) * Cells + cell.x];
+    }
+    return counts;
+  }
+};
+
+/// Some of them lie across planes between slabs: one worker alone puts particles there.
+TEST(SlabDistribution, PutsSixParticlesOnSmallComponents)
+{
+  const ElementMesh mesh = Needles::mesh();
+  const SlabCase which = Needles::sizing();
+  for (const std::size_t workers : { 2, 3, 4 })
+  {
+    const Together together = distributeTogether(which, mesh, workers);
+    const std::vector<int> counts = Needles::counts(together.particles);
+    EXPECT_GE(*std::min_element(counts.begin(), counts.end()), 6) << workers;
+    EXPECT_LE(*std::max_element(counts.begin(), counts.end()), 24) << workers;
+    EXPECT_EQ(bitsOf(distributeTogether(which, mesh, workers, 2, threadedFor(3)).particles),
+      bitsOf(together.particles));
+  }
+}
+
 TEST(SlabDistribution, SharesTheWork)
 {
   const SlabCase which = ellipsoidCase();
