@@ -97,6 +97,24 @@ void bend(const Isosurface& surface, const std::vector<std::array<int, 3>>& tria
   some.distribution.report.evaluations += curved.evaluations + locator.evaluations();
 }
 
+/// Shares the area around particles with those that were added in their places.
+void shareAreas(const std::vector<std::array<int, 2>>& copies, std::vector<double>& areas)
+{
+  std::map<int, std::vector<int>> copiesOf;
+  for (const auto& [particle, copy] : copies)
+  {
+    copiesOf[particle].push_back(copy);
+  }
+  for (const auto& [particle, all] : copiesOf)
+  {
+    areas[particle] /= static_cast<double>(all.size() + 1);
+    for (const int copy : all)
+    {
+      areas[copy] = areas[particle];
+    }
+  }
+}
+
 /// Gives all particles in one place what those of them that cells use have together: the mean normal, and the area.
 void mergePlaces(const ParticleMesh& mesh, Buffer<Particle>& particles)
 {
@@ -140,10 +158,12 @@ void addMesh(const Isosurface& surface, OutputType type, int order, bool isCut,
 {
   Distribution& distribution = some.distribution;
   std::vector<std::array<int, 3>> triangles;
+  std::vector<std::array<int, 2>> copies;
   if (type != OutputType::Particles)
   {
     SurfaceMesh mesh = meshSurface(surface, distribution, monitor, parallelFor);
     triangles = std::move(mesh.triangles);
+    copies = std::move(mesh.copies);
     some.mesh.openLoops = mesh.openLoops;
     some.mesh.openLength = mesh.openLength;
     some.mesh.longestLoop = mesh.longestLoop;
@@ -155,7 +175,8 @@ void addMesh(const Isosurface& surface, OutputType type, int order, bool isCut,
     Interruptible loops(monitor, parallelFor);
     prove(surface, distribution.particles, triangles, isCut, some.mesh, std::ref(loops));
   }
-  const std::vector<double> areas = particleAreas(distribution, monitor, parallelFor);
+  std::vector<double> areas = particleAreas(distribution, monitor, parallelFor);
+  shareAreas(copies, areas);
   forAll(
     parallelFor, areas.size(), [&](std::size_t p) { distribution.particles[p].area = areas[p]; });
   if (type == OutputType::CurvedTriangles)

@@ -2,7 +2,7 @@
 
 #include "Edges/BoundaryCurves.h"
 #include "Elements/SlabElements.h"
-#include "Fast/MovingParticles.h"
+#include "Fast/LeastParticles.h"
 #include "Fast/SlabDistribution.h"
 #include "Isolation/SurfaceProxy.h"
 #include "Support/Interruptible.h"
@@ -132,6 +132,14 @@ protected:
 
   // Finished particles: FastFinish.cpp.
   void finish();
+  enum class ComponentHome
+  {
+    Here,
+    Elsewhere,
+    Unknown
+  };
+  ComponentHome homeOf(const SparseComponent& component) const;
+  void fillSparseComponents();
   void dropOthers();
 
   Isosurface Surface;
