@@ -32,8 +32,12 @@ struct Neighbors
   static constexpr double Sharpness = 2.;
   /** Cosine of 60 degrees: neighbours whose normals differ by more are of another side or another surface. */
   static constexpr double LeastCosine = 0.5;
-  /** 1 / tan^2 of 30 degrees: neighbours that stand higher above the disk are of another surface. */
-  static constexpr double Flatness = 3.;
+  /**
+   * Largest height of a neighbour along the mean of both normals, in radii, which is 0 on a surface that bends evenly.
+   * Higher ones are of another surface, or of a layer beside a step, as in MarkLayers. A larger one bends splats towards
+   * layers nearby; a smaller one drops neighbours where the curvature changes.
+   */
+  static constexpr double LargestStep = 0.08;
   /**
    * Distance behind a clip plane, in radii, up to which a neighbour still counts. Particles of a boundary curve or a
    * crease lie on each other's planes more or less.
@@ -121,9 +125,9 @@ vtkVector3d Times(const float shape[8], const vtkVector3d& v)
     shape[6] * v[0] + shape[5] * v[1] + shape[2] * v[2]);
 }
 
-// The share of its weight that a neighbour at this offset (model coordinates) has: 0 if the surface ends or has a
-// crease before it. A neighbour less than `margin` behind a plane counts as one before it.
-double ShareOf(
+// The share of its weight that a neighbour at this offset (model coordinates) has, as far as the particle's planes tell:
+// 0 if the surface ends or has a crease before it. A neighbour less than `margin` behind a plane counts as one before it.
+double ShareByPlanesOf(
   const SplatParticles& particles, vtkIdType particle, const vtkVector3d& offset, double margin)
 {
   double share = 1.;
@@ -143,6 +147,16 @@ double ShareOf(
     }
   }
   return share;
+}
+
+// The share of its weight that a neighbour has for a particle. Both are asked: particles know of creases at faces of their
+// own cell only, and with small cells the next crease may be one cell farther off.
+double ShareOf(const SplatParticles& particles, vtkIdType particle, vtkIdType neighbor,
+  const vtkVector3d& offset, double margin)
+{
+  const vtkVector3d back(-offset[0], -offset[1], -offset[2]);
+  return std::min(ShareByPlanesOf(particles, particle, offset, margin),
+    ShareByPlanesOf(particles, neighbor, back, margin));
 }
 
 /** The shape operator of one particle, in the plane of its disk and in units of 1 / radius. */
@@ -177,16 +191,17 @@ public:
     const double y = offset.Dot(this->Bitangent) / this->Radius;
     const double cosine = normal.Dot(this->Normal);
     const double square = x * x + y * y;
+    const double step = 0.5 * (offset.Dot(this->Normal) + offset.Dot(normal)) / this->Radius;
     const bool isDrawn = this->Particles.CentreRadius[4 * neighbor + 3] > 0.f;
     if (neighbor == this->Particle || !isDrawn || cosine < Neighbors::LeastCosine ||
-      Neighbors::Flatness * height * height > square)
+      std::abs(step) > Neighbors::LargestStep)
     {
       return;
     }
     // At disk coordinates t the paraboloid has the height -t.Q t / 2 and the normal n + Q t, not normalized. Each
     // neighbour gives three rows: two of the normal, one of the height.
     const double weight = std::exp(-Neighbors::Sharpness * square) *
-      ShareOf(this->Particles, this->Particle, offset, Neighbors::Margin * this->Radius);
+      ShareOf(this->Particles, this->Particle, neighbor, offset, Neighbors::Margin * this->Radius);
     this->Fit.Add({ x, y, 0. }, normal.Dot(this->Tangent) / cosine, weight);
     this->Fit.Add({ 0., x, y }, normal.Dot(this->Bitangent) / cosine, weight);
     this->Fit.Add({ 0.5 * x * x, x * y, 0.5 * y * y }, -height, weight);

@@ -40,6 +40,10 @@ struct BoundaryParticle
   BoundarySide otherSide;
   /// On one side of a crease.
   bool isOnCrease = false;
+  /// Where two stretches of a curve meet.
+  bool isCorner = false;
+  /// Stays however near others are.
+  bool isNeeded = false;
 };
 
 /// What is to be sampled.

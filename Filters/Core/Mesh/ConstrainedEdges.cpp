@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace hop
 {
@@ -74,7 +75,10 @@ void group(const std::vector<std::array<int, 2>>& edges, int by, std::size_t par
 
 ConstrainedEdges::ConstrainedEdges(const Distribution& distribution)
 {
-  std::vector<Edge> edges = distribution.edges.directed;
+  // A curve shorter than a spacing may have one particle, and lead from it to itself.
+  std::vector<Edge> edges;
+  std::copy_if(distribution.edges.directed.begin(), distribution.edges.directed.end(),
+    std::back_inserter(edges), [](const Edge& edge) { return edge[0] != edge[1]; });
   std::sort(edges.begin(), edges.end());
   const auto isDirected = [known = edges](const Edge& segment)
   {
@@ -91,11 +95,34 @@ ConstrainedEdges::ConstrainedEdges(const Distribution& distribution)
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   closeChains(distribution.particles, edges);
+  this->set(edges, distribution.particles.size());
+}
+
+/// \param edges sorted
+void ConstrainedEdges::set(const std::vector<Edge>& edges, std::size_t particleCount)
+{
+  this->Next.clear();
+  this->Previous.clear();
   if (!edges.empty())
   {
-    group(edges, 0, distribution.particles.size(), this->Next, this->NextStart);
-    group(edges, 1, distribution.particles.size(), this->Previous, this->PreviousStart);
+    group(edges, 0, particleCount, this->Next, this->NextStart);
+    group(edges, 1, particleCount, this->Previous, this->PreviousStart);
   }
+}
+
+void ConstrainedEdges::replace(const Edge& edge, const Edge& by, std::size_t particleCount)
+{
+  std::vector<Edge> edges;
+  for (int particle = 0; particle + 1 < static_cast<int>(this->NextStart.size()); ++particle)
+  {
+    for (const int next : this->after(particle))
+    {
+      const Edge one{ particle, next };
+      edges.push_back(one == edge ? by : one);
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  this->set(edges, particleCount);
 }
 
 bool ConstrainedEdges::has(int a, int b) const

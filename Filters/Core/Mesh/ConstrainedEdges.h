@@ -13,7 +13,13 @@ namespace hop
 class ConstrainedEdges
 {
 public:
+  using Edge = std::array<int, 2>;
+
   explicit ConstrainedEdges(const Distribution& distribution);
+
+  /// \pre the first edge is there
+  /// \param particleCount more than the indices of the second edge's ends
+  void replace(const Edge& edge, const Edge& by, std::size_t particleCount);
 
   bool empty() const { return this->Next.empty(); }
   /// The ends of the edges that begin at a particle, ascending.
@@ -33,7 +39,7 @@ public:
   }
 
 private:
-  using Edge = std::array<int, 2>;
+  void set(const std::vector<Edge>& edges, std::size_t particleCount);
 
   static Span<int> ofParticle(
     const std::vector<int>& particles, const std::vector<int>& start, int particle)
