@@ -1,8 +1,6 @@
 #include "Mesh/ConstrainedEdges.h"
 
 #include "Mesh/EdgeChains.h"
-#include "Support/SortedBy.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -58,18 +56,6 @@ void direct(const Buffer<Particle>& particles, const std::array<int, 2>& segment
   }
 }
 
-void group(const std::vector<std::array<int, 2>>& edges, int by, std::size_t particleCount,
-  std::vector<int>& ends, std::vector<int>& start)
-{
-  Grouping grouping =
-    groupedBy(edges, particleCount, [by](const std::array<int, 2>& edge) { return edge[by]; });
-  for (const int e : grouping.order)
-  {
-    ends.push_back(edges[e][1 - by]);
-  }
-  start = std::move(grouping.start);
-}
-
 } // namespace
 
 ConstrainedEdges::ConstrainedEdges(const Distribution& distribution)
@@ -93,8 +79,13 @@ ConstrainedEdges::ConstrainedEdges(const Distribution& distribution)
   closeChains(distribution.particles, edges);
   if (!edges.empty())
   {
-    group(edges, 0, distribution.particles.size(), this->Next, this->NextStart);
-    group(edges, 1, distribution.particles.size(), this->Previous, this->PreviousStart);
+    this->IsOnEdge.assign(distribution.particles.size(), 0);
+    for (const auto& [from, to] : edges)
+    {
+      this->IsOnEdge[from] = this->IsOnEdge[to] = 1;
+    }
+    this->Next = EdgeLinks(edges, EdgeLinks::By::Beginning, distribution.particles.size());
+    this->Previous = EdgeLinks(edges, EdgeLinks::By::End, distribution.particles.size());
   }
 }
 

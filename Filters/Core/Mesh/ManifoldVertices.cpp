@@ -195,7 +195,10 @@ bool keepOneFan(TriangleFans& fans, const ParallelFor& parallelFor)
   std::vector<char> isTouched(fans.vertexCount(), 0);
   forAll(parallelFor, isTouched.size(),
     [&](std::size_t vertex)
-    { isTouched[vertex] = hasSeveralFans(static_cast<int>(vertex), fans) ? 1 : 0; });
+    {
+      const int v = static_cast<int>(vertex);
+      isTouched[vertex] = !fans.isRing(v) && hasSeveralFans(v, fans) ? 1 : 0;
+    });
   std::vector<int> vertices;
   for (std::size_t vertex = 0; vertex < isTouched.size(); ++vertex)
   {
