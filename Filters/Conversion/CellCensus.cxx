@@ -134,10 +134,8 @@ std::string CellCensus::describe() const
     "skipped: without volume, or smaller than 1e-15 of the bounds of the input");
   for (const auto& [which, cells] : this->misordered)
   {
-    const std::string& remedy = which.second;
     describeCells(text, cells,
-      "of type " + nameOfCellType(which.first) + " skipped: partly inverted, " +
-        (remedy.empty() ? "as most cells of the type are" : "but sound with " + remedy),
+      "of type " + nameOfCellType(which.first) + " skipped: " + which.second,
       ". The file seems to have its nodes in another order than VTK's, as Gmsh's is for instance: "
       "check what wrote it");
   }

@@ -64,6 +64,21 @@ Room roomForExact(const JudgedCells& range, std::size_t i)
   return room;
 }
 
+/// The cells of one kind with elements.
+struct KindOfCells
+{
+  const CellBasis* cell = nullptr;
+  std::vector<BlockCell> folded;
+  std::vector<BlockCell> sound;
+
+  bool areMostFolded() const
+  {
+    // Of fewer cells nothing is said: a few bad cells are more likely than a wrong order. Chosen by experiment.
+    constexpr std::size_t leastToTell = 10;
+    return this->folded.size() >= leastToTell && this->folded.size() > this->sound.size();
+  }
+};
+
 /// Builds elements of judged cells.
 class Builder
 {
@@ -89,8 +104,7 @@ private:
   void makeElements(const JudgedCells& range, const Room& before);
   void dropMisordered(std::vector<JacobianSign>& signs);
   void drop(const MisorderedCells& misordered, std::vector<JacobianSign>& signs);
-  std::vector<BlockCell> foldedCells(
-    const std::vector<JacobianSign>& signs, const CellBasis* cell, bool& areMost) const;
+  std::vector<KindOfCells> sortByKind(const std::vector<JacobianSign>& signs) const;
   void dropCollapsed(const std::vector<JacobianSign>& signs);
   void keep(const std::vector<char>& marks);
 
@@ -219,61 +233,60 @@ std::vector<JacobianSign> Builder::writeDerived(const std::vector<JudgedCells>& 
 /// Removes elements whose cells have their nodes in another order than VTK; their signs, too.
 void Builder::dropMisordered(std::vector<JacobianSign>& signs)
 {
-  std::vector<const CellBasis*> folded; // in the order of the cells, not of addresses
-  for (std::size_t e = 0; e < signs.size(); ++e)
+  for (const KindOfCells& kind : this->sortByKind(signs))
   {
-    const CellBasis* cell = this->Result.bases[e];
-    if (signs[e] == JacobianSign::Mixed &&
-      std::find(folded.begin(), folded.end(), cell) == folded.end())
+    CellBases& kinds = *this->Result.kinds;
+    const CellBasis& cell = *kind.cell;
+    if (!kind.folded.empty())
     {
-      folded.push_back(cell);
+      this->drop(findMisordered(
+                   this->Blocks, kind.folded, kind.areMostFolded(), cell, kinds, this->Parallel),
+        signs);
     }
-  }
-  for (const CellBasis* cell : folded)
-  {
-    bool areMost = false;
-    const std::vector<BlockCell> cells = this->foldedCells(signs, cell, areMost);
-    const MisorderedCells misordered =
-      findMisordered(this->Blocks, cells, areMost, *cell, *this->Result.kinds, this->Parallel);
-    if (!misordered.isEmpty())
-    {
-      this->drop(misordered, signs);
-    }
+    this->drop(findDisplaced(this->Blocks, kind.sound, cell, kinds, this->Parallel), signs);
   }
 }
 
-/// The folded cells of a kind.
-/// \param areMost receives whether these are most of the kind's elements
-std::vector<BlockCell> Builder::foldedCells(
-  const std::vector<JacobianSign>& signs, const CellBasis* cell, bool& areMost) const
+/// The cells of all elements, kind by kind, in the order of the cells, not of addresses.
+std::vector<KindOfCells> Builder::sortByKind(const std::vector<JacobianSign>& signs) const
 {
-  // Of fewer cells nothing is said: a few bad cells are more likely than a wrong order. Chosen by experiment.
-  constexpr std::size_t leastToTell = 10;
-  std::size_t count = 0;
-  std::vector<BlockCell> cells;
+  std::vector<KindOfCells> kinds;
   for (std::size_t e = 0; e < signs.size(); ++e)
   {
-    const bool isOfKind = this->Result.bases[e] == cell;
-    count += isOfKind;
-    if (isOfKind && signs[e] == JacobianSign::Mixed)
+    const CellBasis* cell = this->Result.bases[e];
+    auto kind = std::find_if(
+      kinds.begin(), kinds.end(), [&](const KindOfCells& one) { return one.cell == cell; });
+    if (kind == kinds.end())
     {
-      cells.push_back(this->Blocks.locate(this->Result.mesh.elements[e].cell));
+      kind = kinds.insert(kinds.end(), { cell, {}, {} });
+    }
+    const BlockCell where = this->Blocks.locate(this->Result.mesh.elements[e].cell);
+    if (signs[e] == JacobianSign::Mixed)
+    {
+      kind->folded.push_back(where);
+    }
+    else if (signs[e] == JacobianSign::Positive || signs[e] == JacobianSign::Negative)
+    {
+      kind->sound.push_back(where);
     }
   }
-  areMost = cells.size() >= leastToTell && 2 * cells.size() > count;
-  return cells;
+  return kinds;
 }
 
 /// Counts misordered cells and removes their elements.
 void Builder::drop(const MisorderedCells& misordered, std::vector<JacobianSign>& signs)
 {
+  if (misordered.isEmpty())
+  {
+    return;
+  }
   for (std::size_t b = 0; b < this->Blocks.size(); ++b)
   {
     const std::vector<vtkIdType>& cells = misordered.cells[b];
     if (!cells.empty())
     {
       const int type = this->Blocks[b].grid->GetCellType(cells.front());
-      this->Result.census[b].misordered[{ type, misordered.remedy }].add(
+      this->Result.census[b].misordered[{ type, misordered.describe() }].add(
         { static_cast<vtkIdType>(cells.size()), cells.front() });
     }
   }

@@ -24,13 +24,15 @@ namespace hop
 namespace
 {
 
-/// How many cells decide. Both chosen by experiment.
+/// How many cells decide. All chosen by experiment.
 struct Sample
 {
   /// Folded cells whose nodes are compared with straight cells: in bent cells this may fail.
   static constexpr std::size_t Compared = 4;
   /// Folded cells on which orders are tried. More take longer; fewer may all be odd ones.
   static constexpr std::size_t Tried = 32;
+  /// Sound cells of which most have to be displaced. Fewer say little about a mesh.
+  static constexpr std::size_t LeastDisplaced = 10;
 };
 
 /// Some items, evenly spread over all.
@@ -95,13 +97,17 @@ public:
   std::vector<Order> ordersFor(const std::vector<BlockCell>& folded);
   /// The first order in which a cell is sound: one of those, or its own; empty if there is none.
   Order find(const BlockCell& where, const std::vector<Order>& orders);
+  /// The order in which the nodes of a sound cell are much nearer to their places in the straight-sided cell; empty if
+  /// there is none.
+  Order straighten(const BlockCell& where);
   JacobianSign sign(const BlockCell& where, const Order& order)
   {
     return signInOrder(this->Blocks, where, this->Cell, order, this->Values);
   }
 
 private:
-  Order byPlace(const BlockCell& where);
+  std::vector<glm::dvec3> nodesOf(const BlockCell& where);
+  Order byPlace(const std::vector<glm::dvec3>& points) const;
   std::vector<glm::dvec3> straight(const std::vector<glm::dvec3>& points) const;
   Order lexicographic(const std::array<int, 3>& axes) const;
 
@@ -116,7 +122,7 @@ std::vector<OrderSearch::Order> OrderSearch::ordersFor(const std::vector<BlockCe
   std::set<Order> orders{ this->lexicographic({ 2, 1, 0 }), this->lexicographic({ 0, 1, 2 }) };
   for (const BlockCell& where : someOf(folded, Sample::Compared))
   {
-    orders.insert(this->byPlace(where));
+    orders.insert(this->byPlace(this->nodesOf(where)));
   }
   orders.erase(Order());
   orders.erase(asInTheMesh(this->Cell));
@@ -148,13 +154,34 @@ OrderSearch::Order OrderSearch::find(const BlockCell& where, const std::vector<O
   {
     return *known;
   }
-  Order own = this->byPlace(where);
+  Order own = this->byPlace(this->nodesOf(where));
   return own.empty() || isSound(this->sign(where, own)) ? own : Order();
 }
 
-/// The node that stands nearest to the place of each node in the straight-sided cell with the same corners; empty where
-/// a node is the nearest to two places.
-std::vector<int> OrderSearch::byPlace(const BlockCell& where)
+OrderSearch::Order OrderSearch::straighten(const BlockCell& where)
+{
+  // Largest sum of the squared distances of nodes from their places, as a fraction of the sum in the order of the mesh.
+  // Nodes of bent cells may be nearest to places of others, too, but hardly nearer. Chosen by experiment.
+  constexpr double muchNearer = 0.25;
+  const std::vector<glm::dvec3> points = this->nodesOf(where);
+  Order order = this->byPlace(points);
+  if (order.empty() || order == asInTheMesh(this->Cell))
+  {
+    return {};
+  }
+  const std::vector<glm::dvec3> places = this->straight(points);
+  double before = 0.0;
+  double after = 0.0;
+  for (std::size_t n = 0; n < places.size(); ++n)
+  {
+    before += glm::dot(points[n] - places[n], points[n] - places[n]);
+    after += glm::dot(points[order[n]] - places[n], points[order[n]] - places[n]);
+  }
+  return after < muchNearer * before && isSound(this->sign(where, order)) ? order : Order();
+}
+
+/// Where the nodes of a cell stand; empty where the cell cannot be read, or its corners have no nodes.
+std::vector<glm::dvec3> OrderSearch::nodesOf(const BlockCell& where)
 {
   if (this->Corners.empty() ||
     readCell(this->Blocks, where, this->Cell, this->Values) != Verdict::Keep)
@@ -166,6 +193,17 @@ std::vector<int> OrderSearch::byPlace(const BlockCell& where)
   {
     points.emplace_back();
     this->Blocks[where.block].grid->GetPoint(this->Values.ids[n], &points.back().x);
+  }
+  return points;
+}
+
+/// The node that stands nearest to the place of each node in the straight-sided cell with the same corners; empty where
+/// a node is the nearest to two places.
+std::vector<int> OrderSearch::byPlace(const std::vector<glm::dvec3>& points) const
+{
+  if (points.empty())
+  {
+    return {};
   }
   std::vector<int> order;
   std::vector<char> isTaken(points.size(), 0);
@@ -261,29 +299,30 @@ std::string describe(const std::vector<int>& order)
   return text.str();
 }
 
-/// What makes some cells sound; empty unless most of them become sound.
-std::string remedyOf(const std::vector<BlockCell>& folded, OrderSearch& search,
-  const std::vector<std::vector<int>>& orders)
+/// What mends some cells; empty unless most of them are mended.
+/// \param orderFor gives the order that mends a cell, or an empty one
+template <class OrderFor>
+std::string remedyOf(const std::vector<BlockCell>& cells, const OrderFor& orderFor)
 {
   std::size_t mended = 0;
   std::set<std::vector<int>> used;
-  for (const BlockCell& where : folded)
+  for (const BlockCell& where : cells)
   {
-    const std::vector<int> order = search.find(where, orders);
+    const std::vector<int> order = orderFor(where);
     mended += !order.empty();
     used.insert(order);
   }
   used.erase(std::vector<int>());
-  return 2 * mended <= folded.size() ? ""
-    : used.size() == 1               ? describe(*used.begin())
-                       : "their nodes in other orders, which differ from cell to cell";
+  return 2 * mended <= cells.size() ? ""
+    : used.size() == 1              ? describe(*used.begin())
+                                    : "their nodes in other orders, which differ from cell to cell";
 }
 
-/// Finds folded cells of one kind in all blocks.
-class FoldedCells
+/// Finds bad cells of one kind in all blocks.
+class BadCells
 {
 public:
-  FoldedCells(const InputBlocks& blocks, const CellBasis& cell)
+  BadCells(const InputBlocks& blocks, const CellBasis& cell)
     : Blocks(blocks)
     , Cell(cell)
     , Found(blocks.size())
@@ -295,9 +334,9 @@ public:
     }
   }
 
-  /// Finds all that are sound in an order, or all if `isAny`.
-  void find(const std::vector<std::vector<int>>& orders, bool isAny, CellBases& kinds,
-    const ParallelFor& parallelFor);
+  /// \param isBad whether a cell is one, by a search of its thread
+  template <class IsBad>
+  void find(const IsBad& isBad, CellBases& kinds, const ParallelFor& parallelFor);
   /// Whether these are most cells of the kind.
   bool areMost() const { return 2 * this->Count > this->OfKind; }
   /// One ascending list a block.
@@ -313,10 +352,9 @@ private:
   std::atomic<std::int64_t> Count{ 0 };
 };
 
-void FoldedCells::find(const std::vector<std::vector<int>>& orders, bool isAny, CellBases& kinds,
-  const ParallelFor& parallelFor)
+template <class IsBad>
+void BadCells::find(const IsBad& isBad, CellBases& kinds, const ParallelFor& parallelFor)
 {
-  const std::vector<int> own = asInTheMesh(this->Cell);
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(this->Blocks.cellCount()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
@@ -331,8 +369,7 @@ void FoldedCells::find(const std::vector<std::vector<int>>& orders, bool isAny, 
           continue;
         }
         ++this->OfKind;
-        if (search.sign(where, own) == JacobianSign::Mixed &&
-          (isAny || !search.find(where, orders).empty()))
+        if (isBad(where, search))
         {
           ++this->Count;
           const std::lock_guard<std::mutex> lock(this->Access);
@@ -342,7 +379,7 @@ void FoldedCells::find(const std::vector<std::vector<int>>& orders, bool isAny, 
     });
 }
 
-std::vector<std::vector<vtkIdType>> FoldedCells::take()
+std::vector<std::vector<vtkIdType>> BadCells::take()
 {
   for (std::vector<vtkIdType>& cells : this->Found)
   {
@@ -353,6 +390,16 @@ std::vector<std::vector<vtkIdType>> FoldedCells::take()
 
 } // namespace
 
+std::string MisorderedCells::describe() const
+{
+  if (!this->areFolded)
+  {
+    return "bent, but much straighter with " + this->remedy;
+  }
+  return this->remedy.empty() ? "partly inverted, as most cells of the type are"
+                              : "partly inverted, but sound with " + this->remedy;
+}
+
 MisorderedCells findMisordered(const InputBlocks& blocks, const std::vector<BlockCell>& folded,
   bool areMost, const CellBasis& cell, CellBases& kinds, const ParallelFor& parallelFor)
 {
@@ -361,16 +408,49 @@ MisorderedCells findMisordered(const InputBlocks& blocks, const std::vector<Bloc
   const std::vector<std::vector<int>> orders = search.ordersFor(sample);
   MisorderedCells result;
   result.cells.resize(blocks.size());
-  result.remedy = remedyOf(sample, search, orders);
+  result.remedy =
+    remedyOf(sample, [&](const BlockCell& where) { return search.find(where, orders); });
   const bool isKnown = !result.remedy.empty();
   if (isKnown || areMost)
   {
-    FoldedCells all(blocks, cell);
-    all.find(orders, !isKnown, kinds, parallelFor);
+    const std::vector<int> own = asInTheMesh(cell);
+    BadCells all(blocks, cell);
+    all.find(
+      [&](const BlockCell& where, OrderSearch& orderSearch)
+      {
+        return orderSearch.sign(where, own) == JacobianSign::Mixed &&
+          (!isKnown || !orderSearch.find(where, orders).empty());
+      },
+      kinds, parallelFor);
     if (isKnown || all.areMost())
     {
       result.cells = all.take();
     }
+  }
+  return result;
+}
+
+MisorderedCells findDisplaced(const InputBlocks& blocks, const std::vector<BlockCell>& sound,
+  const CellBasis& cell, CellBases& kinds, const ParallelFor& parallelFor)
+{
+  MisorderedCells result;
+  result.areFolded = false;
+  result.cells.resize(blocks.size());
+  if (sound.size() < Sample::LeastDisplaced)
+  {
+    return result;
+  }
+  OrderSearch search(blocks, cell);
+  const std::string remedy = remedyOf(
+    someOf(sound, Sample::Tried), [&](const BlockCell& where) { return search.straighten(where); });
+  if (!remedy.empty())
+  {
+    result.remedy = remedy;
+    BadCells all(blocks, cell);
+    all.find([](const BlockCell& where, OrderSearch& orderSearch)
+      { return !orderSearch.straighten(where).empty(); },
+      kinds, parallelFor);
+    result.cells = all.take();
   }
   return result;
 }

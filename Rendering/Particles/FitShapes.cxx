@@ -121,9 +121,9 @@ vtkVector3d Times(const float shape[8], const vtkVector3d& v)
     shape[6] * v[0] + shape[5] * v[1] + shape[2] * v[2]);
 }
 
-// The share of its weight that a neighbour at this offset (model coordinates) has: 0 if the surface ends or has a
-// crease before it. A neighbour less than `margin` behind a plane counts as one before it.
-double ShareOf(
+// The share of its weight that a neighbour at this offset (model coordinates) has, as far as the particle's planes tell:
+// 0 if the surface ends or has a crease before it. A neighbour less than `margin` behind a plane counts as one before it.
+double ShareByPlanesOf(
   const SplatParticles& particles, vtkIdType particle, const vtkVector3d& offset, double margin)
 {
   double share = 1.;
@@ -143,6 +143,16 @@ double ShareOf(
     }
   }
   return share;
+}
+
+// The share of its weight that a neighbour has for a particle. Both are asked: particles know of creases at faces of their
+// own cell only, and with small cells the next crease may be one cell farther off.
+double ShareOf(const SplatParticles& particles, vtkIdType particle, vtkIdType neighbor,
+  const vtkVector3d& offset, double margin)
+{
+  const vtkVector3d back(-offset[0], -offset[1], -offset[2]);
+  return std::min(ShareByPlanesOf(particles, particle, offset, margin),
+    ShareByPlanesOf(particles, neighbor, back, margin));
 }
 
 /** The shape operator of one particle, in the plane of its disk and in units of 1 / radius. */
@@ -186,7 +196,7 @@ public:
     // At disk coordinates t the paraboloid has the height -t.Q t / 2 and the normal n + Q t, not normalized. Each
     // neighbour gives three rows: two of the normal, one of the height.
     const double weight = std::exp(-Neighbors::Sharpness * square) *
-      ShareOf(this->Particles, this->Particle, offset, Neighbors::Margin * this->Radius);
+      ShareOf(this->Particles, this->Particle, neighbor, offset, Neighbors::Margin * this->Radius);
     this->Fit.Add({ x, y, 0. }, normal.Dot(this->Tangent) / cosine, weight);
     this->Fit.Add({ 0., x, y }, normal.Dot(this->Bitangent) / cosine, weight);
     this->Fit.Add({ 0.5 * x * x, x * y, 0.5 * y * y }, -height, weight);

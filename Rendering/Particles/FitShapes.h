@@ -16,9 +16,9 @@ namespace hop
 struct SplatParticles;
 
 /**
- * Replaces the shape operators of particles that have some. A neighbour does not count if it lies behind one of the
- * particle's clip planes, is turned away from the particle or stands high above its disk. It counts less if the plane
- * before it is one at which the surface is almost smooth.
+ * Replaces the shape operators of particles that have some. A neighbour does not count if one of the two lies behind a
+ * clip plane of the other, or if it is turned away from the particle or stands high above its disk. It counts less if the
+ * plane between them is one at which the surface is almost smooth.
  */
 void FitShapes(SplatParticles& particles);
 }

@@ -141,6 +141,10 @@ def test_a_mesh_with_creases_has_a_given_number_of_points(data, plugin):
     ("mfem_dg_advection_0.vtu", "rho", 0.0902468),
     ("mfem_dg_advection_0.vtu", "rho", 0.361018),
     ("mfem_dg_advection_2.vtu", "rho", 0.2404164),
+    # A crease that turns back beside another part of itself; a closed crease; a corner beside another particle.
+    ("dolfinx_tet_p3.vtu", "u", 0.11485),
+    ("dolfinx_tet_p3.vtu", "u", -0.10525738),
+    ("dolfinx_tet_p3.vtu", "u", 0.28722799),
 ])
 def test_all_open_edges_are_boundary_curves(data, plugin, file, array, value):
     grid = support.read(data(file))
@@ -163,6 +167,8 @@ class SolverSurface:
     component: int = None
     # Largest relative error of the area.
     error: float = 2e-3
+    # Median of the smallest angles away from edges, degrees.
+    median: float = 50
     # Folds above so many degrees count as creases.
     crease: float = 10
 
@@ -183,9 +189,10 @@ SOLVER_SURFACES = [
     SolverSurface("yeti_pipe_bezier_rational_p333.vtu", "disp", -1e-4, 5.40986, component=0),
     SolverSurface("yeti_pipe_bezier_rational_p423.vtu", "disp", -1e-4, 5.39307, component=0),
     SolverSurface("vtkdata_pyramid_quadratic.vtu", "Polynomial", 4.01, 7.46918),
-    # Some hundred triangles. The area is the limit of those at 1/8 and 1/16 of the spacing.
+    # A plate 2.5 spacings thick: 52 triangles are away from edges. The area is the limit of those at 1/8 and 1/16 of the
+    # spacing.
     SolverSurface("vtkdata_notch_quadratic_hex20_wedge15.vtu", "Nodal Displacement", 1.68e-6, 3.6463e-4, component=0,
-                  error=1e-2),
+                  error=4e-3, median=48),
 ]
 
 
@@ -217,7 +224,7 @@ def test_meshes_of_solvers_are_closed_well_shaped_and_of_the_right_area(data, pl
     assert np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2 == pytest.approx(case.area, rel=case.error)
     assert array_of(mesh, "Area").sum() == pytest.approx(case.area, rel=case.error)
     angles = smallest_angles(mesh)[away_from_edges(mesh, case.crease)]
-    assert np.median(angles) >= 50 and np.quantile(angles, 0.01) >= 30
+    assert np.median(angles) >= case.median and np.quantile(angles, 0.01) >= 30
 
 
 def test_topology_of_a_field_with_jumps_is_not_proven(data, plugin):

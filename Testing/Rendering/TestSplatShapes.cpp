@@ -138,6 +138,25 @@ TEST(SplatShapes, DoNotBendAroundAnEdgeThatParticlesKnowOf)
   EXPECT_GT(BendOfMiddle(filling), 0.1 * BendOfMiddle(unaware));
 }
 
+// The edge is one cell farther off than the faces of the particle's own cell.
+TEST(SplatShapes, DoNotBendAroundAnEdgeThatOnlyNeighborsKnowOf)
+{
+  hop::SplatParticles particles = ParticlesOn(Edge());
+  particles.ClipStride = 12;
+  particles.Clip.assign(12 * particles.GetNumberOfParticles(), 0.f);
+  for (vtkIdType i = 0; i < particles.GetNumberOfParticles(); ++i)
+  {
+    const float x = particles.CentreRadius[4 * i];
+    if (x > 0.f)
+    {
+      particles.Clip[12 * i] = -1.f; // x < 0.03 is cut off
+      particles.Clip[12 * i + 3] = x - 0.03f;
+    }
+  }
+  hop::FitShapes(particles);
+  EXPECT_NEAR(BendOfMiddle(particles), 0., 1e-5);
+}
+
 TEST(SplatShapes, DoNotSeeAnotherSheet)
 {
   hop::SplatParticles alone = ParticlesOn(Circle());

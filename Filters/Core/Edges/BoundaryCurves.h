@@ -40,6 +40,8 @@ struct BoundaryParticle
   BoundarySide otherSide;
   /// On one side of a crease.
   bool isOnCrease = false;
+  /// Where two stretches of a curve meet.
+  bool isCorner = false;
 };
 
 /// What is to be sampled.

@@ -6,6 +6,7 @@
 #include "Support/SpacingGrid.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace hop
@@ -46,6 +47,20 @@ bool areTooNear(const BoundaryParticle& a, const BoundaryParticle& b, SampledCur
   const double cosine = dot(a.particle.normal, b.particle.normal);
   const double near = cosine > SheetCosine ? Nearness::OnOneSheet : Nearness::AtSharpEdge;
   return cosine > 0.0 && glm::distance(a.patch.position, b.patch.position) < near * a.patch.spacing;
+}
+
+/// The order in which particles stay. Meshes keep corners before all others, lest edges cut them off.
+/// \return indices of particles
+std::vector<std::size_t> orderOf(const Buffer<BoundaryParticle>& particles, SampledCurves sampled)
+{
+  std::vector<std::size_t> order(particles.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  if (sampled == SampledCurves::BoundaryAndCreases)
+  {
+    std::stable_partition(
+      order.begin(), order.end(), [&](std::size_t i) { return particles[i].isCorner; });
+  }
+  return order;
 }
 
 /// Whether two particles that look away from each other have the surface between them, as on a strip, or are the two
@@ -120,20 +135,32 @@ void thinOut(std::vector<CurvePlace> places, const std::vector<CurveRange>& rang
     [&](std::size_t i) { return particles[i].patch.spacing; }, parallelFor);
   const SpacingGrid grid(
     points.positions, points.spacings, Nearness::OnOneSheet, CellsPerReach, parallelFor);
+  const std::size_t count = particles.size();
+  const std::vector<std::size_t> order = orderOf(particles, sampled);
+  std::vector<std::size_t> ranks(count);
+  for (std::size_t rank = 0; rank < count; ++rank)
+  {
+    ranks[order[rank]] = rank;
+  }
   const auto visitEarlier = [&](std::size_t i, const auto& use)
   {
     grid.visit(points.positions[i], points.spacings[i],
       [&](std::size_t j)
       {
-        if (j < i && areTooNear(particles[i], particles[j], sampled))
+        if (ranks[j] < ranks[i] && areTooNear(particles[i], particles[j], sampled))
         {
           use(j);
         }
       });
   };
-  const std::size_t count = particles.size();
-  const std::vector<char> kept =
-    keepFirst(std::vector<char>(count, 1), count, parallelFor, visitEarlier);
+  const std::vector<char> keptInOrder = keepFirst(std::vector<char>(count, 1), count, parallelFor,
+    [&](std::size_t rank, const auto& use)
+    { visitEarlier(order[rank], [&](std::size_t j) { use(ranks[j]); }); });
+  std::vector<char> kept(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    kept[i] = keptInOrder[ranks[i]];
+  }
   std::vector<char> closesSlit(count, 0);
   std::vector<int> standIns(count, -1);
   for (std::size_t i = 0; i < count; ++i)

@@ -9,8 +9,8 @@
 namespace hop
 {
 
-/// Of particles that are too near to each other the first stays. If the surface ends at both on the two sides of a
-/// slit, it goes on there, and the one that stays ends at no face.
+/// Of particles that are too near to each other the first stays; in meshes, one on a corner before others. If the surface
+/// ends at both on the two sides of a slit, it goes on there, and the one that stays ends at no face.
 /// \param places what became of the places on all curves
 /// \param ranges of places, one a curve
 /// \param sampled with creases, for meshes, both sides of slits and strips keep their particles

@@ -45,6 +45,9 @@ struct ChordLengths
   /// After so many chords in a row that do not move, a trace ends: it would go round for ever. Fewer than the elements
   /// around a corner could end a trace that gets on.
   static constexpr int MostStandstills = 8;
+  /// Largest distance between the curve and the cubic of a chord, in units of the chord's length. Larger: where two parts
+  /// of a curve turn back close to each other, a chord leads across; smaller: more evaluations.
+  static constexpr double Unevenness = 0.01;
   /// A chord passes a point that is nearer to it than this, in units of its own length. More takes another boundary
   /// curve close by for the same one; less than what the curve bends away from its chords traces it twice.
   static constexpr double PassShare = 0.2;
@@ -53,14 +56,6 @@ struct ChordLengths
 /// What rounding leaves between a face and places on it that the locator found, in half-space values of the face
 /// (faceMargin(), of order one).
 constexpr double locatedOnFace = 1e-6;
-
-double distanceToSegment(const glm::dvec3& x, const glm::dvec3& a, const glm::dvec3& b)
-{
-  const glm::dvec3 d = b - a;
-  const double length2 = glm::dot(d, d);
-  const double t = length2 > 0.0 ? std::clamp(glm::dot(x - a, d) / length2, 0.0, 1.0) : 0.0;
-  return glm::distance(x, a + t * d);
-}
 
 /// Whether two lines in a plane cross or touch, to what single precision leaves.
 bool meet(const std::array<glm::dvec3, 2>& a, const std::array<glm::dvec3, 2>& b)
@@ -95,6 +90,14 @@ bool meet(const std::array<glm::dvec3, 2>& a, const std::array<glm::dvec3, 2>& b
 }
 
 } // namespace
+
+double distanceToSegment(const glm::dvec3& x, const glm::dvec3& a, const glm::dvec3& b)
+{
+  const glm::dvec3 d = b - a;
+  const double length2 = glm::dot(d, d);
+  const double t = length2 > 0.0 ? std::clamp(glm::dot(x - a, d) / length2, 0.0, 1.0) : 0.0;
+  return glm::distance(x, a + t * d);
+}
 
 BoundaryChords::Chord::Chord(const BoundaryPoint& from, const BoundaryPoint& to)
   : face(faceSlot(from.at.location.element, from.face))
@@ -516,6 +519,27 @@ bool BoundaryTracer::staysOnFace(const BoundaryPoint& from, const BoundaryPoint&
   return true;
 }
 
+/// Whether a curve bends between two points as its tangents there say. Where it turns back close to another part of it, at
+/// a saddle of the field on the face, a chord may lead across to that part, with nearly the same tangent.
+bool BoundaryTracer::bendsEvenly(const BoundaryPoint& from, const BoundaryPoint& to)
+{
+  const ReferenceVector chord = to.at.location.u - from.at.location.u;
+  const double length = glm::distance(from.at.point.map.position.xyz, to.at.point.map.position.xyz);
+  const ReferenceVector start = this->velocity(from);
+  const ReferenceVector end = this->velocity(to);
+  const double way = dot(chord, start + end) < 0.0 ? -length : length;
+  // The middle of the cubic by places and slopes at both ends.
+  const ReferencePoint middle{ 0.5 * (from.at.location.u.xyz + to.at.location.u.xyz) +
+    0.125 * way * (start.xyz - end.xyz) };
+  const auto point = this->Walker.evaluate({ from.at.location.element, middle }).point;
+  const glm::dvec3 aside = glm::cross(point.gradient.xyz,
+    glm::normalize(glm::transpose(point.map.inverse) *
+      this->Surface.mesh->face(from.at.location.element, from.face).inward.xyz));
+  // Vertices lie on the surface to the tolerance.
+  return std::abs(point.value) <= ChordLengths::Unevenness * length * glm::length(aside) +
+    2.0 * this->Surface.tolerance * hop::length(point.gradient);
+}
+
 /// The face of a point, and another one that holds the point and that a step leaves by no more than rounding: where the
 /// surface all but lies in that face, the curve runs along it. Where the surface lies in the face, the edge is passed,
 /// but for a curve that has just passed an edge without moving: the element behind might send it back.
@@ -550,11 +574,14 @@ BoundaryTracer::Ahead BoundaryTracer::advance(const Heading& heading, double ste
   const ReferencePoint u = from.at.location.u + exit.fraction * du;
   if (exit.face >= 0)
   {
-    return this->passEdge(from, u, exit.face, step);
+    const Ahead ahead = this->passEdge(from, u, exit.face, step);
+    const bool isAcross =
+      this->HasCuts && ahead.vertex && !this->bendsEvenly(from, ahead.vertex->arriving);
+    return isAcross ? Ahead{} : ahead;
   }
   const auto next = this->project({ from.at.location.element, u }, from.face, step);
   if (!next || dot(this->tangent(*next), this->tangent(from)) < TraceAngles::LeastCosine ||
-    (this->HasCuts && !this->staysOnFace(from, *next)))
+    (this->HasCuts && !(this->staysOnFace(from, *next) && this->bendsEvenly(from, *next))))
   {
     return {};
   }
@@ -582,6 +609,18 @@ std::optional<BoundaryVertex> BoundaryTracer::advanceAtMost(
     shortest = ahead.surfaceGoesOn ? ChordLengths::ShortestAtFade * step : shortest;
   }
   return std::nullopt;
+}
+
+/// Whether the last vertex of a closed curve knows better than the first one how the curve comes there: the start lies on
+/// an edge of the mesh, or right behind a corner.
+/// \param start of which `corner` tells that it lies on an edge
+bool BoundaryTracer::replacesStart(const BoundaryVertex& last, const BoundaryVertex& start) const
+{
+  const BoundaryPoint& to = start.leaving;
+  const bool leadsToStart =
+    last.leaving.at.location.element == to.at.location.element && last.leaving.face == to.face;
+  const bool isCut = isCutAt(this->Surface, last.arriving) || isCutAt(this->Surface, last.leaving);
+  return leadsToStart ? last.corner || start.corner : last.corner && isCut;
 }
 
 /// Follows a boundary curve in one direction, and adds its vertices behind the start.
@@ -631,10 +670,9 @@ bool BoundaryTracer::follow(const BoundaryPoint& start, double step, double dire
       const glm::dvec3& begin = start.at.point.map.position.xyz;
       const bool isClosed = distanceToSegment(begin, position.xyz, next->position()) <
         (this->HasCuts ? std::max(0.5 * moved, ChordLengths::PassShare * firstChord) : 0.5 * moved);
-      if (isClosed && direction > 0.0 && next->corner &&
-        (isCutAt(this->Surface, next->arriving) || isCutAt(this->Surface, next->leaving)))
+      if (isClosed && direction > 0.0 && this->replacesStart(*next, vertices.front()))
       {
-        vertices.front() = *next; // the start lies on the edge, or right behind it
+        vertices.front() = *next;
       }
       return isClosed;
     }

@@ -53,6 +53,9 @@ struct BoundaryTrace
   bool closed = false;
 };
 
+/// Distance of a place from the line between two others.
+double distanceToSegment(const glm::dvec3& x, const glm::dvec3& a, const glm::dvec3& b);
+
 /// Chords of the boundary curves traced so far, by the face on which they run.
 class BoundaryChords
 {
@@ -205,6 +208,7 @@ private:
     std::vector<std::int64_t> corners;
   };
 
+  bool replacesStart(const BoundaryVertex& last, const BoundaryVertex& start) const;
   bool follow(const BoundaryPoint& start, double step, double direction,
     std::vector<BoundaryVertex>& vertices, const ParallelFor& parallelFor);
   std::optional<BoundaryVertex> advanceAtMost(double& chord, double step, const Heading& heading);
@@ -212,6 +216,7 @@ private:
   ReferenceVector predict(const Heading& heading, double step) const;
   ActiveFaces facesAlong(const Heading& heading, const ReferenceVector& step) const;
   bool staysOnFace(const BoundaryPoint& from, const BoundaryPoint& to) const;
+  bool bendsEvenly(const BoundaryPoint& from, const BoundaryPoint& to);
   Ahead passEdge(const BoundaryPoint& from, const ReferencePoint& u, int otherFace, double step);
   std::optional<Evaluated> projectAlongEdge(
     const Location& start, int faceA, int faceB, double maximumTravel);

@@ -290,10 +290,12 @@ void markClipPlanes(const Isosurface& surface, const ParticleGrid& all,
   forAll(parallelFor, onBoundary.size(),
     [&](std::size_t i)
     {
-      auto& [particle, patch, side, other, isOnCrease] = onBoundary[i];
-      if (side.exists() && other.exists())
+      BoundaryParticle& corner = onBoundary[i];
+      const BoundarySide& other = corner.otherSide;
+      if (corner.side.exists() && other.exists())
       {
-        offerPlane(particle, { other.outward, 0.0, other.edgeCurvature, static_cast<float>(Pi) });
+        offerPlane(
+          corner.particle, { other.outward, 0.0, other.edgeCurvature, static_cast<float>(Pi) });
       }
     });
   closeCreaseCorners(all, parallelFor);

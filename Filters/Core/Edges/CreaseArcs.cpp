@@ -1,5 +1,7 @@
 #include "Edges/CreaseArcs.h"
 
+#include <algorithm>
+#include <limits>
 #include <map>
 
 namespace hop
@@ -7,25 +9,45 @@ namespace hop
 namespace
 {
 
-/// Where a crease in a face begins and ends; both are the middle of a ring.
-struct ArcEnds
+/// Largest distance of a closed crease from the chords of its other side, in units of the longest chord. Chords depart
+/// from the curve by less than a tenth (TraceAngles). Larger: another closed crease of the same face may be taken.
+constexpr double besideChords = 0.1;
+
+/// A crease as one side of a face sees it.
+struct Arc
 {
-  glm::dvec3 begin{ 0.0 }, end{ 0.0 };
+  const BoundaryTrace& trace;
+  const CurveStretch& stretch;
+
+  const BoundaryVertex& vertex(std::size_t v) const { return this->trace.vertices[v]; }
+  glm::dvec3 begin() const { return this->vertex(this->stretch.first).position(); }
+  glm::dvec3 end() const { return this->vertex(this->stretch.last).position(); }
 };
 
-ArcEnds endsOf(const BoundaryTrace& trace, const CurveStretch& stretch)
+/// How far two arcs are apart at their ends, in sum. One of them runs to, the other fro.
+double endsApart(const Arc& one, const Arc& other)
 {
-  if (!stretch.isRing)
+  return glm::distance(one.begin(), other.end()) + glm::distance(one.end(), other.begin());
+}
+
+/// How far a closed arc departs from the chords of another one, in units of the longest of them.
+double ringsApart(const Arc& one, const Arc& other)
+{
+  double longest = 0.0;
+  double farthest = 0.0;
+  for (std::size_t v = one.stretch.first; v < one.stretch.last; ++v)
   {
-    return { trace.vertices[stretch.first].position(), trace.vertices[stretch.last].position() };
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t w = other.stretch.first; w < other.stretch.last; ++w)
+    {
+      const glm::dvec3 from = other.vertex(w).position();
+      const glm::dvec3 to = other.vertex(w + 1).position();
+      longest = std::max(longest, glm::distance(from, to));
+      nearest = std::min(nearest, distanceToSegment(one.vertex(v).position(), from, to));
+    }
+    farthest = std::max(farthest, nearest);
   }
-  glm::dvec3 sum(0.0);
-  for (std::size_t v = stretch.first; v < stretch.last; ++v)
-  {
-    sum += trace.vertices[v].position();
-  }
-  sum /= static_cast<double>(stretch.last - stretch.first);
-  return { sum, sum };
+  return farthest / longest;
 }
 
 } // namespace
@@ -35,7 +57,7 @@ std::vector<int> partnersOf(const ElementMesh& mesh, const std::vector<BoundaryT
 {
   const auto elementOf = [&](const CurveStretch& stretch)
   { return traces[stretch.trace].vertices[stretch.first].leaving.at.location.element; };
-  const auto ends = [&](int s) { return endsOf(traces[stretches[s].trace], stretches[s]); };
+  const auto arc = [&](int s) { return Arc{ traces[stretches[s].trace], stretches[s] }; };
   std::vector<int> partners(stretches.size(), -1);
   std::map<std::size_t, std::vector<int>>
     alongFace; // by the slot of the face, as its own side sees it
@@ -59,19 +81,17 @@ std::vector<int> partnersOf(const ElementMesh& mesh, const std::vector<BoundaryT
     }
     for (const int one : here)
     {
-      const ArcEnds its = ends(one);
-      double least = 2.0 * nearness;
+      const bool isRing = stretches[one].isRing;
+      double least = isRing ? besideChords : 2.0 * nearness;
       int nearest = -1;
       for (const int other : there->second)
       {
-        const ArcEnds others = ends(other);
-        const double apart =
-          glm::distance(its.begin, others.end) + glm::distance(its.end, others.begin);
-        if (partners[other] < 0 && stretches[other].isRing == stretches[one].isRing &&
-          apart < least)
+        if (partners[other] < 0 && stretches[other].isRing == isRing)
         {
-          least = apart;
-          nearest = other;
+          const double apart =
+            isRing ? ringsApart(arc(one), arc(other)) : endsApart(arc(one), arc(other));
+          nearest = apart < least ? other : nearest;
+          least = std::min(least, apart);
         }
       }
       if (nearest >= 0)

@@ -218,6 +218,8 @@ SampledPlaces CurveSampling::place(const ParallelFor& parallelFor)
     }
     this->Result.places.insert(this->Result.places.end(), places.begin(), places.end());
     this->Result.beginsCrease.resize(this->Result.places.size(), stretch.creaseFace >= 0);
+    this->Result.isCorner.resize(this->Result.places.size(), 0);
+    this->Result.isCorner[starts.back()] = !stretch.isRing;
   }
   starts.push_back(this->Result.places.size());
   for (std::size_t t = 0; t < this->Curves.traces.size(); ++t)

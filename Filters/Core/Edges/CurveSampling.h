@@ -15,6 +15,8 @@ struct SampledPlaces
   std::vector<BoundaryPlace> places;
   /// Marks the places that begin a crease.
   std::vector<char> beginsCrease;
+  /// Marks the places on corners.
+  std::vector<char> isCorner;
   /// Of places, one a curve.
   std::vector<CurveRange> ranges;
   /// Pairs of places that are one: inside creases, as their two sides see them, and at the ends of creases.

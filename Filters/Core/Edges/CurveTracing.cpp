@@ -214,24 +214,27 @@ void CurveTracing::followOtherSide(std::size_t stretch, const ParallelFor& paral
   }
 }
 
-/// Whether the curve stands still at the place on an edge of the mesh from which it was traced, before it goes along a
-/// crease.
+/// Whether the curve stands still at the place on an edge of the mesh from which it was traced: the next vertex knows how
+/// it comes there.
 bool CurveTracing::standsStill(const BoundaryTrace& trace, double spacing) const
 {
   if (!trace.closed || trace.vertices.size() < 3)
   {
     return false;
   }
-  const BoundaryVertex& first = trace.vertices[0];
-  const BoundaryVertex& second = trace.vertices[1];
-  return second.corner &&
-    (isCutAt(this->Surface, second.arriving) || isCutAt(this->Surface, second.leaving)) &&
-    glm::distance(first.position(), second.position()) <= Tracing::Tolerance * spacing;
+  return glm::distance(trace.vertices[0].position(), trace.vertices[1].position()) <=
+    Tracing::Tolerance * spacing;
 }
 
 /// Takes a boundary curve over. A closed one begins, and ends, at a corner if it has one.
 void CurveTracing::keep(BoundaryTrace trace, double spacing)
 {
+  std::vector<BoundaryVertex>& vertices = trace.vertices;
+  // First: such a start would pass for a corner near a plane.
+  if (this->standsStill(trace, spacing))
+  {
+    vertices.erase(vertices.begin());
+  }
   for (const double plane : { this->Part.begin, this->Part.end })
   {
     if (std::isfinite(plane))
@@ -239,14 +242,9 @@ void CurveTracing::keep(BoundaryTrace trace, double spacing)
       this->cutAtPlane(plane, trace);
     }
   }
-  std::vector<BoundaryVertex>& vertices = trace.vertices;
   if (vertices.size() < 2 && !trace.closed)
   {
     return;
-  }
-  if (this->standsStill(trace, spacing))
-  {
-    vertices.erase(vertices.begin());
   }
   // A crease of one chord may have been followed several times.
   const auto isBack = [&](const BoundaryVertex& vertex)

@@ -21,10 +21,10 @@ constexpr double radius = 1.3;
 /// Of a second sphere, which the field of one half of a mesh belongs to.
 constexpr double otherRadius = radius + 2.0 * spacing;
 
-Buffer<Particle> distribute(const ElementMesh& mesh)
+Buffer<Particle> distribute(const ElementMesh& mesh, double wanted = spacing)
 {
   DistributionParameters parameters;
-  parameters.sizing = { spacing, 0.0 };
+  parameters.sizing = { wanted, 0.0 };
   return distributeFast({ &mesh, 0.0, 1e-9 }, parameters, {}, {}).particles;
 }
 
@@ -54,6 +54,37 @@ std::vector<glm::dvec3> crossings(glm::dvec3 place, int axis, double r)
     }
   }
   return found;
+}
+
+/// Where the plane normal . x = offset crosses the edges of the cube from -1 to 1.
+std::vector<glm::dvec3> planeCrossings(const glm::dvec3& normal, double offset)
+{
+  std::vector<glm::dvec3> found;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (const double a : { -1.0, 1.0 })
+    {
+      for (const double b : { -1.0, 1.0 })
+      {
+        glm::dvec3 place(0.0);
+        place[(axis + 1) % 3] = a;
+        place[(axis + 2) % 3] = b;
+        place[axis] = (offset - glm::dot(normal, place)) / normal[axis];
+        if (std::abs(place[axis]) < 1.0)
+        {
+          found.push_back(place);
+        }
+      }
+    }
+  }
+  return found;
+}
+
+/// Whether no other place is near: of particles that are too near to each other one is dropped.
+bool isAlone(const glm::dvec3& place, const std::vector<glm::dvec3>& all, double distance)
+{
+  return std::count_if(all.begin(), all.end(),
+           [&](const glm::dvec3& other) { return glm::distance(place, other) < distance; }) == 1;
 }
 
 class BoundaryCorners : public ::testing::TestWithParam<Domain>
@@ -88,6 +119,31 @@ TEST_P(BoundaryCorners, HoldParticlesAtTheEdgesOfTheDomain)
     }
   }
   EXPECT_GE(corners, 6);
+}
+
+/// Wherever a boundary curve is first met: right behind a corner, too.
+TEST_P(BoundaryCorners, HoldParticlesWhereverTheCurveBegins)
+{
+  constexpr double coarse = 0.4;
+  for (int n = 0; n < 200; ++n)
+  {
+    // No curve comes to an edge of the cube in nearly the direction in which it goes on: that is no corner.
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(1.5 + 0.5 * std::sin(1.0 * n),
+      1.5 + 0.5 * std::sin(2.3 * n), (n % 2 ? 1.0 : -1.0) * (1.5 + 0.5 * std::cos(1.7 * n))));
+    const double offset = 0.5 * std::sin(0.37 * n);
+    MeshRecipe recipe;
+    recipe.domain = this->GetParam();
+    recipe.field = plane(normal, offset).field;
+    const Buffer<Particle> particles = distribute(makeMesh(recipe), coarse);
+    const std::vector<glm::dvec3> corners = planeCrossings(normal, offset);
+    for (const glm::dvec3& corner : corners)
+    {
+      if (isAlone(corner, corners, coarse))
+      {
+        EXPECT_LE(distanceTo(particles, corner), tolerance) << n;
+      }
+    }
+  }
 }
 
 TEST_P(BoundaryCorners, HoldParticlesWhereAJumpMeetsTheBoundary)

@@ -45,6 +45,20 @@ std::vector<Point> exchanged(std::vector<Point> nodes)
   return nodes;
 }
 
+/// Nodes of two opposite edges are exchanged: the cell is bent, and its Jacobian determinant is -1 everywhere.
+std::vector<Point> bentByOrder(std::vector<Point> nodes)
+{
+  std::swap(nodes[5], nodes[7]);
+  return nodes;
+}
+
+/// An edge is an arc, as at the surface of a ball.
+std::vector<Point> bent(std::vector<Point> nodes)
+{
+  nodes[5] = { 0.75, 0.75, 0.0 };
+  return nodes;
+}
+
 /// Folded in any order: a node is far outside.
 std::vector<Point> torn(std::vector<Point> nodes)
 {
@@ -89,6 +103,21 @@ MisorderedCells found(
   return findMisordered(blocks, folded, areMost, *cell, kinds, testing::threadedFor(threads));
 }
 
+/// Looks for an order of cells that are sound: the first ones of the first block.
+MisorderedCells displaced(const InputBlocks& blocks, int count)
+{
+  CellBases kinds(NodeSpacing::Uniform);
+  BasisLookup bases(kinds);
+  const CellBasis* cell = bases.basisOf(blocks[0].grid, 0);
+  EXPECT_NE(cell, nullptr);
+  std::vector<BlockCell> sound;
+  for (int c = 0; c < count; ++c)
+  {
+    sound.push_back({ 0, c });
+  }
+  return findDisplaced(blocks, sound, *cell, kinds, testing::threadedFor(1));
+}
+
 TEST(NodeOrder, FindsExchangedNodesAmongSoundCellsInAllBlocks)
 {
   const std::vector<Point> sound = tetrahedron();
@@ -103,6 +132,30 @@ TEST(NodeOrder, FindsExchangedNodesAmongSoundCellsInAllBlocks)
     EXPECT_EQ(cells.cells, (std::vector<Ids>{ { 0, 2 }, { 1 } }));
     EXPECT_FALSE(cells.isEmpty());
   }
+}
+
+TEST(NodeOrder, FindsExchangedNodesThatFoldNoCell)
+{
+  const std::vector<Point> sound = bent(tetrahedron());
+  const std::vector<Point> bad = bentByOrder(tetrahedron());
+  std::vector<std::vector<Point>> grid(12, sound);
+  for (const int cell : { 0, 1, 2, 4, 5, 8, 10 })
+  {
+    grid[cell] = bad;
+  }
+  const InputBlocks blocks({ blockOf(VTK_QUADRATIC_TETRA, grid) }, 0);
+  const MisorderedCells cells = displaced(blocks, 12);
+  EXPECT_EQ(cells.describe(), "bent, but much straighter with nodes 5 and 7 exchanged");
+  EXPECT_EQ(cells.cells, (std::vector<Ids>{ { 0, 1, 2, 4, 5, 8, 10 } }));
+  EXPECT_TRUE(displaced(blocks, 9).isEmpty()) << "of few cells nothing is said";
+}
+
+TEST(NodeOrder, BentCellsAreNotMisordered)
+{
+  const InputBlocks blocks({ blockOf(VTK_QUADRATIC_TETRA,
+                             std::vector<std::vector<Point>>(12, bent(tetrahedron()))) },
+    0);
+  EXPECT_TRUE(displaced(blocks, 12).isEmpty());
 }
 
 TEST(NodeOrder, NamesTheOrderOfAProgramThatSortsByPlace)
