@@ -1,4 +1,4 @@
-"""Hashes of the particles of all files: equal before and after a change that must not change any bit.
+"""Hashes of the particles and meshes of all files: equal before and after a change that must not change any bit.
 
     pvpython Testing/Benchmarks/particle_hashes.py PLUGIN OUT.json [FOLDER ...]
     pvpython Testing/Benchmarks/particle_hashes.py --compare BEFORE.json AFTER.json
@@ -24,6 +24,7 @@ VARIANTS = {
     "high": {"Quality": "High"},
     "draft": {"Quality": "Draft"},
     "number": {"NumberOfParticles": 2000},
+    "triangles": {"OutputType": "Triangles"},
 }
 # Classic takes seconds where Fast takes milliseconds: only on files no larger than this.
 CLASSIC_BYTES = 110_000
@@ -44,6 +45,8 @@ def hashes(output):
     result = {"points": output.GetNumberOfPoints()}
     if output.GetNumberOfPoints() > 0:
         result["positions"] = digest(output.GetPoints().GetData())
+    if output.GetNumberOfPolys() > 0:
+        result["triangles"] = digest(output.GetPolys().GetConnectivityArray())
     for kind, attributes in (("point", output.GetPointData()), ("cell", output.GetCellData()), ("field", output.GetFieldData())):
         for i in range(attributes.GetNumberOfArrays()):
             array = attributes.GetArray(i)

@@ -41,7 +41,8 @@ double FastSystem::targetCount() const
 }
 
 /// Finds the spacing that goes with a given number of particles: first on a rough proxy, then on the surface itself. What
-/// is missing to the number then is settled by scaling all spacings.
+/// is missing to the number then is settled by scaling all spacings. A spacing is no larger than the mesh: beyond that
+/// only boxes and corners count, which stay as many.
 void FastSystem::matchSpacing(std::int64_t count)
 {
   const auto given = static_cast<double>(count);
@@ -53,7 +54,7 @@ void FastSystem::matchSpacing(std::int64_t count)
       this->prepareSurface();
       return this->targetCount();
     },
-    nearlyTheNumber);
+    nearlyTheNumber, meshExtent(this->Mesh));
   const double inside = this->Proxy->particleCount();
   const double onBoundary = this->targetCount() - inside;
   const double error = this->targetCount() / given - 1.0;

@@ -1,8 +1,6 @@
 #include "Mesh/ConstrainedEdges.h"
 
 #include "Mesh/EdgeChains.h"
-#include "Support/SortedBy.h"
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -59,18 +57,6 @@ void direct(const Buffer<Particle>& particles, const std::array<int, 2>& segment
   }
 }
 
-void group(const std::vector<std::array<int, 2>>& edges, int by, std::size_t particleCount,
-  std::vector<int>& ends, std::vector<int>& start)
-{
-  Grouping grouping =
-    groupedBy(edges, particleCount, [by](const std::array<int, 2>& edge) { return edge[by]; });
-  for (const int e : grouping.order)
-  {
-    ends.push_back(edges[e][1 - by]);
-  }
-  start = std::move(grouping.start);
-}
-
 } // namespace
 
 ConstrainedEdges::ConstrainedEdges(const Distribution& distribution)
@@ -101,19 +87,25 @@ ConstrainedEdges::ConstrainedEdges(const Distribution& distribution)
 /// \param edges sorted
 void ConstrainedEdges::set(const std::vector<Edge>& edges, std::size_t particleCount)
 {
-  this->Next.clear();
-  this->Previous.clear();
+  this->Next = {};
+  this->Previous = {};
+  this->IsOnEdge.clear();
   if (!edges.empty())
   {
-    group(edges, 0, particleCount, this->Next, this->NextStart);
-    group(edges, 1, particleCount, this->Previous, this->PreviousStart);
+    this->IsOnEdge.assign(particleCount, 0);
+    for (const auto& [from, to] : edges)
+    {
+      this->IsOnEdge[from] = this->IsOnEdge[to] = 1;
+    }
+    this->Next = EdgeLinks(edges, EdgeLinks::By::Beginning, particleCount);
+    this->Previous = EdgeLinks(edges, EdgeLinks::By::End, particleCount);
   }
 }
 
 void ConstrainedEdges::replace(const Edge& edge, const Edge& by, std::size_t particleCount)
 {
   std::vector<Edge> edges;
-  for (int particle = 0; particle + 1 < static_cast<int>(this->NextStart.size()); ++particle)
+  for (int particle = 0; particle < static_cast<int>(this->IsOnEdge.size()); ++particle)
   {
     for (const int next : this->after(particle))
     {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "Mesh/EdgeLinks.h"
 #include "Surface/Particles.h"
 
 #include <array>
@@ -21,38 +22,27 @@ public:
   /// \param particleCount more than the indices of the second edge's ends
   void replace(const Edge& edge, const Edge& by, std::size_t particleCount);
 
-  bool empty() const { return this->Next.empty(); }
+  bool empty() const { return this->IsOnEdge.empty(); }
   /// The ends of the edges that begin at a particle, ascending.
-  Span<int> after(int particle) const { return ofParticle(this->Next, this->NextStart, particle); }
+  Span<int> after(int particle) const { return this->Next.at(particle); }
   /// The beginnings of the edges that end at a particle, ascending.
-  Span<int> before(int particle) const
-  {
-    return ofParticle(this->Previous, this->PreviousStart, particle);
-  }
+  Span<int> before(int particle) const { return this->Previous.at(particle); }
   /// Whether the surface has to its left an edge from a to b, and ends there to its right.
   bool has(int a, int b) const;
   /// Whether there is an edge in one direction or in both.
   bool joins(int a, int b) const { return this->has(a, b) || this->has(b, a); }
   bool isOnEdge(int particle) const
   {
-    return !this->after(particle).empty() || !this->before(particle).empty();
+    const auto p = static_cast<std::size_t>(particle);
+    return p < this->IsOnEdge.size() && this->IsOnEdge[p] != 0;
   }
 
 private:
   void set(const std::vector<Edge>& edges, std::size_t particleCount);
 
-  static Span<int> ofParticle(
-    const std::vector<int>& particles, const std::vector<int>& start, int particle)
-  {
-    // Particles that were appended have no edges.
-    const auto p = static_cast<std::size_t>(particle);
-    return p + 1 < start.size()
-      ? Span<int>(particles.data() + start[p], static_cast<std::size_t>(start[p + 1] - start[p]))
-      : Span<int>(nullptr, 0);
-  }
-
-  std::vector<int> Next, NextStart;
-  std::vector<int> Previous, PreviousStart;
+  EdgeLinks Next, Previous;
+  /// By particle.
+  std::vector<char> IsOnEdge;
 };
 
 } // namespace hop

@@ -1,10 +1,10 @@
 #include "Mesh/EdgeChains.h"
 
+#include "Mesh/EdgeLinks.h"
 #include "Support/SpacedPoints.h"
 #include "Support/SpacingGrid.h"
 
 #include <algorithm>
-#include <map>
 #include <tuple>
 
 namespace hop
@@ -49,13 +49,15 @@ public:
   ChainCloser(const Buffer<Particle>& particles, std::vector<Edge>& edges)
     : Particles(particles)
     , Edges(edges)
+    , Next(edges, EdgeLinks::By::Beginning, particles.size())
+    , Previous(edges, EdgeLinks::By::End, particles.size())
+    , Surplus(particles.size())
   {
-    for (const auto& [from, to] : edges)
+    const auto countOf = [&](const EdgeLinks& links, std::size_t p)
+    { return static_cast<int>(links.at(static_cast<int>(p)).size()); };
+    for (std::size_t p = 0; p < particles.size(); ++p)
     {
-      this->Next[from].push_back(to);
-      this->Previous[to].push_back(from);
-      --this->Surplus[from];
-      ++this->Surplus[to];
+      this->Surplus[p] = countOf(this->Previous, p) - countOf(this->Next, p);
     }
   }
 
@@ -76,20 +78,14 @@ public:
   }
 
 private:
-  using Links = std::map<int, std::vector<int>>;
-
   /// The particles of a chain from one of its ends to the other, or to where chains meet.
-  static std::vector<int> follow(int particle, const Links& ahead, const Links& behind)
+  static std::vector<int> follow(int particle, const EdgeLinks& ahead, const EdgeLinks& behind)
   {
-    const auto count = [](const Links& links, int at)
-    {
-      const auto found = links.find(at);
-      return found == links.end() ? 0 : found->second.size();
-    };
     std::vector<int> way{ particle };
-    while (count(ahead, way.back()) == 1 && (way.size() == 1 || count(behind, way.back()) == 1))
+    while (
+      ahead.at(way.back()).size() == 1 && (way.size() == 1 || behind.at(way.back()).size() == 1))
     {
-      const int next = ahead.at(way.back()).front();
+      const int next = ahead.at(way.back())[0];
       if (next == particle)
       {
         break;
@@ -102,12 +98,13 @@ private:
   /// From ends of chains backwards, and from beginnings forwards.
   void findWays()
   {
-    for (const auto& [particle, surplus] : this->Surplus)
+    for (std::size_t p = 0; p < this->Surplus.size(); ++p)
     {
-      if (surplus != 0)
+      const int particle = static_cast<int>(p);
+      if (this->Surplus[p] != 0)
       {
-        this->Ways.push_back(surplus > 0 ? follow(particle, this->Previous, this->Next)
-                                         : follow(particle, this->Next, this->Previous));
+        this->Ways.push_back(this->Surplus[p] > 0 ? follow(particle, this->Previous, this->Next)
+                                                  : follow(particle, this->Next, this->Previous));
       }
     }
   }
@@ -146,10 +143,10 @@ private:
     const Particle& here = this->Particles[particle];
     const Particle& there = this->Particles[this->Ways[way][steps]];
     const int start = this->Ways[way].front();
-    const bool isFromEnd = this->Surplus.at(start) > 0;
+    const bool isFromEnd = this->Surplus[start] > 0;
     const double h = std::min(here.spacing, there.spacing);
     const double distance = length(there.position - here.position) / h;
-    if (isFromEnd == (this->Surplus.at(particle) > 0) || distance > ChainEnds::Reach ||
+    if (isFromEnd == (this->Surplus[particle] > 0) || distance > ChainEnds::Reach ||
       dot(here.normal, there.normal) < ChainEnds::Cosine)
     {
       return;
@@ -181,9 +178,9 @@ private:
 
   const Buffer<Particle>& Particles;
   std::vector<Edge>& Edges;
-  Links Next, Previous;
+  EdgeLinks Next, Previous;
   /// Edges that end at a particle less edges that begin there.
-  std::map<int, int> Surplus;
+  std::vector<int> Surplus;
   /// From each end of a chain along the chain.
   std::vector<std::vector<int>> Ways;
 };
@@ -207,9 +204,9 @@ void closeChains(const Buffer<Particle>& particles, std::vector<Edge>& edges)
   if (!areClosed(edges, particles.size()))
   {
     ChainCloser(particles, edges).run();
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
 }
 
 } // namespace hop

@@ -15,7 +15,7 @@ namespace hop
 /// longer, the longer one is followed back to the particle nearest to the end of the shorter one, by edges in the
 /// opposite direction: a slit without width. A chain without any other nearby is followed back to its own beginning.
 /// Derivation: Documentation/algorithm.md, section Mesh.
-/// \param edges from particle to particle with the surface to the left, each once; sorted on return
+/// \param edges from particle to particle with the surface to the left, sorted, each once; so on return, too
 void closeChains(const Buffer<Particle>& particles, std::vector<std::array<int, 2>>& edges);
 
 } // namespace hop

@@ -33,6 +33,8 @@ struct Hole
   /// Cosine between normals up to which a border does not belong to the sheet of a particle. Larger: particles in holes
   /// at sharp rims stay alone; smaller: borders on the other side of a thin body count.
   static constexpr double OtherSheet = -0.5;
+  /// Cost of an equilateral triangle, 2 sqrt(3), rounded down: no triangle costs less.
+  static constexpr double LeastCost = 3.464;
   /// Times that a triangulation is sought without what was wrong with the last one.
   static constexpr int Attempts = 24;
 };
@@ -366,7 +368,8 @@ private:
   {
     const auto& [a, b, c] = triangle;
     constexpr double forbidden = std::numeric_limits<double>::infinity();
-    if (a == b || b == c || c == a || this->Rejected.count(sorted(triangle)) > 0)
+    if (a == b || b == c || c == a ||
+      (!this->Rejected.empty() && this->Rejected.count(sorted(triangle)) > 0))
     {
       return forbidden;
     }
@@ -448,7 +451,7 @@ private:
       borderEdges.insert(pairOf(border[n], border[n + 1 < border.size() ? n + 1 : 0]));
     }
     return triangulatePolygon(
-      border, [this](const Triangle& triangle) { return this->costOf(triangle); },
+      border, [this](const Triangle& triangle) { return this->costOf(triangle); }, Hole::LeastCost,
       [&](int a, int b) { return this->mayJoin(a, b) && borderEdges.count(pairOf(a, b)) == 0; });
   }
 

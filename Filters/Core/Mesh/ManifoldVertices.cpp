@@ -94,7 +94,10 @@ std::vector<int> verticesWithSeveralFans(const TriangleFans& fans, const Paralle
   std::vector<char> isTouched(fans.vertexCount(), 0);
   forAll(parallelFor, isTouched.size(),
     [&](std::size_t vertex)
-    { isTouched[vertex] = hasSeveralFans(static_cast<int>(vertex), fans) ? 1 : 0; });
+    {
+      const int v = static_cast<int>(vertex);
+      isTouched[vertex] = !fans.isRing(v) && hasSeveralFans(v, fans) ? 1 : 0;
+    });
   return markedIndices(isTouched, isTouched.size());
 }
 

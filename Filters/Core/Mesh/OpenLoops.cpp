@@ -15,6 +15,10 @@ namespace
 std::vector<int> openEdgesOf(int particle, const ConstrainedEdges& edges, const TriangleFans& fans)
 {
   std::vector<int> ends;
+  if (edges.after(particle).empty() && fans.isRing(particle))
+  {
+    return ends;
+  }
   // The triangle to the right of an edge sees the edge's end as the end of the edge opposite to the particle.
   fans.visit(particle,
     [&](const LinkEdge& edge)

@@ -97,7 +97,8 @@ private:
       const glm::dvec2 c = this->Neighbors[n].place;
       const double cross = sense * crossOf(q, c);
       const double inside = glm::dot(c, c - q);
-      if (cross > 0.0 && inside < least * cross)
+      if (unsigned{ cross > 0.0 } &
+        unsigned{ inside < least * cross }) // one jump that can be foretold
       {
         const bool isBeyond = static_cast<int>(n) != end &&
           (c == last || (endIsNear && sense * crossOf(c, last) <= 0.0));

@@ -13,9 +13,11 @@ constexpr double forbidden = std::numeric_limits<double>::infinity();
 class Triangulator
 {
 public:
-  Triangulator(const std::vector<int>& polygon, const TriangleCost& cost, const MayJoin& mayJoin)
+  Triangulator(const std::vector<int>& polygon, const TriangleCost& cost, double leastCost,
+    const MayJoin& mayJoin)
     : Polygon(polygon)
     , Cost(cost)
+    , LeastCost(leastCost)
     , MayJoinCorners(mayJoin)
     , Count(static_cast<int>(polygon.size()))
     , Best(polygon.size() * polygon.size(), { 0.0, -1 })
@@ -61,7 +63,7 @@ private:
     for (int apex = first + 1; apex < last; ++apex)
     {
       const double others = this->best(first, apex).cost + this->best(apex, last).cost;
-      if (others < solution.cost)
+      if (others + this->LeastCost < solution.cost)
       {
         const double whole =
           others + this->Cost({ this->Polygon[first], this->Polygon[apex], this->Polygon[last] });
@@ -86,6 +88,7 @@ private:
 
   const std::vector<int>& Polygon;
   const TriangleCost& Cost;
+  double LeastCost;
   const MayJoin& MayJoinCorners;
   int Count;
   std::vector<Solution> Best;
@@ -93,10 +96,10 @@ private:
 
 } // namespace
 
-std::vector<Triangle> triangulatePolygon(
-  const std::vector<int>& polygon, const TriangleCost& cost, const MayJoin& mayJoin)
+std::vector<Triangle> triangulatePolygon(const std::vector<int>& polygon, const TriangleCost& cost,
+  double leastCost, const MayJoin& mayJoin)
 {
-  return Triangulator(polygon, cost, mayJoin).run();
+  return Triangulator(polygon, cost, leastCost, mayJoin).run();
 }
 
 } // namespace hop

@@ -18,8 +18,9 @@ using MayJoin = std::function<bool(int a, int b)>;
 /// of the corners from i to j has one triangle on the edge from i to j, and the best triangulations on its other two
 /// edges. Takes time by the cube of the number of corners.
 /// \param polygon corners counterclockwise; a corner may occur several times, where the polygon touches itself
+/// \param leastCost what no triangle costs less than: saves time, as triangles that cannot be better are not looked at
 /// \return triangles counterclockwise; empty if there is no triangulation without triangles that are not allowed
-std::vector<Triangle> triangulatePolygon(
-  const std::vector<int>& polygon, const TriangleCost& cost, const MayJoin& mayJoin);
+std::vector<Triangle> triangulatePolygon(const std::vector<int>& polygon, const TriangleCost& cost,
+  double leastCost, const MayJoin& mayJoin);
 
 } // namespace hop

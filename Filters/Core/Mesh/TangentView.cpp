@@ -133,32 +133,33 @@ bool TangentView::collectEdgesOf(const FlatNeighbor& neighbor)
   { return crossOf(edge.from.place, edge.to.place) > 0.0; };
   const auto turnTo = [&](const FlatNeighbor& end)
   { return turnRank(end.place - neighbor.place, -neighbor.place); };
+  const Span<int> after = this->Edges.after(neighbor.index);
+  const Span<int> before = this->Edges.before(neighbor.index);
   double afterTurn = FullRank;
   double beforeTurn = FullRank;
-  bool isSeen = false;
+  bool isSeen = after.empty() || before.empty();
   this->EdgesCollected.push_back(neighbor.index);
-  for (const int next : this->Edges.after(neighbor.index))
+  for (const int next : after)
   {
     const FlatEdge edge{ neighbor, this->flat(next) };
-    afterTurn = std::min(afterTurn, turnTo(edge.to));
     isSeen = isSeen || next == this->Middle;
+    afterTurn = isSeen ? afterTurn : std::min(afterTurn, turnTo(edge.to));
     if (isLeftOf(edge))
     {
       this->FlatEdges.push_back(edge);
     }
   }
-  for (const int previous : this->Edges.before(neighbor.index))
+  for (const int previous : before)
   {
     const FlatEdge edge{ this->flat(previous), neighbor };
-    beforeTurn = std::min(beforeTurn, turnTo(edge.from));
     isSeen = isSeen || previous == this->Middle;
+    beforeTurn = isSeen ? beforeTurn : std::min(beforeTurn, turnTo(edge.from));
     if (isLeftOf(edge))
     {
       this->IncomingEdges.push_back(edge);
     }
   }
-  return isSeen || this->Edges.after(neighbor.index).empty() ||
-    this->Edges.before(neighbor.index).empty() || afterTurn <= beforeTurn;
+  return isSeen || afterTurn <= beforeTurn;
 }
 
 /// Drops the neighbours that constrained edges hide.
@@ -184,9 +185,47 @@ void TangentView::lookAtEdges()
       this->FlatEdges.push_back(edge);
     }
   }
-  neighbors.erase(std::remove_if(neighbors.begin(), neighbors.end(),
-                    [this](const FlatNeighbor& n) { return this->isHidden(n); }),
-    neighbors.end());
+  this->findCrossed();
+  std::size_t kept = 0;
+  for (std::size_t n = 0; n < neighbors.size(); ++n)
+  {
+    if (!this->IsCrossed[n] || !this->isHidden(neighbors[n]))
+    {
+      neighbors[kept++] = neighbors[n];
+    }
+  }
+  neighbors.resize(kept);
+}
+
+/// Marks the places behind edges as crosses() tells, that is with the ends of edges where these are rounded: without a
+/// branch, so that compilers make vectors of it.
+void TangentView::findCrossed()
+{
+  const std::size_t count = this->Neighbors.size();
+  this->X.resize(count);
+  this->Y.resize(count);
+  this->IsCrossed.assign(count, 0);
+  for (std::size_t n = 0; n < count; ++n)
+  {
+    this->X[n] = this->Neighbors[n].place.x;
+    this->Y[n] = this->Neighbors[n].place.y;
+  }
+  const double* const x = this->X.data();
+  const double* const y = this->Y.data();
+  std::int64_t* const isCrossed = this->IsCrossed.data();
+  for (const FlatEdge& edge : this->FlatEdges)
+  {
+    const glm::dvec2 a = edge.from.place;
+    const glm::dvec2 b = edge.to.place;
+    const glm::dvec2 along = b - a;
+    for (std::size_t n = 0; n < count; ++n)
+    {
+      const bool isAfter = a.x * y[n] - a.y * x[n] > 0.0;
+      const bool isBefore = x[n] * b.y - y[n] * b.x > 0.0;
+      const bool isBeyond = along.x * (y[n] - a.y) - along.y * (x[n] - a.x) < 0.0;
+      isCrossed[n] |= static_cast<std::int64_t>(isAfter & isBefore & isBeyond);
+    }
+  }
 }
 
 bool TangentView::isHidden(const FlatNeighbor& neighbor) const

@@ -7,6 +7,7 @@
 
 #include <glm/glm.hpp>
 
+#include <cstdint>
 #include <vector>
 
 namespace hop
@@ -99,6 +100,7 @@ private:
   bool isAcrossSlit(const FlatNeighbor& neighbor) const;
   void lookAtEdges();
   bool collectEdgesOf(const FlatNeighbor& neighbor);
+  void findCrossed();
   bool isHidden(const FlatNeighbor& neighbor) const;
   void makeSectors();
   void makeSector(const FlatNeighbor& start);
@@ -115,6 +117,9 @@ private:
   /// The neighbours whose edges are collected; edges that end at them, which may begin at others.
   std::vector<int> EdgesCollected;
   std::vector<FlatEdge> IncomingEdges;
+  /// The neighbours' places, and whether the way to them crosses an edge.
+  std::vector<double> X, Y;
+  std::vector<std::int64_t> IsCrossed;
   /// The other ends of the edges at the middle.
   std::vector<FlatNeighbor> Ends;
   /// Their memory only grows.

@@ -84,6 +84,23 @@ bool TriangleFans::hasTriangles(int vertex) const
   return this->begin(vertex) != this->end(vertex);
 }
 
+bool TriangleFans::isRing(int vertex) const
+{
+  const LinkEdge* const last = this->end(vertex);
+  const LinkEdge* edge = this->begin(vertex);
+  if (edge == last)
+  {
+    return false;
+  }
+  const int start = edge->from;
+  int reached = start;
+  for (; edge != last && edge->from == reached; ++edge)
+  {
+    reached = edge->to;
+  }
+  return edge == last && reached == start;
+}
+
 TriangleFans::Fan& TriangleFans::changed(int vertex)
 {
   Place& place = this->Places[vertex];

@@ -45,6 +45,9 @@ public:
   /// The third corner of the triangle to the left of the edge from a to b; -1: there is none.
   int apexOf(int a, int b) const;
   bool hasTriangles(int vertex) const;
+  /// Whether a vertex has triangles all around it, one fan that is stored in order: no edge at it is open. Quick, and
+  /// true of nearly all vertices inside a surface; of others, other ways must tell.
+  bool isRing(int vertex) const;
 
   /// \pre no triangle is to the left of any of its edges
   void add(const Triangle& triangle);

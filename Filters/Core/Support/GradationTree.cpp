@@ -16,7 +16,7 @@ constexpr int placesPerLeaf = 6;
 /// More than the nodes that wait while a tree is gone through: one a level, and an int counts places.
 constexpr std::size_t mostWaiting = 64;
 
-double squaredDistance(const Bounds& bounds, const glm::dvec3& position)
+inline double squaredDistance(const Bounds& bounds, const glm::dvec3& position)
 {
   const glm::dvec3 apart =
     glm::max(glm::max(bounds.lower - position, position - bounds.upper), glm::dvec3(0.0));
@@ -101,38 +101,41 @@ void GradationTree::visit(
     int node;
     double squaredDistance;
   };
+  const auto at = [&](int node) -> Waiting {
+    return { node, squaredDistance(this->Nodes[node].bounds, position) };
+  };
+  const auto isWanted = [&](const Waiting& some)
+  { return mayMatter(some.squaredDistance, this->Nodes[some.node].leastSpacing); };
   std::array<Waiting, mostWaiting> waiting;
   std::size_t count = 0;
-  const auto waitFor = [&](int node) {
-    waiting[count++] = { node, squaredDistance(this->Nodes[node].bounds, position) };
-  };
   if (!this->Nodes.empty())
   {
-    waitFor(0);
+    waiting[count++] = at(0);
   }
   while (count > 0)
   {
-    const Waiting next = waiting[--count];
-    const Node& node = this->Nodes[next.node];
-    if (!mayMatter(next.squaredDistance, node.leastSpacing))
+    Waiting next = waiting[--count];
+    bool isNextWanted = isWanted(next);
+    // Down to a leaf. The nearer child is looked at first: what it allows often leaves the other one out.
+    while (isNextWanted && !this->Nodes[next.node].isLeaf())
     {
-      continue;
-    }
-    if (node.isLeaf())
-    {
-      for (int n = node.first; n < node.last; ++n)
+      const int first = this->Nodes[next.node].first;
+      next = at(first + 1);
+      Waiting other = at(first);
+      if (next.squaredDistance > other.squaredDistance)
       {
-        const glm::dvec3 apart = position - this->Places[n].position;
-        use(this->Places[n], glm::dot(apart, apart));
+        std::swap(next, other);
       }
-      continue;
+      isNextWanted = isWanted(next);
+      if (isWanted(other))
+      {
+        waiting[count++] = other;
+      }
     }
-    // The nearer child is looked at first: what it allows often leaves the other one out.
-    waitFor(node.first);
-    waitFor(node.first + 1);
-    if (waiting[count - 1].squaredDistance > waiting[count - 2].squaredDistance)
+    for (int n = this->Nodes[next.node].first; isNextWanted && n < this->Nodes[next.node].last; ++n)
     {
-      std::swap(waiting[count - 1], waiting[count - 2]);
+      const glm::dvec3 apart = position - this->Places[n].position;
+      use(this->Places[n], glm::dot(apart, apart));
     }
   }
 }

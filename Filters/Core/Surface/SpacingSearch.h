@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace hop
 {
@@ -32,10 +34,13 @@ public:
   /// \param given number of particles, > 0
   /// \param firstSpacing of the first try, world units, > 0
   /// \param tolerance relative error of the number at which the search ends
-  SpacingSearch(std::int64_t given, double firstSpacing, double tolerance = Tolerance)
+  /// \param largest spacing that is tried, world units
+  SpacingSearch(std::int64_t given, double firstSpacing, double tolerance = Tolerance,
+    double largest = std::numeric_limits<double>::infinity())
     : Given(static_cast<double>(given))
-    , Spacing(firstSpacing)
+    , Spacing(std::min(firstSpacing, largest))
     , LargestError(tolerance)
+    , Largest(largest)
   {
   }
 
@@ -57,16 +62,19 @@ public:
     const double ratio = counted / this->Given;
     this->Over = this->Tries == MostTries || !(ratio > 0.0) ||
       std::abs(ratio - 1.0) < this->LargestError ||
-      (this->HasGrown && ratio > Stagnant * this->Ratio);
+      (this->HasGrown && ratio > Stagnant * this->Ratio) ||
+      (this->Spacing == this->Largest && ratio > 1.0);
     this->HasGrown = std::sqrt(ratio) >= Growth;
     this->Ratio = ratio;
-    this->Spacing *= this->Over ? 1.0 : std::sqrt(ratio);
+    this->Spacing =
+      this->Over ? this->Spacing : std::min(this->Spacing * std::sqrt(ratio), this->Largest);
   }
 
 private:
   double Given;
   double Spacing;
   double LargestError;
+  double Largest;
   int Tries = 0;
   bool Over = false;
   /// Whether spacing() is larger than the one before by Growth or more.
@@ -80,9 +88,10 @@ private:
 ///   returned
 template <class Count>
 double findSpacing(std::int64_t given, double firstSpacing, const Count& countAt,
-  double tolerance = SpacingSearch::Tolerance)
+  double tolerance = SpacingSearch::Tolerance,
+  double largest = std::numeric_limits<double>::infinity())
 {
-  SpacingSearch search(given, firstSpacing, tolerance);
+  SpacingSearch search(given, firstSpacing, tolerance, largest);
   while (!search.isOver())
   {
     search.update(countAt(search.spacing()));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <utility>
 
 namespace hop::testing
 {
@@ -28,7 +29,7 @@ TEST(PolygonTriangulation, TakesTheCheaperDiagonal)
   const auto cost = [](const Triangle& triangle)
   { return std::set<int>(triangle.begin(), triangle.end()).count(2) > 0 ? 1.0 : 5.0; };
   // (0, 1, 2) and (0, 2, 3) cost 2; the other two cost 6.
-  const std::vector<Triangle> triangles = triangulatePolygon({ 0, 1, 2, 3 }, cost, anyPair);
+  const std::vector<Triangle> triangles = triangulatePolygon({ 0, 1, 2, 3 }, cost, 1.0, anyPair);
   ASSERT_EQ(triangles.size(), 2u);
   for (const Triangle& triangle : triangles)
   {
@@ -39,18 +40,20 @@ TEST(PolygonTriangulation, TakesTheCheaperDiagonal)
 TEST(PolygonTriangulation, KeepsToEdgesThatAreAllowed)
 {
   const auto notFromZero = [](int a, int b) { return a != 0 && b != 0; };
-  const std::vector<Triangle> triangles = triangulatePolygon({ 0, 1, 2, 3 }, noCost, notFromZero);
+  const std::vector<Triangle> triangles =
+    triangulatePolygon({ 0, 1, 2, 3 }, noCost, 1.0, notFromZero);
   EXPECT_EQ(triangles, (std::vector<Triangle>{ { 0, 1, 3 }, { 1, 2, 3 } }));
 }
 
 TEST(PolygonTriangulation, FindsNoneWhereThereIsNone)
 {
-  EXPECT_TRUE(triangulatePolygon({ 0, 1, 2, 3 }, noCost, [](int, int) { return false; }).empty());
+  EXPECT_TRUE(
+    triangulatePolygon({ 0, 1, 2, 3 }, noCost, 1.0, [](int, int) { return false; }).empty());
   EXPECT_TRUE(triangulatePolygon(
-    { 0, 1, 2 }, [](const Triangle&) { return forbidden; }, anyPair)
+    { 0, 1, 2 }, [](const Triangle&) { return forbidden; }, 0.0, anyPair)
                 .empty());
-  EXPECT_TRUE(triangulatePolygon({ 0, 1 }, noCost, anyPair).empty());
-  EXPECT_TRUE(triangulatePolygon({}, noCost, anyPair).empty());
+  EXPECT_TRUE(triangulatePolygon({ 0, 1 }, noCost, 1.0, anyPair).empty());
+  EXPECT_TRUE(triangulatePolygon({}, noCost, 1.0, anyPair).empty());
 }
 
 TEST(PolygonTriangulation, PassesCornersThatOccurTwice)
@@ -61,7 +64,8 @@ TEST(PolygonTriangulation, PassesCornersThatOccurTwice)
   const auto mayJoin = [](int a, int b) {
     return a != b && std::set<int>{ a, b } != std::set<int>{ 0, 2 };
   };
-  const std::vector<Triangle> triangles = triangulatePolygon({ 0, 1, 2, 3, 0, 4 }, cost, mayJoin);
+  const std::vector<Triangle> triangles =
+    triangulatePolygon({ 0, 1, 2, 3, 0, 4 }, cost, 1.0, mayJoin);
   ASSERT_EQ(triangles.size(), 4u);
   for (const Triangle& triangle : triangles)
   {
@@ -90,8 +94,16 @@ TEST(PolygonTriangulation, IsTheDelaunayTriangulationForTheHarmonicIndex)
     return (squared(t[0], t[1]) + squared(t[1], t[2]) + squared(t[2], t[0])) /
       twiceArea(t[0], t[1], t[2]);
   };
-  const std::vector<Triangle> triangles = triangulatePolygon(polygon, cost, anyPair);
+  const std::vector<Triangle> triangles = triangulatePolygon(polygon, cost, 0.0, anyPair);
   ASSERT_EQ(triangles.size(), static_cast<std::size_t>(count - 2));
+  // That none costs less than an equilateral triangle saves time alone.
+  int asked = 0;
+  const auto countedCost = [&](const Triangle& t) { return ++asked, cost(t); };
+  triangulatePolygon(polygon, countedCost, 0.0, anyPair);
+  const int without = std::exchange(asked, 0);
+  EXPECT_EQ(
+    triangulatePolygon(polygon, countedCost, 2.0 * std::sqrt(3.0) - 1e-9, anyPair), triangles);
+  EXPECT_LT(asked, 0.9 * without);
   for (const auto& [a, b, c] : triangles)
   {
     for (int d = 0; d < count; ++d)

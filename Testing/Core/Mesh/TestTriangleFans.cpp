@@ -44,6 +44,18 @@ TEST(TriangleFans, TakeFurtherVertices)
   EXPECT_EQ(fans.vertexCount(), 2u);
 }
 
+TEST(TriangleFans, TellRingsThatAreInOrder)
+{
+  const std::vector<Triangle> ring{ { 0, 1, 2 }, { 0, 2, 3 }, { 0, 3, 1 } };
+  EXPECT_TRUE(fansOf(4, ring).isRing(0));
+  EXPECT_FALSE(fansOf(4, ring).isRing(1)); // two triangles, open
+  EXPECT_FALSE(fansOf(5, ring).isRing(4)); // none
+  EXPECT_FALSE(fansOf(4, { ring[0], ring[1] }).isRing(0));
+  EXPECT_FALSE(fansOf(4, { ring[0], ring[2], ring[1] }).isRing(0)); // closed, but not in order
+  EXPECT_FALSE(
+    fansOf(7, { ring[0], ring[1], ring[2], { 0, 4, 5 }, { 0, 5, 6 }, { 0, 6, 4 } }).isRing(0));
+}
+
 /// A strip of triangles (i, i + 1, i + 2), but for those that one of their corners does not want.
 TriangleFans stripOf(int count, const ParallelFor& parallelFor)
 {

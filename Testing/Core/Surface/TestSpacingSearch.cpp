@@ -105,6 +105,26 @@ TEST(SpacingSearch, EndsAfterEightTriesAtASpacingThatWasCounted)
   EXPECT_LT(spacing, tried[6]);
 }
 
+TEST(SpacingSearch, TriesNothingLargerThanTheLargest)
+{
+  // Four corners, and boxes that have a particle each: no spacing gives one particle.
+  std::vector<double> tried;
+  const auto count = [&](double h)
+  {
+    tried.push_back(h);
+    return 4.0 + 60.0 / h;
+  };
+  EXPECT_EQ(findSpacing(1, 0.3, count, SpacingSearch::Tolerance, 2.0), 2.0);
+  EXPECT_EQ(tried, (std::vector<double>{ 0.3, 2.0 }));
+  tried.clear();
+  EXPECT_EQ(findSpacing(1, 90.0, count, SpacingSearch::Tolerance, 2.0), 2.0);
+  EXPECT_EQ(tried, std::vector<double>{ 2.0 });
+  // What is found below it is found as without it.
+  const auto flat = [](double h) { return hexagonalCount(1.0, h); };
+  EXPECT_EQ(
+    findSpacing(100, 0.3, flat, SpacingSearch::Tolerance, 2.0), findSpacing(100, 0.3, flat));
+}
+
 TEST(SpacingSearch, StaysAsItIsOnceItIsOver)
 {
   SpacingSearch search(100, 0.3);
