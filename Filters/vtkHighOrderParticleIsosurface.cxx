@@ -276,8 +276,15 @@ void vtkHighOrderParticleIsosurface::Run(vtkDataObject* input, vtkDataObject* ou
   const hop::RunResult result =
     hop::ParticleRun(properties, scale, caller, *this->Previous).run(blocks);
   this->HasFailed = this->HasFailed || !result.isComplete;
-  this->Tell(hop::reviewSurfaces(
-    blocks, properties.isovalues, result.counts, hasTold || hop::isAborted(this)));
+  this->ReviewSurfaces(
+    blocks, properties.isovalues, result.counts, hasTold || hop::isAborted(this));
+}
+
+/// Tells of isosurfaces without particles, unless that is explained.
+void vtkHighOrderParticleIsosurface::ReviewSurfaces(const hop::InputBlocks& blocks,
+  const std::vector<double>& isovalues, const std::vector<std::int64_t>& counts, bool isExplained)
+{
+  this->Tell(hop::reviewSurfaces(blocks, isovalues, counts, isExplained));
 }
 
 /// One number for all that the output depends on but previous runs.

@@ -77,6 +77,7 @@ class vtkContourValues;
 namespace hop
 {
 class ByteHash;
+class InputBlocks;
 class KeptOutput;
 class PreviousRun;
 struct CheckedBlocks;
@@ -385,20 +386,29 @@ protected:
   virtual void AddField(hop::ByteHash& hash);
   ///@}
 
+  ///@{
+  /**
+   * What a run reads, the run itself, and what is told of it, apart from surfaces that are nowhere. Fields that take several runs override
+   * them.
+   */
+  virtual hop::RunProperties PropertiesOfRun();
+  virtual void Run(vtkDataObject* input, vtkDataObject* output);
+  virtual void Tell(const std::vector<hop::UserMessage>& messages);
+  virtual void ReviewSurfaces(const hop::InputBlocks& blocks, const std::vector<double>& isovalues,
+    const std::vector<std::int64_t>& counts, bool isExplained);
+  ///@}
+
 private:
   vtkHighOrderParticleIsosurface(const vtkHighOrderParticleIsosurface&) = delete;
   void operator=(const vtkHighOrderParticleIsosurface&) = delete;
 
   bool IsAskedForMore(vtkInformationVector* outputs);
   void Answer(vtkDataObject* input, vtkDataObject* output);
-  void Run(vtkDataObject* input, vtkDataObject* output);
   int KindOfOutput() const;
   std::uint64_t HashOfRequest(vtkDataObject* input);
-  hop::RunProperties PropertiesOfRun();
   hop::RunCaller CallerOfRun();
   bool Accepts(const hop::GatheredBlocks& gathered, const hop::RunProperties& properties,
     const hop::RunScale& scale);
-  void Tell(const std::vector<hop::UserMessage>& messages);
 
   vtkNew<vtkContourValues> ContourValues;
   double Spacing = 0.0;

@@ -24,7 +24,8 @@ for name in teardrop quartic tangle octic vortex_street; do
 done
 bash "$project/Utilities/with-display.sh" pvbatch --force-offscreen-rendering \
   "$project/Testing/Benchmarks/paper_pictures.py" "$plugin" "$folder/pictures/results_cases.png" \
-  "$grids/quartic.vtu:f:0:0:0.1" "$grids/quartic.vtu:f:0:7:0.1" "$grids/quartic.vtu:f:0:15:0.1" \
-  "$grids/teardrop.vtu:f:0:7:0.1" "$grids/tangle.vtu:f:0:15:0.1" "$grids/octic.vtu:f:0:7:0.1" \
-  "$grids/vortex_street.vtu:f:-0.5:10:0.08"
+  "quartic:$grids/quartic.vtu:f:0:0:0.1" "quartic:$grids/quartic.vtu:f:0:7:0.1" \
+  "quartic:$grids/quartic.vtu:f:0:15:0.1" "teardrop:$grids/teardrop.vtu:f:0:7:0.1" \
+  "tangle cube:$grids/tangle.vtu:f:0:15:0.1" "octic:$grids/octic.vtu:f:0:7:0.1" \
+  "vortex street:$grids/vortex_street.vtu:f:-0.5:10:0.08"
 echo "== $folder/results.md"

@@ -64,8 +64,8 @@ struct CellCensus
   SkippedCells undefined;
   /// The Jacobian determinant is zero everywhere, to rounding, or the cell is tiny beside the bounds: no volume.
   SkippedCells collapsed;
-  /// By VTK cell type, and by what is wrong with them and what mends it (MisorderedCells::describe()): cells whose nodes
-  /// seem to be in another order than VTK's. Cells without surface are counted, too.
+  /// By VTK cell type, and by what is wrong with them and what mends it (MisorderedCells::describe()): cells whose
+  /// nodes seem to be in another order than VTK's. Cells without surface are counted, too.
   std::map<std::pair<int, std::string>, SkippedCells> misordered;
   /// Kept cells whose Jacobian determinant changes its sign: partly inverted.
   SkippedCells folded;

@@ -11,8 +11,8 @@
 namespace hop
 {
 
-/// Cells of one kind that are left out, as the file seems to have its nodes in another order than VTK's: that of another
-/// program.
+/// Cells of one kind that are left out, as the file seems to have its nodes in another order than VTK's: that of
+/// another program.
 struct MisorderedCells
 {
   /// One ascending list a block. All cells of the kind are looked at, with or without surface, but for ghost cells.
@@ -41,10 +41,10 @@ struct MisorderedCells
 MisorderedCells findMisordered(const InputBlocks& blocks, const std::vector<BlockCell>& folded,
   bool areMost, const CellBasis& cell, CellBases& kinds, const ParallelFor& parallelFor);
 
-/// Finds the cells of one kind that no wrong order folds, but bends: tetrahedra of degree 2 with the nodes of two opposite
-/// edges exchanged, for instance, whose Jacobian determinant is constant. Each of their nodes is the nearest to the place
-/// of another in the straight-sided cell with the same corners, and much nearer than the node that has the place. If most
-/// of the given cells are such, all are found; else there are none.
+/// Finds the cells of one kind that a wrong order bends without folding them: tetrahedra of degree 2 with the nodes of
+/// two opposite edges exchanged, for instance, whose Jacobian determinant is constant. Each of their nodes is the
+/// nearest to the place of another in the straight-sided cell with the same corners, and much nearer than the node that
+/// has the place. If most of the given cells are such, all are found; else there are none.
 /// \param sound the cells of the kind at the surface that are not folded
 /// \param kinds have the basis `cell`
 MisorderedCells findDisplaced(const InputBlocks& blocks, const std::vector<BlockCell>& sound,

@@ -1,6 +1,7 @@
 #include "Input/CutMap.h"
 
 #include "vtkAbstractTransform.h"
+#include "vtkBox.h"
 #include "vtkCylinder.h"
 #include "vtkDoubleArray.h"
 #include "vtkImplicitFunction.h"
@@ -10,6 +11,8 @@
 #include "vtkSphere.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -92,6 +95,71 @@ CutMap mapAround(vtkImplicitFunction* function, const double center[3], double r
   return map;
 }
 
+/// A box in the space of its function.
+struct OwnBox
+{
+  AffineMap own;
+  /// The corners with the smallest and the largest coordinates.
+  std::array<glm::dvec3, 2> ends;
+
+  glm::dvec3 inWorld(const glm::dvec3& y) const
+  {
+    return glm::inverse(this->own.linear) * (y - this->own.shift);
+  }
+
+  /// The face across an axis, at the end of the smaller or the larger coordinates.
+  CutMap mapOfFace(int axis, int end) const
+  {
+    glm::dvec3 row(0.0);
+    row[axis] = end == 0 ? -1.0 : 1.0;
+    glm::dvec3 middle = 0.5 * (this->ends[0] + this->ends[1]);
+    middle[axis] = this->ends[end][axis];
+    CutMap map;
+    map.name = "distance from a face of the box";
+    map.origin = this->inWorld(middle);
+    map.rows = { row * this->own.linear };
+    map.polygonAt = [box = *this, axis, end](double offset)
+    { return box.faceAt(axis, end, offset); };
+    return map;
+  }
+
+  /// The face of the box whose faces have all been moved outwards.
+  PlanePolygon faceAt(int axis, int end, double offset) const
+  {
+    const std::array<glm::dvec3, 2> moved{ this->ends[0] - offset, this->ends[1] + offset };
+    PlanePolygon face;
+    if (glm::any(glm::lessThanEqual(moved[1], moved[0])))
+    {
+      return face;
+    }
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    constexpr std::array<std::array<int, 2>, 4> around{ { { 0, 0 }, { 1, 0 }, { 1, 1 },
+      { 0, 1 } } };
+    for (const auto& [atU, atV] : around)
+    {
+      glm::dvec3 corner = moved[end];
+      corner[u] = moved[atU][u];
+      corner[v] = moved[atV][v];
+      face.corners.push_back(this->inWorld(corner));
+    }
+    return face;
+  }
+};
+
+std::vector<CutMap> mapsOfBox(vtkBox* box)
+{
+  std::array<double, 6> bounds;
+  box->GetBounds(bounds.data());
+  const OwnBox own{ affineMapOf(box->GetTransform()),
+    { glm::dvec3(bounds[0], bounds[2], bounds[4]), glm::dvec3(bounds[1], bounds[3], bounds[5]) } };
+  std::vector<CutMap> maps;
+  for (int face = 0; face < 6; ++face)
+  {
+    maps.push_back(own.mapOfFace(face / 2, face % 2));
+  }
+  return maps;
+}
+
 CutMap mapOf(vtkImplicitFunction* function)
 {
   if (auto* plane = vtkPlane::SafeDownCast(function))
@@ -125,35 +193,36 @@ bool isSound(const CutMap& map)
 
 } // namespace
 
-CutMap cutMapOf(vtkImplicitFunction* function, UserMessages& messages)
+std::vector<CutMap> cutMapsOf(vtkImplicitFunction* function, UserMessages& messages)
 {
   const auto refuse = [&](const std::string& text)
   {
     messages.push_back({ UserMessage::Error, text });
-    return CutMap{};
+    return std::vector<CutMap>{};
   };
   if (!function)
   {
-    return refuse(
-      "There is no slice, as no SliceType is given; choose a plane, a sphere or a cylinder.");
+    return refuse("There is no slice, as no SliceType is given; choose a plane, a sphere, a "
+                  "cylinder or a box.");
   }
+  auto* box = vtkBox::SafeDownCast(function);
   const bool isKnown =
-    function->IsA("vtkPlane") || function->IsA("vtkSphere") || function->IsA("vtkCylinder");
+    box || function->IsA("vtkPlane") || function->IsA("vtkSphere") || function->IsA("vtkCylinder");
   vtkAbstractTransform* transform = function->GetTransform();
   if (!isKnown || (transform && !transform->IsA("vtkLinearTransform")))
   {
     return refuse(std::string("A slice along a ") + function->GetClassName() +
       (isKnown ? " with a transform that is not linear" : "") +
-      " is not possible; choose a plane, a sphere or a cylinder.");
+      " is not possible; choose a plane, a sphere, a cylinder or a box.");
   }
-  CutMap map = mapOf(function);
-  if (!isSound(map))
+  std::vector<CutMap> maps = box ? mapsOfBox(box) : std::vector<CutMap>{ mapOf(function) };
+  if (!std::all_of(maps.begin(), maps.end(), isSound))
   {
     return refuse(std::string("The ") + function->GetClassName() +
-      " of the slice has a normal or axis of length zero, or numbers that are not finite; correct "
-      "it.");
+      " of the slice has a normal, an axis or a side of length zero, or numbers that are not "
+      "finite; correct it.");
   }
-  return map;
+  return maps;
 }
 
 vtkSmartPointer<vtkDataArray> cutValues(const CutMap& map, vtkUnstructuredGrid* grid)

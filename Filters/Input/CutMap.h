@@ -1,11 +1,13 @@
 #pragma once
 
 #include "Input/UserMessage.h"
+#include "Surface/PlanePolygon.h"
 
 #include "vtkSmartPointer.h"
 
 #include <glm/glm.hpp>
 
+#include <functional>
 #include <vector>
 
 class vtkDataArray;
@@ -29,11 +31,15 @@ struct CutMap
   double level = 0.0;
   /// What its value or length is, for messages.
   const char* name = "";
+  /// Of a face of a box: to what an offset of its plane is cut, nothing where the box has turned inside out. Not set
+  /// elsewhere.
+  std::function<PlanePolygon(double offset)> polygonAt;
 };
 
-/// The map of a vtkPlane, vtkSphere or vtkCylinder, with its transform if that is linear.
-/// \param messages receives what is wrong with the function; then the map has no rows
-CutMap cutMapOf(vtkImplicitFunction* function, UserMessages& messages);
+/// The map of a vtkPlane, vtkSphere or vtkCylinder, or those of the six faces of a vtkBox, with the function's transform if
+/// that is linear. The map of a face is the distance outwards.
+/// \param messages receives what is wrong with the function; then there are no maps
+std::vector<CutMap> cutMapsOf(vtkImplicitFunction* function, UserMessages& messages);
 
 /// The map at all points of a grid, one component a row of the map.
 vtkSmartPointer<vtkDataArray> cutValues(const CutMap& map, vtkUnstructuredGrid* grid);

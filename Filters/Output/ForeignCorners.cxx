@@ -1,5 +1,7 @@
 #include "Output/ForeignCorners.h"
 
+#include "Support/Interruptible.h"
+
 #include "vtkDataArray.h"
 #include "vtkPointData.h"
 
@@ -93,7 +95,7 @@ public:
   {
   }
 
-  /// \return nothing where memory does not hold the answer
+  /// \return nothing where memory does not hold the answer, or the caller asks for an early end
   Bytes answer(Bytes question) const
   {
     try
@@ -107,6 +109,10 @@ public:
       return answer.bytes();
     }
     catch (const std::exception&)
+    {
+      return {};
+    }
+    catch (const Interrupted&)
     {
       return {};
     }

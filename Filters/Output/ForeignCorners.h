@@ -27,7 +27,7 @@ struct ForeignCorners
 /// also one without corners. Where another rank's block lacks an array, values of stand-ins stay.
 /// \param mine of this rank's blocks
 /// \param isDone whether this rank's output is there; ranks without it neither ask nor answer
-/// \param parallelFor that ends no loop early: other ranks wait for the answer
+/// \param parallelFor where it ends a loop early, other ranks get no answer: none of the values is to be used then
 void askForForeignCorners(Exchange& exchange, const InputBlocks& blocks,
   const GridElements& elements, const std::vector<ForeignCorners>& mine, bool isDone,
   const ParallelFor& parallelFor);

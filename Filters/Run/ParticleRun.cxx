@@ -88,7 +88,7 @@ private:
   std::optional<GridElements> convert(const Work& work);
   bool gather(GridElements& elements);
   std::vector<IsovalueParticles> distribute(const GridElements& elements, const Work& work);
-  bool bringHome(std::vector<IsovalueParticles>& particles, const ParallelFor& parallelFor);
+  bool bringHome(std::vector<IsovalueParticles>& particles, const Work& work);
   bool distributeAtWorkers(
     GridElements& elements, const Work& work, std::vector<IsovalueParticles>& particles);
   bool plan(const GridElements& elements, const Work& work);
@@ -97,7 +97,7 @@ private:
   void distributeSlabsOf(
     const SlabMeshes& meshes, double fieldIsovalue, const Work& work, IsovalueParticles& some);
   bool bringSlabsHome(const SlabMeshes& meshes, std::vector<Distribution>& ofSlabs,
-    const ParallelFor& parallelFor, Distribution& home);
+    const Work& work, Distribution& home);
   void attemptAgain(const std::exception_ptr& failure);
 
   Exchange& Ranks;
@@ -178,8 +178,11 @@ bool GroupRun::run(const Work& work, std::vector<std::int64_t>& counts)
     });
   if (this->Properties.outputType != OutputType::Particles)
   {
+    const Work asking = work.part(1.0, 1.0);
+    Interruptible loops(asking.monitor, asking.parallelFor);
     askForForeignCorners(
-      this->Ranks, this->Blocks, *elements, foreign, this->IsSound, work.parallelFor);
+      this->Ranks, this->Blocks, *elements, foreign, this->IsSound, std::ref(loops));
+    this->IsSound = this->IsSound && !this->Caller.isAborted();
   }
   for (std::size_t i = 0; i < particles.size(); ++i)
   {
@@ -231,15 +234,15 @@ std::optional<GridElements> GroupRun::convert(const Work& work)
   return this->areAllSound() ? std::move(elements) : std::nullopt;
 }
 
-/// Finds out how many workers an isosurface has. More than one make neither meshes nor given numbers, and remember
-/// nothing for the next run.
+/// Finds out how many workers an isosurface has. More than one make neither meshes, given numbers nor
+/// polygons, and remember nothing for the next run.
 /// \return false, on all ranks, where one of them has failed
 bool GroupRun::plan(const GridElements& elements, const Work& work)
 {
   const RunProperties& asked = this->Properties;
   this->Slabs.assign(1, Slab());
   if (asked.particlesPerWorker == 0 || asked.isClassic || asked.numberOfParticles > 0 ||
-    asked.isWarmStart || asked.outputType != OutputType::Particles)
+    asked.isWarmStart || asked.outputType != OutputType::Particles || !asked.polygons.empty())
   {
     return true;
   }
@@ -255,10 +258,11 @@ bool GroupRun::plan(const GridElements& elements, const Work& work)
     elements.mesh, this->AllBlocks, asked, this->Scale, this->Caller, this->Previous);
   if (!isovalues.empty())
   {
-    // An abort is asked for later: all ranks have to come to the same plan.
+    Interruptible loops(work.monitor, work.parallelFor);
+    loops.raiseFraction(ProgressAt::Converted);
     SlabPlan slabs =
       planSlabs(this->Ranks, elements.mesh, isovalues, worker.parametersOf(0.0).sizing,
-        static_cast<double>(asked.particlesPerWorker), work.parallelFor);
+        static_cast<double>(asked.particlesPerWorker), std::ref(loops));
     this->attemptAgain(slabs.failure);
     this->Slabs = std::move(slabs.slabs);
   }
@@ -339,7 +343,7 @@ void GroupRun::distributeSlabsOf(
     });
   this->IsSound = this->IsSound && result.isComplete && !this->Caller.isAborted();
   if (!result.isComplete ||
-    !this->bringSlabsHome(meshes, result.distributions, work.parallelFor, some.distribution))
+    !this->bringSlabsHome(meshes, result.distributions, work.part(1.0, 1.0), some.distribution))
   {
     this->IsSound = false;
   }
@@ -348,14 +352,15 @@ void GroupRun::distributeSlabsOf(
 /// \param home receives this rank's particles, and the sums of the reports of all slabs
 /// \return false, on all ranks, where one of them has failed
 bool GroupRun::bringSlabsHome(const SlabMeshes& meshes, std::vector<Distribution>& ofSlabs,
-  const ParallelFor& parallelFor, Distribution& home)
+  const Work& work, Distribution& home)
 {
+  Interruptible loops(work.monitor, work.parallelFor);
   bool isComplete = true;
   for (std::size_t slab = 0; slab < ofSlabs.size(); ++slab)
   {
     HomeParticles part =
       hop::bringHome(this->Ranks, rankOfSlab(slab, ofSlabs.size(), this->Ranks.size()),
-        ofSlabs[slab], this->IsSound, meshes.meshes[slab], this->Sizes, parallelFor, false);
+        ofSlabs[slab], this->IsSound, meshes.meshes[slab], this->Sizes, std::ref(loops), false);
     isComplete = isComplete && part.isComplete;
     this->attempt(
       [&]()
@@ -409,7 +414,8 @@ bool GroupRun::distributeAtWorkers(
     return false;
   }
   particles = this->distribute(elements, work);
-  const bool isDone = this->bringHome(particles, work.parallelFor);
+  const bool isDone =
+    this->bringHome(particles, work.part(ProgressAt::Distributed, ProgressAt::Distributed));
   this->All = {};
   return isDone;
 }
@@ -455,14 +461,15 @@ std::vector<IsovalueParticles> GroupRun::distribute(const GridElements& elements
 
 /// \param particles of the isovalues that this rank is the worker of; receives this rank's of all isovalues
 /// \return false, on all ranks, where one of them has failed
-bool GroupRun::bringHome(std::vector<IsovalueParticles>& particles, const ParallelFor& parallelFor)
+bool GroupRun::bringHome(std::vector<IsovalueParticles>& particles, const Work& work)
 {
+  Interruptible loops(work.monitor, work.parallelFor);
   bool isComplete = true;
   for (std::size_t i = 0; i < particles.size(); ++i)
   {
     Distribution& distribution = particles[i].distribution;
     HomeParticles home = hop::bringHome(this->Ranks, this->workerOf(i), distribution, this->IsSound,
-      this->All, this->Sizes, parallelFor);
+      this->All, this->Sizes, std::ref(loops));
     if (home.isComplete)
     {
       home.isComplete = bringMeshHome(

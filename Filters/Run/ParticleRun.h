@@ -23,6 +23,8 @@ struct RunProperties
 {
   /// Finite, each once.
   std::vector<double> isovalues;
+  /// To what each isosurface is cut, where it is a plane, world units. Fast only, without a given number.
+  std::vector<PlanePolygon> polygons;
   double angularDensity = 0.0;
   /// World units; 0 for the automatic one.
   double smallestSpacing = 0.0;

@@ -44,9 +44,11 @@ std::vector<MeshComponent> partsOf(const ElementMesh& elements, const Buffer<Par
 }
 
 /// Compares a mesh with what is proven of the surface.
+/// \param isCut whether the mesh covers a part of the surface only, of which nothing is proven
 /// \param mesh whose vertices are known; receives what comes out
 void prove(const Isosurface& surface, const Buffer<Particle>& particles,
-  std::vector<std::array<int, 3>> triangles, ParticleMesh& mesh, const ParallelFor& parallelFor)
+  std::vector<std::array<int, 3>> triangles, bool isCut, ParticleMesh& mesh,
+  const ParallelFor& parallelFor)
 {
   for (std::array<int, 3>& corners : triangles)
   {
@@ -56,10 +58,16 @@ void prove(const Isosurface& surface, const Buffer<Particle>& particles,
     }
   }
   const FaceLocator locator(*surface.mesh, surface.isovalue, parallelFor);
-  const SurfaceTopology topology =
-    findTopology(*surface.mesh, surface.isovalue, &locator, parallelFor);
-  const TopologyComparison comparison =
-    compareTopology(topology, particles, triangles, parallelFor);
+  SurfaceTopology topology = findTopology(*surface.mesh, surface.isovalue, &locator, parallelFor);
+  for (SurfaceComponent& component : topology.components)
+  {
+    component.proven = component.proven && !isCut;
+  }
+  TopologyComparison comparison = compareTopology(topology, particles, triangles, parallelFor);
+  if (isCut)
+  {
+    comparison.missingComponents.clear();
+  }
   mesh.components = static_cast<std::int64_t>(comparison.meshComponents.size());
   mesh.parts = partsOf(*surface.mesh, particles, topology, comparison);
   mesh.unprovenComponents = std::count_if(
@@ -87,6 +95,24 @@ void bend(const Isosurface& surface, const std::vector<std::array<int, 3>>& tria
   std::iota(mesh.vertices.begin() + static_cast<std::ptrdiff_t>(corners), mesh.vertices.end(),
     static_cast<int>(corners));
   some.distribution.report.evaluations += curved.evaluations + locator.evaluations();
+}
+
+/// Shares the area around particles with those that were added in their places.
+void shareAreas(const std::vector<std::array<int, 2>>& copies, std::vector<double>& areas)
+{
+  std::map<int, std::vector<int>> copiesOf;
+  for (const auto& [particle, copy] : copies)
+  {
+    copiesOf[particle].push_back(copy);
+  }
+  for (const auto& [particle, all] : copiesOf)
+  {
+    areas[particle] /= static_cast<double>(all.size() + 1);
+    for (const int copy : all)
+    {
+      areas[copy] = areas[particle];
+    }
+  }
 }
 
 /// Gives all particles in one place what those of them that cells use have together: the mean normal, and the area.
@@ -127,15 +153,17 @@ void mergePlaces(const ParticleMesh& mesh, Buffer<Particle>& particles)
 
 } // namespace
 
-void addMesh(const Isosurface& surface, OutputType type, int order, IsovalueParticles& some,
-  const Monitor& monitor, const ParallelFor& parallelFor)
+void addMesh(const Isosurface& surface, OutputType type, int order, bool isCut,
+  IsovalueParticles& some, const Monitor& monitor, const ParallelFor& parallelFor)
 {
   Distribution& distribution = some.distribution;
   std::vector<std::array<int, 3>> triangles;
+  std::vector<std::array<int, 2>> copies;
   if (type != OutputType::Particles)
   {
     SurfaceMesh mesh = meshSurface(surface, distribution, monitor, parallelFor);
     triangles = std::move(mesh.triangles);
+    copies = std::move(mesh.copies);
     some.mesh.openLoops = mesh.openLoops;
     some.mesh.openLength = mesh.openLength;
     some.mesh.longestLoop = mesh.longestLoop;
@@ -145,9 +173,10 @@ void addMesh(const Isosurface& surface, OutputType type, int order, IsovaluePart
     some.mesh.vertices = firstInPlace(distribution.edges, distribution.particles.size());
     some.mesh.shared = sharedPlaces(some.mesh.vertices);
     Interruptible loops(monitor, parallelFor);
-    prove(surface, distribution.particles, triangles, some.mesh, std::ref(loops));
+    prove(surface, distribution.particles, triangles, isCut, some.mesh, std::ref(loops));
   }
-  const std::vector<double> areas = particleAreas(distribution, monitor, parallelFor);
+  std::vector<double> areas = particleAreas(distribution, monitor, parallelFor);
+  shareAreas(copies, areas);
   forAll(
     parallelFor, areas.size(), [&](std::size_t p) { distribution.particles[p].area = areas[p]; });
   if (type == OutputType::CurvedTriangles)

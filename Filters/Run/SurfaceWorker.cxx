@@ -50,8 +50,8 @@ void SurfaceWorker::distribute(
   if (!distribution.report.aborted)
   {
     const Work rest = work.part(distributed, 1.0);
-    addMesh(surface, this->Properties.outputType, this->Properties.order, some, rest.monitor,
-      rest.parallelFor);
+    addMesh(surface, this->Properties.outputType, this->Properties.order,
+      !parameters.polygon.isEverything(), some, rest.monitor, rest.parallelFor);
     this->Caller.tell(reviewMesh(this->Blocks, this->Mesh, some, this->Scale.unit));
   }
 }
@@ -78,7 +78,20 @@ RunOrigin SurfaceWorker::makeOrigin(double isovalue) const
   origin.parameters.onCreases = this->Properties.outputType != OutputType::Particles;
   origin.parameters.particleCount = this->Properties.numberOfParticles;
   origin.parameters.particleLimit = particlesThatFit();
+  origin.parameters.polygon = this->polygonOf(isovalue);
   return origin;
+}
+
+/// To what an isosurface is cut, in units of the run.
+PlanePolygon SurfaceWorker::polygonOf(double isovalue) const
+{
+  if (this->Properties.polygons.empty())
+  {
+    return {};
+  }
+  const std::vector<double>& isovalues = this->Properties.isovalues;
+  const auto index = std::find(isovalues.begin(), isovalues.end(), isovalue) - isovalues.begin();
+  return this->Properties.polygons[index].scaled(1.0 / this->Scale.unit);
 }
 
 void SurfaceWorker::review(

@@ -43,6 +43,7 @@ public:
 private:
   SizingFunction sizingAt(double spacing) const;
   RunOrigin makeOrigin(double isovalue) const;
+  PlanePolygon polygonOf(double isovalue) const;
   void reviewSpacing(double isovalue, double fieldIsovalue, const Distribution& distribution,
     const Work& work) const;
 

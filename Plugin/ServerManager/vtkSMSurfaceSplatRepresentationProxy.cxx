@@ -9,6 +9,7 @@
 #include "vtkPVQuantileInformation.h"
 #include "vtkProcessModule.h"
 #include "vtkSMPropertyHelper.h"
+#include "vtkSMSessionProxyManager.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMTransferFunctionProxy.h"
 
@@ -82,7 +83,8 @@ void vtkSMSurfaceSplatRepresentationProxy::Watch(vtkSMProxy* table)
     this->Table->RemoveObserver(this->Observer);
   }
   this->Table = table;
-  this->IsFresh = table && mayRescale(table);
+  this->IsFresh =
+    table && (mayRescale(table) || !this->GetSessionProxyManager()->GetInLoadXMLState());
   if (table)
   {
     this->Observer = table->AddObserver(

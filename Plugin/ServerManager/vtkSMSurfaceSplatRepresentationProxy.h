@@ -46,7 +46,7 @@ private:
 
   vtkWeakPointer<vtkSMProxy> Table;
   unsigned long Observer = 0;
-  /// Whether the table was chosen since the last picture, and ParaView may change its range.
+  /// Whether the table was chosen since the last picture, and not by a state that keeps its range.
   bool IsFresh = false;
 };
 

@@ -32,8 +32,12 @@ struct Neighbors
   static constexpr double Sharpness = 2.;
   /** Cosine of 60 degrees: neighbours whose normals differ by more are of another side or another surface. */
   static constexpr double LeastCosine = 0.5;
-  /** 1 / tan^2 of 30 degrees: neighbours that stand higher above the disk are of another surface. */
-  static constexpr double Flatness = 3.;
+  /**
+   * Largest height of a neighbour along the mean of both normals, in radii, which is 0 on a surface that bends evenly.
+   * Higher ones are of another surface, or of a layer beside a step, as in MarkLayers. A larger one bends splats towards
+   * layers nearby; a smaller one drops neighbours where the curvature changes.
+   */
+  static constexpr double LargestStep = 0.08;
   /**
    * Distance behind a clip plane, in radii, up to which a neighbour still counts. Particles of a boundary curve or a
    * crease lie on each other's planes more or less.
@@ -187,9 +191,10 @@ public:
     const double y = offset.Dot(this->Bitangent) / this->Radius;
     const double cosine = normal.Dot(this->Normal);
     const double square = x * x + y * y;
+    const double step = 0.5 * (offset.Dot(this->Normal) + offset.Dot(normal)) / this->Radius;
     const bool isDrawn = this->Particles.CentreRadius[4 * neighbor + 3] > 0.f;
     if (neighbor == this->Particle || !isDrawn || cosine < Neighbors::LeastCosine ||
-      Neighbors::Flatness * height * height > square)
+      std::abs(step) > Neighbors::LargestStep)
     {
       return;
     }

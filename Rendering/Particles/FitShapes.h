@@ -17,8 +17,8 @@ struct SplatParticles;
 
 /**
  * Replaces the shape operators of particles that have some. A neighbour does not count if one of the two lies behind a
- * clip plane of the other, or if it is turned away from the particle or stands high above its disk. It counts less if the
- * plane between them is one at which the surface is almost smooth.
+ * clip plane of the other, or if it is turned away from the particle or stands a step higher or lower. It counts less if
+ * the plane between them is one at which the surface is almost smooth.
  */
 void FitShapes(SplatParticles& particles);
 }

@@ -3,7 +3,7 @@
 //   mesh_table [density=D] [finer=F] [only=NAME] [FOLDER ...]
 //
 // Every FOLDER (default: Testing/Data of the working folder) is searched for the files of the list below; with
-// file=NAME array=A isovalue=C one other file. The spacing is the proxy's default, 1/100 of the longest side, over F
+// file=NAME array=A isovalue=C [component=N] one other file. The spacing is the proxy's default, 1/100 of the longest side, over F
 // (default 1); the angular density is D (default 10, the filter's). Columns: holes are edges with one triangle that are
 // no edges of the surface, in loops; V - E + F is the Euler characteristic; angles are the median and the 1% quantile
 // (without triangles at edges of the surface) of the triangles' smallest angles, degrees; areas are those of the mesh
@@ -221,6 +221,10 @@ Options parse(int argc, char* argv[])
     else if (key == "isovalue")
     {
       options.single.isovalue = std::stod(value);
+    }
+    else if (key == "component")
+    {
+      options.single.component = std::stoi(value);
     }
     else if (key == "surface")
     {

@@ -1,6 +1,6 @@
 """Pictures of the paper's cases, particles as points beside the same particles as splats, on one sheet.
 
-    pvbatch Testing/Benchmarks/paper_pictures.py PLUGIN OUT.png GRID.vtu:ARRAY:ISOVALUE:DENSITY:SPACING ...
+    pvbatch Testing/Benchmarks/paper_pictures.py PLUGIN OUT.png NAME:GRID.vtu:ARRAY:ISOVALUE:DENSITY:SPACING ...
 """
 
 import sys
@@ -27,7 +27,7 @@ def grab(view):
     return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, 3)[::-1].copy()
 
 
-def pictures(path, array, isovalue, density, spacing):
+def pictures(name, path, array, isovalue, density, spacing):
     reader = simple.XMLUnstructuredGridReader(FileName=[path])
     particles = simple.HighOrderParticleIsosurface(
         Input=reader, ContourBy=["POINTS", array], Isosurfaces=[float(isovalue)], AngularDensity=float(density),
@@ -40,10 +40,13 @@ def pictures(path, array, isovalue, density, spacing):
     display.ColorArrayName = ["POINTS", ""]
     display.AmbientColor = display.DiffuseColor = [0.18, 0.43, 0.71]
     display.SetRepresentationType("Points")
-    display.PointSize = 2
+    count = particles.GetDataInformation().GetNumberOfPoints()
+    display.PointSize = 2 if count < 5000 else 1
+    caption = simple.Show(simple.Text(Text=f"{name}, rho = {density}: {count:,} particles"), view)
+    caption.Color, caption.FontSize, caption.WindowLocation = [0, 0, 0], 14, "Lower Center"
     view.CameraPosition, view.CameraViewUp = [-1, -1.8, 1.1], [0, 0, 1]
     simple.ResetCamera(view)
-    view.GetActiveCamera().Zoom(1.1)
+    view.GetActiveCamera().Zoom(0.9)
     points = grab(view)
     display.SetRepresentationType("Surface Splats")
     splats = grab(view)

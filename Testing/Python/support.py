@@ -2,6 +2,7 @@
 own cells, contour and locator for a second opinion."""
 
 import os
+from pathlib import Path
 
 import numpy as np
 from highorderparticles import vtkHighOrderParticleIsosurface
@@ -10,7 +11,9 @@ from paraview.vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.util.misc import calldata_type
 from vtkmodules.vtkCommonCore import VTK_STRING, reference, vtkIdList, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkStaticPointLocator, vtkUnstructuredGrid
-from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkContourFilter, vtkFeatureEdges, vtkMassProperties, vtkTriangleFilter
+from vtkmodules.vtkFiltersCore import (vtkCleanPolyData, vtkContourFilter, vtkExtractCells, vtkFeatureEdges,
+                                       vtkMassProperties, vtkTriangleFilter)
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 
 # Arguments of SaveData for XML files that any ParaView reads back: not raw, see Documentation/limitations.md about expat.
@@ -366,3 +369,56 @@ def cells_of(grid, ids):
     part = grid_of_cells(points_of(grid)[nodes], cells)
     add_point_array(part, "u", array_of(grid, "u")[nodes])
     return part
+
+
+def write_pieces(folder, name, pieces):
+    """A .pvtu file as solvers write them, one .vtu file a piece. All pieces have the arrays of the first one; those with
+    ghost cells mark them."""
+    types = {"d": "Float64", "f": "Float32", "B": "UInt8", "i": "Int32", "l": "Int64", "q": "Int64"}
+
+    def declared(attributes):
+        arrays = [attributes.GetArray(array) for array in array_list(attributes)]
+        return "".join(f'<PDataArray type="{types[vtk_to_numpy(array).dtype.char]}" Name="{array.GetName()}" '
+                       f'NumberOfComponents="{array.GetNumberOfComponents()}"/>' for array in arrays)
+
+    for i, piece in enumerate(pieces):
+        writer = vtkXMLUnstructuredGridWriter()
+        writer.SetInputData(piece)
+        writer.SetFileName(f"{folder}/{name}_{i}.vtu")
+        writer.SetDataModeToBinary()
+        writer.Write()
+    with_ghosts = any("vtkGhostType" in array_list(piece.GetCellData()) and array_of(piece, "vtkGhostType", "cell").any()
+                      for piece in pieces)
+    sources = "".join(f'<Piece Source="{name}_{i}.vtu"/>' for i in range(len(pieces)))
+    coordinates = types[vtk_to_numpy(pieces[0].GetPoints().GetData()).dtype.char]
+    Path(folder, f"{name}.pvtu").write_text(f"""<VTKFile type="PUnstructuredGrid" version="0.1">
+<PUnstructuredGrid GhostLevel="{int(with_ghosts)}">
+<PPoints><PDataArray type="{coordinates}" NumberOfComponents="3"/></PPoints>
+<PPointData>{declared(pieces[0].GetPointData())}</PPointData>
+<PCellData>{declared(pieces[0].GetCellData())}</PCellData>
+{sources}</PUnstructuredGrid></VTKFile>""")
+    return Path(folder, f"{name}.pvtu")
+
+
+def pieces_of(grid, owners):
+    """A grid in pieces as DOLFINx makes them: with the nodes that cells share, and the cells of other pieces beside those
+    of a piece as ghosts. owners: the piece of each cell."""
+    nodes = [{grid.GetCell(c).GetPointId(n) for n in range(grid.GetCell(c).GetNumberOfPoints())}
+             for c in range(grid.GetNumberOfCells())]
+    pieces = []
+    for piece in range(max(owners) + 1):
+        own = np.flatnonzero(owners == piece)
+        touched = set().union(*(nodes[c] for c in own))
+        ghosts = [c for c in range(len(nodes)) if owners[c] != piece and nodes[c] & touched]
+        ids = vtkIdList()
+        for cell in [*own, *ghosts]:
+            ids.InsertNextId(int(cell))
+        extract = vtkExtractCells()
+        extract.SetInputData(grid)
+        extract.SetCellList(ids)
+        extract.Update()
+        part = extract.GetOutput()
+        # The filter keeps the order of the grid.
+        add_cell_array(part, "vtkGhostType", (owners[sorted([*own, *ghosts])] != piece).astype(np.uint8))
+        pieces.append(part)
+    return pieces

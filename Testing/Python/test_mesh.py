@@ -141,6 +141,11 @@ def test_a_mesh_with_creases_has_a_given_number_of_points(data, plugin):
     ("mfem_dg_advection_0.vtu", "rho", 0.0902468),
     ("mfem_dg_advection_0.vtu", "rho", 0.361018),
     ("mfem_dg_advection_2.vtu", "rho", 0.2404164),
+    # Boundary curves that touch in a particle.
+    ("mfem_dg_advection_0.vtu", "rho", 0.53777069),
+    ("mfem_dg_advection_2.vtu", "rho", 0.3),
+    # A component smaller than a spacing.
+    ("ngsolve_cylinder_ns_tet_p3.vtu", "pressure", 0.22765081),
     # A crease that turns back beside another part of itself; a closed crease; a corner beside another particle.
     ("dolfinx_tet_p3.vtu", "u", 0.11485),
     ("dolfinx_tet_p3.vtu", "u", -0.10525738),

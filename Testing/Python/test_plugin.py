@@ -317,6 +317,18 @@ def test_the_first_legend_of_a_curvature_leaves_out_the_extremes(name):
     np.testing.assert_allclose(range_of(table), [values.min(), values.max()], err_msg="by hand, all are shown")
 
 
+def test_what_is_made_of_particles_has_such_legends(data):
+    """Scripts colour a clip by the array that has a legend already."""
+    proxy, display = shown([0.001])
+    simple.ColorBy(display, ("POINTS", "Mean_Curvature"))
+    simple.Render()
+    half = simple.Clip(Input=proxy)
+    half.ClipType.Normal = [0, 0, 1]
+    simple.ColorBy(simple.Show(half), ("POINTS", "Mean_Curvature"))
+    wanted = quantiles_by_area(output_of(half), "Mean_Curvature", [0.02, 0.98])
+    np.testing.assert_allclose(range_of(simple.GetColorTransferFunction("Mean_Curvature")), wanted, rtol=0.05)
+
+
 def test_legends_of_curvature_of_a_real_file_serve_what_is_seen(data):
     """By their number, particles gave -34 to 20 here, and most of the surface had one colour."""
     proxy = simple.HighOrderParticleIsosurface(Input=read(data("dolfinx_tet_p3.vtu")))

@@ -19,7 +19,7 @@ SHELL_CELLS = 236
 # Every rank runs this script, and writes case by case what it has: the particles' places and arrays, and what the
 # filter said.
 SCRIPT = """
-import json, os, sys, time
+import json, os, signal, sys, time
 import numpy as np
 from paraview import servermanager, simple
 from paraview.vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -28,7 +28,7 @@ from vtkmodules.vtkIOXML import (vtkXMLPUnstructuredGridReader, vtkXMLUnstructur
                                  vtkXMLUnstructuredGridWriter)
 
 plugin, folder, tests, part, *files = sys.argv[1:]
-shell, jumps, hanging, rational, flow, tetrahedra = files
+shell, jumps, hanging, rational, flow, tetrahedra, pieces = files
 simple.LoadPlugin(plugin, remote=False, ns=globals())
 sys.path.append(tests)
 import support
@@ -183,13 +183,17 @@ def called_off(grid):
                 algorithm.SetAbortExecute(1)
                 open(flag, "w").close()
                 return
-            while not os.path.exists(flag):
+            for _ in range(3000):
+                if os.path.exists(flag):
+                    break
                 time.sleep(0.01)
             time.sleep(0.2)  # the message is on its way
             later.append(algorithm.GetProgress())
 
     algorithm.AddObserver("ProgressEvent", hear)
+    signal.alarm(60)  # the end of ranks that wait for each other
     output = run(surface)
+    signal.alarm(0)
     messages[:] = [str(fraction) for fraction in later if fraction < 1]
     return output
 
@@ -242,6 +246,9 @@ cases = {
         scattered(whole(flow)), "velocity", [-24.0], Spacing=0.06, Quantity="Lambda 2", ParticlesPerWorker=1000)),
     "slice": lambda: run(slice_of(scattered(grid))),
     "tetrahedra with ghosts": lambda: run(filter_of(with_ghosts(whole(tetrahedra)), "u", [0.5])),
+    "tetrahedra": lambda: run(filter_of(scattered(whole(tetrahedra)), "u", [0.5])),
+    "tetrahedra in pieces": lambda: run(filter_of(
+        simple.XMLPartitionedUnstructuredGridReader(FileName=[pieces]), "u", [0.5])),
     "warm": lambda: warm(scattered(grid)),
     "halves": lambda: run(filter_of(halves(grid))),
     "two results": lambda: run(filter_of(two_results(scattered(grid)))),
@@ -260,14 +267,16 @@ cases = {
 }
 if os.path.exists(redistributed):
     cases["redistributed"] = lambda: run(filter_of(whole(redistributed)))
-if ranks == 2:
-    cases["called off"] = lambda: called_off(scattered(grid))
-    cases["after that"] = lambda: run(filter_of(scattered(grid)))
-if ranks > 1:
+if part == "called off":
+    cases = {
+        "called off": lambda: called_off(scattered(grid)),
+        "after that": lambda: run(filter_of(scattered(grid))),
+    }
+elif ranks > 1:
     cases["no array"] = lambda: run(filter_of(without_array_here(scattered(grid))))
 
 said = {}
-for name, case in cases.items() if part == "cases" else ():
+for name, case in cases.items() if part != "redistribute" else ():
     messages.clear()
     output = case()
     leaves = [output] if output.IsA("vtkPointSet") else [output.GetBlock(i) for i in range(output.GetNumberOfBlocks())]
@@ -282,7 +291,7 @@ for name, case in cases.items() if part == "cases" else ():
             rows["nodes"] = ids.reshape(cells.GetNumberOfCells(), -1)
         np.savez(f"{folder}/{name}-{i}-{rank}.npz", **rows)
     said[name] = list(messages)
-with open(f"{folder}/{rank}.json", "w") as file:
+with open(f"{folder}/{part}-{rank}.json", "w") as file:
     json.dump(said, file)
 """
 
@@ -293,10 +302,14 @@ def runs(data, plugin, tmp_path_factory):
     for program in ("mpirun", "pvbatch"):
         if not shutil.which(program):
             pytest.skip(f"no {program} here")
-    files = ["dealii_shell_p3_00.pvtu", "mfem_dg_advection_0.vtu", "mfem_amr_hanging_hex_p3.vtu",
+    names = ["dealii_shell_p3_00.pvtu", "mfem_dg_advection_0.vtu", "mfem_amr_hanging_hex_p3.vtu",
              "yeti_pipe_bezier_rational_p333.vtu", "ngsolve_cylinder_ns_tet_p3.vtu", "dolfinx_tet_p3.vtu"]
-    return {ranks: Run(ranks, [data(file) for file in files], plugin, tmp_path_factory.mktemp(f"ranks{ranks}"))
-            for ranks in RANKS}
+    files = [data(name) for name in names]
+    tetrahedra = support.output_of(support.read(files[-1]))
+    owners = np.floor(np.arange(tetrahedra.GetNumberOfCells()) * 3 / tetrahedra.GetNumberOfCells()).astype(int)
+    folder = tmp_path_factory.mktemp("pieces")
+    files.append(str(support.write_pieces(folder, "tetrahedra", support.pieces_of(tetrahedra, owners))))
+    return {ranks: Run(ranks, files, plugin, tmp_path_factory.mktemp(f"ranks{ranks}")) for ranks in RANKS}
 
 
 class Run:
@@ -317,7 +330,8 @@ class Run:
         self.is_redistributed = self.redistribute(run)
         done = run("cases", 600)
         assert done.returncode == 0, done.stdout + done.stderr
-        self.said = [json.loads((folder / f"{rank}.json").read_text()) for rank in range(ranks)]
+        self.said = [json.loads((folder / f"cases-{rank}.json").read_text()) for rank in range(ranks)]
+        self.run_part = run
 
     def redistribute(self, run):
         """Lets ParaView redistribute a file, in processes without our filter: a fault there is no fault of ours. After
@@ -379,7 +393,7 @@ class Run:
 
 CASES = ["in pieces", "scattered", "on one rank", "with ghosts", "with wrong ghosts", "read in pieces", "redistributed",
          "classic", "number", "three values", "jumps", "hanging", "rational", "derived", "lambda 2", "slice",
-         "tetrahedra with ghosts", "warm", "halves", "two results",
+         "tetrahedra with ghosts", "tetrahedra", "tetrahedra in pieces", "warm", "halves", "two results",
          "workers", "workers and jumps"]
 
 
@@ -428,9 +442,18 @@ def test_an_abort_on_one_rank_ends_the_run_on_all(runs, case, ranks):
     assert runs[ranks].counts(case) == [0] * ranks
 
 
+@pytest.mark.parametrize("case", ["tetrahedra in pieces", "tetrahedra with ghosts"])
+def test_it_does_not_matter_how_tetrahedra_lie(runs, case):
+    for ranks in RANKS:
+        assert np.array_equal(runs[ranks].particles(case), runs[1].particles("tetrahedra"))
+
+
 def test_an_abort_ends_other_ranks_in_the_middle_of_their_step(runs):
+    done = runs[2].run_part("called off", 300)
+    assert "Alarm clock" not in done.stdout + done.stderr, "ranks wait for each other: one has not told the others"
+    assert done.returncode == 0, done.stdout + done.stderr
     assert runs[2].counts("called off") == [0, 0]
-    reports = json.loads((runs[2].folder / "0.json").read_text())["called off"]
+    reports = json.loads((runs[2].folder / "called off-0.json").read_text())["called off"]
     assert 0 < len(reports) < 5 and float(reports[-1]) < 0.5
     # No message is left that would end the next run.
     assert np.array_equal(runs[2].particles("after that"), runs[1].particles("scattered"))

@@ -24,6 +24,10 @@ namespace
 constexpr double LargestOffset = 0.1; // spacings
 constexpr double LargestShade = 25. / 255.;
 
+// Depths of the pixels around one that differ by more than a spacing, and by more than so many pixels, are those of two
+// parts of the surface: a slope that is as steep (80 degrees) is at an outline, too.
+constexpr double SteepPixels = 10.;
+
 // The pixels around one, itself included.
 template <class Use>
 void VisitAround(int size, int x, int y, const Use& use)
@@ -37,24 +41,65 @@ void VisitAround(int size, int x, int y, const Use& use)
   }
 }
 
+// The brightness of the pixels around one as rays see it.
+class ShadesAround
+{
+public:
+  // largestStep: of the depth of one part of the surface, world units.
+  explicit ShadesAround(double largestStep)
+    : LargestStep(largestStep)
+  {
+  }
+
+  void Add(const SeenPoint& seen, double shade)
+  {
+    this->Shades.push_back(shade);
+    this->Nearest = std::min(this->Nearest, seen.depth);
+    this->Farthest = std::max(this->Farthest, seen.depth);
+  }
+
+  // How far a brightness is from that of any of the pixels. Where they show what does not hang together, before another
+  // part of the surface or the background (which is black), a pixel may also be a mixture, as outlines are smooth.
+  double DistanceOf(double shade) const
+  {
+    const auto [darkest, brightest] = std::minmax_element(this->Shades.begin(), this->Shades.end());
+    if (this->Farthest - this->Nearest > this->LargestStep)
+    {
+      return std::max({ 0., *darkest - shade, shade - *brightest });
+    }
+    double least = std::numeric_limits<double>::infinity();
+    for (const double other : this->Shades)
+    {
+      least = std::min(least, std::abs(shade - other));
+    }
+    return least;
+  }
+
+private:
+  std::vector<double> Shades;
+  double LargestStep;
+  double Nearest = std::numeric_limits<double>::infinity();
+  double Farthest = 0.; // infinite if the background is seen
+};
+
 PixelError ErrorAt(const SurfacePicture& drawn, const SurfacePicture& reference,
   const PictureCamera& camera, double spacing, int x, int y)
 {
   const int here = y * camera.size + x;
   int covered = 0;
   int around = 0;
-  double shade = std::numeric_limits<double>::infinity();
-  double offset = shade;
+  double offset = std::numeric_limits<double>::infinity();
+  ShadesAround shades(std::max(spacing, SteepPixels * camera.pixel()));
   VisitAround(camera.size, x, y,
     [&](int there)
     {
       const SeenPoint& seen = reference.Seen[there];
       ++around;
       covered += seen.covered();
+      shades.Add(seen, reference.Shade[there]);
       if (seen.covered() && drawn.Seen[here].covered())
       {
         const glm::dvec3 ray = camera.ray(x + 0.5, y + 0.5).direction;
-        shade = std::min(shade, std::abs(drawn.Shade[here] - reference.Shade[there]));
         offset = std::min(
           offset, std::abs((drawn.Seen[here].depth - seen.depth) * glm::dot(ray, seen.normal)));
       }
@@ -65,11 +110,11 @@ PixelError ErrorAt(const SurfacePicture& drawn, const SurfacePicture& reference,
   }
   const bool isAtNearPlane =
     camera.nearest > 0. && drawn.Seen[here].depth < camera.nearest + 2. * spacing;
-  return isAtNearPlane                 ? PixelError::None
-    : covered == 0                     ? PixelError::Beyond
-    : offset > LargestOffset * spacing ? PixelError::Depth
-    : shade > LargestShade             ? PixelError::Shade
-                                       : PixelError::None;
+  return isAtNearPlane                                    ? PixelError::None
+    : covered == 0                                        ? PixelError::Beyond
+    : offset > LargestOffset * spacing                    ? PixelError::Depth
+    : shades.DistanceOf(drawn.Shade[here]) > LargestShade ? PixelError::Shade
+                                                          : PixelError::None;
 }
 }
 

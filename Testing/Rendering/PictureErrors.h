@@ -27,7 +27,7 @@ struct PictureErrors
 };
 
 // What is seen at a pixel counts as right if it is right for one of the nine pixels around: outlines and creases may
-// run a pixel aside. Nothing is wrong within two spacings of the near plane, which cuts splats other than rays.
+// run a pixel aside. At outlines a pixel may also be as bright as a mixture of them. Nothing is wrong within two spacings of the near plane, which cuts splats other than rays.
 PictureErrors FindErrors(const SurfacePicture& drawn, const SurfacePicture& reference,
   const hop::testing::PictureCamera& camera, double spacing);
 

@@ -76,11 +76,16 @@ TEST(PictureErrors, AreFoundAndCounted)
   drawn.Shade[8 * 16 + 9] = 1.;
   drawn.Seen[3 * 16 + 9].depth += 0.2 * spacing;
   drawn.Shade[3 * 16 + 12] -= 0.2;
+  // Mixtures at a smooth outline before the background, right, and elsewhere, wrong.
+  drawn.Shade[7 * 16 + 3] = 0.5;
+  drawn.Shade[5 * 16 + 12] = 0.5;
   const PictureErrors errors = FindErrors(drawn, reference, camera, spacing);
   EXPECT_EQ(errors.Pixels[3 * 16 + 3], PixelError::Hole);
   EXPECT_EQ(errors.Pixels[12 * 16 + 3], PixelError::Beyond);
   EXPECT_EQ(errors.Pixels[3 * 16 + 9], PixelError::Depth);
   EXPECT_EQ(errors.Pixels[3 * 16 + 12], PixelError::Shade);
-  EXPECT_EQ(errors.Count(PixelError::None), 252);
+  EXPECT_EQ(errors.Pixels[7 * 16 + 3], PixelError::None);
+  EXPECT_EQ(errors.Pixels[5 * 16 + 12], PixelError::Shade);
+  EXPECT_EQ(errors.Count(PixelError::None), 251);
   EXPECT_EQ(WorstPlaces(errors, 16, 4, 10).size(), 3u); // one of the squares holds two errors
 }

@@ -46,6 +46,8 @@ struct Start
   static constexpr double SpacingPerExtent = 0.1;
   /// Largest diagonal of the boxes of seeds, in units of the spacing. Larger: fewer seeds, and holes to fill by splits.
   static constexpr double BoxPerSpacing = 3.0;
+  /// Random seeds; the paper has several hundred.
+  static constexpr int RandomSeeds = 300;
   /// But no box need be smaller than this, in units of the mesh's diagonal: finer levels get their particles by splits.
   static constexpr double BoxPerExtent = 1.0 / 400.0;
 };
@@ -280,6 +282,8 @@ Distribution ClassicSystem::run()
     return {};
   }
   const std::vector<ClassicParticle> seeds = this->makeSeeds();
+  this->Particles.movers = this->Particles.randomSeeds(
+    seeds.empty() ? 0 : Start::RandomSeeds, meshExtent(*this->Surface.mesh), this->RandomNumbers);
   if (!seeds.empty() && this->makeLevels(seeds) && this->countIsGiven())
   {
     this->exchange();

@@ -86,6 +86,33 @@ bool ClassicParticles::seed(
     box.size, walker, mover);
 }
 
+std::vector<ClassicParticle> ClassicParticles::randomSeeds(
+  int count, double farthest, Random& random)
+{
+  const ElementMesh& mesh = *this->Surface.mesh;
+  SurfaceWalker walker(this->Surface);
+  std::vector<ClassicParticle> seeds;
+  for (int n = 0; n < count; ++n)
+  {
+    Location place;
+    place.element = static_cast<int>(random.uniform() * static_cast<double>(mesh.elements.size()));
+    do
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        place.u.xyz[axis] = random.uniform();
+      }
+    } while (insideMargin(mesh.elements[place.element].domain, place.u) < 0.0);
+    ClassicParticle seed;
+    if (this->place(place, farthest, walker, seed))
+    {
+      seeds.push_back(seed);
+    }
+  }
+  this->SeedCost += walker.evaluations();
+  return seeds;
+}
+
 std::vector<ClassicParticle> ClassicParticles::seedsOf(const std::vector<SurfaceBox>& boxes)
 {
   std::vector<ClassicParticle> seeds(boxes.size());

@@ -2,6 +2,7 @@
 
 #include "Isolation/SurfaceBox.h"
 #include "Support/PointBins.h"
+#include "Support/Random.h"
 #include "Surface/SizingFunction.h"
 #include "Surface/SurfaceWalker.h"
 
@@ -45,6 +46,10 @@ public:
   std::vector<ClassicParticle> movers;
   /// The particles near each particle, as of the last renewNeighbors().
   NeighborLists neighbors;
+
+  /// Random places in the elements, projected onto the surface; fewer than `count` where Newton's method fails.
+  /// \param farthest way to the surface, world units
+  std::vector<ClassicParticle> randomSeeds(int count, double farthest, Random& random);
 
   /// A particle for every box from which Newton's method finds the surface.
   std::vector<ClassicParticle> seedsOf(const std::vector<SurfaceBox>& boxes);

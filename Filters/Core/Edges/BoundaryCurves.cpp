@@ -138,6 +138,7 @@ BoundaryCurves BoundaryParticles::make(SampledCurves wanted, const ParallelFor& 
     found[n] = kinds[n] == PlaceKind::OnCurve;
     particles[n].isOnCrease = this->Sampled.beginsCrease[n] != 0;
     particles[n].isCorner = this->Sampled.isCorner[n] != 0;
+    particles[n].isNeeded = this->Sampled.isNeeded[n] != 0;
   }
   this->meet(found);
   std::vector<CurvePlace> outcomes(particles.size());

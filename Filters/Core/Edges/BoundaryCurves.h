@@ -42,6 +42,8 @@ struct BoundaryParticle
   bool isOnCrease = false;
   /// Where two stretches of a curve meet.
   bool isCorner = false;
+  /// Stays however near others are.
+  bool isNeeded = false;
 };
 
 /// What is to be sampled.

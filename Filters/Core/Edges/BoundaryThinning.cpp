@@ -39,6 +39,10 @@ bool areTooNear(const BoundaryParticle& a, const BoundaryParticle& b, SampledCur
   {
     return false; // the other side has one here
   }
+  if (a.isNeeded || b.isNeeded)
+  {
+    return false;
+  }
   if (sampled == SampledCurves::BoundaryAndCreases && lookAtEachOther(a.side, b.side))
   {
     return glm::distance(a.patch.position, b.patch.position) <

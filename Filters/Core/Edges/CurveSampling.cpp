@@ -8,6 +8,14 @@ namespace hop
 namespace
 {
 
+/// Of a closed curve with no more places than this none is left out. Two arcs between two corners have four. More keep
+/// particles that crowd.
+constexpr std::size_t fewPlaces = 4;
+
+/// Length of a closed curve above which it is one, in units of the spacing. Shorter ones are places where a trace passes
+/// edges of the mesh and comes back.
+constexpr double shortestCurve = 0.1;
+
 class CurveSampling
 {
 public:
@@ -23,6 +31,7 @@ public:
   SampledPlaces place(const ParallelFor& parallelFor);
 
 private:
+  bool bounds(std::size_t trace) const;
   std::int64_t leastIntervals(std::size_t stretch) const;
   std::vector<BoundaryPlace> sampleStretch(
     const CurveStretch& stretch, std::int64_t leastIntervals, const ParallelFor& parallelFor);
@@ -37,11 +46,27 @@ private:
   SampledPlaces Result;
 };
 
-/// So many intervals a crease needs that its side of the surface is no line: a closed curve through three places.
+/// Whether the surface is cut, and a curve closed: then the surface beside it has triangles.
+bool CurveSampling::bounds(std::size_t trace) const
+{
+  const BoundaryTrace& curve = this->Curves.traces[trace];
+  if (!this->IsCut || !curve.closed)
+  {
+    return false;
+  }
+  double length = 0.0;
+  for (std::size_t v = 1; v < curve.vertices.size(); ++v)
+  {
+    length += glm::distance(curve.vertices[v - 1].position(), curve.vertices[v].position());
+  }
+  return length > shortestCurve * this->Between.spacingAt(curve.vertices.front().leaving);
+}
+
+/// So many intervals a stretch needs that the surface beside it is no line: a closed curve through three places.
 std::int64_t CurveSampling::leastIntervals(std::size_t stretch) const
 {
   const CurveStretch& curve = this->Curves.stretches[stretch];
-  if (curve.creaseFace < 0 || !this->Curves.traces[curve.trace].closed)
+  if (!this->bounds(curve.trace))
   {
     return 1;
   }
@@ -225,8 +250,10 @@ SampledPlaces CurveSampling::place(const ParallelFor& parallelFor)
   for (std::size_t t = 0; t < this->Curves.traces.size(); ++t)
   {
     const std::size_t first = starts[firsts[t]];
-    this->Result.ranges.push_back(
-      { first, starts[firsts[t] + stretchCounts[t]] - first, this->Curves.traces[t].closed });
+    const std::size_t count = starts[firsts[t] + stretchCounts[t]] - first;
+    this->Result.ranges.push_back({ first, count, this->Curves.traces[t].closed });
+    this->Result.isNeeded.insert(
+      this->Result.isNeeded.end(), count, count <= fewPlaces && this->bounds(t));
   }
   this->joinSides(starts);
   return std::move(this->Result);

@@ -54,6 +54,7 @@ void FastSystem::makeSeeds(std::int64_t count)
     this->Moving->approach();
     this->fixOuterSeeds();
   }
+  this->placeOnPolygon();
   this->dropNearBoundaryCurves(OnBoundary::SeedDistance);
   this->coverBoxes(this->Part.widened(this->overlap(SlabOverlap::Reach - SlabOverlap::Guard)));
 }

@@ -83,7 +83,7 @@ bool FastSystem::isFineEnough(const SurfaceBox& box, const SizingFunction& sizin
     this->Parameters.quality == Quality::Draft ? BoxDiagonal::Draft : BoxDiagonal::of(domain);
   const double largest = perSpacing * sizing.spacing;
   const double smallest = (box.mayBeThin ? 1.0 : perSpacing) * sizing.smallest();
-  if (this->isOutOfReach(box))
+  if (this->isOutOfReach(box) || this->isFarBeyondPolygon(box))
   {
     return true;
   }
@@ -125,9 +125,10 @@ SurfaceProxy FastSystem::proxyOfBoxesAt(const SizingFunction& sizing, double sha
 {
   const auto isFineEnough = [&](const SurfaceBox& box) { return this->isFineEnough(box, sizing); };
   const auto found = [&](double share) { this->Work.raiseFraction(shareOfRun * share); };
-  SurfaceProxy proxy(this->Surface, this->Sizing,
-    findSurfaceBoxes(this->Mesh, this->Surface.isovalue, isFineEnough, this->Parallel, found),
-    this->Parallel);
+  std::vector<SurfaceBox> boxes =
+    findSurfaceBoxes(this->Mesh, this->Surface.isovalue, isFineEnough, this->Parallel, found);
+  this->dropFarBeyondPolygon(boxes);
+  SurfaceProxy proxy(this->Surface, this->Sizing, std::move(boxes), this->Parallel);
   this->Evaluations += proxy.evaluations();
   return proxy;
 }

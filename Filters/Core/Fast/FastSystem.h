@@ -2,7 +2,7 @@
 
 #include "Edges/BoundaryCurves.h"
 #include "Elements/SlabElements.h"
-#include "Fast/MovingParticles.h"
+#include "Fast/LeastParticles.h"
 #include "Fast/SlabDistribution.h"
 #include "Isolation/SurfaceProxy.h"
 #include "Support/Interruptible.h"
@@ -98,6 +98,12 @@ protected:
   void keepCurvesIn(const Slab& slab);
   std::vector<SurfaceBox> undecidedBoxes();
 
+  // A plane cut to a polygon: FastPolygon.cpp.
+  bool isFarBeyondPolygon(const SurfaceBox& box) const;
+  void dropFarBeyondPolygon(std::vector<SurfaceBox>& boxes) const;
+  void placeOnPolygon();
+  void dropBeyondPolygon(const Buffer<Particle>& finished, std::vector<char>& kept) const;
+
   // The spacing that goes with a given number of particles: FastSpacing.cpp.
   bool countIsGiven() const { return this->Parameters.particleCount > 0; }
   double targetCount() const;
@@ -126,6 +132,14 @@ protected:
 
   // Finished particles: FastFinish.cpp.
   void finish();
+  enum class ComponentHome
+  {
+    Here,
+    Elsewhere,
+    Unknown
+  };
+  ComponentHome homeOf(const SparseComponent& component) const;
+  void fillSparseComponents();
   void dropOthers();
 
   Isosurface Surface;

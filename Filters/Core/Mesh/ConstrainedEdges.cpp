@@ -1,8 +1,10 @@
 #include "Mesh/ConstrainedEdges.h"
 
 #include "Mesh/EdgeChains.h"
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace hop
 {
@@ -60,7 +62,10 @@ void direct(const Buffer<Particle>& particles, const std::array<int, 2>& segment
 
 ConstrainedEdges::ConstrainedEdges(const Distribution& distribution)
 {
-  std::vector<Edge> edges = distribution.edges.directed;
+  // A curve shorter than a spacing may have one particle, and lead from it to itself.
+  std::vector<Edge> edges;
+  std::copy_if(distribution.edges.directed.begin(), distribution.edges.directed.end(),
+    std::back_inserter(edges), [](const Edge& edge) { return edge[0] != edge[1]; });
   std::sort(edges.begin(), edges.end());
   const auto isDirected = [known = edges](const Edge& segment)
   {
@@ -77,16 +82,40 @@ ConstrainedEdges::ConstrainedEdges(const Distribution& distribution)
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   closeChains(distribution.particles, edges);
+  this->set(edges, distribution.particles.size());
+}
+
+/// \param edges sorted
+void ConstrainedEdges::set(const std::vector<Edge>& edges, std::size_t particleCount)
+{
+  this->Next = {};
+  this->Previous = {};
+  this->IsOnEdge.clear();
   if (!edges.empty())
   {
-    this->IsOnEdge.assign(distribution.particles.size(), 0);
+    this->IsOnEdge.assign(particleCount, 0);
     for (const auto& [from, to] : edges)
     {
       this->IsOnEdge[from] = this->IsOnEdge[to] = 1;
     }
-    this->Next = EdgeLinks(edges, EdgeLinks::By::Beginning, distribution.particles.size());
-    this->Previous = EdgeLinks(edges, EdgeLinks::By::End, distribution.particles.size());
+    this->Next = EdgeLinks(edges, EdgeLinks::By::Beginning, particleCount);
+    this->Previous = EdgeLinks(edges, EdgeLinks::By::End, particleCount);
   }
+}
+
+void ConstrainedEdges::replace(const Edge& edge, const Edge& by, std::size_t particleCount)
+{
+  std::vector<Edge> edges;
+  for (int particle = 0; particle < static_cast<int>(this->IsOnEdge.size()); ++particle)
+  {
+    for (const int next : this->after(particle))
+    {
+      const Edge one{ particle, next };
+      edges.push_back(one == edge ? by : one);
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  this->set(edges, particleCount);
 }
 
 bool ConstrainedEdges::has(int a, int b) const

@@ -14,7 +14,13 @@ namespace hop
 class ConstrainedEdges
 {
 public:
+  using Edge = std::array<int, 2>;
+
   explicit ConstrainedEdges(const Distribution& distribution);
+
+  /// \pre the first edge is there
+  /// \param particleCount more than the indices of the second edge's ends
+  void replace(const Edge& edge, const Edge& by, std::size_t particleCount);
 
   bool empty() const { return this->IsOnEdge.empty(); }
   /// The ends of the edges that begin at a particle, ascending.
@@ -32,7 +38,7 @@ public:
   }
 
 private:
-  using Edge = std::array<int, 2>;
+  void set(const std::vector<Edge>& edges, std::size_t particleCount);
 
   EdgeLinks Next, Previous;
   /// By particle.

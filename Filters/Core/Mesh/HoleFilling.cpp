@@ -76,6 +76,7 @@ public:
   void fillAll()
   {
     this->Loops = findOpenLoops(this->Particles, this->Edges, this->Fans, this->Parallel);
+    this->cutAtPinches();
     this->sortLoops();
     this->findLoose();
     this->prepareWalks();
@@ -142,6 +143,42 @@ private:
       normal += this->normalOf(loop[n]);
     }
     return glm::dot(area, normal);
+  }
+
+  /// Takes a part of a loop that begins and ends at the same particle, if this part and the rest are holes: they only
+  /// touch there.
+  std::optional<std::vector<int>> takePinched(std::vector<int>& loop) const
+  {
+    for (auto last = loop.begin(); last != loop.end(); ++last)
+    {
+      const auto first = std::find(loop.begin(), last, *last);
+      std::vector<int> part(first, last);
+      std::vector<int> rest(loop.begin(), first);
+      rest.insert(rest.end(), last, loop.end());
+      if (part.size() >= 3 && rest.size() >= 3 && this->areaOf(part) > 0.0 &&
+        this->areaOf(rest) > 0.0)
+      {
+        loop = std::move(rest);
+        return part;
+      }
+    }
+    return std::nullopt;
+  }
+
+  void cutAtPinches()
+  {
+    for (std::size_t n = 0; n < this->Loops.size(); ++n)
+    {
+      while (this->Loops[n].isClosed)
+      {
+        auto part = this->takePinched(this->Loops[n].particles);
+        if (!part)
+        {
+          break;
+        }
+        this->Loops.push_back({ std::move(*part), true });
+      }
+    }
   }
 
   void sortLoops()

@@ -1,5 +1,7 @@
 #include "Mesh/ManifoldVertices.h"
 
+#include "Support/KeepMarked.h"
+
 #include <set>
 
 namespace hop
@@ -79,6 +81,41 @@ bool hasSeveralFans(int vertex, const TriangleFans& fans)
   return reached < count;
 }
 
+/// The one that stays of several fans.
+std::vector<TriangleFans::Fan>::const_iterator largestOf(const std::vector<TriangleFans::Fan>& fans)
+{
+  return std::max_element(fans.begin(), fans.end(),
+    [](const TriangleFans::Fan& a, const TriangleFans::Fan& b)
+    { return a.size() < b.size() || (a.size() == b.size() && leastOf(a) > leastOf(b)); });
+}
+
+std::vector<int> verticesWithSeveralFans(const TriangleFans& fans, const ParallelFor& parallelFor)
+{
+  std::vector<char> isTouched(fans.vertexCount(), 0);
+  forAll(parallelFor, isTouched.size(),
+    [&](std::size_t vertex)
+    {
+      const int v = static_cast<int>(vertex);
+      isTouched[vertex] = !fans.isRing(v) && hasSeveralFans(v, fans) ? 1 : 0;
+    });
+  return markedIndices(isTouched, isTouched.size());
+}
+
+/// Moves a fan of triangles, and the edges at which it begins and ends, from one vertex to another.
+void moveFan(
+  const TriangleFans::Fan& fan, int from, int to, ConstrainedEdges& edges, TriangleFans& fans)
+{
+  for (const LinkEdge& edge : fan)
+  {
+    fans.remove({ from, edge.from, edge.to });
+    fans.add({ to, edge.from, edge.to });
+  }
+  const int begin = fan.front().from;
+  const int end = fan.back().to;
+  edges.replace({ from, begin }, { to, begin }, fans.vertexCount());
+  edges.replace({ end, from }, { end, to }, fans.vertexCount());
+}
+
 /// \return whether triangles were removed
 bool keepOneFanAt(const std::vector<int>& vertices, TriangleFans& fans)
 {
@@ -88,16 +125,14 @@ bool keepOneFanAt(const std::vector<int>& vertices, TriangleFans& fans)
   {
     const int vertex = *left.begin();
     left.erase(left.begin());
-    std::vector<TriangleFans::Fan> all = fansAt(vertex, fans);
+    const std::vector<TriangleFans::Fan> all = fansAt(vertex, fans);
     if (all.size() < 2)
     {
       continue;
     }
     hasChanged = true;
-    const auto kept = std::max_element(all.begin(), all.end(),
-      [](const TriangleFans::Fan& a, const TriangleFans::Fan& b)
-      { return a.size() < b.size() || (a.size() == b.size() && leastOf(a) > leastOf(b)); });
-    for (auto fan = all.begin(); fan != all.end(); ++fan)
+    const auto kept = largestOf(all);
+    for (auto fan = all.cbegin(); fan != all.cend(); ++fan)
     {
       for (std::size_t n = 0; fan != kept && n < fan->size(); ++n)
       {
@@ -190,24 +225,32 @@ bool isManifold(const std::vector<int>& places, const std::vector<Triangle>& tri
 
 } // namespace
 
-bool keepOneFan(TriangleFans& fans, const ParallelFor& parallelFor)
+std::vector<std::array<int, 2>> splitFans(ConstrainedEdges& edges, Buffer<Particle>& particles,
+  TriangleFans& fans, const ParallelFor& parallelFor)
 {
-  std::vector<char> isTouched(fans.vertexCount(), 0);
-  forAll(parallelFor, isTouched.size(),
-    [&](std::size_t vertex)
-    {
-      const int v = static_cast<int>(vertex);
-      isTouched[vertex] = !fans.isRing(v) && hasSeveralFans(v, fans) ? 1 : 0;
-    });
-  std::vector<int> vertices;
-  for (std::size_t vertex = 0; vertex < isTouched.size(); ++vertex)
+  std::vector<std::array<int, 2>> copies;
+  for (const int vertex : verticesWithSeveralFans(fans, parallelFor))
   {
-    if (isTouched[vertex])
+    const std::vector<TriangleFans::Fan> all = fansAt(vertex, fans);
+    const auto kept = largestOf(all);
+    for (auto fan = all.cbegin(); fan != all.cend(); ++fan)
     {
-      vertices.push_back(static_cast<int>(vertex));
+      if (fan != kept && edges.has(vertex, fan->front().from) && edges.has(fan->back().to, vertex))
+      {
+        const int copy = static_cast<int>(particles.size());
+        particles.push_back(Particle(particles[vertex]));
+        fans.appendVertex();
+        moveFan(*fan, vertex, copy, edges, fans);
+        copies.push_back({ vertex, copy });
+      }
     }
   }
-  return keepOneFanAt(vertices, fans);
+  return copies;
+}
+
+bool keepOneFan(TriangleFans& fans, const ParallelFor& parallelFor)
+{
+  return keepOneFanAt(verticesWithSeveralFans(fans, parallelFor), fans);
 }
 
 void keepManifold(

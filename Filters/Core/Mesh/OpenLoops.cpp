@@ -139,7 +139,11 @@ std::vector<OpenLoop> findOpenLoops(const Buffer<Particle>& particles,
   {
     walker.add(particle, openEdgesOf(particle, edges, fans));
   }
-  return walker.walk();
+  std::vector<OpenLoop> loops = walker.walk();
+  loops.erase(std::remove_if(loops.begin(), loops.end(),
+                [](const OpenLoop& loop) { return loop.isClosed && loop.edgeCount() < 3; }),
+    loops.end());
+  return loops;
 }
 
 } // namespace hop

@@ -21,7 +21,7 @@ struct OpenLoop
 };
 
 /// All edges that lack a triangle though the surface does not end there, as loops, in the order of their first
-/// particles.
+/// particles. Two edges between the same two particles enclose nothing, and are no loop.
 std::vector<OpenLoop> findOpenLoops(const Buffer<Particle>& particles,
   const ConstrainedEdges& edges, const TriangleFans& fans, const ParallelFor& parallelFor);
 

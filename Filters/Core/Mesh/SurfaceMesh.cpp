@@ -59,15 +59,19 @@ SurfaceMesh meshSurface(const Isosurface& surface, Distribution& distribution,
 {
   Interruptible work(monitor, parallelFor);
   const ParallelFor parallel(std::ref(work));
-  const ConstrainedEdges edges(distribution);
+  ConstrainedEdges edges(distribution);
   const ParticleNeighbors neighbors(distribution.particles, parallel);
   TriangleFans fans = agreedTriangles(neighbors, edges, parallel);
-  fillHoles(surface, neighbors, edges, distribution, fans, parallel);
-  // Holes that touched in a vertex have become one, which may be filled.
-  if (keepOneFan(fans, parallel))
+  SurfaceMesh mesh;
+  // Holes that touched in a vertex become one, which may be filled.
+  constexpr int mostTimes = 2;
+  bool isOpen = true;
+  for (int n = 0; isOpen && n < mostTimes; ++n)
   {
     fillHoles(surface, neighbors, edges, distribution, fans, parallel);
-    keepOneFan(fans, parallel);
+    const auto copies = splitFans(edges, distribution.particles, fans, parallel);
+    mesh.copies.insert(mesh.copies.end(), copies.begin(), copies.end());
+    isOpen = keepOneFan(fans, parallel);
   }
   joinLooseParticles(neighbors, edges, fans);
   const std::vector<int> places = firstInPlace(distribution.edges, distribution.particles.size());
@@ -75,7 +79,6 @@ SurfaceMesh meshSurface(const Isosurface& surface, Distribution& distribution,
   {
     keepManifold(places, fans, parallel);
   }
-  SurfaceMesh mesh;
   mesh.triangles = fans.triangles(parallel);
   countOpen(distribution, edges, fans, mesh, parallel);
   mesh.unusedParticles = countUnused(places, fans);

@@ -25,13 +25,15 @@ struct SurfaceMesh
   int onLongestLoop = -1;
   /// Particles without a triangle.
   std::int64_t unusedParticles = 0;
+  /// Pairs of a particle and one that was added in its place, because boundary curves touch there.
+  std::vector<std::array<int, 2>> copies;
 };
 
 /// Joins particles to triangles: those that the Delaunay triangulations in the tangent planes of all three corners
 /// agree about (ParticleStars.h). No edge has three triangles, and no triangle is turned away from the normal of one of
 /// its corners.
 /// Derivation: Documentation/algorithm.md, section Mesh.
-/// \param distribution may get particles where a hole is filled with a new one
+/// \param distribution may get particles where a hole is filled with new ones, and where boundary curves touch
 /// \throw Interrupted if the monitor asks for an early end
 SurfaceMesh meshSurface(const Isosurface& surface, Distribution& distribution,
   const Monitor& monitor, const ParallelFor& parallelFor);

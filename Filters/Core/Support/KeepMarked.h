@@ -32,20 +32,21 @@ void keepMarked(Items& items, const std::vector<char>& marks)
 template <class Items>
 std::size_t closeGaps(Items& items, std::size_t end, const std::vector<char>& marks)
 {
-  const auto dropLast = [&]()
+  // Gaps before `first` are filled.
+  const auto dropLast = [&](std::size_t first)
   {
-    while (end > 0 && !marks[end - 1])
+    while (end > first && !marks[end - 1])
     {
       --end;
     }
   };
-  dropLast();
+  dropLast(0);
   for (std::size_t i = 0; i < end; ++i)
   {
     if (!marks[i])
     {
       items[i] = items[--end];
-      dropLast();
+      dropLast(i + 1);
     }
   }
   return end;

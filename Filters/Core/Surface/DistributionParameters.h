@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Elements/ElementMesh.h"
+#include "Surface/PlanePolygon.h"
 #include "Surface/SizingFunction.h"
 
 #include <cmath>
@@ -55,6 +56,8 @@ struct DistributionParameters
   /// Whether particles stand on creases, too, on each side one in the same place: what meshes need. Fast only; not
   /// where these are more than the given number.
   bool onCreases = false;
+  /// What is wanted of a surface that is a plane; without corners all of it. Fast only, without a given number.
+  PlanePolygon polygon;
   /// Places of this mesh to start from: particles of the last run, on a surface nearby. Parts of the surface without
   /// such a place are seeded; where few places are near the surface, all of it is. Fast only.
   std::vector<Location> start;

@@ -1,5 +1,6 @@
 #include "Surface/ParticlesHome.h"
 
+#include "Support/Interruptible.h"
 #include "Support/SortedBy.h"
 
 #include <algorithm>
@@ -78,6 +79,21 @@ void forMessages(std::size_t particles, const Use& use)
   }
 }
 
+/// \return false where the caller asked for an early end
+template <class Use>
+bool wasAllowed(const Use& use)
+{
+  try
+  {
+    use();
+    return true;
+  }
+  catch (const Interrupted&)
+  {
+    return false;
+  }
+}
+
 /// Takes the worker's particles apart, rank by rank.
 class Sorter
 {
@@ -98,21 +114,31 @@ public:
     this->UndecidedCells.reserve(distribution.report.undecidedCells.size());
   }
 
-  void send(Exchange& exchange, int to)
+  /// Sends ahead of each message how many particles are in it: none where the caller asks for an early end.
+  /// \return whether all have been sent
+  bool send(Exchange& exchange, int to)
   {
     this->findUndecided(to);
     Header header = headerOf(this->Source.report);
     header.particles = static_cast<std::int64_t>(this->countOf(to));
     header.undecidedCells = static_cast<std::int64_t>(this->UndecidedCells.size());
     sendArray(exchange, &header, 1, to);
+    bool goesOn = true;
     forMessages(this->countOf(to),
-      [&](std::size_t first, std::size_t count)
+      [&](std::size_t first, std::size_t most)
       {
-        this->Room.resize(count);
-        this->copy(to, first, this->Room);
+        if (!goesOn)
+        {
+          return;
+        }
+        this->Room.resize(most);
+        goesOn = wasAllowed([&]() { this->copy(to, first, this->Room); });
+        const std::uint64_t count = goesOn ? most : 0;
+        sendArray(exchange, &count, 1, to);
         sendArray(exchange, this->Room.data(), count, to);
       });
     sendArray(exchange, this->UndecidedCells.data(), this->UndecidedCells.size(), to);
+    return goesOn;
   }
 
   /// What belongs to a rank.
@@ -198,7 +224,7 @@ private:
 };
 
 /// Receives a rank's part; where memory does not hold it, it is thrown away.
-/// \return whether there was a part
+/// \return whether there was a whole part
 bool receivePart(Exchange& exchange, int from, HomeParticles& home)
 {
   Header header;
@@ -214,15 +240,23 @@ bool receivePart(Exchange& exchange, int from, HomeParticles& home)
   {
     home.lacksMemory = true;
   }
+  bool goesOn = true;
   forMessages(static_cast<std::size_t>(header.particles),
-    [&](std::size_t first, std::size_t count)
+    [&](std::size_t first, std::size_t)
     {
+      if (!goesOn)
+      {
+        return;
+      }
+      std::uint64_t count = 0;
+      receiveArray(exchange, &count, 1, from);
+      goesOn = count > 0;
       Particle* particles = home.lacksMemory ? nullptr : result.particles.data() + first;
-      receiveArray(exchange, particles, count, from);
+      receiveArray(exchange, particles, static_cast<std::size_t>(count), from);
     });
   std::int64_t* cells = home.lacksMemory ? nullptr : result.report.undecidedCells.data();
   receiveArray(exchange, cells, header.undecidedCells, from);
-  return header.isDone;
+  return header.isDone && goesOn;
 }
 
 /// The only rank's particles.
@@ -239,14 +273,17 @@ bool takeAll(Distribution& distribution, const GatheredMesh& all, const Parallel
   return !result.report.aborted;
 }
 
-/// Sends all parts but the worker's own, which it keeps. Where there are none, ranks are told so.
+/// Sends all parts but the worker's own, which it keeps. Where there are none, or none any more, ranks are told so.
 void sendParts(Exchange& exchange, std::optional<Sorter>& parts, bool keeps, HomeParticles& home)
 {
   for (int to = 0; to < exchange.size(); ++to)
   {
     if (to != exchange.rank() && parts)
     {
-      parts->send(exchange, to);
+      if (!parts->send(exchange, to))
+      {
+        parts.reset();
+      }
     }
     else if (to != exchange.rank())
     {
@@ -257,9 +294,10 @@ void sendParts(Exchange& exchange, std::optional<Sorter>& parts, bool keeps, Hom
   }
   try
   {
-    if (parts)
+    const auto keep = [&]() { home.distribution = parts->partOf(exchange.rank(), keeps); };
+    if (parts && !wasAllowed(keep))
     {
-      home.distribution = parts->partOf(exchange.rank(), keeps);
+      parts.reset();
     }
   }
   catch (const std::exception&)
@@ -295,7 +333,9 @@ HomeParticles bringHome(Exchange& exchange, int worker, Distribution& distributi
   bool isHere = isDone;
   if (exchange.isAlone())
   {
-    isHere = isDone && takeAll(distribution, all, parallelFor, home.distribution);
+    const auto take = [&]()
+    { isHere = isDone && takeAll(distribution, all, parallelFor, home.distribution); };
+    isHere = wasAllowed(take) && isHere;
   }
   else if (exchange.rank() == worker)
   {
@@ -304,7 +344,7 @@ HomeParticles bringHome(Exchange& exchange, int worker, Distribution& distributi
     {
       if (isDone)
       {
-        parts.emplace(exchange, distribution, all, sizes, parallelFor);
+        wasAllowed([&]() { parts.emplace(exchange, distribution, all, sizes, parallelFor); });
       }
     }
     catch (const std::exception&)

@@ -25,7 +25,7 @@ struct HomeParticles
 /// \param isDone whether this rank can take part: on the worker, whether the distribution is there
 /// \param all on the worker, the mesh that the distribution is on
 /// \param sizes as gatherMesh() had them
-/// \param parallelFor that ends no loop early: other ranks wait for the particles
+/// \param parallelFor of the worker, is asked at each message whether to end early; then no rank has its particles
 /// \param keeps whether the worker needs its distribution afterwards; else the worker's own part is left in its memory
 HomeParticles bringHome(Exchange& exchange, int worker, Distribution& distribution, bool isDone,
   const GatheredMesh& all, const std::vector<MeshSize>& sizes, const ParallelFor& parallelFor,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 namespace hop
@@ -79,12 +80,12 @@ bool areSame(const CurveEnd& a, const CurveEnd& b)
 class FaceMatcher
 {
 public:
-  FaceMatcher(const ElementMesh& mesh, double isovalue, const std::vector<ElementSurface>& surfaces,
+  FaceMatcher(const ElementMesh& mesh, double isovalue, const SurfaceOfElement& surfaceOf,
     int element, int face)
     : Mesh(mesh)
     , Isovalue(isovalue)
-    , Here(surfaces[element])
-    , There(surfaces[mesh.neighbor(element, face).element])
+    , Here(surfaceOf(element))
+    , There(surfaceOf(mesh.neighbor(element, face).element))
     , Element(element)
     , DomainFace(face)
     , Behind(mesh.neighbor(element, face))
@@ -200,11 +201,11 @@ CurveMatch matchCollapsed(const FaceCurve& curve)
 class OpenFaceMatcher
 {
 public:
-  OpenFaceMatcher(const ElementMesh& mesh, double isovalue,
-    const std::vector<ElementSurface>& surfaces, const FaceLocator* locator, int element, int face)
+  OpenFaceMatcher(const ElementMesh& mesh, double isovalue, const SurfaceOfElement& surfaceOf,
+    const FaceLocator* locator, int element, int face)
     : Mesh(mesh)
     , Isovalue(isovalue)
-    , Surfaces(surfaces)
+    , SurfaceOf(surfaceOf)
     , Element(element)
   {
     if (!locator || !isSomethingBehind(mesh, *locator, element, face))
@@ -225,9 +226,9 @@ public:
     match.kind = curve.isBroken ? CurveMatch::Unknown : this->Kind;
     if (match.kind == CurveMatch::PartOf)
     {
-      const ElementSurface& there = this->Surfaces[this->Coarser->element];
+      const ElementSurface& there = this->SurfaceOf(this->Coarser->element);
       const Location here = pointOn(this->Mesh, this->Isovalue, this->Element,
-        this->Surfaces[this->Element].shape, curve.segment);
+        this->SurfaceOf(this->Element).shape, curve.segment);
       match.element = this->Coarser->element;
       match.curve = there.curveAt(cubeFaceOf(there.shape, this->Coarser->face),
         there.shape.inCube((*this->Coarser)(here.u).u));
@@ -239,7 +240,7 @@ public:
 private:
   const ElementMesh& Mesh;
   double Isovalue;
-  const std::vector<ElementSurface>& Surfaces;
+  const SurfaceOfElement& SurfaceOf;
   int Element;
   CurveMatch::Kind Kind = CurveMatch::Unknown;
   std::optional<CoarserFace> Coarser;
@@ -248,12 +249,12 @@ private:
 } // namespace
 
 std::vector<CurveMatch> matchCurves(const ElementMesh& mesh, double isovalue, int element,
-  const std::vector<ElementSurface>& surfaces, const FaceLocator* locator)
+  const SurfaceOfElement& surfaceOf, const FaceLocator* locator)
 {
-  const ElementSurface& here = surfaces[element];
+  const ElementSurface& here = surfaceOf(element);
   std::vector<CurveMatch> matches;
-  std::optional<FaceMatcher> joined;
-  std::optional<OpenFaceMatcher> open;
+  std::unique_ptr<FaceMatcher> joined;
+  std::unique_ptr<OpenFaceMatcher> open;
   int lastFace = -1;
   for (const FaceCurve& curve : here.curves)
   {
@@ -263,8 +264,10 @@ std::vector<CurveMatch> matchCurves(const ElementMesh& mesh, double isovalue, in
     {
       joined.reset();
       open.reset();
-      isJoined ? (void)joined.emplace(mesh, isovalue, surfaces, element, face)
-               : (void)open.emplace(mesh, isovalue, surfaces, locator, element, face);
+      isJoined
+        ? (void)(joined = std::make_unique<FaceMatcher>(mesh, isovalue, surfaceOf, element, face))
+        : (void)(open = std::make_unique<OpenFaceMatcher>(
+                   mesh, isovalue, surfaceOf, locator, element, face));
       lastFace = face;
     }
     matches.push_back(face < 0 ? matchCollapsed(curve)

@@ -2,6 +2,8 @@
 
 #include "Topology/ElementSurface.h"
 
+#include <functional>
+
 namespace hop
 {
 
@@ -33,14 +35,17 @@ struct CurveMatch
   int firstEnd = 0;
 };
 
+/// Gives the surface in an element. What it returns stays where it is.
+using SurfaceOfElement = std::function<const ElementSurface&(int element)>;
+
 /// Finds the curves of neighbours that are those of an element. The two fields at the face have to agree. At a joined
 /// face curves correspond if their ends are the same: the how-manieth points of the surface on the same edges. Closed
 /// curves correspond, and curves in faces beside hanging nodes, if a point of one lies in a leaf of the other.
-/// \param surfaces one an element
+/// \param surfaceOf is asked for the element, and for the neighbours at which it has curves
 /// \param locator see findTopology()
 /// \return one entry a curve of the element
 std::vector<CurveMatch> matchCurves(const ElementMesh& mesh, double isovalue, int element,
-  const std::vector<ElementSurface>& surfaces, const FaceLocator* locator);
+  const SurfaceOfElement& surfaceOf, const FaceLocator* locator);
 
 /// Difference of the two fields at a joined face up to which they are one, as a share of the range of their
 /// coefficients. Larger: the surface is taken to go on where particles end it; smaller: fields that are continuous but

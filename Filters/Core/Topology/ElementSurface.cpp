@@ -297,6 +297,25 @@ int ElementSurface::curveAt(int face, const glm::dvec3& t) const
   return found == this->curves.end() ? -1 : static_cast<int>(found - this->curves.begin());
 }
 
+ElementSurface findElementSurface(
+  const ElementMesh& mesh, int element, double isovalue, std::optional<LeafTests>& tests)
+{
+  const ElementCube cube = elementCube(mesh, element, isovalue);
+  if (!cube.isFinite())
+  {
+    ElementSurface unknown;
+    unknown.isResolved = false;
+    return unknown;
+  }
+  if (!tests || tests->degrees() != cube.degrees)
+  {
+    tests.emplace(cube.degrees);
+  }
+  ElementSurface surface = joinLeaves(cube.shape, findLeaves(cube, *tests));
+  surface.isLifted = cube.isLifted;
+  return surface;
+}
+
 ElementSurface joinLeaves(const CubeShape& shape, ElementLeaves leaves)
 {
   ElementSurface surface;

@@ -2,6 +2,8 @@
 
 #include "Topology/ElementLeaves.h"
 
+#include <optional>
+
 namespace hop
 {
 
@@ -68,6 +70,11 @@ struct ElementSurface
   /// The curve through a point of the surface on a face of the cube; -1 if the leaf there shows none.
   int curveAt(int face, const glm::dvec3& t) const;
 };
+
+/// Finds the surface in one element.
+/// \param tests kept from one element to the next, as they are the same for the same degrees
+ElementSurface findElementSurface(
+  const ElementMesh& mesh, int element, double isovalue, std::optional<LeafTests>& tests);
 
 /// Joins the discs in the leaves of an element to pieces of the surface:
 ///   Euler characteristic = discs - arcs in faces of leaves + points on edges of leaves.

@@ -23,18 +23,7 @@ std::vector<ElementSurface> elementSurfaces(
       std::optional<LeafTests> tests;
       for (std::ptrdiff_t e = begin; e < end; ++e)
       {
-        const ElementCube cube = elementCube(mesh, static_cast<int>(e), isovalue);
-        if (!cube.isFinite())
-        {
-          surfaces[e].isResolved = false;
-          continue;
-        }
-        if (!tests || tests->degrees() != cube.degrees)
-        {
-          tests.emplace(cube.degrees);
-        }
-        surfaces[e] = joinLeaves(cube.shape, findLeaves(cube, *tests));
-        surfaces[e].isLifted = cube.isLifted;
+        surfaces[e] = findElementSurface(mesh, static_cast<int>(e), isovalue, tests);
       }
     });
   return surfaces;
@@ -432,9 +421,11 @@ SurfaceTopology findTopology(const ElementMesh& mesh, double isovalue, const Fac
   SurfaceTopology topology;
   topology.surfaces = elementSurfaces(mesh, isovalue, parallelFor);
   std::vector<std::vector<CurveMatch>> matches(mesh.elements.size());
+  const SurfaceOfElement surfaceOf = [&](int element) -> const ElementSurface&
+  { return topology.surfaces[element]; };
   forAll(parallelFor, mesh.elements.size(),
     [&](std::size_t e)
-    { matches[e] = matchCurves(mesh, isovalue, static_cast<int>(e), topology.surfaces, locator); });
+    { matches[e] = matchCurves(mesh, isovalue, static_cast<int>(e), surfaceOf, locator); });
   ElementJoiner(mesh, isovalue, topology.surfaces, std::move(matches)).join(topology);
   topology.unresolvedCells = unresolvedCells(mesh, topology.surfaces);
   return topology;

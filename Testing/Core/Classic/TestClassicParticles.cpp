@@ -47,6 +47,36 @@ TEST(ClassicParticles, SeedsOfBoxesLieOnTheSurface)
   }
 }
 
+TEST(ClassicParticles, RandomSeedsAreSpreadOverTheSurface)
+{
+  for (const Domain domain : { Domain::Hexahedron, Domain::Wedge, Domain::Tetrahedron })
+  {
+    MeshRecipe recipe;
+    recipe.domain = domain;
+    recipe.field = sphere({ 0.1, 0.0, -0.1 }, 0.5).field;
+    const ElementMesh mesh = makeMesh(recipe);
+    const Isosurface surface{ &mesh, 0.0, 1e-10 };
+    ClassicParticles particles(surface, { 0.1, 0.0 }, {});
+    Random random(1);
+    const std::vector<ClassicParticle> seeds = particles.randomSeeds(400, 4.0, random);
+    EXPECT_GE(seeds.size(), 350u);
+    EXPECT_GE(particles.evaluations(), 400);
+    std::array<int, 8> inOctant{};
+    for (const ClassicParticle& seed : seeds)
+    {
+      const glm::dvec3 d = seed.position().xyz - glm::dvec3(0.1, 0.0, -0.1);
+      EXPECT_NEAR(glm::length(d), 0.5, 1e-9);
+      ++inOctant[(d.x > 0.0) + 2 * (d.y > 0.0) + 4 * (d.z > 0.0)];
+    }
+    EXPECT_GE(*std::min_element(inOctant.begin(), inOctant.end()), 25);
+    Random again(1), other(2);
+    EXPECT_EQ(
+      particles.randomSeeds(1, 4.0, again).front().position().xyz, seeds.front().position().xyz);
+    EXPECT_NE(
+      particles.randomSeeds(1, 4.0, other).front().position().xyz, seeds.front().position().xyz);
+  }
+}
+
 TEST(ClassicParticles, CurvatureIsKnownWhereTheSpacingFollowsIt)
 {
   const ElementMesh mesh = meshOf(sphere({ 0, 0, 0 }, radius).field);

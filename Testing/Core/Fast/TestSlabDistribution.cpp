@@ -1,21 +1,17 @@
-// Several workers on one surface: how even their particles stand where they meet, and on what the result may depend.
+// Several workers on one surface: on what the result may depend, and how they end together. How even their particles stand:
+// TestSlabSeams.cpp.
 
 #include "Fast/SlabDistribution.h"
 
 #include "CountingExchange.h"
-#include "DistributionMeasures.h"
-#include "Elements/CanonicalOrder.h"
-#include "Fast/FastDistribution.h"
 #include "Fast/SlabMeshes.h"
 #include "Fast/SlabPlan.h"
 #include "Fast/SlabWorkers.h"
-#include "Isolation/SurfaceBoxes.h"
 #include "RanksInMemory.h"
 #include "ScarceMemory.h"
 #include "ScatteredMesh.h"
+#include "SlabCases.h"
 #include "Surface/ParticlesHome.h"
-#include "SurfaceSeeds.h"
-#include "TestMeshes.h"
 #include "ThreadedFor.h"
 
 #include <gtest/gtest.h>
@@ -26,212 +22,11 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
-#include <mutex>
-#include <ostream>
-#include <stdexcept>
 
 namespace hop::testing
 {
 namespace
 {
-
-constexpr double tolerance = 1e-9;
-/// Workers wait for each other longer than messages take.
-constexpr std::chrono::seconds longestWait{ 120 };
-
-/// A surface in a long bar, to be cut across.
-struct SlabCase
-{
-  const char* name = "";
-  Domain domain = Domain::Hexahedron;
-  /// In the coordinates of the bar, which reaches from -1 to 1 along z.
-  Field field;
-  SizingFunction sizing;
-  /// By how much the values of every other element are raised.
-  double jump = 0.0;
-  /// Share of the particles on boundary curves that may be more or fewer: at small jumps chance decides which of two
-  /// curves beside each other stays.
-  double curvesOff = 0.005;
-};
-
-std::ostream& operator<<(std::ostream& out, const SlabCase& which)
-{
-  return out << which.name;
-}
-
-/// Turns the z axis into the direction along which slabs follow each other.
-glm::dmat3 turned()
-{
-  const glm::dvec3 along = sweepDirection();
-  const glm::dvec3 aside = glm::normalize(glm::cross(along, glm::dvec3(1, 0, 0)));
-  return { aside, glm::cross(along, aside), along };
-}
-
-constexpr double barWidth = 0.2;
-
-ElementMesh meshOf(const SlabCase& which)
-{
-  const glm::dmat3 turn = turned();
-  MeshRecipe recipe;
-  recipe.domain = which.domain;
-  recipe.degrees = { 3, 3, 3 };
-  recipe.cells = 6;
-  const Map bend = wavyMap(0.1);
-  recipe.map = [=](const glm::dvec3& x)
-  { return turn * (glm::dvec3(barWidth, barWidth, 1.0) * bend(x)); };
-  recipe.field = [=](const glm::dvec3& x) { return which.field(glm::transpose(turn) * x); };
-  ElementMesh mesh = makeMesh(recipe);
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
-  {
-    mesh.elements[e].cell = static_cast<std::int64_t>(e);
-    const BernsteinForm form = mesh.form(static_cast<int>(e));
-    for (int i = 0; i < coefficientCount(form.domain, form.degrees); ++i)
-    {
-      mesh.coefficients[mesh.elements[e].firstCoefficient + i].w += e % 2 == 0 ? which.jump : 0.0;
-    }
-  }
-  return mesh;
-}
-
-SlabCase ellipsoidCase()
-{
-  return { "Ellipsoid", Domain::Hexahedron,
-    [](const glm::dvec3& x) { return x.x * x.x + x.y * x.y + x.z * x.z / 36.0 - 0.15 * 0.15; },
-    { 0.009, 0.0 } };
-}
-
-SlabCase wavyTubeCase()
-{
-  return { "WavyTube", Domain::Tetrahedron,
-    [](const glm::dvec3& x)
-    {
-      const double radius = 0.1 + 0.03 * std::sin(5.0 * x.z);
-      return std::hypot(x.x, x.y) - radius + 0.3 * std::pow(x.z, 8);
-    },
-    { 0.009, 7.0 } };
-}
-
-SlabCase sheetCase()
-{
-  return { "SheetWithEnds", Domain::Wedge,
-    [](const glm::dvec3& x) { return x.x + 0.3 * x.y - 0.04 * std::sin(4.0 * x.z); },
-    { 0.0095, 0.0 } };
-}
-
-SlabCase steppedCase(const char* name, double jump)
-{
-  SlabCase stepped = sheetCase();
-  stepped.name = name;
-  stepped.domain = Domain::Hexahedron;
-  stepped.jump = jump;
-  stepped.curvesOff = 0.05;
-  return stepped;
-}
-
-DistributionParameters parametersOf(const SlabCase& which)
-{
-  DistributionParameters parameters;
-  parameters.sizing = which.sizing;
-  return parameters;
-}
-
-/// As many slabs of equal work as are wanted.
-std::vector<Slab> slabsOf(
-  Exchange& exchange, const ElementMesh& mine, const SlabCase& which, std::size_t count)
-{
-  std::vector<Slab> slabs;
-  for (double particles = 4e4; slabs.size() < count; particles *= 0.95)
-  {
-    slabs = planSlabs(exchange, mine, { 0.0 }, which.sizing, particles, {}).slabs;
-    if (particles < 1.0)
-    {
-      throw std::runtime_error("the surface is too small for so many slabs");
-    }
-  }
-  return slabs;
-}
-
-/// What workers have made together.
-struct Together
-{
-  std::vector<Slab> slabs;
-  Buffer<Particle> particles;
-  std::vector<std::size_t> counts;
-  std::int64_t undecided = 0;
-
-  bool isBesideCut(const glm::dvec3& position, double distance) const
-  {
-    return std::any_of(this->slabs.begin(), this->slabs.end(),
-      [&](const Slab& slab) { return std::abs(slab.placeOf(position) - slab.end) < distance; });
-  }
-};
-
-/// Lets workers on some ranks, which have the elements by chance, distribute particles.
-Together distributeTogether(const SlabCase& which, const ElementMesh& mesh, std::size_t workers,
-  int ranks = 1, const ParallelFor& parallelFor = {})
-{
-  const std::vector<ElementMesh> parts = scattered(mesh, ranks, ranks);
-  Together together;
-  std::vector<Distribution> ofSlabs(workers);
-  std::mutex access;
-  runRanks(
-    ranks,
-    [&](Exchange& exchange)
-    {
-      const ElementMesh& mine = parts[exchange.rank()];
-      const std::vector<Slab> slabs = slabsOf(exchange, mine, which, workers);
-      const SlabMeshes meshes =
-        gatherSlabs(exchange, mine, CellsOfRank, slabs, which.sizing.spacing, true, parallelFor);
-      SlabResult result = distributeInSlabs(exchange, slabs, meshes.meshes,
-        { nullptr, 0.0, tolerance }, parametersOf(which), meshes.isComplete, {}, parallelFor);
-      EXPECT_TRUE(result.isComplete);
-      const std::lock_guard lock(access);
-      together.slabs = slabs;
-      for (std::size_t slab = 0; slab < slabs.size(); ++slab)
-      {
-        if (rankOfSlab(slab, slabs.size(), ranks) == exchange.rank())
-        {
-          ofSlabs[slab] = std::move(result.distributions[slab]);
-        }
-      }
-    },
-    longestWait);
-  for (const Distribution& some : ofSlabs)
-  {
-    together.particles.insert(
-      together.particles.end(), some.particles.begin(), some.particles.end());
-    together.counts.push_back(some.particles.size());
-    together.undecided += some.report.boxesUndecided;
-  }
-  return together;
-}
-
-Distribution distributeAlone(const SlabCase& which, const ElementMesh& mesh)
-{
-  // The order of the elements decides at jumps.
-  const GatheredMesh all = gatheredAlone(mesh);
-  return distributeFast({ &all.mesh, 0.0, tolerance }, parametersOf(which), {}, {});
-}
-
-std::vector<glm::dvec3> probesOf(const ElementMesh& mesh, double spacing)
-{
-  std::vector<glm::dvec3> probes;
-  for (const Location& seed : surfaceSeeds(mesh, 0.0, findSurfaceBoxes(mesh, 0.0, spacing, {})))
-  {
-    probes.push_back(positionAt(mesh, seed));
-  }
-  return probes;
-}
-
-std::ptrdiff_t boundaryCount(const Buffer<Particle>& particles)
-{
-  return std::count_if(particles.begin(), particles.end(),
-    [](const Particle& particle)
-    {
-      return std::any_of(particle.clips.begin(), particle.clips.end(),
-        [](const ClipPlane& plane) { return plane.isBoundary() && plane.distance == 0.0; });
-    });
-}
 
 class Slabs : public ::testing::TestWithParam<SlabCase>
 {
@@ -241,37 +36,6 @@ INSTANTIATE_TEST_SUITE_P(SlabDistribution, Slabs,
   ::testing::Values(ellipsoidCase(), wavyTubeCase(), sheetCase(), steppedCase("SmallSteps", 0.0017),
     steppedCase("LargeSteps", 0.03)),
   [](const auto& which) { return which.param.name; });
-
-/// Within two spacings of cuts particles stand as one worker has them anywhere.
-TEST_P(Slabs, FitTogether)
-{
-  const SlabCase& which = this->GetParam();
-  const ElementMesh mesh = meshOf(which);
-  const double near = 2.0 * which.sizing.spacing;
-  const Distribution alone = distributeAlone(which, mesh);
-  const Evenness promised = measureEvenness(alone.particles);
-  const std::vector<glm::dvec3> probes = probesOf(mesh, 0.4 * which.sizing.spacing);
-  const double covered = coverageRadius(alone.particles, probes);
-  for (const std::size_t workers : { 2, 3, 4, 7 })
-  {
-    const Together together = distributeTogether(which, mesh, workers);
-    const auto isNear = [&](const Particle& particle)
-    { return together.isBesideCut(particle.position.xyz, near); };
-    const Evenness evenness = measureEvenness(together.particles, isNear);
-    std::vector<glm::dvec3> probesNear;
-    std::copy_if(probes.begin(), probes.end(), std::back_inserter(probesNear),
-      [&](const glm::dvec3& probe) { return together.isBesideCut(probe, near); });
-    EXPECT_GE(evenness.minSpacing, std::min(0.8, promised.minSpacing));
-    EXPECT_LE(evenness.variation, std::max(0.035, 1.3 * promised.variation));
-    EXPECT_LE(coverageRadius(together.particles, probesNear), std::max(0.80, covered));
-    const auto count = static_cast<double>(alone.particles.size());
-    EXPECT_NEAR(static_cast<double>(together.particles.size()), count, 0.005 * count) << workers;
-    // No boundary curve is there twice, and none has a gap.
-    const auto onCurves = static_cast<double>(boundaryCount(alone.particles));
-    EXPECT_NEAR(static_cast<double>(boundaryCount(together.particles)), onCurves,
-      static_cast<double>(workers) + which.curvesOff * onCurves);
-  }
-}
 
 /// Positions, to be sorted and compared to the last bit.
 std::vector<std::array<double, 3>> bitsOf(const Buffer<Particle>& particles)
@@ -286,15 +50,9 @@ std::vector<std::array<double, 3>> bitsOf(const Buffer<Particle>& particles)
   return bits;
 }
 
-SlabCase coarse(SlabCase which)
-{
-  which.sizing.spacing = 0.02;
-  return which;
-}
-
 TEST_P(Slabs, HaveTheSameBitsOnAnyRanksAndThreads)
 {
-  const SlabCase which = coarse(this->GetParam());
+  const SlabCase which = this->GetParam().coarse();
   const ElementMesh mesh = meshOf(which);
   constexpr std::size_t workers = 3;
   const auto expected = bitsOf(distributeTogether(which, mesh, workers).particles);
@@ -305,6 +63,63 @@ TEST_P(Slabs, HaveTheSameBitsOnAnyRanksAndThreads)
   }
   const ParallelFor threads = threadedFor(3);
   EXPECT_EQ(bitsOf(distributeTogether(which, mesh, workers, 1, threads).particles), expected);
+}
+
+/// The bar of 6 x 6 x 6 straight elements, with a closed component in each: needles, three spacings long.
+struct Needles
+{
+  static constexpr int Cells = 6;
+  static constexpr double Level = 0.97;
+
+  static SlabCase sizing() { return { "Needles", Domain::Hexahedron, {}, { 0.02, 0.0 } }; }
+
+  /// In units of elements, from 0 to Cells, from coordinates of the cube [-1,1]^3.
+  static glm::dvec3 inElements(const glm::dvec3& x) { return 0.5 * Cells * (x + 1.0); }
+
+  static ElementMesh mesh()
+  {
+    const glm::dmat3 turn = barTurn();
+    const glm::dvec3 size(BarWidth, BarWidth, 1.0);
+    MeshRecipe recipe;
+    recipe.cells = Cells;
+    recipe.map = [=](const glm::dvec3& x) { return turn * (size * x); };
+    recipe.field = [=](const glm::dvec3& x)
+    {
+      const glm::dvec3 t = glm::fract(inElements(glm::transpose(turn) * x / size));
+      const glm::dvec3 bump = 4.0 * t * (1.0 - t);
+      return bump.x * bump.y * bump.z - Level;
+    };
+    return makeMesh(recipe);
+  }
+
+  /// Number of particles in each element.
+  static std::vector<int> counts(const Buffer<Particle>& particles)
+  {
+    std::vector<int> counts(Cells * Cells * Cells);
+    for (const Particle& particle : particles)
+    {
+      const glm::dvec3 x = glm::transpose(barTurn()) * particle.position.xyz;
+      const glm::ivec3 cell(inElements(x / glm::dvec3(BarWidth, BarWidth, 1.0)));
+      ++counts[(cell.z * Cells + cell.y) * Cells + cell.x];
+    }
+    return counts;
+  }
+};
+
+/// Some of them lie across planes between slabs: one worker alone puts particles there.
+TEST(SlabDistribution, PutsSixParticlesOnSmallComponents)
+{
+  const ElementMesh mesh = Needles::mesh();
+  const SlabCase which = Needles::sizing();
+  for (const std::size_t workers : { 2, 3, 4 })
+  {
+    const Together together = distributeTogether(which, mesh, workers);
+    const std::vector<int> counts = Needles::counts(together.particles);
+    EXPECT_GE(*std::min_element(counts.begin(), counts.end()), 6) << workers;
+    EXPECT_LE(*std::max_element(counts.begin(), counts.end()), 24) << workers;
+    EXPECT_EQ(bitsOf(distributeTogether(which, mesh, workers, 2, threadedFor(3)).particles),
+      bitsOf(together.particles));
+  }
 }
 
 TEST(SlabDistribution, SharesTheWork)
@@ -323,7 +138,7 @@ TEST(SlabDistribution, SharesTheWork)
 void runTwoRanks(const std::function<SlabResult(
     Exchange&, const std::vector<Slab>&, const SlabMeshes&, const DistributionParameters&)>& work)
 {
-  const SlabCase which = coarse(ellipsoidCase());
+  const SlabCase which = ellipsoidCase().coarse();
   const std::vector<ElementMesh> parts = scattered(meshOf(which), 2, 1);
   runRanks(
     2,
@@ -341,7 +156,7 @@ void runTwoRanks(const std::function<SlabResult(
         EXPECT_TRUE(some.particles.empty());
       }
     },
-    longestWait);
+    LongestWait);
 }
 
 TEST(SlabDistribution, EndsOnAllRanksWhereOneIsInterrupted)
@@ -355,7 +170,7 @@ TEST(SlabDistribution, EndsOnAllRanksWhereOneIsInterrupted)
       {
         int asked = 0;
         const Monitor monitor{ [&](double) { return exchange.rank() == 0 || asked++ < most; } };
-        return distributeInSlabs(exchange, slabs, meshes.meshes, { nullptr, 0.0, tolerance },
+        return distributeInSlabs(exchange, slabs, meshes.meshes, { nullptr, 0.0, SlabTolerance },
           parameters, true, monitor, {});
       });
   }
@@ -363,7 +178,7 @@ TEST(SlabDistribution, EndsOnAllRanksWhereOneIsInterrupted)
 
 TEST(SlabDistribution, EndsOnAllRanksAtAnyMoment)
 {
-  const SlabCase which = coarse(ellipsoidCase());
+  const SlabCase which = ellipsoidCase().coarse();
   const std::vector<ElementMesh> parts = scattered(meshOf(which), 2, 1);
   using Clock = std::chrono::steady_clock;
   std::atomic<double> whole{ 0.0 }; // seconds of the first run
@@ -389,7 +204,7 @@ TEST(SlabDistribution, EndsOnAllRanksAtAnyMoment)
             return !stops;
           } };
         const SlabResult result = distributeInSlabs(exchange, slabs, meshes.meshes,
-          { nullptr, 0.0, tolerance }, parametersOf(which), true, monitor, {});
+          { nullptr, 0.0, SlabTolerance }, parametersOf(which), true, monitor, {});
         if (n == 0 && exchange.rank() == 0)
         {
           whole = seconds();
@@ -402,7 +217,7 @@ TEST(SlabDistribution, EndsOnAllRanksAtAnyMoment)
         }
         EXPECT_EQ(particles > 0, result.isComplete);
       },
-      longestWait);
+      LongestWait);
     EXPECT_TRUE(n > 0 || !isStopped);
   }
 }
@@ -438,7 +253,7 @@ bool takeWithoutMemory(const Step& step, std::size_t leastSize, int rank, long f
       EXPECT_EQ(outcome.hasFailed, isWithout);
       EXPECT_EQ(outcome.isComplete, allAgree(exchange, !isWithout));
     },
-    longestWait);
+    LongestWait);
   return hasFailed;
 }
 
@@ -462,7 +277,7 @@ long sweepWithoutMemory(const Step& step, std::size_t leastSize, long oneByOne)
 /// Three workers on two ranks, and what they have before they begin.
 struct ThreeWorkers
 {
-  SlabCase which = coarse(ellipsoidCase());
+  SlabCase which = ellipsoidCase().coarse();
   std::vector<ElementMesh> parts = scattered(meshOf(which), 2, 1);
   std::vector<Slab> slabs;
   std::array<SlabMeshes, 2> meshes;
@@ -492,7 +307,7 @@ struct ThreeWorkers
   SlabResult distribute(Exchange& exchange) const
   {
     return distributeInSlabs(exchange, this->slabs, this->meshes[exchange.rank()].meshes,
-      { nullptr, 0.0, tolerance }, parametersOf(this->which), true, {}, {});
+      { nullptr, 0.0, SlabTolerance }, parametersOf(this->which), true, {}, {});
   }
 };
 
@@ -543,7 +358,7 @@ TEST(SlabDistribution, RanksDoNotWaitForOneWithoutMemoryToBringThemHome)
     2,
     [&](Exchange& exchange)
     { distributions[exchange.rank()] = workers.distribute(exchange).distributions; },
-    longestWait);
+    LongestWait);
   const auto bringAllHome = [&](Exchange& exchange)
   {
     Outcome outcome{ true, false };
@@ -579,11 +394,11 @@ TEST(SlabDistribution, SendsNothingAsLargeAsTheMesh)
       const SlabMeshes meshes =
         gatherSlabs(exchange, mine, CellsOfRank, slabs, which.sizing.spacing, true, {});
       EXPECT_LE(exchange.takeLargest(), ofMesh / ranks);
-      distributeInSlabs(exchange, slabs, meshes.meshes, { nullptr, 0.0, tolerance },
+      distributeInSlabs(exchange, slabs, meshes.meshes, { nullptr, 0.0, SlabTolerance },
         parametersOf(which), true, {}, {});
       EXPECT_LE(exchange.takeLargest(), ofParticles / ranks);
     },
-    longestWait);
+    LongestWait);
 }
 
 TEST(SlabDistribution, EndsOnAllRanksWhereOneRefusesOrHasFailed)
@@ -597,7 +412,7 @@ TEST(SlabDistribution, EndsOnAllRanksWhereOneRefusesOrHasFailed)
         const bool isTheOne = exchange.rank() == 1;
         parameters.particleLimit = isTheOne && refuses ? 10 : parameters.particleLimit;
         const SlabResult result = distributeInSlabs(exchange, slabs, meshes.meshes,
-          { nullptr, 0.0, tolerance }, parameters, refuses || !isTheOne, {}, {});
+          { nullptr, 0.0, SlabTolerance }, parameters, refuses || !isTheOne, {}, {});
         const bool saysWhy = std::any_of(result.distributions.begin(), result.distributions.end(),
           [](const Distribution& some) { return !some.report.error.empty(); });
         EXPECT_EQ(saysWhy, isTheOne && refuses);
@@ -609,13 +424,13 @@ TEST(SlabDistribution, EndsOnAllRanksWhereOneRefusesOrHasFailed)
 TEST(SlabDistribution, ReportsEachUndecidedCellOnce)
 {
   // Sheets cross on the axis of the bar.
-  SlabCase which = coarse(ellipsoidCase());
+  SlabCase which = ellipsoidCase().coarse();
   which.field = [](const glm::dvec3& x) { return (x.x - 0.011) * (x.y + 0.013); };
   const ElementMesh mesh = meshOf(which);
-  const Distribution alone = distributeAlone(which, mesh);
-  ASSERT_GT(alone.report.boxesUndecided, 0);
+  const Together alone = distributeAlone(which, mesh);
+  ASSERT_GT(alone.undecided, 0);
   const Together together = distributeTogether(which, mesh, 3);
-  EXPECT_EQ(together.undecided, alone.report.boxesUndecided);
+  EXPECT_EQ(together.undecided, alone.undecided);
 }
 
 TEST(SlabPlan, FollowsFromTheWorkAlone)

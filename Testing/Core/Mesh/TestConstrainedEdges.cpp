@@ -53,6 +53,16 @@ TEST(ConstrainedEdges, GoBothWaysWhereNoPlaneTellsTheSide)
   }
 }
 
+TEST(ConstrainedEdges, LeadFromNoParticleToItself)
+{
+  Distribution distribution;
+  distribution.particles = particlesAt({ { 0, 0 }, { 1, 0 } });
+  distribution.edges.directed = { { 0, 0 }, { 0, 1 }, { 1, 0 } };
+  const ConstrainedEdges edges(distribution);
+  EXPECT_EQ(edges.after(0).size(), 1u);
+  EXPECT_FALSE(edges.has(0, 0));
+}
+
 TEST(ConstrainedEdges, AreNoneWithoutSegments)
 {
   const ConstrainedEdges edges{ Distribution() };

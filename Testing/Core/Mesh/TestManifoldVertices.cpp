@@ -1,6 +1,8 @@
 #include "Mesh/ManifoldVertices.h"
 
 #include "FanCases.h"
+#include "FlatSheet.h"
+#include "Mesh/OpenLoops.h"
 
 #include <gtest/gtest.h>
 
@@ -38,6 +40,45 @@ TEST(ManifoldVertices, LeaveClosedFansAlone)
   TriangleFans fans = fansOf(4, { { 0, 1, 2 }, { 0, 2, 3 }, { 0, 3, 1 } });
   EXPECT_FALSE(keepOneFan(fans, {}));
   EXPECT_EQ(fans.triangles({}).size(), 3u);
+}
+
+/// Two triangles that touch in particle 0.
+struct Bow
+{
+  /// \param ended the surface ends along these edges
+  explicit Bow(std::vector<std::array<int, 2>> ended)
+  {
+    this->distribution.particles =
+      particlesAt({ { 0, 0 }, { 1, 0 }, { 1, 1 }, { -1, 0 }, { -1, -1 } });
+    this->distribution.edges.directed = std::move(ended);
+  }
+
+  Distribution distribution;
+  TriangleFans fans = fansOf(5, { { 0, 1, 2 }, { 0, 3, 4 } });
+};
+
+TEST(ManifoldVertices, HaveAParticleForEachFanWhereBoundaryCurvesTouch)
+{
+  Bow bow({ { 0, 1 }, { 1, 2 }, { 2, 0 }, { 0, 3 }, { 3, 4 }, { 4, 0 } });
+  Buffer<Particle>& particles = bow.distribution.particles;
+  ConstrainedEdges edges(bow.distribution);
+  const std::vector<std::array<int, 2>> copies = splitFans(edges, particles, bow.fans, {});
+  EXPECT_EQ(copies, (std::vector<std::array<int, 2>>{ { 0, 5 } }));
+  ASSERT_EQ(particles.size(), 6u);
+  EXPECT_EQ(particles[5].position.xyz, particles[0].position.xyz);
+  EXPECT_EQ(bow.fans.triangles({}), (std::vector<Triangle>{ { 0, 1, 2 }, { 3, 4, 5 } }));
+  EXPECT_FALSE(keepOneFan(bow.fans, {}));
+  EXPECT_TRUE(edges.has(5, 3) && edges.has(4, 5) && edges.has(3, 4));
+  EXPECT_FALSE(edges.joins(0, 3) || edges.joins(0, 4));
+  EXPECT_TRUE(findOpenLoops(particles, edges, bow.fans, {}).empty());
+}
+
+TEST(ManifoldVertices, KeepOneParticleWhereAFanIsOpen)
+{
+  Bow bow({ { 0, 1 }, { 1, 2 }, { 2, 0 } });
+  ConstrainedEdges edges(bow.distribution);
+  EXPECT_TRUE(splitFans(edges, bow.distribution.particles, bow.fans, {}).empty());
+  EXPECT_EQ(bow.distribution.particles.size(), 5u);
 }
 
 TEST(ManifoldVertices, KeepTheFirstTriangleOnOneSideOfAnEdgeWhereParticlesAreOneVertex)

@@ -51,6 +51,16 @@ TEST(OpenLoops, AreNotAtTheEndOfTheSurface)
   EXPECT_EQ(loops[0].particles, (std::vector<int>{ 0, 1, 2 }));
 }
 
+TEST(OpenLoops, OfTwoEdgesEncloseNothing)
+{
+  Distribution distribution;
+  distribution.particles = particlesAt({ { 0, 0 }, { 1, 0 } });
+  distribution.edges.directed = { { 0, 1 }, { 1, 0 } };
+  const ConstrainedEdges edges(distribution);
+  ASSERT_TRUE(edges.has(0, 1) && edges.has(1, 0));
+  EXPECT_TRUE(findOpenLoops(distribution.particles, edges, fansOf(2, {}), {}).empty());
+}
+
 /// Where boundary curves end in the midst of the surface an edge leads from the one end to the other.
 TEST(OpenLoops, OfChainsAreClosed)
 {

@@ -128,14 +128,14 @@ TEST(SurfaceMesh, EndsAtTheEndOfTheDomain)
 }
 
 /// With particles on creases.
-Meshed meshWithCreases(
-  const ElementMesh& elements, double spacing, const ParallelFor& parallelFor = {})
+Meshed meshWithCreases(const ElementMesh& elements, double spacing,
+  const ParallelFor& parallelFor = {}, double angularDensity = 0.0)
 {
   Meshed result;
   result.elements = elements;
   const Isosurface surface{ &result.elements, 0.0, 1e-9 };
   DistributionParameters parameters;
-  parameters.sizing = { spacing, 0.0 };
+  parameters.sizing = { spacing, angularDensity };
   parameters.onCreases = true;
   result.distribution = distributeFast(surface, parameters, {}, parallelFor);
   result.mesh = meshSurface(surface, result.distribution, {}, parallelFor);
@@ -204,6 +204,56 @@ TEST(SurfaceMesh, IsTheSameOverCreasesForAnyNumberOfThreads)
   {
     EXPECT_EQ(
       one.distribution.particles[p].position.xyz, three.distribution.particles[p].position.xyz);
+  }
+}
+
+/// A sum of waves, other ones for every seed.
+Field waves(int seed)
+{
+  return [seed](const glm::dvec3& x)
+  {
+    double sum = -0.2;
+    for (int n = 0; n < 4; ++n)
+    {
+      const double k = 17.0 * seed + 5.0 * n;
+      const glm::dvec3 along(std::sin(k + 1.0), std::sin(1.3 * k + 2.0), std::sin(1.7 * k + 3.0));
+      sum += std::cos(3.5 * glm::dot(along, x) + std::sin(2.1 * k)) / 2.0;
+    }
+    return sum;
+  };
+}
+
+class SurfaceMeshInDomain : public ::testing::TestWithParam<Domain>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(SurfaceMesh, SurfaceMeshInDomain, ::testing::ValuesIn(allDomains),
+  [](const auto& domain) { return ::testing::PrintToString(domain.param); });
+
+/// Fields of degree 3 in bent cells, with creases at all faces: no hole, no particle left over.
+TEST_P(SurfaceMeshInDomain, HasNoHoleForAnyField)
+{
+  for (int seed = 0; seed < 12; ++seed)
+  {
+    MeshRecipe recipe;
+    recipe.domain = this->GetParam();
+    recipe.degrees = { 3, 3, 3 };
+    recipe.map = wavyMap(0.1);
+    recipe.field = waves(seed);
+    const ElementMesh elements = makeMesh(recipe);
+    for (const double spacing : { 0.04, 0.08 })
+    {
+      SCOPED_TRACE(::testing::Message() << "seed " << seed << ", spacing " << spacing);
+      constexpr double angularDensity = 10.0; // the filter's
+      const Meshed meshed = meshWithCreases(elements, spacing, {}, angularDensity);
+      const MeshMeasures measures = measureMesh(meshed.distribution, meshed.mesh.triangles);
+      EXPECT_EQ(measures.badEdges, 0);
+      EXPECT_EQ(measures.badVertices, 0);
+      EXPECT_EQ(measures.turnedTriangles, 0);
+      EXPECT_EQ(measures.holeEdges, 0);
+      EXPECT_EQ(meshed.mesh.openLoops, 0);
+      EXPECT_EQ(meshed.mesh.unusedParticles, 0);
+    }
   }
 }
 

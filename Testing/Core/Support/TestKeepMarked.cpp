@@ -32,6 +32,9 @@ TEST(KeepMarked, GapsAreClosedByTheLastItems)
   EXPECT_EQ(closed({ 1, 2, 3 }, { 0, 0, 0 }), std::vector<int>{});
   EXPECT_EQ(closed({ 1, 2, 3 }, { 1, 1, 1 }), (std::vector<int>{ 1, 2, 3 }));
   EXPECT_EQ(closed({}, {}), std::vector<int>{});
+  // The last items that are kept fill gaps behind which nothing is kept.
+  EXPECT_EQ(closed({ 1, 2, 3, 4 }, { 0, 0, 0, 1 }), std::vector<int>{ 4 });
+  EXPECT_EQ(closed({ 1, 2, 3, 4, 5, 6 }, { 1, 0, 0, 0, 1, 1 }), (std::vector<int>{ 1, 6, 5 }));
 }
 
 TEST(KeepMarked, ItemsBehindThoseMeantAreNotMoved)

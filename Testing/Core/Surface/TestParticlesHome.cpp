@@ -7,6 +7,7 @@
 #include "Fast/FastDistribution.h"
 #include "RanksInMemory.h"
 #include "ScatteredMesh.h"
+#include "Support/Interruptible.h"
 #include "TestMeshes.h"
 
 #include <gtest/gtest.h>
@@ -109,9 +110,29 @@ TEST_P(OneSurface, HasTheSameBitsOnAnyNumberOfRanks)
   }
 }
 
+constexpr int ofEach = 10000;
+
+/// So many particles in elements of each of two ranks.
+Distribution manyParticles(const GatheredMesh& all)
+{
+  Distribution distribution;
+  std::array<int, 2> counts{};
+  for (std::size_t e = 0; !all.homes.empty() && counts != std::array<int, 2>{ ofEach, ofEach };
+       e = (e + 1) % all.homes.size())
+  {
+    int& count = counts[all.homes[e].rank];
+    if (count < ofEach)
+    {
+      Particle& particle = distribution.particles.emplace_back(Particle());
+      particle.location.element = static_cast<int>(e);
+      particle.residual = count++;
+    }
+  }
+  return distribution;
+}
+
 TEST(ParticlesHome, SendsManyParticlesInSmallMessages)
 {
-  constexpr int ofEach = 10000;
   constexpr int worker = 1;
   const std::vector<ElementMesh> parts = scattered(wholeMesh(Domain::Hexahedron), 2, 1);
   runRanks(2,
@@ -121,19 +142,7 @@ TEST(ParticlesHome, SendsManyParticlesInSmallMessages)
       ElementMesh mine = parts[exchange.rank()];
       const std::vector<MeshSize> sizes = gatherFromAll(exchange, sizeOf(mine, CellsOfRank));
       const GatheredMesh all = gatheredAt(exchange, worker, mine);
-      Distribution distribution;
-      std::array<int, 2> counts{};
-      for (std::size_t e = 0; !all.homes.empty() && counts != std::array<int, 2>{ ofEach, ofEach };
-           e = (e + 1) % all.homes.size())
-      {
-        int& count = counts[all.homes[e].rank];
-        if (count < ofEach)
-        {
-          Particle& particle = distribution.particles.emplace_back(Particle());
-          particle.location.element = static_cast<int>(e);
-          particle.residual = count++;
-        }
-      }
+      Distribution distribution = manyParticles(all);
       exchange.takeLargest();
       const HomeParticles home = bringHome(exchange, worker, distribution, true, all, sizes, {});
       EXPECT_LT(exchange.takeLargest(), ofEach * sizeof(Particle) / 2);
@@ -144,6 +153,39 @@ TEST(ParticlesHome, SendsManyParticlesInSmallMessages)
           static_cast<int>(parts[exchange.rank()].elements.size()));
       }
     });
+}
+
+TEST(ParticlesHome, EndsOnAllRanksWhereTheWorkerIsAskedTo)
+{
+  constexpr int worker = 1;
+  const std::vector<ElementMesh> parts = scattered(wholeMesh(Domain::Hexahedron), 2, 1);
+  int all = 0; // questions of a run that nobody ends
+  for (int most = -1; most < all; ++most)
+  {
+    int asked = 0;
+    const ParallelFor parallelFor = [&](std::ptrdiff_t count, const LoopBody& body)
+    {
+      if (asked++ == most)
+      {
+        throw Interrupted();
+      }
+      body(0, count);
+    };
+    runRanks(2,
+      [&](Exchange& exchange)
+      {
+        ElementMesh mine = parts[exchange.rank()];
+        const std::vector<MeshSize> sizes = gatherFromAll(exchange, sizeOf(mine, CellsOfRank));
+        const GatheredMesh gathered = gatheredAt(exchange, worker, mine);
+        Distribution distribution = manyParticles(gathered);
+        const HomeParticles home =
+          bringHome(exchange, worker, distribution, true, gathered, sizes, parallelFor);
+        EXPECT_EQ(home.isComplete, most < 0) << most;
+        EXPECT_FALSE(home.lacksMemory);
+      });
+    all = most < 0 ? asked : all;
+  }
+  EXPECT_GT(all, 3); // one a message, at least
 }
 
 TEST(ParticlesHome, AddsPartsBehindEachOther)

@@ -152,9 +152,8 @@ TEST(NodeOrder, FindsExchangedNodesThatFoldNoCell)
 
 TEST(NodeOrder, BentCellsAreNotMisordered)
 {
-  const InputBlocks blocks({ blockOf(VTK_QUADRATIC_TETRA,
-                             std::vector<std::vector<Point>>(12, bent(tetrahedron()))) },
-    0);
+  const InputBlocks blocks(
+    { blockOf(VTK_QUADRATIC_TETRA, std::vector<std::vector<Point>>(12, bent(tetrahedron()))) }, 0);
   EXPECT_TRUE(displaced(blocks, 12).isEmpty());
 }
 
