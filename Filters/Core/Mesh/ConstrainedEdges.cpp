@@ -1,6 +1,7 @@
 #include "Mesh/ConstrainedEdges.h"
 
 #include "Mesh/EdgeChains.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
