@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <functional>
 
 namespace
@@ -201,9 +201,9 @@ TEST(SplatShapes, AreFoundInTimeWhateverTheRadii)
     Append(particles, Circle(), 1e-3 * (i % 200 - 100), 1e-3 * (i / 200));
     particles.CentreRadius.back() = 0.1f;
   }
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock(); // processor time: other programs do not count
   hop::FitShapes(particles);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+  EXPECT_LT(std::clock() - start, 20 * CLOCKS_PER_SEC);
   constexpr int middle = 100 * 200 + 100;
   EXPECT_NEAR(particles.Shape[8 * middle], 4., 0.01);
 }
