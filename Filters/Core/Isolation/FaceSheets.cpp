@@ -52,7 +52,19 @@ struct Sheet
   int sign = 0;
 };
 
-/// Assigns the sheets in the faces of one element.
+/// What the element behind a face with a sheet has there.
+struct Behind
+{
+  int element = -1;
+  /// Of F - c beside the face; 0 if there is nothing.
+  int sign = 0;
+  /// Whether F = c a little behind the face.
+  bool isPassed = false;
+  /// Whether a box there has a sheet on the face.
+  bool hasSheet = false;
+};
+
+/// Finds and assigns the sheets in the faces of one element.
 class SheetAssigner
 {
 public:
@@ -65,31 +77,6 @@ public:
   }
 
   int element() const { return this->Number; }
-
-  /// Sets the values of a box with a sheet on a face of the element so that the box has the sheet, or not.
-  /// \return whether the box is to be kept
-  bool assign(SurfaceBox& box) const
-  {
-    const Sheet sheet = this->sheetOf(box);
-    if (sheet.face < 0)
-    {
-      return true;
-    }
-    const int behind = this->signBehind(sheet);
-    const bool hasSheet = this->ownsSheet(sheet, behind);
-    for (std::size_t c = 0; c < this->Facts.corners.size(); ++c)
-    {
-      const float size = std::abs(box.values[c]);
-      box.values[c] = this->isZero(box, static_cast<int>(c)) ? 0.0f : hasSheet ? size : -size;
-    }
-    return hasSheet || behind != sheet.sign;
-  }
-
-private:
-  bool isZero(const SurfaceBox& box, int corner) const
-  {
-    return std::abs(box.values[corner]) * box.valueUnit <= this->Slack;
-  }
 
   /// The sheet of a box whose corners are zero on one of its faces, and of one sign elsewhere.
   Sheet sheetOf(const SurfaceBox& box) const
@@ -113,6 +100,27 @@ private:
           std::all_of(face.corners.begin(), face.corners.begin() + face.cornerCount, isZero);
       });
     return side == faces.end() ? Sheet{} : this->sheetOn(box, *side, counts[2] > 0 ? 1 : -1);
+  }
+
+  /// Sets the values of a box with a sheet on a face of the element so that the box has the sheet, or not.
+  /// \param faces with sheets, slots, ascending
+  /// \return whether the box is to be kept
+  bool assign(const Sheet& sheet, const std::vector<std::size_t>& faces, SurfaceBox& box) const
+  {
+    const Behind behind = this->findBehind(sheet, faces);
+    const bool hasSheet = this->ownsSheet(sheet, behind);
+    for (std::size_t c = 0; c < this->Facts.corners.size(); ++c)
+    {
+      const float size = std::abs(box.values[c]);
+      box.values[c] = this->isZero(box, static_cast<int>(c)) ? 0.0f : hasSheet ? size : -size;
+    }
+    return hasSheet || behind.sign != sheet.sign;
+  }
+
+private:
+  bool isZero(const SurfaceBox& box, int corner) const
+  {
+    return std::abs(box.values[corner]) * box.valueUnit <= this->Slack;
   }
 
   /// The sheet on a face of the box, if that face lies in a face of the element.
@@ -142,22 +150,27 @@ private:
     return sheet;
   }
 
-  /// Sign of F - c beside the sheet in the element behind the face; 0 where there is no such element, or the sheet is
-  /// not in its field, too.
-  int signBehind(const Sheet& sheet) const
+  /// What is behind the face with a sheet. Nothing, if there is no element, or the sheet is not in its field, too.
+  Behind findBehind(const Sheet& sheet, const std::vector<std::size_t>& facesWithSheets) const
   {
     const auto place = this->placeBehind(sheet);
     if (!place)
     {
-      return 0;
+      return {};
     }
-    const ElementMesh& mesh = *this->Surface.mesh;
-    const BernsteinForm form = mesh.form(place->location.element);
+    const int element = place->location.element;
+    const BernsteinForm form = this->Surface.mesh->form(element);
     const Jet jet = evaluateGradient(form, place->location.u);
     const double rise = glm::dot(gradientOf(jet), facts(form.domain).faces[place->face].inward.xyz);
-    const double value = std::abs(jet.value.w - this->Surface.isovalue);
+    const double value = jet.value.w - this->Surface.isovalue;
     const double slack = BisectionRounding * largestValue(form, this->Surface.isovalue);
-    return value > std::max(slack, offSheet * std::abs(rise)) ? 0 : (rise > 0.0) - (rise < 0.0);
+    if (std::abs(value) > std::max(slack, offSheet * std::abs(rise)))
+    {
+      return {};
+    }
+    return { element, (rise > 0.0) - (rise < 0.0), value * rise < 0.0,
+      std::binary_search(
+        facesWithSheets.begin(), facesWithSheets.end(), faceSlot(element, place->face)) };
   }
 
   /// The middle of the sheet as seen from the element behind the face.
@@ -182,14 +195,14 @@ private:
   }
 
   /// Whether this element has the sheet.
-  /// \param behind as of signBehind
-  bool ownsSheet(const Sheet& sheet, int behind) const
+  bool ownsSheet(const Sheet& sheet, const Behind& behind) const
   {
-    if (behind == sheet.sign)
+    if (behind.sign == sheet.sign)
     {
-      return this->Number < this->placeBehind(sheet)->location.element;
+      return this->Number < behind.element;
     }
-    return behind == 0 || sheet.sign > 0;
+    // Rounding may have put the surface into the face here, but not there: it is there only if it has passed the face.
+    return behind.sign == 0 || (behind.hasSheet ? sheet.sign > 0 : !behind.isPassed);
   }
 
   /// |F - c| behind the face at most for a sheet of both elements, as a share of the rise of the field across the
@@ -203,12 +216,11 @@ private:
   double Slack;
 };
 
-} // namespace
-
-std::vector<SurfaceBox> assignFaceSheets(
-  const Isosurface& surface, std::vector<SurfaceBox> boxes, const ParallelFor& parallelFor)
+/// Calls use(assigner of its element, b) for each box.
+template <class Use>
+void forBoxes(const Isosurface& surface, const std::vector<SurfaceBox>& boxes,
+  const ParallelFor& parallelFor, const Use& use)
 {
-  std::vector<char> isKept(boxes.size());
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(boxes.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
@@ -220,9 +232,36 @@ std::vector<SurfaceBox> assignFaceSheets(
         {
           assigner.emplace(surface, element);
         }
-        isKept[b] = assigner->assign(boxes[b]);
+        use(*assigner, static_cast<std::size_t>(b));
       }
     });
+}
+
+} // namespace
+
+std::vector<SurfaceBox> assignFaceSheets(
+  const Isosurface& surface, std::vector<SurfaceBox> boxes, const ParallelFor& parallelFor)
+{
+  std::vector<Sheet> sheets(boxes.size());
+  forBoxes(surface, boxes, parallelFor,
+    [&](const SheetAssigner& assigner, std::size_t b) { sheets[b] = assigner.sheetOf(boxes[b]); });
+  std::vector<std::size_t> faces;
+  for (std::size_t b = 0; b < boxes.size(); ++b)
+  {
+    if (sheets[b].face >= 0)
+    {
+      faces.push_back(faceSlot(boxes[b].middle.element, sheets[b].face));
+    }
+  }
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  std::vector<char> isKept(boxes.size(), 1);
+  if (!faces.empty())
+  {
+    forBoxes(surface, boxes, parallelFor,
+      [&](const SheetAssigner& assigner, std::size_t b)
+      { isKept[b] = sheets[b].face < 0 || assigner.assign(sheets[b], faces, boxes[b]); });
+  }
   keepMarked(boxes, isKept);
   return boxes;
 }

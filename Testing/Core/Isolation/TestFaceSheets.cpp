@@ -133,6 +133,35 @@ TEST(FaceSheets, RoundedValuesMakeNoHoles)
   }
 }
 
+/// Some elements have the surface in the face, others a rounding error off it, on either side.
+TEST_P(Sheets, AreThereOnceWhereElementsDisagreeByRounding)
+{
+  for (const double sign : { 1.0, -1.0 })
+  {
+    for (const double off : { 1e-16, 1e-15, 3e-15, 1e-14, 3e-14, 1e-12 })
+    {
+      for (const double tilt : { -1.0, 1.0 })
+      {
+        ElementMesh mesh = makeMesh(recipeOf(this->GetParam(),
+          [=](const glm::dvec3& x) { return sign * x.z * (2.0 + 0.3 * std::sin(x.x)); }));
+        for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+        {
+          const double shift = e % 3 == 0 ? 0.0 : tilt * off;
+          const BernsteinForm form = mesh.form(static_cast<int>(e));
+          const std::size_t first = form.coefficients - mesh.coefficients.data();
+          const int count = coefficientCount(form.domain, form.degrees);
+          for (int i = 0; i < count; ++i)
+          {
+            mesh.coefficients[first + i].w += shift;
+          }
+        }
+        EXPECT_NEAR(wanted(mesh, 0.0), packed, 1e-3 * packed)
+          << "sign " << sign << ", off " << tilt * off;
+      }
+    }
+  }
+}
+
 TEST(FaceSheets, TipsOfPyramidsAreNone)
 {
   ElementMesh mesh;
