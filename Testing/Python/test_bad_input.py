@@ -350,11 +350,12 @@ def test_an_absurdly_small_spacing_is_refused_at_once(good, spacing):
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("spacing", [50.0, 1e30, 1e300])
 def test_a_spacing_larger_than_the_surface_leaves_a_few_particles(good, spacing, method):
-    # By the default angular density some ten stand around, down to the smallest spacing.
-    for density, most in ((10, 100), (0, 12)):
+    # By the default angular density some ten stand around, down to the smallest spacing. With none, Fast gives a closed
+    # component about a dozen, and never fewer than six.
+    for density, most in ((10, 100), (0, 24 if method == "Fast" else 12)):
         particles, messages = support.run(good, "F", 1.0, Spacing=spacing, Method=method, AngularDensity=density)
         assert messages.errors == []
-        assert 1 <= particles.GetNumberOfPoints() <= most
+        assert (6 if method == "Fast" else 1) <= particles.GetNumberOfPoints() <= most
         assert_clean(particles)
 
 
