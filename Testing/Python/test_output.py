@@ -298,7 +298,10 @@ def test_default_array_and_isovalue_come_from_the_input(channel):
 @pytest.mark.parametrize("number", [37, 500, 1234])
 def test_number_of_particles_is_kept_exactly(data, number):
     reader = support.read(data("mfem_amr_hanging_hex_p3.vtu"))
-    particles = support.run_quietly(reader, "u", 0.0, NumberOfParticles=number, AngularDensity=0)
+    particles, messages = support.run(reader, "u", 0.0, NumberOfParticles=number, AngularDensity=0)
+    assert messages.errors == []
+    # At a spacing of half the radius one particle or another may stand where the surface bends too much for it.
+    assert messages.warnings == [] or number == 37 and "bends faster" in messages.warnings[0]
     assert particles.GetNumberOfPoints() == number
     # A sphere of radius 0.6: its area gives the spacing.
     expected = np.sqrt(4 * np.pi * 0.36 / number / (np.sqrt(3) / 2))
