@@ -148,7 +148,8 @@ void FilterSession::giveGrid(int change)
   this->Filter->SetInputDataObject(blocks);
 }
 
-void FilterSession::asked(vtkObject*, unsigned long, void*)
+/// Notes how long the filter was silent.
+void FilterSession::noteTime()
 {
   const double now = processorTime();
   if (now - this->LastQuestion > this->Silence)
@@ -158,7 +159,12 @@ void FilterSession::asked(vtkObject*, unsigned long, void*)
   }
   this->LastQuestion = now;
   this->Progress = this->Filter->GetProgress();
-  const bool isLate = now - this->Begin > this->Limit;
+}
+
+void FilterSession::asked(vtkObject*, unsigned long, void*)
+{
+  this->noteTime();
+  const bool isLate = this->LastQuestion - this->Begin > this->Limit;
   if (isLate || this->QuestionsLeft == 0)
   {
     this->Filter->SetAbortExecute(1);
@@ -180,7 +186,7 @@ void FilterSession::run()
   this->Silence = this->Progress = 0.0;
   this->Begin = this->LastQuestion = processorTime();
   this->Filter->Update();
-  this->asked(nullptr, 0, nullptr);
+  this->noteTime();
   if (this->LastQuestion - this->Begin > this->Limit)
   {
     this->Complaints.push_back("a run takes longer than " + std::to_string(this->Limit) + " s");

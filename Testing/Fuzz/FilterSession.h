@@ -47,6 +47,7 @@ private:
   void setProperties();
   void setIsovalues(double shift);
   void giveGrid(int change);
+  void noteTime();
   void asked(vtkObject* caller, unsigned long event, void* data);
   void told(vtkObject* caller, unsigned long event, void* data);
   void abortAfter(int questions);
