@@ -152,10 +152,10 @@ std::vector<CutMap> mapsOfBox(vtkBox* box)
   box->GetBounds(bounds.data());
   const OwnBox own{ affineMapOf(box->GetTransform()),
     { glm::dvec3(bounds[0], bounds[2], bounds[4]), glm::dvec3(bounds[1], bounds[3], bounds[5]) } };
-  std::vector<CutMap> maps;
+  std::vector<CutMap> maps(6);
   for (int face = 0; face < 6; ++face)
   {
-    maps.push_back(own.mapOfFace(face / 2, face % 2));
+    maps[face] = own.mapOfFace(face / 2, face % 2);
   }
   return maps;
 }

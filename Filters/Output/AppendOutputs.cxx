@@ -10,9 +10,10 @@
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
+
 namespace hop
 {
-
 namespace
 {
 
@@ -64,11 +65,9 @@ void appendOutputs(const std::vector<vtkSmartPointer<vtkDataObject>>& parts, vtk
   auto* composite = vtkCompositeDataSet::SafeDownCast(output);
   if (!composite)
   {
-    std::vector<vtkPointSet*> leaves;
-    for (vtkDataObject* part : parts)
-    {
-      leaves.push_back(vtkPointSet::SafeDownCast(part));
-    }
+    std::vector<vtkPointSet*> leaves(parts.size());
+    std::transform(parts.begin(), parts.end(), leaves.begin(),
+      [](vtkDataObject* part) { return vtkPointSet::SafeDownCast(part); });
     output->ShallowCopy(appended(leaves));
     return;
   }
@@ -76,12 +75,11 @@ void appendOutputs(const std::vector<vtkSmartPointer<vtkDataObject>>& parts, vtk
   leaf.TakeReference(vtkCompositeDataSet::SafeDownCast(parts[0])->NewIterator());
   for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
   {
-    std::vector<vtkPointSet*> leaves;
-    for (vtkDataObject* part : parts)
-    {
-      leaves.push_back(
-        vtkPointSet::SafeDownCast(vtkCompositeDataSet::SafeDownCast(part)->GetDataSet(leaf)));
-    }
+    std::vector<vtkPointSet*> leaves(parts.size());
+    std::transform(parts.begin(), parts.end(), leaves.begin(),
+      [&](vtkDataObject* part) {
+        return vtkPointSet::SafeDownCast(vtkCompositeDataSet::SafeDownCast(part)->GetDataSet(leaf));
+      });
     composite->SetDataSet(leaf, appended(leaves));
   }
 }

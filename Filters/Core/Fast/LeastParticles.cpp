@@ -101,11 +101,9 @@ public:
 
   std::vector<SparseComponent> run(const std::vector<int>& boxes, const ParallelFor& parallelFor)
   {
-    std::vector<int> elements;
-    for (const int b : boxes)
-    {
-      elements.push_back(this->placeOf(b).element);
-    }
+    std::vector<int> elements(boxes.size());
+    std::transform(boxes.begin(), boxes.end(), elements.begin(),
+      [this](int b) { return this->placeOf(b).element; });
     std::sort(elements.begin(), elements.end());
     elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
     this->Tracer.prepare(elements, parallelFor);
