@@ -142,6 +142,19 @@ struct PlaneCell
 /// \return an area that means nothing, and a huge reach, where they do not surround the origin
 using PlaneCellFunction = PlaneCell (*)(const FlatPoints&, const CellBend&);
 
+/// From a to b, counterclockwise around the origin.
+struct FlatSegment
+{
+  double ax, ay;
+  double bx, by;
+};
+
+/// Writes for each point a number that is positive if the line from the origin to the point crosses one of the segments
+/// between its ends, else zero.
+/// \param hidden room for points.count numbers
+using HiddenFunction = void (*)(const FlatPoints& points, const FlatSegment* segments,
+  std::ptrdiff_t segmentCount, double* hidden);
+
 struct Kernels
 {
   DomainKernels hexahedron;
@@ -150,6 +163,7 @@ struct Kernels
   SweepFunction sweep;
   NearFunction near;
   PlaneCellFunction planeCell;
+  HiddenFunction hidden;
 };
 
 Kernels baselineKernels();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "Kernel/Hidden.h"
 #include "Kernel/Jets.h"
 #include "Kernel/Near.h"
 #include "Kernel/PlaneCell.h"
@@ -166,7 +167,7 @@ constexpr Kernels makeKernels()
   return { makeDomainKernels<Hexahedron, PointLanes, ComponentLanes>(),
     makeDomainKernels<Tetrahedron, PointLanes, ComponentLanes>(),
     makeDomainKernels<Wedge, PointLanes, ComponentLanes>(), sweepBlocks, findNear<PointLanes>,
-    measurePlaneCell<PointLanes> };
+    measurePlaneCell<PointLanes>, findHidden<PointLanes> };
 }
 
 } // namespace

@@ -103,15 +103,18 @@ void ConstrainedEdges::set(const std::vector<Edge>& edges, std::size_t particleC
   }
 }
 
-void ConstrainedEdges::replace(const Edge& edge, const Edge& by, std::size_t particleCount)
+void ConstrainedEdges::change(
+  const std::set<Edge>& removed, const std::set<Edge>& added, std::size_t particleCount)
 {
-  std::vector<Edge> edges;
+  std::vector<Edge> edges(added.begin(), added.end());
   for (int particle = 0; particle < static_cast<int>(this->IsOnEdge.size()); ++particle)
   {
     for (const int next : this->after(particle))
     {
-      const Edge one{ particle, next };
-      edges.push_back(one == edge ? by : one);
+      if (removed.count({ particle, next }) == 0)
+      {
+        edges.push_back({ particle, next });
+      }
     }
   }
   std::sort(edges.begin(), edges.end());
