@@ -1,6 +1,7 @@
 #include "Mesh/ConstrainedEdges.h"
 
 #include "Mesh/EdgeChains.h"
+#include "Mesh/EdgeSplitting.h"
 
 #include <algorithm>
 #include <cmath>
@@ -82,6 +83,7 @@ ConstrainedEdges::ConstrainedEdges(const Distribution& distribution)
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   closeChains(distribution.particles, edges);
+  splitAtParticles(distribution, edges);
   this->set(edges, distribution.particles.size());
 }
 
