@@ -167,6 +167,19 @@ struct ComponentBounds
 /// \param count > 0
 using BoundsFunction = ComponentBounds (*)(const double* coefficients, std::ptrdiff_t count);
 
+/// From a to b, counterclockwise around the origin.
+struct FlatSegment
+{
+  double ax, ay;
+  double bx, by;
+};
+
+/// Writes for each point a number that is positive if the line from the origin to the point crosses one of the segments
+/// between its ends, else zero.
+/// \param hidden room for points.count numbers
+using HiddenFunction = void (*)(const FlatPoints& points, const FlatSegment* segments,
+  std::ptrdiff_t segmentCount, double* hidden);
+
 struct Kernels
 {
   DomainKernels hexahedron;
@@ -177,6 +190,7 @@ struct Kernels
   PlaneCellFunction planeCell;
   BisectionFunction bisection;
   BoundsFunction bounds;
+  HiddenFunction hidden;
 };
 
 Kernels baselineKernels();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "Kernel/Hidden.h"
 #include "Kernel/Jets.h"
 #include "Kernel/Lines.h"
 #include "Kernel/Near.h"
@@ -167,7 +168,8 @@ constexpr Kernels makeKernels()
   return { makeDomainKernels<Hexahedron, PointLanes, ComponentLanes>(),
     makeDomainKernels<Tetrahedron, PointLanes, ComponentLanes>(),
     makeDomainKernels<Wedge, PointLanes, ComponentLanes>(), sweepBlocks, findNear<PointLanes>,
-    measurePlaneCell<PointLanes>, bisectLines<ComponentLanes>, boundComponents<ComponentLanes> };
+    measurePlaneCell<PointLanes>, bisectLines<ComponentLanes>, boundComponents<ComponentLanes>,
+    findHidden<PointLanes> };
 }
 
 } // namespace
