@@ -37,7 +37,7 @@ template <class Value>
 void LatticeLines::bisect(std::vector<Value>& coefficients, std::vector<Value>& second) const
 {
   second.resize(coefficients.size());
-  Value line[MaximumPolynomialDegree + 1];
+  Value line[MaximumPolynomialDegree + 1] = {};
   for (std::size_t l = 0; l + 1 < this->Begin.size(); ++l)
   {
     const int* where = &this->Index[this->Begin[l]];
