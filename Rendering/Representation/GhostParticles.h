@@ -7,6 +7,7 @@
 
 #include "vtkSmartPointer.h"
 
+class vtkBoundingBox;
 class vtkDoubleArray;
 class vtkMultiProcessController;
 class vtkPolyData;
@@ -19,8 +20,14 @@ namespace GhostParticles
 constexpr const char* RankName = "SurfaceSplatRank";
 
 /**
+ * The box around all disks with a radius; not valid where there are none. The boxes of several ranks make up that of one
+ * rank with all particles.
+ */
+vtkBoundingBox BoxOf(vtkDoubleArray* disks);
+
+/**
  * This rank's particles and, behind them, the ghosts: copies of those particles of other ranks whose disks reach the
- * disks of this rank's, with all arrays that this rank has. They are marked in vtkGhostType. What the input has marked
+ * disks of this rank's, both with twice their radius, and with all arrays that this rank has. They are marked in vtkGhostType. What the input has marked
  * there is hidden. Every rank of the controller has to call it, also one without particles; a rank that is alone gets
  * its input back. Ranks send each other the disks in the boxes around the others' disks, and then the ghosts.
  *

@@ -3,6 +3,7 @@
 #include "GhostParticles.h"
 #include "SplatInput.h"
 #include "vtkAlgorithm.h"
+#include "vtkBoundingBox.h"
 #include "vtkDataObject.h"
 #include "vtkDoubleArray.h"
 #include "vtkInformation.h"
@@ -38,6 +39,7 @@ vtkSurfaceSplatRepresentation::vtkSurfaceSplatRepresentation()
   , ArraysToColorBy(OwnParticles)
 {
   this->Actor->SetMapper(this->Mapper);
+  this->Actor->UseBoundsOff(); // views get those of UpdateBounds()
   vtkMath::UninitializeBounds(this->DiskBounds);
   // Inputs need not have these arrays.
   this->Mapper->SetPointIdArrayName(hop::SplatInput::BlockPointIdName);
@@ -73,15 +75,28 @@ int vtkSurfaceSplatRepresentation::RequestData(
   this->OwnParticles = hop::SplatInput::AsParticles(
     hasInput ? vtkDataObject::GetData(inputs[0], 0) : nullptr, this->Blocks);
   this->ArraysToColorBy = hop::SplatInput::WithoutBlockIds(this->OwnParticles);
-  this->Mapper->GetDiskBounds(this->OwnParticles, this->DiskBounds);
+  const auto disks = this->Mapper->GetDisks(this->OwnParticles);
+  this->UpdateBounds(disks);
   this->Particles = this->OwnParticles;
   this->AllParticles = nullptr;
   if (hasInput)
   {
-    this->Particles = hop::GhostParticles::Add(this->OwnParticles,
-      this->Mapper->GetDisks(this->OwnParticles), vtkMultiProcessController::GetGlobalController());
+    this->Particles = hop::GhostParticles::Add(
+      this->OwnParticles, disks, vtkMultiProcessController::GetGlobalController());
   }
   return this->Superclass::RequestData(request, inputs, outputs);
+}
+
+//------------------------------------------------------------------------------
+// The mapper's bounds have room for the largest radius on all sides, which is another one on each rank.
+void vtkSurfaceSplatRepresentation::UpdateBounds(vtkDoubleArray* disks)
+{
+  this->Mapper->GetDiskBounds(this->OwnParticles, this->DiskBounds);
+  const vtkBoundingBox box = hop::GhostParticles::BoxOf(disks);
+  if (box.IsValid())
+  {
+    box.GetBounds(this->DiskBounds);
+  }
 }
 
 //------------------------------------------------------------------------------

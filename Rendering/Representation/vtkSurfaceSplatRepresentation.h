@@ -18,6 +18,7 @@
 #include "vtkSmartPointer.h" // for vtkSmartPointer
 
 class vtkActor;
+class vtkDoubleArray;
 class vtkPolyData;
 class vtkProperty;
 class vtkScalarsToColors;
@@ -152,6 +153,7 @@ private:
   void ProvideParticles(vtkInformation* inInfo, vtkInformation* outInfo);
   void UpdateColoring();
   void UpdateBackface();
+  void UpdateBounds(vtkDoubleArray* disks);
   bool IsTranslucent();
   vtkPolyData* GetParticlesToDraw();
 
