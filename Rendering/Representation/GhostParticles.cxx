@@ -4,6 +4,7 @@
 #include "vtkBoundingBox.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkCommunicator.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
@@ -42,6 +43,22 @@ bool Touch(const double* disk, const double* other)
 {
   const double reach = disk[3] + other[3];
   return vtkMath::Distance2BetweenPoints(disk, other) <= reach * reach;
+}
+
+// The box around all disks; not valid where there are none.
+vtkBoundingBox BoxOf(vtkDoubleArray* disks)
+{
+  vtkBoundingBox box;
+  for (vtkIdType i = 0; i < disks->GetNumberOfTuples(); ++i)
+  {
+    const double* disk = disks->GetPointer(4 * i);
+    if (disk[3] > 0.)
+    {
+      box.AddBox(vtkBoundingBox(disk[0] - disk[3], disk[0] + disk[3], disk[1] - disk[3],
+        disk[1] + disk[3], disk[2] - disk[3], disk[2] + disk[3]));
+    }
+  }
+  return box;
 }
 
 std::vector<vtkBoundingBox> BoxesOfRanks(
@@ -338,7 +355,7 @@ vtkSmartPointer<vtkDoubleArray> ReachOf(vtkPolyData* particles, vtkDoubleArray* 
 std::vector<vtkSmartPointer<vtkPolyData>> GhostsOfAll(
   vtkPolyData* own, vtkDoubleArray* disks, vtkMultiProcessController* controller)
 {
-  const std::vector<vtkBoundingBox> boxes = BoxesOfRanks(GhostParticles::BoxOf(disks), controller);
+  const std::vector<vtkBoundingBox> boxes = BoxesOfRanks(BoxOf(disks), controller);
   const int rank = controller->GetLocalProcessId();
   const int ranks = controller->GetNumberOfProcesses();
   std::vector<vtkSmartPointer<vtkPolyData>> ghosts;
@@ -410,19 +427,14 @@ vtkSmartPointer<vtkPolyData> Append(
 }
 
 //------------------------------------------------------------------------------
-vtkBoundingBox GhostParticles::BoxOf(vtkDoubleArray* disks)
+double GhostParticles::LargestOfRanks(double radius, vtkMultiProcessController* controller)
 {
-  vtkBoundingBox box;
-  for (vtkIdType i = 0; i < disks->GetNumberOfTuples(); ++i)
+  double largest = radius;
+  if (controller && controller->GetNumberOfProcesses() > 1)
   {
-    const double* disk = disks->GetPointer(4 * i);
-    if (disk[3] > 0.)
-    {
-      box.AddBox(vtkBoundingBox(disk[0] - disk[3], disk[0] + disk[3], disk[1] - disk[3],
-        disk[1] + disk[3], disk[2] - disk[3], disk[2] + disk[3]));
-    }
+    controller->AllReduce(&radius, &largest, 1, vtkCommunicator::MAX_OP);
   }
-  return box;
+  return largest;
 }
 
 //------------------------------------------------------------------------------

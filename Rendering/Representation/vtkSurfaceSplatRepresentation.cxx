@@ -3,7 +3,6 @@
 #include "GhostParticles.h"
 #include "SplatInput.h"
 #include "vtkAlgorithm.h"
-#include "vtkBoundingBox.h"
 #include "vtkDataObject.h"
 #include "vtkDoubleArray.h"
 #include "vtkInformation.h"
@@ -39,7 +38,6 @@ vtkSurfaceSplatRepresentation::vtkSurfaceSplatRepresentation()
   , ArraysToColorBy(OwnParticles)
 {
   this->Actor->SetMapper(this->Mapper);
-  this->Actor->UseBoundsOff(); // views get those of UpdateBounds()
   vtkMath::UninitializeBounds(this->DiskBounds);
   // Inputs need not have these arrays.
   this->Mapper->SetPointIdArrayName(hop::SplatInput::BlockPointIdName);
@@ -75,28 +73,18 @@ int vtkSurfaceSplatRepresentation::RequestData(
   this->OwnParticles = hop::SplatInput::AsParticles(
     hasInput ? vtkDataObject::GetData(inputs[0], 0) : nullptr, this->Blocks);
   this->ArraysToColorBy = hop::SplatInput::WithoutBlockIds(this->OwnParticles);
-  const auto disks = this->Mapper->GetDisks(this->OwnParticles);
-  this->UpdateBounds(disks);
   this->Particles = this->OwnParticles;
   this->AllParticles = nullptr;
   if (hasInput)
   {
+    vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
+    this->Mapper->SetLargestRadiusElsewhere(hop::GhostParticles::LargestOfRanks(
+      this->Mapper->GetLargestRadius(this->OwnParticles), controller));
     this->Particles = hop::GhostParticles::Add(
-      this->OwnParticles, disks, vtkMultiProcessController::GetGlobalController());
+      this->OwnParticles, this->Mapper->GetDisks(this->OwnParticles), controller);
   }
-  return this->Superclass::RequestData(request, inputs, outputs);
-}
-
-//------------------------------------------------------------------------------
-// The mapper's bounds have room for the largest radius on all sides, which is another one on each rank.
-void vtkSurfaceSplatRepresentation::UpdateBounds(vtkDoubleArray* disks)
-{
   this->Mapper->GetDiskBounds(this->OwnParticles, this->DiskBounds);
-  const vtkBoundingBox box = hop::GhostParticles::BoxOf(disks);
-  if (box.IsValid())
-  {
-    box.GetBounds(this->DiskBounds);
-  }
+  return this->Superclass::RequestData(request, inputs, outputs);
 }
 
 //------------------------------------------------------------------------------

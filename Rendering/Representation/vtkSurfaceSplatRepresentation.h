@@ -18,7 +18,6 @@
 #include "vtkSmartPointer.h" // for vtkSmartPointer
 
 class vtkActor;
-class vtkDoubleArray;
 class vtkPolyData;
 class vtkProperty;
 class vtkScalarsToColors;
@@ -153,7 +152,6 @@ private:
   void ProvideParticles(vtkInformation* inInfo, vtkInformation* outInfo);
   void UpdateColoring();
   void UpdateBackface();
-  void UpdateBounds(vtkDoubleArray* disks);
   bool IsTranslucent();
   vtkPolyData* GetParticlesToDraw();
 

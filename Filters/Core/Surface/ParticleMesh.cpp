@@ -210,8 +210,8 @@ std::optional<Part> receive(Exchange& exchange, int from)
   return fits && part.header.isDone ? std::move(part) : std::optional<Part>();
 }
 
-/// Sends all parts but the worker's own, which it keeps. Where memory does not hold a part, or the caller asks for an early
-/// end, ranks are sent none from then on.
+/// Sends all parts but the worker's own, which it keeps. Where memory does not hold a part, or the caller asks for an
+/// early end, ranks are sent none from then on.
 std::optional<Part> sendParts(Exchange& exchange, std::optional<Sorter>& parts)
 {
   std::optional<Part> own;

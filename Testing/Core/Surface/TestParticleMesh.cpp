@@ -56,8 +56,8 @@ public:
           makeRing(all, whole, mesh);
         }
         Distribution home;
-        const bool isComplete = bringMeshHome(exchange, worker, whole, true, all,
-          [](std::int64_t) { return 0; }, mesh, home,
+        const bool isComplete = bringMeshHome(
+          exchange, worker, whole, true, all, [](std::int64_t) { return 0; }, mesh, home,
           exchange.rank() == worker ? parallelFor : ParallelFor());
         check(isComplete, mesh, home);
       });
@@ -104,7 +104,8 @@ TEST(ParticleMesh, EndsOnAllRanksWhereTheWorkerIsAskedTo)
       }
       body(0, count);
     };
-    ring.bringHome(parallelFor, [&](bool isComplete, const ParticleMesh&, const Distribution&)
+    ring.bringHome(parallelFor,
+      [&](bool isComplete, const ParticleMesh&, const Distribution&)
       { EXPECT_EQ(isComplete, most < 0) << most; });
     all = most < 0 ? asked : all;
   }
