@@ -17,6 +17,9 @@ from pictures import read_png
 RANKS = [1, 2, 4]
 PIECES = 8
 LEAST_DECIBELS = 60.0
+# Of pictures of a smooth surface in scattered cells: splats bend as one rank's, and outlines are the same.
+LEAST_WHERE_SMOOTH = 74.0
+SMOOTH = ["scattered", "reset camera", "cells", "two values", "composite", "workers"]
 SIZE = [800, 600]
 
 # Drives all ranks, of its own process or of a server. Writes pictures, and what is known of the particles.
@@ -218,7 +221,8 @@ PICTURES = ["compact", "translucent", "scattered", "scattered translucent", "res
 def test_ranks_draw_the_picture_of_one_rank(runs, ranks, name):
     expected = read_png(runs[1] / f"{name}.png")
     assert np.mean(np.any(expected != expected[0, 0], axis=2)) > 0.05
-    assert decibels(runs[ranks] / f"{name}.png", runs[1] / f"{name}.png") > LEAST_DECIBELS
+    least = LEAST_WHERE_SMOOTH if name in SMOOTH else LEAST_DECIBELS
+    assert decibels(runs[ranks] / f"{name}.png", runs[1] / f"{name}.png") > least
 
 
 def arrays_of(folder):
