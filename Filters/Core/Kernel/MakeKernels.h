@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Kernel/Jets.h"
+#include "Kernel/Lines.h"
 #include "Kernel/Near.h"
 #include "Kernel/PlaneCell.h"
 #include "Kernel/Sweep.h"
@@ -166,7 +167,7 @@ constexpr Kernels makeKernels()
   return { makeDomainKernels<Hexahedron, PointLanes, ComponentLanes>(),
     makeDomainKernels<Tetrahedron, PointLanes, ComponentLanes>(),
     makeDomainKernels<Wedge, PointLanes, ComponentLanes>(), sweepBlocks, findNear<PointLanes>,
-    measurePlaneCell<PointLanes> };
+    measurePlaneCell<PointLanes>, bisectLines<ComponentLanes>, boundComponents<ComponentLanes> };
 }
 
 } // namespace
