@@ -19,7 +19,7 @@ PIECES = 8
 LEAST_DECIBELS = 60.0
 # Of pictures of a smooth surface in scattered cells: splats bend as one rank's, and outlines are the same.
 LEAST_WHERE_SMOOTH = 74.0
-SMOOTH = ["scattered", "reset camera", "cells", "two values", "composite", "workers"]
+SMOOTH = ["scattered", "cells", "two values", "composite", "workers"]
 SIZE = [800, 600]
 
 # Drives all ranks, of its own process or of a server. Writes pictures, and what is known of the particles.
