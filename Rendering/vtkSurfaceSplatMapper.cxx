@@ -127,6 +127,7 @@ void vtkSurfaceSplatMapper::ShallowCopy(vtkAbstractMapper* mapper)
     this->SetRadius(other->GetRadius());
     this->SetCellColorArrayName(other->GetCellColorArrayName());
     this->SetBlendGhosts(other->GetBlendGhosts());
+    this->SetLargestRadiusElsewhere(other->GetLargestRadiusElsewhere());
     this->SetColorByNormalDirection(other->GetColorByNormalDirection());
     this->SetOutwardColor(other->GetOutwardColor());
     this->SetInwardColor(other->GetInwardColor());
@@ -159,8 +160,15 @@ void vtkSurfaceSplatMapper::GetDiskBounds(vtkPolyData* input, double bounds[6])
   vtkMath::UninitializeBounds(bounds);
   if (input)
   {
-    this->Describe(input).GetDiskBounds(this->GetDrawnRadiusScale(), bounds);
+    this->Describe(input).GetDiskBounds(
+      this->GetDrawnRadiusScale(), this->LargestRadiusElsewhere, bounds);
   }
+}
+
+//------------------------------------------------------------------------------
+double vtkSurfaceSplatMapper::GetLargestRadius(vtkPolyData* input)
+{
+  return this->Describe(input).GetLargestRadius();
 }
 
 //------------------------------------------------------------------------------
@@ -748,6 +756,7 @@ void vtkSurfaceSplatMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RadiusScale: " << this->RadiusScale << "\n";
   os << indent << "Radius: " << this->Radius << "\n";
   os << indent << "BlendGhosts: " << (this->BlendGhosts ? "On" : "Off") << "\n";
+  os << indent << "LargestRadiusElsewhere: " << this->LargestRadiusElsewhere << "\n";
   os << indent << "ColorByNormalDirection: " << (this->ColorByNormalDirection ? "On" : "Off")
      << "\n";
   os << indent << "OutwardColor: " << this->OutwardColor[0] << " " << this->OutwardColor[1] << " "

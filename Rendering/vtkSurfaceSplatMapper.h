@@ -209,6 +209,15 @@ public:
   ///@}
 
   ///@{
+  /**
+   * Largest radius of particles that other processes draw, without RadiusScale. Bounds have room for it, so that those
+   * of all processes together are those of one that draws all particles. Default: 0.
+   */
+  vtkSetMacro(LargestRadiusElsewhere, double);
+  vtkGetMacro(LargestRadiusElsewhere, double);
+  ///@}
+
+  ///@{
   /** Whether some particles are opaque, or some translucent; both may be. */
   bool HasOpaqueGeometry() override;
   bool HasTranslucentPolygonalGeometry() override;
@@ -219,6 +228,9 @@ public:
    * them or not, grown by the largest radius. Uninitialized bounds if there are no points.
    */
   void GetDiskBounds(vtkPolyData* input, double bounds[6]);
+
+  /** Largest radius that particles of an input have, without RadiusScale; 0 if there are none. */
+  double GetLargestRadius(vtkPolyData* input);
 
   /**
    * The disks that an input would be drawn as, without levels of detail: for each point centre and radius, which is 0
@@ -270,6 +282,7 @@ protected:
   double RadiusScale = 1.0;
   double Radius = 0.0;
   bool BlendGhosts = true;
+  double LargestRadiusElsewhere = 0.;
   bool ColorByNormalDirection = false;
   double OutwardColor[3] = { 0.13, 0.35, 0.85 };
   double InwardColor[3] = { 0.80, 0.15, 0.13 };

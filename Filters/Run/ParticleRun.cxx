@@ -475,7 +475,7 @@ bool GroupRun::bringHome(std::vector<IsovalueParticles>& particles, const Work& 
       home.isComplete = bringMeshHome(
         this->Ranks, this->workerOf(i), distribution, this->IsSound, this->All,
         [this](std::int64_t cell) { return this->AllBlocks.blockOf(cell); }, particles[i].mesh,
-        home.distribution);
+        home.distribution, std::ref(loops));
     }
     distribution = std::move(home.distribution);
     isComplete = isComplete && home.isComplete;

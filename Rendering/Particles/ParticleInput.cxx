@@ -89,19 +89,29 @@ ParticleArrays ParticleInput::DescribeArrays() const
 }
 
 //------------------------------------------------------------------------------
-void ParticleInput::GetDiskBounds(double radiusScale, double bounds[6]) const
+double ParticleInput::GetLargestRadius() const
 {
-  vtkMath::UninitializeBounds(bounds);
   if (this->Data->GetNumberOfPoints() == 0)
   {
-    return;
+    return 0.;
   }
   double range[2] = { 0., this->GetFallbackRadius() };
   if (vtkDataArray* radii = this->GetRadii())
   {
     radii->GetFiniteRange(range, 0);
   }
-  const double margin = radiusScale * std::max(range[1], 0.);
+  return std::max(range[1], 0.);
+}
+
+//------------------------------------------------------------------------------
+void ParticleInput::GetDiskBounds(double radiusScale, double leastRadius, double bounds[6]) const
+{
+  vtkMath::UninitializeBounds(bounds);
+  if (this->Data->GetNumberOfPoints() == 0)
+  {
+    return;
+  }
+  const double margin = radiusScale * std::max(this->GetLargestRadius(), leastRadius);
   GetFiniteBounds(this->Data, bounds);
   for (int axis = 0; axis < 3; ++axis)
   {

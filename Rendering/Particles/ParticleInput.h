@@ -37,8 +37,14 @@ struct ParticleInput
   /** All that particles are made of. */
   ParticleArrays DescribeArrays() const;
 
-  /** Bounds of all points, grown by the largest radius times the scale. Uninitialized bounds if there are no points. */
-  void GetDiskBounds(double radiusScale, double bounds[6]) const;
+  /** The largest finite radius; 0 if there are no points. */
+  double GetLargestRadius() const;
+
+  /**
+   * Bounds of all points, grown by the largest radius, or the one given if it is larger, times the scale. Uninitialized
+   * bounds if there are no points.
+   */
+  void GetDiskBounds(double radiusScale, double leastRadius, double bounds[6]) const;
 
   /** See vtkSurfaceSplatMapper::GetDisks(). */
   vtkSmartPointer<vtkDoubleArray> GetDisks(double radiusScale) const;

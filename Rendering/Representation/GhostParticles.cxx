@@ -4,6 +4,7 @@
 #include "vtkBoundingBox.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkCommunicator.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
@@ -28,6 +29,10 @@ namespace hop
 {
 namespace
 {
+// Factor on the radii of disks within which ranks see each other's. A splat bends as the particles within 1.5 radii do,
+// see FitShapes.cxx: between disks of one radius that touch, 3.5 radii are looked at of the 4 that 2 stands for.
+constexpr double Reach = 2.;
+
 constexpr int Tag = 7310; // of messages between ranks; any number does that no other message has
 
 // Largest number of a locator's buckets along an axis. More take more memory, up to 100^3 buckets; fewer hold more
@@ -333,20 +338,18 @@ vtkSmartPointer<vtkPolyData> MarkOwn(vtkPolyData* own, int rank)
   return marked;
 }
 
-// The disks without those of hidden particles.
-vtkSmartPointer<vtkDoubleArray> DrawnOf(vtkPolyData* particles, vtkDoubleArray* disks)
+// The disks without those of hidden particles, enlarged so that splats that touch have what shapes them.
+vtkSmartPointer<vtkDoubleArray> ReachOf(vtkPolyData* particles, vtkDoubleArray* disks)
 {
   vtkDataArray* types = particles->GetPointData()->GetArray(vtkDataSetAttributes::GhostArrayName());
-  auto drawn = vtkSmartPointer<vtkDoubleArray>::New();
-  drawn->DeepCopy(disks);
-  for (vtkIdType i = 0; i < drawn->GetNumberOfTuples(); ++i)
+  auto reach = vtkSmartPointer<vtkDoubleArray>::New();
+  reach->DeepCopy(disks);
+  for (vtkIdType i = 0; i < reach->GetNumberOfTuples(); ++i)
   {
-    if (types->GetComponent(i, 0) != 0.)
-    {
-      drawn->SetComponent(i, 3, 0.);
-    }
+    const bool isHidden = types->GetComponent(i, 0) != 0.;
+    reach->SetComponent(i, 3, isHidden ? 0. : Reach * disks->GetComponent(i, 3));
   }
-  return drawn;
+  return reach;
 }
 
 std::vector<vtkSmartPointer<vtkPolyData>> GhostsOfAll(
@@ -424,6 +427,17 @@ vtkSmartPointer<vtkPolyData> Append(
 }
 
 //------------------------------------------------------------------------------
+double GhostParticles::LargestOfRanks(double radius, vtkMultiProcessController* controller)
+{
+  double largest = radius;
+  if (controller && controller->GetNumberOfProcesses() > 1)
+  {
+    controller->AllReduce(&radius, &largest, 1, vtkCommunicator::MAX_OP);
+  }
+  return largest;
+}
+
+//------------------------------------------------------------------------------
 vtkSmartPointer<vtkPolyData> GhostParticles::Add(
   vtkPolyData* own, vtkDoubleArray* disks, vtkMultiProcessController* controller)
 {
@@ -432,7 +446,7 @@ vtkSmartPointer<vtkPolyData> GhostParticles::Add(
     return own;
   }
   const auto marked = MarkOwn(own, controller->GetLocalProcessId());
-  const auto ghosts = GhostsOfAll(marked, DrawnOf(marked, disks), controller);
+  const auto ghosts = GhostsOfAll(marked, ReachOf(marked, disks), controller);
   return own->GetNumberOfPoints() > 0 ? Append(marked, ghosts) : marked;
 }
 

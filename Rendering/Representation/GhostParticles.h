@@ -18,9 +18,12 @@ namespace GhostParticles
 /** Name of the point array with the number of the rank that has each particle, as selections want it. */
 constexpr const char* RankName = "SurfaceSplatRank";
 
+/** The largest of the radii that the ranks give. Every rank of the controller has to call it. */
+double LargestOfRanks(double radius, vtkMultiProcessController* controller);
+
 /**
- * This rank's particles and, behind them, the ghosts: copies of those particles of other ranks whose disks reach the
- * disks of this rank's, with all arrays that this rank has. They are marked in vtkGhostType. What the input has marked
+ * This rank's particles and, behind them, the ghosts: copies of those particles of other ranks whose disks, with twice
+ * their radius, reach this rank's, with all arrays that this rank has. They are marked in vtkGhostType. What the input has marked
  * there is hidden. Every rank of the controller has to call it, also one without particles; a rank that is alone gets
  * its input back. Ranks send each other the disks in the boxes around the others' disks, and then the ghosts.
  *

@@ -73,14 +73,17 @@ int vtkSurfaceSplatRepresentation::RequestData(
   this->OwnParticles = hop::SplatInput::AsParticles(
     hasInput ? vtkDataObject::GetData(inputs[0], 0) : nullptr, this->Blocks);
   this->ArraysToColorBy = hop::SplatInput::WithoutBlockIds(this->OwnParticles);
-  this->Mapper->GetDiskBounds(this->OwnParticles, this->DiskBounds);
   this->Particles = this->OwnParticles;
   this->AllParticles = nullptr;
   if (hasInput)
   {
-    this->Particles = hop::GhostParticles::Add(this->OwnParticles,
-      this->Mapper->GetDisks(this->OwnParticles), vtkMultiProcessController::GetGlobalController());
+    vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
+    this->Mapper->SetLargestRadiusElsewhere(hop::GhostParticles::LargestOfRanks(
+      this->Mapper->GetLargestRadius(this->OwnParticles), controller));
+    this->Particles = hop::GhostParticles::Add(
+      this->OwnParticles, this->Mapper->GetDisks(this->OwnParticles), controller);
   }
+  this->Mapper->GetDiskBounds(this->OwnParticles, this->DiskBounds);
   return this->Superclass::RequestData(request, inputs, outputs);
 }
 

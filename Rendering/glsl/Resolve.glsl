@@ -34,6 +34,10 @@ bool splatHasSurface(ivec2 texel)
 const float splatLeastLayerCosine = 0.1; // for the distance of two layers
 const float splatLeastDepthCosine = 0.03; // for the correction of the depth
 
+// Depth of a colour that is mixed into the background beyond an outline. It hides nothing that is drawn later. Where the
+// nearest of several ranks' pixels are taken, it comes before the cleared depth, 1: four steps of a buffer with 24 bits.
+const float splatBackground = 1.0 - 1.0 / 4194304.0;
+
 #if SPLAT_OUTLINE
 //Splat::Outline::Dec
 #endif
@@ -115,9 +119,7 @@ SplatSurface splatResolve()
   // Beyond the outline the mean normal may point away from the eye, which would look dark.
   surface.normalVC = normalize(surface.seenFrom * normal - min(towardsEye, 0.0) * toEye);
   vec4 positionDC = splatVCDC * vec4(surface.positionVC, 1.0);
-  // A colour that is mixed in beyond the outline hides nothing that is drawn later.
-  surface.depth =
-    inside ? clamp(0.5 * positionDC.z / positionDC.w + 0.5, 0.0, 1.0) : 1.0;
+  surface.depth = inside ? clamp(0.5 * positionDC.z / positionDC.w + 0.5, 0.0, 1.0) : splatBackground;
 #if SPLAT_FOLDS
   // The colour is mixed into what this pixel shows. So it is tested at the depth of that surface, a little farther:
   // a tenth of the jump that tells surfaces apart, far above rounding.

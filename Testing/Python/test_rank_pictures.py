@@ -17,8 +17,9 @@ from pictures import read_png
 RANKS = [1, 2, 4]
 PIECES = 8
 LEAST_DECIBELS = 60.0
-# Of opaque pictures where every crease of every cell is a cut.
-LEAST_AT_CREASES = 56.0
+# Of pictures of a smooth surface in scattered cells: splats bend as one rank's, and outlines are the same.
+LEAST_WHERE_SMOOTH = 74.0
+SMOOTH = ["scattered", "cells", "two values", "composite", "workers"]
 SIZE = [800, 600]
 
 # Drives all ranks, of its own process or of a server. Writes pictures, and what is known of the particles.
@@ -101,6 +102,10 @@ view, display = show(scattered, "Mean_Curvature")
 shoot("scattered", view)
 display.Opacity = 0.5
 shoot("scattered translucent", view)
+view, display = show(scattered, "Mean_Curvature")
+simple.ResetCamera(view)
+shoot("reset camera", view)
+camera = [*view.CameraPosition, *view.CameraFocalPoint]
 shoot("cells", show(scattered, "piece", "CELLS")[0])
 shoot("two values", show(surface_of(pieces("scattered"), [0.3, 0.32]), "Mean_Curvature")[0])
 
@@ -125,6 +130,7 @@ information = compact.GetDataInformation()
 said = {
     "count": information.GetNumberOfPoints(),
     "arrays": sorted(compact.PointData.keys()),
+    "camera": camera,
     "range": list(compact.PointData["Mean_Curvature"].GetRange()),
 }
 with open(f"{folder}/said.json", "w") as file:
@@ -205,8 +211,8 @@ def decibels(picture, expected):
     return 10 * np.log10(255**2 / max(error, 1e-9))
 
 
-PICTURES = ["compact", "translucent", "scattered", "scattered translucent", "cells", "two values", "composite",
-            "composite translucent", "workers", "creases", "creases translucent", "workers at creases",
+PICTURES = ["compact", "translucent", "scattered", "scattered translucent", "reset camera", "cells", "two values",
+            "composite", "composite translucent", "workers", "creases", "creases translucent", "workers at creases",
             "workers at creases translucent"]
 
 
@@ -215,7 +221,7 @@ PICTURES = ["compact", "translucent", "scattered", "scattered translucent", "cel
 def test_ranks_draw_the_picture_of_one_rank(runs, ranks, name):
     expected = read_png(runs[1] / f"{name}.png")
     assert np.mean(np.any(expected != expected[0, 0], axis=2)) > 0.05
-    least = LEAST_AT_CREASES if name.endswith("creases") else LEAST_DECIBELS
+    least = LEAST_WHERE_SMOOTH if name in SMOOTH else LEAST_DECIBELS
     assert decibels(runs[ranks] / f"{name}.png", runs[1] / f"{name}.png") > least
 
 

@@ -151,12 +151,23 @@ def slice_of(grid):
     return cut
 
 
-messages = []
+def box_slice_of(grid, **properties):
+    producer = simple.TrivialProducer()
+    producer.GetClientSideObject().SetOutput(grid)
+    cut = HighOrderParticleSlice(Input=producer, SliceType="Box", Spacing=0.06, **properties)
+    cut.SliceType.Position, cut.SliceType.Rotation, cut.SliceType.Length = [-1, -0.3, -0.4], [20, 0, 10], [1.5, 1.2, 1]
+    cut.SMProxy.UpdateVTKObjects()
+    return cut
+
+
+messages, progress = [], []
 
 
 def run(surface, abort_on=None):
     algorithm = surface.GetClientSideObject()
     heard = support.Messages(algorithm)
+    progress.clear()
+    algorithm.AddObserver("ProgressEvent", lambda *_: progress.append(algorithm.GetProgress()))
     if rank == abort_on:
         algorithm.AddObserver("ProgressEvent", lambda *_: algorithm.SetAbortExecute(1))
     surface.UpdatePipeline()
@@ -245,6 +256,12 @@ cases = {
     "lambda 2": lambda: run(filter_of(
         scattered(whole(flow)), "velocity", [-24.0], Spacing=0.06, Quantity="Lambda 2", ParticlesPerWorker=1000)),
     "slice": lambda: run(slice_of(scattered(grid))),
+    "box slice": lambda: run(box_slice_of(scattered(grid))),
+    "box slice of triangles": lambda: run(box_slice_of(scattered(grid), OutputType="Triangles")),
+    "derived triangles": lambda: run(filter_of(
+        scattered(whole(flow)), "velocity", [10.0], Spacing=0.04, Quantity="Q Criterion", OutputType="Triangles")),
+    "derived at workers": lambda: run(filter_of(
+        scattered(whole(flow)), "velocity", [10.0], Spacing=0.02, Quantity="Q Criterion", ParticlesPerWorker=1000)),
     "tetrahedra with ghosts": lambda: run(filter_of(with_ghosts(whole(tetrahedra)), "u", [0.5])),
     "tetrahedra": lambda: run(filter_of(scattered(whole(tetrahedra)), "u", [0.5])),
     "tetrahedra in pieces": lambda: run(filter_of(
@@ -275,9 +292,10 @@ if part == "called off":
 elif ranks > 1:
     cases["no array"] = lambda: run(filter_of(without_array_here(scattered(grid))))
 
-said = {}
+said, risen = {}, {}
 for name, case in cases.items() if part != "redistribute" else ():
     messages.clear()
+    progress.clear()
     output = case()
     leaves = [output] if output.IsA("vtkPointSet") else [output.GetBlock(i) for i in range(output.GetNumberOfBlocks())]
     for i, leaf in enumerate(leaves):
@@ -290,9 +308,10 @@ for name, case in cases.items() if part != "redistribute" else ():
             ids = vtk_to_numpy(cells.GetConnectivityArray())
             rows["nodes"] = ids.reshape(cells.GetNumberOfCells(), -1)
         np.savez(f"{folder}/{name}-{i}-{rank}.npz", **rows)
-    said[name] = list(messages)
-with open(f"{folder}/{part}-{rank}.json", "w") as file:
-    json.dump(said, file)
+    said[name], risen[name] = list(messages), list(progress)
+for name, data in ((part, said), (f"{part} progress", risen)):
+    with open(f"{folder}/{name}-{rank}.json", "w") as file:
+        json.dump(data, file)
 """
 
 
@@ -330,7 +349,9 @@ class Run:
         self.is_redistributed = self.redistribute(run)
         done = run("cases", 600)
         assert done.returncode == 0, done.stdout + done.stderr
-        self.said = [json.loads((folder / f"cases-{rank}.json").read_text()) for rank in range(ranks)]
+        self.said, self.progress = (
+            [json.loads((folder / f"{name}-{rank}.json").read_text()) for rank in range(ranks)]
+            for name in ("cases", "cases progress"))
         self.run_part = run
 
     def redistribute(self, run):
@@ -392,7 +413,8 @@ class Run:
 
 
 CASES = ["in pieces", "scattered", "on one rank", "with ghosts", "with wrong ghosts", "read in pieces", "redistributed",
-         "classic", "number", "three values", "jumps", "hanging", "rational", "derived", "lambda 2", "slice",
+         "classic", "number", "three values", "jumps", "hanging", "rational", "derived", "lambda 2", "slice", "box slice",
+         "derived at workers",
          "tetrahedra with ghosts", "tetrahedra", "tetrahedra in pieces", "warm", "halves", "two results",
          "workers", "workers and jumps"]
 
@@ -409,7 +431,7 @@ def test_ranks_have_the_particles_of_one_rank(runs, case, ranks):
         assert max(runs[ranks].counts(case, block)) < len(expected) or case == "on one rank"
     # Derivatives jump from cell to cell, which is told once; of lambda 2 each rank names cells.
     messages = [text for text in runs[ranks].messages(case) if "not smooth enough" not in text]
-    assert len(messages) == (1 if case in ("derived", "lambda 2") else 0)
+    assert len(messages) == (1 if case in ("derived", "derived at workers", "lambda 2") else 0)
 
 
 @pytest.mark.parametrize("case", ["in pieces", "with ghosts", "with wrong ghosts", "on one rank", "read in pieces"])
@@ -418,7 +440,8 @@ def test_it_does_not_matter_how_cells_lie(runs, case):
         assert np.array_equal(runs[ranks].particles(case), runs[1].particles("scattered"))
 
 
-@pytest.mark.parametrize("case", ["triangles", "curved triangles", "triangles of halves"])
+@pytest.mark.parametrize("case", ["triangles", "curved triangles", "triangles of halves", "box slice of triangles",
+                                  "derived triangles"])
 @pytest.mark.parametrize("ranks", RANKS[1:])
 def test_meshes_are_closed_over_ranks(runs, case, ranks):
     # Each cell once, with the exact values of all arrays at corners in cells of other ranks, also on creases.
@@ -440,6 +463,20 @@ def test_a_given_number_is_that_of_all_ranks(runs, ranks):
 @pytest.mark.parametrize("ranks", RANKS)
 def test_an_abort_on_one_rank_ends_the_run_on_all(runs, case, ranks):
     assert runs[ranks].counts(case) == [0] * ranks
+
+
+@pytest.mark.parametrize("ranks", RANKS)
+def test_progress_rises_from_0_to_1_on_every_rank(runs, ranks):
+    for rank, cases in enumerate(runs[ranks].progress):
+        for case, fractions in cases.items():
+            assert fractions[0] >= 0 and fractions == sorted(fractions), (rank, case)
+            assert fractions[-1] == 1 or "aborted" in case or case == "no array", (rank, case)
+    # Ranks that distribute particles say how far: the first one where one does, and several workers.
+    def tellers(case):
+        return [rank for rank, cases in enumerate(runs[ranks].progress)
+                if sum(0.1 < fraction < 0.95 for fraction in cases[case]) > 1]
+
+    assert 0 in tellers("scattered") and len(tellers("workers")) >= min(ranks, 2)
 
 
 @pytest.mark.parametrize("case", ["tetrahedra in pieces", "tetrahedra with ghosts"])

@@ -37,19 +37,23 @@ struct Part
 class Sorter
 {
 public:
+  /// \param parallelFor may throw Interrupted, as in partOf()
   Sorter(int ranks, const Distribution& whole, const GatheredMesh& all, const BlockOfCell& blockOf,
-    const ParticleMesh& mesh)
+    const ParticleMesh& mesh, const ParallelFor& parallelFor)
     : Whole(whole)
     , All(all)
     , BlockOf(blockOf)
     , Mesh(mesh)
+    , Parallel(parallelFor)
     , CellCount(mesh.nodesPerCell > 0 ? mesh.nodes.size() / mesh.nodesPerCell : 0)
     , PlaceAtHome(whole.particles.size())
     , Copy(whole.particles.size(), none)
     , IsTouched(whole.particles.size(), 0)
   {
-    const Grouping particles = groupedBy(whole.particles, ranks,
-      [&](const Particle& particle) { return all.homes[particle.location.element].rank; });
+    const Grouping particles = groupedBy(
+      whole.particles, ranks,
+      [&](const Particle& particle) { return all.homes[particle.location.element].rank; },
+      parallelFor);
     for (int r = 0; r < ranks; ++r)
     {
       for (int n = particles.start[r]; n < particles.start[r + 1]; ++n)
@@ -63,7 +67,8 @@ public:
     {
       firstNodes[c] = mesh.nodes[c * mesh.nodesPerCell];
     }
-    this->Cells = groupedBy(firstNodes, ranks, [&](int node) { return this->homeOf(node).rank; });
+    this->Cells = groupedBy(
+      firstNodes, ranks, [&](int node) { return this->homeOf(node).rank; }, parallelFor);
   }
 
   Part partOf(int rank)
@@ -73,6 +78,10 @@ public:
     this->Copied.clear();
     for (int c = this->Cells.start[rank]; c < this->Cells.start[rank + 1]; ++c)
     {
+      if (c % cellsPerQuestion == 0)
+      {
+        this->ask();
+      }
       const std::size_t first =
         static_cast<std::size_t>(this->Cells.order[c]) * this->Mesh.nodesPerCell;
       for (std::size_t n = first; n < first + this->Mesh.nodesPerCell; ++n)
@@ -100,6 +109,14 @@ public:
 
 private:
   static constexpr int none = -1;
+  /// A millisecond or less; more cells make the caller wait for an answer, fewer cost questions.
+  static constexpr int cellsPerQuestion = 4096;
+
+  /// Asks the caller whether to go on, as loops do.
+  void ask() const
+  {
+    forAll(this->Parallel, 1, [](std::size_t) {});
+  }
 
   const Element& elementOf(int particle) const
   {
@@ -142,6 +159,7 @@ private:
   const GatheredMesh& All;
   const BlockOfCell& BlockOf;
   const ParticleMesh& Mesh;
+  const ParallelFor& Parallel;
   const std::size_t CellCount;
   /// The index of each particle among those of its rank.
   std::vector<int> PlaceAtHome;
@@ -192,7 +210,8 @@ std::optional<Part> receive(Exchange& exchange, int from)
   return fits && part.header.isDone ? std::move(part) : std::optional<Part>();
 }
 
-/// Sends all parts but the worker's own, which it keeps. A part that memory does not hold is sent as none.
+/// Sends all parts but the worker's own, which it keeps. Where memory does not hold a part, or the caller asks for an
+/// early end, ranks are sent none from then on.
 std::optional<Part> sendParts(Exchange& exchange, std::optional<Sorter>& parts)
 {
   std::optional<Part> own;
@@ -203,7 +222,7 @@ std::optional<Part> sendParts(Exchange& exchange, std::optional<Sorter>& parts)
     {
       part = parts ? parts->partOf(to) : Part();
     }
-    catch (const std::exception&)
+    catch (...)
     {
       part = {};
       parts.reset();
@@ -264,7 +283,8 @@ std::vector<std::array<int, 2>> sharedPlaces(const std::vector<int>& first)
 }
 
 bool bringMeshHome(Exchange& exchange, int worker, const Distribution& whole, bool isDone,
-  const GatheredMesh& all, const BlockOfCell& blockOf, ParticleMesh& mesh, Distribution& home)
+  const GatheredMesh& all, const BlockOfCell& blockOf, ParticleMesh& mesh, Distribution& home,
+  const ParallelFor& parallelFor)
 {
   if (exchange.isAlone())
   {
@@ -281,10 +301,10 @@ bool bringMeshHome(Exchange& exchange, int worker, const Distribution& whole, bo
       {
         if (isDone)
         {
-          parts.emplace(exchange.size(), whole, all, blockOf, mesh);
+          parts.emplace(exchange.size(), whole, all, blockOf, mesh, parallelFor);
         }
       }
-      catch (const std::exception&)
+      catch (...)
       {
         isHere = false;
       }

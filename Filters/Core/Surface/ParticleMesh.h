@@ -84,8 +84,10 @@ using BlockOfCell = std::function<int(std::int64_t cell)>;
 /// \param mesh on the worker, the mesh of `whole`; receives this rank's
 /// \param isDone whether this rank can take part
 /// \param home this rank's particles; receives the copies behind them, whose elements are -1
+/// \param parallelFor may throw Interrupted: then no rank has its part
 /// \return whether every rank has its part; the same on all ranks
 bool bringMeshHome(Exchange& exchange, int worker, const Distribution& whole, bool isDone,
-  const GatheredMesh& all, const BlockOfCell& blockOf, ParticleMesh& mesh, Distribution& home);
+  const GatheredMesh& all, const BlockOfCell& blockOf, ParticleMesh& mesh, Distribution& home,
+  const ParallelFor& parallelFor);
 
 } // namespace hop
