@@ -25,6 +25,8 @@ struct Sampling
   /// Largest error, of the largest value of the field on the part. Smaller: more parts of higher degrees; larger:
   /// particles are off their isovalue by as much.
   static constexpr double Tolerance = 1e-9;
+  /// The same where particles stand on the field itself.
+  static constexpr double ToleranceOfProofs = 1e-8;
   /// Largest error of the geometry, of its extent: where cells meet it opens gaps of this width.
   static constexpr double GeometryTolerance = 1e-11;
   /// How much larger than what was seen an error may be where a part is said to hold no surface.
@@ -39,9 +41,6 @@ struct Sampling
   /// 10, by NodalBasis::conversionNorm), and an evaluation costs as much as one of several parts.
   static constexpr int LowestDegree = 4;
   static constexpr int DegreeStep = 2;
-  /// Steps in a row that promise too little before a proof does without higher degrees. Fewer: polynomials just before
-  /// the degree that holds them are given up; more: creases cost more (derived_costs.py).
-  static constexpr int PoorSteps = 2;
 };
 
 /// Of a hexahedron Gauss-Lobatto-Legendre nodes allow a higher degree than equispaced ones.
@@ -219,24 +218,17 @@ SampledPart simplestOf(std::vector<SampledPart> tried)
     tried.begin(), tried.end(), [&](const SampledPart& one) { return one.error <= most; }));
 }
 
-/// Whether none of the last steps, if the ones that are left lower the error by the same factor, leads to the
-/// tolerance: errors of smooth fields fall geometrically, those beside creases hardly.
+/// Whether the last step, if the ones that are left lower the error by the same factor, does not lead to the tolerance:
+/// errors of smooth fields fall geometrically, those beside creases hardly.
 bool isHopeless(const std::vector<SampledPart>& tried, int stepsLeft, double tolerance)
 {
-  const int last = static_cast<int>(tried.size()) - 1;
-  if (last < Sampling::PoorSteps)
+  if (tried.size() < 2)
   {
     return false;
   }
-  for (int i = last; i > last - Sampling::PoorSteps; --i)
-  {
-    const double ratio = tried[i].error / tried[i - 1].error;
-    if (tried[i].error * std::pow(ratio, stepsLeft + last - i) <= tolerance)
-    {
-      return false;
-    }
-  }
-  return true;
+  const double last = tried.back().error;
+  const double ratio = last / tried[tried.size() - 2].error;
+  return last * std::pow(ratio, stepsLeft) > tolerance;
 }
 
 } // namespace
@@ -370,7 +362,9 @@ void FieldSampler::judge(SampledPart& sampled, const Samples& checks) const
 /// Of the field, in its unit.
 double FieldSampler::toleranceOf(const Samples& checks) const
 {
-  return std::max(Sampling::Tolerance * largestField(checks), Sampling::Caution * this->Noise);
+  const double share =
+    this->ItsStandIn == StandIn::Proof ? Sampling::ToleranceOfProofs : Sampling::Tolerance;
+  return std::max(share * largestField(checks), Sampling::Caution * this->Noise);
 }
 
 SampledPart FieldSampler::sample(
