@@ -41,6 +41,9 @@ struct Sampling
   /// 10, by NodalBasis::conversionNorm), and an evaluation costs as much as one of several parts.
   static constexpr int LowestDegree = 4;
   static constexpr int DegreeStep = 2;
+  /// Steps in a row that promise too little before a proof does without higher degrees. Fewer: more components of lambda
+  /// 2 are missed (test_derived_components.py); more: creases cost more (derived_costs.py).
+  static constexpr int PoorSteps = 2;
 };
 
 /// Of a hexahedron Gauss-Lobatto-Legendre nodes allow a higher degree than equispaced ones.
@@ -218,17 +221,24 @@ SampledPart simplestOf(std::vector<SampledPart> tried)
     tried.begin(), tried.end(), [&](const SampledPart& one) { return one.error <= most; }));
 }
 
-/// Whether the last step, if the ones that are left lower the error by the same factor, does not lead to the tolerance:
-/// errors of smooth fields fall geometrically, those beside creases hardly.
+/// Whether none of the last steps, if the ones that are left lower the error by the same factor, leads to the
+/// tolerance: errors of smooth fields fall geometrically, those beside creases hardly.
 bool isHopeless(const std::vector<SampledPart>& tried, int stepsLeft, double tolerance)
 {
-  if (tried.size() < 2)
+  const int last = static_cast<int>(tried.size()) - 1;
+  if (last < Sampling::PoorSteps)
   {
     return false;
   }
-  const double last = tried.back().error;
-  const double ratio = last / tried[tried.size() - 2].error;
-  return last * std::pow(ratio, stepsLeft) > tolerance;
+  for (int i = last; i > last - Sampling::PoorSteps; --i)
+  {
+    const double ratio = tried[i].error / tried[i - 1].error;
+    if (tried[i].error * std::pow(ratio, stepsLeft + last - i) <= tolerance)
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
 } // namespace
