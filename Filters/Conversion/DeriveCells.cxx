@@ -77,6 +77,13 @@ Range hullOf(const SourceElement& source, int component)
   return range;
 }
 
+/// Whether particles can stand on the quantity of the cell's own polynomials, so that others only find the surface.
+StandIn standInFor(Quantity quantity, const SourceElement& source)
+{
+  const bool hasExact = quantity != Quantity::Expression && source.width - 3 <= MostExactComponents;
+  return hasExact ? StandIn::Proof : StandIn::Surface;
+}
+
 /// The field of a run whose coordinates are divided by a unit. A formula is told of world units.
 FieldFunction functionIn(const InputBlocks& blocks, double unitOfLength)
 {
@@ -239,7 +246,8 @@ Range Deriver::boundsOf(const SourceElement& source, const DerivativeBounds& bou
 Verdict Deriver::findByProducts(
   const SourceElement& source, double rounding, DerivedCell cell, Found& found) const
 {
-  const Derivation derivation(source, this->Blocks.quantity());
+  const Quantity quantity = this->Blocks.quantity();
+  const Derivation derivation(source, quantity, standInFor(quantity, source));
   const Degrees most = derivation.degreesAtMost();
   const bool isTooHigh =
     !derivation.isAffine() && *std::max_element(most.begin(), most.end()) > MostOfProducts;
@@ -268,6 +276,10 @@ Verdict Deriver::findByProducts(
     {
       return verdict;
     }
+    if (element.standIn == StandIn::Proof)
+    {
+      cell.exact = exactSource(source, quantity);
+    }
   }
   found.cells.push_back(std::move(cell));
   return Verdict::Keep;
@@ -278,10 +290,10 @@ Verdict Deriver::findBySamples(
   const SourceElement& source, double rounding, DerivedCell cell, Found& found) const
 {
   const std::vector<ReferencePart>& parts = this->Parts[static_cast<std::size_t>(source.domain)];
-  const bool hasExact = this->Blocks.quantity() == Quantity::Lambda2;
-  FieldSampler sampler(
-    source, this->Function, rounding, hasExact ? StandIn::Proof : StandIn::Surface);
+  const StandIn standIn = standInFor(this->Blocks.quantity(), source);
+  FieldSampler sampler(source, this->Function, rounding, standIn);
   Verdict verdict = Verdict::Drop;
+  ExactSource exact;
   for (std::size_t n = 0; n < parts.size(); ++n)
   {
     SampledPart sampled = sampler.sample(
@@ -310,9 +322,11 @@ Verdict Deriver::findBySamples(
       part.element = std::move(sampled.element);
       part.place = parts[n];
       part.isResolved = sampled.isResolved;
-      if (!part.isResolved && hasExact)
+      if (standIn == StandIn::Proof)
       {
-        part.exact = lambdaTwoSource(source, part.place);
+        exact = exact.coefficients.empty() ? exactSource(source, this->Blocks.quantity()) : exact;
+        part.exact = exact;
+        part.exact.field.part = part.place;
       }
       found.change = std::max(found.change, change);
     }
@@ -381,13 +395,13 @@ JacobianSign writeDerived(const DerivedCell& cell, Quantity quantity, double uni
   }
   if (element.exactField >= 0)
   {
-    LambdaTwoField& field = mesh.exactFields[element.exactField];
-    const std::size_t first = field.firstDerivative;
+    ExactField& field = mesh.exactFields[element.exactField];
+    const std::size_t first = field.firstCoefficient;
     field = cell.exact.field;
-    field.firstDerivative = first;
+    field.firstCoefficient = first;
     field.scale = std::ldexp(1.0, cell.exponent - unit);
-    std::copy(cell.exact.derivatives.begin(), cell.exact.derivatives.end(),
-      mesh.derivatives.begin() + static_cast<std::ptrdiff_t>(first));
+    std::copy(cell.exact.coefficients.begin(), cell.exact.coefficients.end(),
+      mesh.exactCoefficients.begin() + static_cast<std::ptrdiff_t>(first));
   }
   if (element.rational)
   {

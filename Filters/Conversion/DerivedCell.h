@@ -1,8 +1,8 @@
 #pragma once
 
 #include "Elements/DerivedField.h"
+#include "Elements/ExactField.h"
 #include "Elements/JacobianTest.h"
-#include "Elements/LambdaTwoField.h"
 #include "Elements/ReferencePart.h"
 
 namespace hop
@@ -18,8 +18,8 @@ struct DerivedCell
   int exponent = 0;
   /// The part of the cell.
   ReferencePart place;
-  /// The field itself, point by point, where it has one that the element does not hold; else without derivatives.
-  LambdaTwoSource exact;
+  /// The field itself, point by point, if it stands in for the element's wherever particles are; else without coefficients.
+  ExactSource exact;
   /// Whether the element holds the field to rounding, or to the tolerance of an interpolation.
   bool isResolved = true;
 };

@@ -25,7 +25,7 @@ struct Room
   std::size_t elements = 0;
   std::size_t coefficients = 0;
   std::size_t exactFields = 0;
-  std::size_t derivatives = 0;
+  std::size_t exactCoefficients = 0;
   bool anyRational = false;
 
   void add(const Room& other)
@@ -33,7 +33,7 @@ struct Room
     this->elements += other.elements;
     this->coefficients += other.coefficients;
     this->exactFields += other.exactFields;
-    this->derivatives += other.derivatives;
+    this->exactCoefficients += other.exactCoefficients;
     this->anyRational = this->anyRational || other.anyRational;
   }
 };
@@ -59,8 +59,8 @@ SkippedCells unresolvedCells(const JudgedCells& range)
 Room roomForExact(const JudgedCells& range, std::size_t i)
 {
   Room room;
-  room.derivatives = range.derived.empty() ? 0 : range.derived[i].exact.derivatives.size();
-  room.exactFields = room.derivatives > 0 ? 1 : 0;
+  room.exactCoefficients = range.derived.empty() ? 0 : range.derived[i].exact.coefficients.size();
+  room.exactFields = room.exactCoefficients > 0 ? 1 : 0;
   return room;
 }
 
@@ -78,6 +78,15 @@ struct KindOfCells
     return this->folded.size() >= leastToTell && this->folded.size() > this->sound.size();
   }
 };
+
+/// Parts of a cell stand one after the other.
+void addOnce(const BlockCell& where, std::vector<BlockCell>& cells)
+{
+  if (cells.empty() || cells.back().block != where.block || cells.back().cell != where.cell)
+  {
+    cells.push_back(where);
+  }
+}
 
 /// Builds elements of judged cells.
 class Builder
@@ -148,7 +157,7 @@ void Builder::makeElements(const std::vector<JudgedCells>& ranges)
   mesh.coefficients.resize(all.coefficients);
   mesh.weights.resize(all.anyRational ? all.coefficients : 0);
   mesh.exactFields.resize(all.exactFields);
-  mesh.derivatives.resize(all.derivatives);
+  mesh.exactCoefficients.resize(all.exactCoefficients);
   forAll(this->Parallel, ranges.size(),
     [&](std::size_t r) { this->makeElements(ranges[r], before[r]); });
 }
@@ -181,7 +190,7 @@ void Builder::makeElements(const JudgedCells& range, const Room& before)
     if (exact.exactFields > 0)
     {
       element.exactField = static_cast<int>(next.exactFields);
-      this->Result.mesh.exactFields[next.exactFields].firstDerivative = next.derivatives;
+      this->Result.mesh.exactFields[next.exactFields].firstCoefficient = next.exactCoefficients;
     }
     next.add(exact);
     this->Result.bases[before.elements + i] = range.kept[i].basis;
@@ -263,11 +272,11 @@ std::vector<KindOfCells> Builder::sortByKind(const std::vector<JacobianSign>& si
     const BlockCell where = this->Blocks.locate(this->Result.mesh.elements[e].cell);
     if (signs[e] == JacobianSign::Mixed)
     {
-      kind->folded.push_back(where);
+      addOnce(where, kind->folded);
     }
     else if (signs[e] == JacobianSign::Positive || signs[e] == JacobianSign::Negative)
     {
-      kind->sound.push_back(where);
+      addOnce(where, kind->sound);
     }
   }
   return kinds;

@@ -246,6 +246,33 @@ ScaledPolynomial nearestOfLowerDegree(ScaledPolynomial polynomial, int axis)
   return polynomial;
 }
 
+/// Largest change of a Bernstein coefficient by nearestOfLowerDegree().
+double changeToLowerDegree(const ScaledPolynomial& polynomial, int axis)
+{
+  const int n = polynomial.degrees[axis];
+  const int step = stepAlong(polynomial, axis);
+  double norm2 = 0.0;
+  for (int i = 0; i <= n; ++i)
+  {
+    norm2 += binomial(n, i) * binomial(n, i);
+  }
+  double largest = 0.0;
+  visitLines(polynomial, axis,
+    [&](const LatticePoint& start)
+    {
+      const double* line =
+        &polynomial.values[coefficientIndex(polynomial.domain, polynomial.degrees, start)];
+      double difference = 0.0;
+      for (int i = 0; i <= n; ++i)
+      {
+        difference += (i % 2 == 0 ? 1.0 : -1.0) * line[i * step];
+      }
+      largest = std::max(
+        largest, std::abs(difference) / multiplicity(polynomial.domain, polynomial.degrees, start));
+    });
+  return largest * binomial(n, n / 2) / norm2;
+}
+
 /// Whether some Bernstein coefficients of two polynomials of the same degrees differ by more than a tolerance.
 bool differ(const ScaledPolynomial& a, const ScaledPolynomial& b, double tolerance)
 {
@@ -260,6 +287,29 @@ bool differ(const ScaledPolynomial& a, const ScaledPolynomial& b, double toleran
       ++n;
     });
   return result;
+}
+
+/// Takes one degree away along an axis that is a factor of its own, if no coefficient changes by more than a tolerance.
+bool lowerAlong(int axis, double tolerance, ScaledPolynomial& polynomial)
+{
+  const bool isLower = !(changeToLowerDegree(polynomial, axis) > tolerance);
+  if (isLower)
+  {
+    polynomial = dividedByOneAlong(nearestOfLowerDegree(std::move(polynomial), axis), axis);
+  }
+  return isLower;
+}
+
+/// The same in a triangle or tetrahedron.
+bool lowerIn(const SimplexFactor& factor, double tolerance, ScaledPolynomial& polynomial)
+{
+  ScaledPolynomial lower = dividedByOne(polynomial, factor);
+  const bool isLower = !differ(elevated(lower, polynomial.degrees), polynomial, tolerance);
+  if (isLower)
+  {
+    polynomial = std::move(lower);
+  }
+  return isLower;
 }
 
 } // namespace
@@ -281,27 +331,27 @@ std::vector<double> unscaled(ScaledPolynomial polynomial)
   return std::move(polynomial.values);
 }
 
-ScaledPolynomial elevated(const ScaledPolynomial& polynomial, const Degrees& degrees)
+ScaledPolynomial elevated(ScaledPolynomial polynomial, const Degrees& degrees)
 {
-  const Degrees& have = polynomial.degrees;
-  const Degrees missing{ degrees[0] - have[0], degrees[1] - have[1], degrees[2] - have[2] };
-  return polynomial * one(polynomial.domain, missing);
+  for (const SimplexFactor& factor : facts(polynomial.domain).factors)
+  {
+    const int missing = degrees[factor.axis] - polynomial.degrees[factor.axis];
+    Degrees along{ 0, 0, 0 };
+    std::fill(along.begin() + factor.axis, along.begin() + factor.end(), missing);
+    polynomial = missing > 0 ? polynomial * one(polynomial.domain, along) : std::move(polynomial);
+  }
+  return polynomial;
 }
 
 ScaledPolynomial lowered(ScaledPolynomial polynomial, double tolerance)
 {
   for (const SimplexFactor& factor : facts(polynomial.domain).factors)
   {
-    while (polynomial.degrees[factor.axis] > 0)
+    bool isLower = true;
+    while (isLower && polynomial.degrees[factor.axis] > 0)
     {
-      ScaledPolynomial lower = factor.dimension == 1
-        ? dividedByOneAlong(nearestOfLowerDegree(polynomial, factor.axis), factor.axis)
-        : dividedByOne(polynomial, factor);
-      if (differ(elevated(lower, polynomial.degrees), polynomial, tolerance))
-      {
-        break;
-      }
-      polynomial = std::move(lower);
+      isLower = factor.dimension == 1 ? lowerAlong(factor.axis, tolerance, polynomial)
+                                      : lowerIn(factor, tolerance, polynomial);
     }
   }
   return polynomial;
@@ -356,11 +406,7 @@ ScaledPolynomial sumOf(const std::vector<std::pair<double, const ScaledPolynomia
   {
     if (!isZero(*term))
     {
-      const Degrees& have = term->degrees;
-      addProduct(factor, *term,
-        one(
-          domain, { sum.degrees[0] - have[0], sum.degrees[1] - have[1], sum.degrees[2] - have[2] }),
-        sum);
+      addProduct(factor, elevated(*term, sum.degrees), one(domain, { 0, 0, 0 }), sum);
     }
   }
   return sum;

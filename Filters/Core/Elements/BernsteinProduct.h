@@ -39,7 +39,7 @@ void addProduct(
 
 /// The same polynomial with higher degrees.
 /// \pre no degree is lower than the polynomial's
-ScaledPolynomial elevated(const ScaledPolynomial& polynomial, const Degrees& degrees);
+ScaledPolynomial elevated(ScaledPolynomial polynomial, const Degrees& degrees);
 
 /// A polynomial with the lowest degrees that hold it. Along lines of the domain each step is the best one in the sense of
 /// least squares: it takes away the Legendre polynomial of the highest degree. On triangles and tetrahedra steps

@@ -28,6 +28,9 @@ struct RoundingShare
   /// as far as this allows, in several steps. Smaller: bent elements of degree 4 cost up to ten times as much; larger:
   /// particles are off their isovalue by as much.
   static constexpr double Degree = 1e-12;
+  /// The same where particles stand on the field itself. Larger: components of the surface that are shallower than this
+  /// may be missed; smaller: cells take longer to split, with the third power of the degree.
+  static constexpr double DegreeOfProofs = 1e-8;
 };
 
 /// Highest degree that the products may have before their degrees are lowered. Larger: a cell takes seconds to derive.
@@ -77,10 +80,11 @@ ScaledPolynomial sumOfProducts(
 }
 
 /// A polynomial of the lowest degrees that change nothing that matters.
-ScaledPolynomial trimmed(ScaledPolynomial polynomial)
+/// \param share of the largest coefficient, that each step may change
+ScaledPolynomial trimmed(ScaledPolynomial polynomial, double share)
 {
   const double largest = hullOf(polynomial).magnitude();
-  return lowered(std::move(polynomial), RoundingShare::Degree * largest);
+  return lowered(std::move(polynomial), share * largest);
 }
 
 /// A face of a hexahedron or wedge across a line of its domain, where the line's coordinate is 0 or 1.
@@ -172,9 +176,10 @@ void cancelCollapsedFaces(ScaledPolynomial& numerator, ScaledPolynomial& denomin
 
 } // namespace
 
-Derivation::Derivation(const SourceElement& source, Quantity quantity)
+Derivation::Derivation(const SourceElement& source, Quantity quantity, StandIn standIn)
   : Source(source)
   , ItsQuantity(quantity)
+  , ItsStandIn(standIn)
   , Components(source.width - 3)
   , Weight(weightOf(source))
 {
@@ -224,8 +229,9 @@ Derivation::Columns Derivation::adjugate() const
 }
 
 /// The entries of G det(Y').
+/// \param share by which degrees are lowered; 0: they stay as they are
 std::vector<std::array<ScaledPolynomial, 3>> Derivation::gradientNumerators(
-  const Columns& adjugate, bool mayTrim) const
+  const Columns& adjugate, double share) const
 {
   std::vector<std::array<ScaledPolynomial, 3>> gradient(this->Components);
   for (int j = 0; j < 3; ++j)
@@ -239,7 +245,7 @@ std::vector<std::array<ScaledPolynomial, 3>> Derivation::gradientNumerators(
     {
       ScaledPolynomial entry = sumOfProducts({ { 1.0, &this->Field[0][i], &toWorld[0][0] },
         { 1.0, &this->Field[1][i], &toWorld[1][0] }, { 1.0, &this->Field[2][i], &toWorld[2][0] } });
-      gradient[i][j] = mayTrim ? trimmed(std::move(entry)) : std::move(entry);
+      gradient[i][j] = share > 0.0 ? trimmed(std::move(entry), share) : std::move(entry);
     }
   }
   return gradient;
@@ -346,17 +352,22 @@ DerivedElement Derivation::element() const
     RoundingShare::Map);
   // In a collapsed face numerator and denominator have to vanish alike.
   const bool isCollapsed = vanishesInSomeFace(determinant);
-  determinant = isCollapsed ? std::move(determinant) : trimmed(std::move(determinant));
-  ScaledPolynomial numerator = this->numerator(this->gradientNumerators(adjugate, !isCollapsed));
+  const bool isProof = this->ItsStandIn == StandIn::Proof && !isCollapsed && !this->isAffine();
+  const double share = isProof ? RoundingShare::DegreeOfProofs : RoundingShare::Degree;
+  determinant = isCollapsed ? std::move(determinant) : trimmed(std::move(determinant), share);
+  ScaledPolynomial numerator =
+    this->numerator(this->gradientNumerators(adjugate, isCollapsed ? 0.0 : share));
   ScaledPolynomial denominator =
     orderOf(this->ItsQuantity) == 2 ? determinant * determinant : std::move(determinant);
   if (isCollapsed)
   {
     cancelCollapsedFaces(numerator, denominator);
   }
-  numerator = trimmed(std::move(numerator));
-  denominator = trimmed(std::move(denominator));
-  return this->assemble(numerator, denominator);
+  numerator = trimmed(std::move(numerator), share);
+  denominator = trimmed(std::move(denominator), share);
+  DerivedElement result = this->assemble(numerator, denominator);
+  result.standIn = isProof ? StandIn::Proof : StandIn::Surface;
+  return result;
 }
 
 DerivedElement Derivation::assemble(

@@ -9,6 +9,15 @@
 namespace hop
 {
 
+/// What the polynomials of a derived element are for.
+enum class StandIn
+{
+  /// Particles stand on them: they are the field to rounding, or the best that is found.
+  Surface,
+  /// The surface is found with them; particles stand on the field itself. Lower degrees do.
+  Proof
+};
+
 /// An element with the derived field in the place of f.
 struct DerivedElement
 {
@@ -24,6 +33,7 @@ struct DerivedElement
   };
 
   State state = State::Singular;
+  StandIn standIn = StandIn::Surface;
   Degrees degrees{ 0, 0, 0 };
   /// In the order of coefficientIndex; homogeneous where there are weights.
   std::vector<Coefficient> coefficients;
@@ -43,7 +53,7 @@ class Derivation
 public:
   /// \param quantity not Value
   /// \pre the mean of the Jacobian is not singular: its determinant is not zero everywhere, nor does it change its sign
-  Derivation(const SourceElement& source, Quantity quantity);
+  Derivation(const SourceElement& source, Quantity quantity, StandIn standIn = StandIn::Surface);
 
   /// Bounds on the degrees of element(), from those of its factors.
   Degrees degreesAtMost() const;
@@ -51,7 +61,8 @@ public:
   /// Whether the map is affine, so that the field is a polynomial.
   bool isAffine() const;
 
-  /// \return its field is the quantity, or its square
+  /// \return its field is the quantity, or its square. It is for the surface also where the map is affine, as it is a
+  /// polynomial then, and where a face is collapsed: there only a quotient without common factors is finite.
   DerivedElement element() const;
 
 private:
@@ -59,13 +70,14 @@ private:
 
   Columns adjugate() const;
   std::vector<std::array<ScaledPolynomial, 3>> gradientNumerators(
-    const Columns& adjugate, bool mayTrim) const;
+    const Columns& adjugate, double share) const;
   ScaledPolynomial numerator(const std::vector<std::array<ScaledPolynomial, 3>>& gradient) const;
   DerivedElement assemble(
     const ScaledPolynomial& numerator, const ScaledPolynomial& denominator) const;
 
   SourceElement Source;
   Quantity ItsQuantity;
+  StandIn ItsStandIn;
   int Components;
   /// The inverse of the mean Jacobian. Derivatives are taken of y = Inverse x, whose Jacobian is about the identity:
   /// thin and stretched elements lose no accuracy.

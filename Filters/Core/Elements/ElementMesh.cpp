@@ -232,6 +232,28 @@ void findFaceNeighbors(
     });
 }
 
+Jet exactGradient(const ElementMesh& mesh, const Location& at)
+{
+  if (mesh.elements[at.element].exactField < 0)
+  {
+    return evaluateGradient(mesh.form(at.element), at.u);
+  }
+  const ExactField& field = mesh.exactField(at.element);
+  return exactGradient(mesh.elements[at.element].domain, field,
+    mesh.exactCoefficients.data() + field.firstCoefficient, at.u);
+}
+
+Jet exactHessian(const ElementMesh& mesh, const Location& at)
+{
+  if (mesh.elements[at.element].exactField < 0)
+  {
+    return evaluateHessian(mesh.form(at.element), at.u);
+  }
+  const ExactField& field = mesh.exactField(at.element);
+  return exactHessian(mesh.elements[at.element].domain, field,
+    mesh.exactCoefficients.data() + field.firstCoefficient, at.u);
+}
+
 double meshExtent(const ElementMesh& mesh)
 {
   glm::dvec3 lower(controlPoint(mesh.form(0), 0));

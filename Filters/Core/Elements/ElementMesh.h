@@ -2,7 +2,7 @@
 
 #include "Common/Monitor.h"
 #include "Elements/Bernstein.h"
-#include "Elements/LambdaTwoField.h"
+#include "Elements/ExactField.h"
 
 #include <cstdint>
 #include <limits>
@@ -52,9 +52,9 @@ struct ElementMesh
   /// As long as `coefficients`, or empty where no element is rational.
   std::vector<double> weights;
   /// Fields that stand in for those of polynomials wherever particles are; proofs are of the polynomials.
-  std::vector<LambdaTwoField> exactFields;
+  std::vector<ExactField> exactFields;
   /// The coefficients of exactFields.
-  std::vector<Coefficient> derivatives;
+  std::vector<Coefficient> exactCoefficients;
   /// MaximumFaces entries an element; empty until findFaceNeighbors has run.
   std::vector<FaceNeighbor> neighbors;
 
@@ -65,15 +65,10 @@ struct ElementMesh
       e.rational ? this->weights.data() + e.firstCoefficient : nullptr };
   }
 
-  /// The jet that evaluateHessian(form(element), u) gives, or evaluateGradient(), becomes that of the exact field.
-  void makeExact(int element, const ReferencePoint& u, Jet& jet) const
+  /// \pre the element has an exact field
+  const ExactField& exactField(int element) const
   {
-    const Element& e = this->elements[element];
-    if (e.exactField >= 0)
-    {
-      const LambdaTwoField& field = this->exactFields[e.exactField];
-      evaluateLambdaTwo(e.domain, field, this->derivatives.data() + field.firstDerivative, u, jet);
-    }
+    return this->exactFields[this->elements[element].exactField];
   }
 
   /// Leaves the elements without their fields.
@@ -82,7 +77,7 @@ struct ElementMesh
     this->coefficients = {};
     this->weights = {};
     this->exactFields = {};
-    this->derivatives = {};
+    this->exactCoefficients = {};
   }
 
   const Face& face(int element, int face) const
@@ -103,20 +98,10 @@ struct Location
   ReferencePoint u;
 };
 
-/// What particles stand on at a place: value and derivatives to first order, or to second, of the exact field.
-inline Jet exactGradient(const ElementMesh& mesh, const Location& at)
-{
-  Jet jet = evaluateGradient(mesh.form(at.element), at.u);
-  mesh.makeExact(at.element, at.u, jet);
-  return jet;
-}
-
-inline Jet exactHessian(const ElementMesh& mesh, const Location& at)
-{
-  Jet jet = evaluateHessian(mesh.form(at.element), at.u);
-  mesh.makeExact(at.element, at.u, jet);
-  return jet;
-}
+/// What particles stand on at a place: value and derivatives to first order, or to second, of the exact field if the
+/// element has one.
+Jet exactGradient(const ElementMesh& mesh, const Location& at);
+Jet exactHessian(const ElementMesh& mesh, const Location& at);
 
 /// Diagonal of the bounds of all control points, world units.
 /// \pre there are elements

@@ -20,7 +20,7 @@ MeshSize sumOf(const std::vector<MeshSize>& sizes, std::size_t count)
     sum.coefficients += sizes[r].coefficients;
     sum.weights += sizes[r].weights;
     sum.exactFields += sizes[r].exactFields;
-    sum.derivatives += sizes[r].derivatives;
+    sum.exactCoefficients += sizes[r].exactCoefficients;
     sum.cells += sizes[r].cells;
   }
   return sum;
@@ -53,13 +53,13 @@ void takeMesh(Exchange& exchange, const ElementMesh& mine, const std::vector<Mes
   // Where any rank has weights there is room for a weight of every coefficient.
   take(exchange, mine.weights,
     all.mesh.weights.data() + (size.weights > 0 ? before.coefficients : 0), size.weights, from);
-  LambdaTwoField* fields = all.mesh.exactFields.data() + before.exactFields;
+  ExactField* fields = all.mesh.exactFields.data() + before.exactFields;
   take(exchange, mine.exactFields, fields, size.exactFields, from);
-  take(exchange, mine.derivatives, all.mesh.derivatives.data() + before.derivatives,
-    size.derivatives, from);
+  take(exchange, mine.exactCoefficients,
+    all.mesh.exactCoefficients.data() + before.exactCoefficients, size.exactCoefficients, from);
   for (std::int64_t f = 0; f < size.exactFields; ++f)
   {
-    fields[f].firstDerivative += static_cast<std::size_t>(before.derivatives);
+    fields[f].firstCoefficient += static_cast<std::size_t>(before.exactCoefficients);
   }
   for (std::int64_t e = 0; e < size.elements; ++e)
   {
@@ -87,7 +87,7 @@ GatheredMesh roomFor(const std::vector<MeshSize>& sizes)
     all.mesh.coefficients.resize(sum.coefficients);
     all.mesh.weights.resize(sum.weights > 0 ? sum.coefficients : 0);
     all.mesh.exactFields.resize(sum.exactFields);
-    all.mesh.derivatives.resize(sum.derivatives);
+    all.mesh.exactCoefficients.resize(sum.exactCoefficients);
   }
   return all;
 }
@@ -100,7 +100,7 @@ void gatherMesh(Exchange& exchange, int worker, ElementMesh& mine,
     all.mesh.coefficients = std::move(mine.coefficients);
     all.mesh.weights = std::move(mine.weights);
     all.mesh.exactFields = std::move(mine.exactFields);
-    all.mesh.derivatives = std::move(mine.derivatives);
+    all.mesh.exactCoefficients = std::move(mine.exactCoefficients);
     all.mesh.elements = mine.elements;
     for (std::size_t e = 0; e < all.homes.size(); ++e)
     {
@@ -120,7 +120,7 @@ void gatherMesh(Exchange& exchange, int worker, ElementMesh& mine,
     sendArray(exchange, mine.coefficients.data(), mine.coefficients.size(), worker);
     sendArray(exchange, mine.weights.data(), mine.weights.size(), worker);
     sendArray(exchange, mine.exactFields.data(), mine.exactFields.size(), worker);
-    sendArray(exchange, mine.derivatives.data(), mine.derivatives.size(), worker);
+    sendArray(exchange, mine.exactCoefficients.data(), mine.exactCoefficients.size(), worker);
   }
 }
 
@@ -151,14 +151,14 @@ ElementMesh pickElements(const ElementMesh& mesh, const std::vector<int>& chosen
     element.firstCoefficient = picked.coefficients.size();
     if (element.exactField >= 0)
     {
-      LambdaTwoField field = mesh.exactFields[element.exactField];
+      ExactField field = mesh.exactFields[element.exactField];
       const auto first =
-        mesh.derivatives.begin() + static_cast<std::ptrdiff_t>(field.firstDerivative);
+        mesh.exactCoefficients.begin() + static_cast<std::ptrdiff_t>(field.firstCoefficient);
       element.exactField = static_cast<int>(picked.exactFields.size());
-      field.firstDerivative = picked.derivatives.size();
+      field.firstCoefficient = picked.exactCoefficients.size();
       picked.exactFields.push_back(field);
-      picked.derivatives.insert(picked.derivatives.end(), first,
-        first + static_cast<std::ptrdiff_t>(derivativeCount(element.domain, field)));
+      picked.exactCoefficients.insert(picked.exactCoefficients.end(), first,
+        first + static_cast<std::ptrdiff_t>(coefficientCount(element.domain, field)));
     }
     picked.elements.push_back(element);
     picked.coefficients.insert(

@@ -18,7 +18,7 @@ struct MeshSize
   /// 0 where no element is rational.
   std::int64_t weights = 0;
   std::int64_t exactFields = 0;
-  std::int64_t derivatives = 0;
+  std::int64_t exactCoefficients = 0;
   /// Cells of the input, with and without surface.
   std::int64_t cells = 0;
 };
@@ -30,7 +30,7 @@ inline MeshSize sizeOf(const ElementMesh& mesh, std::int64_t cells)
     static_cast<std::int64_t>(mesh.coefficients.size()),
     static_cast<std::int64_t>(mesh.weights.size()),
     static_cast<std::int64_t>(mesh.exactFields.size()),
-    static_cast<std::int64_t>(mesh.derivatives.size()), cells };
+    static_cast<std::int64_t>(mesh.exactCoefficients.size()), cells };
 }
 
 /// Where an element came from.

@@ -25,6 +25,8 @@ struct Sampling
   /// Largest error, of the largest value of the field on the part. Smaller: more parts of higher degrees; larger:
   /// particles are off their isovalue by as much.
   static constexpr double Tolerance = 1e-9;
+  /// The same where particles stand on the field itself.
+  static constexpr double ToleranceOfProofs = 1e-8;
   /// Largest error of the geometry, of its extent: where cells meet it opens gaps of this width.
   static constexpr double GeometryTolerance = 1e-11;
   /// How much larger than what was seen an error may be where a part is said to hold no surface.
@@ -39,8 +41,8 @@ struct Sampling
   /// 10, by NodalBasis::conversionNorm), and an evaluation costs as much as one of several parts.
   static constexpr int LowestDegree = 4;
   static constexpr int DegreeStep = 2;
-  /// Steps in a row that promise too little before a proof does without higher degrees. Fewer: polynomials just before
-  /// the degree that holds them are given up; more: creases cost more (derived_costs.py).
+  /// Steps in a row that promise too little before a proof does without higher degrees. Fewer: more components of lambda
+  /// 2 are missed (test_derived_components.py); more: creases cost more (derived_costs.py).
   static constexpr int PoorSteps = 2;
 };
 
@@ -370,7 +372,9 @@ void FieldSampler::judge(SampledPart& sampled, const Samples& checks) const
 /// Of the field, in its unit.
 double FieldSampler::toleranceOf(const Samples& checks) const
 {
-  return std::max(Sampling::Tolerance * largestField(checks), Sampling::Caution * this->Noise);
+  const double share =
+    this->ItsStandIn == StandIn::Proof ? Sampling::ToleranceOfProofs : Sampling::Tolerance;
+  return std::max(share * largestField(checks), Sampling::Caution * this->Noise);
 }
 
 SampledPart FieldSampler::sample(

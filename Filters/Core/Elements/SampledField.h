@@ -38,15 +38,6 @@ struct SampledPart
   bool canHoldSurface = true;
 };
 
-/// What a polynomial that does not hold its field is for.
-enum class StandIn
-{
-  /// Particles stand on it: it is the best that is found.
-  Surface,
-  /// Particles stand on the field itself: higher degrees are given up once they do not seem to reach the tolerance.
-  Proof
-};
-
 /// Fields of elements by interpolation, for what is no polynomial of low degree: on a part of the element the polynomial
 /// is taken that has the field's values at the nodes of a lattice, of the lowest degree that holds the field. The error is seen
 /// at points between the nodes, but not proven: a field that bends much faster between two of these points would be

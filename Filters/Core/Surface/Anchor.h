@@ -59,6 +59,12 @@ void evaluateInOrder(const ElementMesh& mesh, const std::vector<Location>& place
   for (std::ptrdiff_t first = begin; first < end;)
   {
     const int element = places[order[first]].element;
+    if (mesh.elements[element].exactField >= 0)
+    {
+      use(order[first], exactHessian(mesh, places[order[first]]));
+      ++first;
+      continue;
+    }
     std::ptrdiff_t last = first;
     for (; last < std::min(end, first + batchSize) && places[order[last]].element == element;
          ++last)
@@ -68,9 +74,7 @@ void evaluateInOrder(const ElementMesh& mesh, const std::vector<Location>& place
     evaluateHessians(mesh.form(element), points.data(), static_cast<int>(last - first), jets);
     for (std::ptrdiff_t n = first; n < last; ++n)
     {
-      Jet jet = jets.jet(static_cast<int>(n - first));
-      mesh.makeExact(element, points[n - first], jet);
-      use(order[n], jet);
+      use(order[n], jets.jet(static_cast<int>(n - first)));
     }
     first = last;
   }

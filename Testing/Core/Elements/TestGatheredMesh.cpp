@@ -86,13 +86,13 @@ void addExactFields(ElementMesh& mesh)
       control.insert(
         control.end(), { c.x, c.y, c.z, -c.y * double(e), c.x + c.z * c.y, c.z * c.x - c.w });
     }
-    const LambdaTwoSource exact =
-      lambdaTwoSource({ form.domain, form.degrees, 6, control, weights }, {});
+    const ExactSource exact =
+      exactSource({ form.domain, form.degrees, 6, control, weights }, Quantity::Lambda2);
     element.exactField = static_cast<int>(mesh.exactFields.size());
     mesh.exactFields.push_back(exact.field);
-    mesh.exactFields.back().firstDerivative = mesh.derivatives.size();
-    mesh.derivatives.insert(
-      mesh.derivatives.end(), exact.derivatives.begin(), exact.derivatives.end());
+    mesh.exactFields.back().firstCoefficient = mesh.exactCoefficients.size();
+    mesh.exactCoefficients.insert(
+      mesh.exactCoefficients.end(), exact.coefficients.begin(), exact.coefficients.end());
   }
 }
 

@@ -1,4 +1,4 @@
-#include "Elements/LambdaTwoField.h"
+#include "Elements/ExactField.h"
 
 #include "Elements/SampledField.h"
 #include "Elements/SymmetricEigenvalues.h"
@@ -46,10 +46,10 @@ struct VectorElement
       this->rational, 0.0 };
   }
 
-  /// Lambda 2 from the gradients of one component after the other.
-  double at(const ReferencePoint& u) const
+  /// The quantity from the gradients of one component after the other.
+  double at(Quantity quantity, const ReferencePoint& u) const
   {
-    return functionOf(Quantity::Lambda2)(vectorFieldAt(this->source(), u));
+    return functionOf(quantity)(vectorFieldAt(this->source(), u));
   }
 
   ElementCase element;
@@ -58,11 +58,19 @@ struct VectorElement
   std::vector<double> weights;
 };
 
-Jet jetOf(const VectorElement& some, const LambdaTwoSource& exact, const ReferencePoint& u)
+constexpr Quantity quantities[] = { Quantity::GradientMagnitude, Quantity::Divergence,
+  Quantity::VorticityMagnitude, Quantity::QCriterion, Quantity::Lambda2 };
+
+Jet jetOf(const VectorElement& some, const ExactSource& exact, const ReferencePoint& u)
 {
-  Jet jet;
-  evaluateLambdaTwo(some.element.domain, exact.field, exact.derivatives.data(), u, jet);
-  return jet;
+  return exactHessian(some.element.domain, exact.field, exact.coefficients.data(), u);
+}
+
+ExactSource exactPart(const VectorElement& some, Quantity quantity, const ReferencePart& part)
+{
+  ExactSource exact = exactSource(some.source(), quantity);
+  exact.field.part = part;
+  return exact;
 }
 
 ReferencePoint moved(ReferencePoint u, int axis, double step)
@@ -74,7 +82,7 @@ ReferencePoint moved(ReferencePoint u, int axis, double step)
 const ElementCase cases[] = { { Domain::Hexahedron, { 3, 2, 4 } },
   { Domain::Tetrahedron, { 4, 4, 4 } }, { Domain::Wedge, { 3, 3, 2 } } };
 
-TEST(LambdaTwoField, AgreesWithTheEigenvaluesOfTheGradient)
+TEST(ExactField, AgreesWithTheGradientPointByPoint)
 {
   Random random(31);
   for (const ElementCase& which : cases)
@@ -84,22 +92,25 @@ TEST(LambdaTwoField, AgreesWithTheEigenvaluesOfTheGradient)
       const VectorElement some(which, isRational,
         [&](const glm::dvec3&)
         { return glm::dvec3(randomNumber(random), randomNumber(random), randomNumber(random)); });
-      for (const ReferencePart& part : partsOf(which.domain, 1))
+      for (const Quantity quantity : quantities)
       {
-        LambdaTwoSource exact = lambdaTwoSource(some.source(), part);
-        EXPECT_EQ(exact.derivatives.size(), derivativeCount(which.domain, exact.field));
-        exact.field.scale = 0.25;
-        const ReferencePoint u =
-          insidePoint(which.domain, { random.uniform(), random.uniform(), random.uniform() });
-        const double expected = 0.25 * some.at(part.inWhole(u));
-        EXPECT_NEAR(jetOf(some, exact, u).value.w, expected, 1e-9 * (1.0 + std::abs(expected)))
-          << which << isRational;
+        for (const ReferencePart& part : partsOf(which.domain, 1))
+        {
+          ExactSource exact = exactPart(some, quantity, part);
+          EXPECT_EQ(exact.coefficients.size(), coefficientCount(which.domain, exact.field));
+          exact.field.scale = 0.25;
+          const ReferencePoint u =
+            insidePoint(which.domain, { random.uniform(), random.uniform(), random.uniform() });
+          const double expected = 0.25 * some.at(quantity, part.inWhole(u));
+          EXPECT_NEAR(jetOf(some, exact, u).value.w, expected, 1e-9 * (1.0 + std::abs(expected)))
+            << which << isRational << static_cast<int>(quantity);
+        }
       }
     }
   }
 }
 
-TEST(LambdaTwoField, HasTheDerivativesOfDifferences)
+TEST(ExactField, HasTheDerivativesOfDifferences)
 {
   Random random(32);
   constexpr double step = 1e-4;
@@ -109,29 +120,72 @@ TEST(LambdaTwoField, HasTheDerivativesOfDifferences)
       [](const glm::dvec3& x) {
         return glm::dvec3(std::sin(3.0 * x.y), x.z * x.z + 2.0 * x.x, std::cos(2.0 * x.x) * x.y);
       });
-    const ReferencePart part = partsOf(which.domain, 1)[4];
-    const LambdaTwoSource exact = lambdaTwoSource(some.source(), part);
-    for (int n = 0; n < 10; ++n)
+    for (int n = 0; n < 50; ++n)
     {
+      const ExactSource exact = exactPart(some, quantities[n % 5], partsOf(which.domain, 1)[4]);
       const ReferencePoint u =
         insidePoint(which.domain, { random.uniform(), random.uniform(), random.uniform() });
       const Jet here = jetOf(some, exact, u);
-      const glm::dmat3 hessian = hessianOf(here.second);
       for (int a = 0; a < 3; ++a)
       {
         const Jet after = jetOf(some, exact, moved(u, a, step));
         const Jet before = jetOf(some, exact, moved(u, a, -step));
-        const double scale = 1.0 + std::abs(hessian[a][a]);
-        EXPECT_NEAR(here.first[a].w, (after.value.w - before.value.w) / (2.0 * step), 1e-5 * scale);
-        const glm::dvec3 second = (gradientOf(after) - gradientOf(before)) / (2.0 * step);
-        EXPECT_LT(glm::distance(hessian[a], second), 1e-4 * scale) << which << a;
+        for (int c = 0; c < 4; ++c)
+        {
+          const glm::dmat3 hessian = hessianOf(here.second, c);
+          const double scale = 1.0 + std::abs(hessian[a][a]);
+          EXPECT_NEAR(
+            here.first[a][c], (after.value[c] - before.value[c]) / (2.0 * step), 1e-5 * scale);
+          for (int b = 0; b < 3; ++b)
+          {
+            const double second = (after.first[b][c] - before.first[b][c]) / (2.0 * step);
+            EXPECT_NEAR(hessian[a][b], second, 1e-4 * scale) << which << n << " " << a << b << c;
+          }
+        }
+      }
+      const Jet gradient = exactGradient(which.domain, exact.field, exact.coefficients.data(), u);
+      const double size = 1.0 + std::abs(here.value.w) + glm::length(gradientOf(here));
+      EXPECT_LT(glm::distance(gradient.value, here.value), 1e-11 * size);
+      for (int a = 0; a < 3; ++a)
+      {
+        EXPECT_LT(glm::distance(gradient.first[a], here.first[a]), 1e-11 * size);
       }
     }
   }
 }
 
+TEST(ExactField, HasThePlaceOfTheCell)
+{
+  Random random(33);
+  for (const ElementCase& which : cases)
+  {
+    const VectorElement some(which, true, [](const glm::dvec3& x) { return x; });
+    const ExactSource exact = exactPart(some, Quantity::Divergence, {});
+    const ReferencePoint u =
+      insidePoint(which.domain, { random.uniform(), random.uniform(), random.uniform() });
+    const FieldPoint expected = vectorFieldAt(some.source(), u);
+    EXPECT_LT(glm::distance(glm::dvec3(jetOf(some, exact, u).value), expected.x), 1e-14) << which;
+  }
+}
+
+TEST(ExactField, TakesTheGradientOfAScalar)
+{
+  const std::vector<double> weights;
+  std::vector<double> control;
+  for (const LatticePoint& point : latticePoints(Domain::Wedge, { 1, 1, 1 }))
+  {
+    const glm::dvec3 x = 2.0 * latticePosition({ 1, 1, 1 }, point).xyz;
+    control.insert(control.end(), { x.x, x.y, x.z, 3.0 * x.x - 2.0 * x.y + x.z });
+  }
+  const SourceElement source{ Domain::Wedge, { 1, 1, 1 }, 4, control, weights };
+  const ExactSource exact = exactSource(source, Quantity::GradientMagnitude);
+  const Jet jet =
+    exactHessian(Domain::Wedge, exact.field, exact.coefficients.data(), { { 0.2, 0.3, 0.4 } });
+  EXPECT_NEAR(jet.value.w, 14.0, 1e-13); // squared
+}
+
 /// A vortex with strain: eigenvalues are equal in its axis, or everywhere.
-TEST(LambdaTwoField, IsFiniteWhereEigenvaluesAreEqual)
+TEST(ExactField, IsFiniteWhereEigenvaluesAreEqual)
 {
   const ElementCase which{ Domain::Hexahedron, { 3, 3, 3 } };
   for (const double bend : { 0.0, 1.0 })
@@ -139,7 +193,7 @@ TEST(LambdaTwoField, IsFiniteWhereEigenvaluesAreEqual)
     const VectorElement some(which, false,
       [bend](const glm::dvec3& x)
       { return glm::dvec3(-x.y + bend * x.x * x.x, x.x, bend * x.z * x.y); });
-    const LambdaTwoSource exact = lambdaTwoSource(some.source(), {});
+    const ExactSource exact = exactPart(some, Quantity::Lambda2, {});
     for (const double t : { 0.0, 0.25, 0.5, 1.0 })
     {
       const Jet jet = jetOf(some, exact, { { t, t, t } });

@@ -1,0 +1,112 @@
+"""Derived fields of random polynomials: no component that a fine lattice sees is missed."""
+
+import cells
+import numpy as np
+import pytest
+import support
+from test_derived import derived, gradients_at
+
+FORMULA = "q_criterion(u) + 0.5*mag(curl(u)) - u_X"
+QUANTITIES = [
+    "Gradient Magnitude", "Divergence", "Vorticity Magnitude", "Q Criterion", "Lambda 2", "Expression",
+]  # fmt: skip
+# Cells of one kind, and the cubes of their lattices along an axis.
+KINDS = {"LAGRANGE_HEXAHEDRON": 24, "LAGRANGE_TETRAHEDRON": 28, "LAGRANGE_WEDGE": 26}
+
+
+def one_cell(name, bend, dice):
+    """A cell of order 3 with a random vector at its nodes."""
+    grid = cells.straight_grid(name, order=3)
+    ids = cells.ids_of(grid, 0)
+    points = support.points_of(grid)[ids]
+    points += bend * np.sin(2.0 * points[:, [1, 2, 0]] + dice.random(3))
+    grid = support.grid_of_cells(points, [(grid.GetCellType(0), range(len(ids)))])
+    support.add_point_array(grid, "u", dice.standard_normal((len(ids), 3)))
+    return grid
+
+
+def inside(name, u):
+    """Whether places are in the cell."""
+    coordinates = {"LAGRANGE_HEXAHEDRON": 0, "LAGRANGE_TETRAHEDRON": 3, "LAGRANGE_WEDGE": 2}[name]
+    return u[:, :coordinates].sum(axis=1) <= 1.0 + 1e-12
+
+
+def values_at(grid, quantity, u):
+    gradients = gradients_at(grid, "u", np.zeros(len(u), dtype=int), u)
+    if quantity != "Expression":
+        return derived(quantity, gradients)
+    cell, field = grid.GetCell(0), support.array_of(grid, "u")
+    weights = [0.0] * cell.GetNumberOfPoints()
+    first = np.zeros(len(u))
+    for i, place in enumerate(u):
+        cell.InterpolateFunctions(place, weights)
+        first[i] = np.dot(weights, field[:, 0])
+    return derived("Q Criterion", gradients) + 0.5 * derived("Vorticity Magnitude", gradients) - first
+
+
+def joined(crossed):
+    """Numbers of the groups of cubes that touch each other; 0 where a cube is not crossed."""
+    count = len(crossed)
+    labels = np.where(crossed, np.arange(1, crossed.size + 1).reshape(crossed.shape), 0)
+    while True:
+        padded = np.pad(labels, 1)
+        around = [
+            padded[i : i + count, j : j + count, k : k + count] for i in range(3) for j in range(3) for k in range(3)
+        ]
+        largest = np.where(crossed, np.max(around, axis=0), 0)
+        if (largest == labels).all():
+            return labels
+        labels = largest
+
+
+def components_on(name, value_at, count):
+    """The values at a lattice's points, and a function that numbers the components of an isosurface on its cubes."""
+    line = np.linspace(0.0, 1.0, count + 1)
+    u = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
+    within = inside(name, u)
+    values = np.full(len(u), np.nan)
+    values[within] = value_at(u[within])
+    values = values.reshape((count + 1,) * 3)
+    corners = [
+        values[i : i + count, j : j + count, k : k + count] for i in range(2) for j in range(2) for k in range(2)
+    ]
+    # Corners outside the cell are on no side.
+    with np.errstate(invalid="ignore"):
+        return values[np.isfinite(values)], lambda c: joined(
+            np.any([v < c for v in corners], axis=0) & np.any([v > c for v in corners], axis=0)
+        )
+
+
+def unseen(labels, u):
+    """Components without a particle in their cubes, or in one beside them."""
+    count = len(labels)
+    seen = np.zeros(labels.shape, dtype=bool)
+    at = np.clip((u * count).astype(int), 0, count - 1)
+    seen[tuple(at.T)] = True
+    padded = np.pad(seen, 1)
+    around = [padded[i : i + count, j : j + count, k : k + count] for i in range(3) for j in range(3) for k in range(3)]
+    near = np.any(around, axis=0)
+    return set(np.unique(labels[labels > 0])) - set(np.unique(labels[near & (labels > 0)]))
+
+
+@pytest.mark.parametrize("bend", [0.0, 0.08])
+@pytest.mark.parametrize("name", KINDS)
+@pytest.mark.parametrize("quantity", QUANTITIES)
+def test_no_component_is_missed(quantity, name, bend):
+    """Three random vectors, three isovalues each. Of lambda 2, which no polynomial holds beside its creases, one in
+    sixteen is missed: 17 of 264."""
+    dice = np.random.default_rng(7 * list(KINDS).index(name) + QUANTITIES.index(quantity))
+    components = missed = 0
+    for _ in range(3):
+        grid = one_cell(name, bend, dice)
+        values, numbered = components_on(name, lambda u, g=grid: values_at(g, quantity, u), KINDS[name])
+        for isovalue in np.quantile(values, dice.random(3)):
+            particles, messages = support.run(
+                grid, "u", isovalue, Quantity=quantity, Expression=FORMULA, Spacing=0.1, AngularDensity=0
+            )
+            assert messages.errors == []
+            labels = numbered(isovalue)
+            missed += len(unseen(labels, support.array_of(particles, "ParametricCoordinates")))
+            components += len(np.unique(labels)) - 1
+    assert components >= 9
+    assert missed <= (0.15 * components if quantity == "Lambda 2" else 0)
