@@ -52,13 +52,12 @@ Buffer<Particle> particlesOf(const ElementMesh& mesh, double isovalue)
   for (const Particle& particle : particles)
   {
     const double depth = 1.0 - end * particle.position.xyz[axis];
-    const auto isEnd = [&](const ClipPlane& plane)
-    {
-      return end * plane.normal.xyz[axis] > 0.99 && std::abs(plane.distance - depth) < 0.1 * spacing;
+    const auto isEnd = [&](const ClipPlane& plane) {
+      return end * plane.normal.xyz[axis] > 0.99 &&
+        std::abs(plane.distance - depth) < 0.1 * spacing;
     };
     nearCount += depth < 0.9 * spacing;
-    if (depth < 0.9 * spacing &&
-      std::none_of(particle.clips.begin(), particle.clips.end(), isEnd))
+    if (depth < 0.9 * spacing && std::none_of(particle.clips.begin(), particle.clips.end(), isEnd))
     {
       return ::testing::AssertionFailure() << depth << " from " << end << " on axis " << axis;
     }
