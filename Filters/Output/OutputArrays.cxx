@@ -3,7 +3,10 @@
 #include "Common/SplatColumns.h"
 #include "Conversion/CellBases.h"
 
+#include "vtkAbstractArray.h"
 #include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkInformationIntegerKey.h"
 
 #include <algorithm>
 #include <iterator>
@@ -353,6 +356,11 @@ bool isOwnPointArray(const std::string& name)
   const std::vector<ParticleArray>& table = particleArrays();
   return std::any_of(
     table.begin(), table.end(), [&](const ParticleArray& array) { return array.name == name; });
+}
+
+void hideInPanels(vtkAbstractArray& array)
+{
+  array.GetInformation()->Set(vtkAbstractArray::GUI_HIDE(), 1);
 }
 
 } // namespace hop

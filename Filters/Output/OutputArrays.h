@@ -10,6 +10,8 @@
 #include <variant>
 #include <vector>
 
+class vtkAbstractArray;
+
 namespace hop
 {
 
@@ -124,5 +126,8 @@ const std::vector<OutputArray>& describeOutputArrays();
 
 /// Whether particleArrays() has that name.
 bool isOwnPointArray(const std::string& name);
+
+/// ParaView is not to offer the array to colour by.
+void hideInPanels(vtkAbstractArray& array);
 
 } // namespace hop

@@ -1,6 +1,7 @@
 #include "Output/ParticlePacker.h"
 
 #include "Output/DerivativeArrays.h"
+#include "Output/FieldReports.h"
 #include "Output/OutputArrays.h"
 #include "Output/PointArrays.h"
 
@@ -14,7 +15,6 @@
 #include "vtkFloatArray.h"
 #include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
-#include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
@@ -90,58 +90,6 @@ void addReplaced(const InputBlock& block, const PassedArrays& passed, std::set<s
   }
 }
 
-/// Sums the reports of all isovalues.
-/// \param begin, end the cells of the block are those from begin to end - 1
-BlockReport reportOf(const std::vector<IsovalueParticles>& isovalues, const CellCensus& census,
-  std::int64_t begin, std::int64_t end)
-{
-  BlockReport result{ {}, census, {} };
-  DistributionReport& sum = result.sum;
-  std::set<std::int64_t> undecided;
-  for (const IsovalueParticles& some : isovalues)
-  {
-    const DistributionReport& report = some.distribution.report;
-    sum.evaluations += report.evaluations;
-    sum.iterations += report.iterations;
-    sum.boxesUndecided += report.boxesUndecided;
-    sum.singularPoints += report.singularPoints;
-    undecided.insert(report.undecidedCells.begin(), report.undecidedCells.end());
-    sum.particlesRejected += report.particlesRejected;
-    sum.particlesUndersampled += report.particlesUndersampled;
-    sum.facesReached += report.facesReached;
-    sum.facesEnded += report.facesEnded;
-  }
-  const auto last = undecided.lower_bound(end);
-  for (auto cell = undecided.lower_bound(begin); cell != last; ++cell)
-  {
-    result.undecidedCells.push_back(*cell - begin);
-  }
-  return result;
-}
-
-/// Sums the reports of all isovalues' meshes.
-MeshNumbers meshReportOf(const std::vector<IsovalueParticles>& isovalues, double unitOfLength)
-{
-  MeshNumbers sum;
-  for (const IsovalueParticles& some : isovalues)
-  {
-    sum.openLoops += some.mesh.openLoops;
-    sum.unusedParticles += some.mesh.unusedParticles;
-    sum.openLength += unitOfLength * some.mesh.openLength;
-    sum.straightNodes += some.mesh.straightNodes;
-    sum.components += some.mesh.components;
-    sum.unprovenComponents += some.mesh.unprovenComponents;
-    sum.isProven = sum.isProven && some.mesh.isProven;
-  }
-  return sum;
-}
-
-/// ParaView is not to offer an array to colour by.
-void hide(vtkAbstractArray* array)
-{
-  array->GetInformation()->Set(vtkAbstractArray::GUI_HIDE(), 1);
-}
-
 /// Whether all values of each component are the same.
 bool isConstant(vtkDataArray* array)
 {
@@ -166,10 +114,8 @@ public:
     , Block(block)
     , Grid(blocks[block].grid)
     , Scalars(blocks[block].scalars)
-    , FirstCell(blocks.firstCell(block))
     , Elements(elements)
     , Cells(blocks, block, elements)
-    , Census(elements.census[block])
     , Passed(passed)
     , Work(work)
     , Output(blocks[block].particles)
@@ -190,9 +136,7 @@ private:
   void addPointArrays();
   void addCellArrays();
   void copyCellData(const vtkIdType* cellIds, vtkIdType begin, vtkIdType end);
-  void addReport(const std::vector<IsovalueParticles>& isovalues);
-  void addMeshReport(const std::vector<IsovalueParticles>& isovalues);
-  void addComponents(const std::vector<IsovalueParticles>& isovalues);
+  void addFieldData(const std::vector<IsovalueParticles>& isovalues);
   template <class Array>
   vtkSmartPointer<Array> newArray(const std::string& name, int components) const;
   template <class Array, class Write>
@@ -206,10 +150,8 @@ private:
   std::size_t Block;
   vtkUnstructuredGrid* Grid;
   vtkDataArray* Scalars;
-  std::int64_t FirstCell;
   const GridElements& Elements;
   const RowCells Cells;
-  const CellCensus& Census;
   const PassedArrays& Passed;
   Interruptible& Work;
   vtkPointSet* Output;
@@ -242,9 +184,7 @@ void Packer::pack(const std::vector<IsovalueParticles>& isovalues)
       this->Blocks, this->Elements, this->Rows, this->Output->GetPointData(), std::ref(this->Work));
   }
   this->addCellArrays();
-  this->addReport(isovalues);
-  this->addMeshReport(isovalues);
-  this->addComponents(isovalues);
+  this->addFieldData(isovalues);
 }
 
 ForeignCorners Packer::foreignCorners() const
@@ -422,7 +362,7 @@ void Packer::addOwnArrays()
     }
     if (array.use == ArrayUse::Hidden)
     {
-      hide(this->Output->GetPointData()->GetAbstractArray(array.name));
+      hideInPanels(*this->Output->GetPointData()->GetAbstractArray(array.name));
     }
   }
   this->Output->GetPointData()->SetActiveNormals(NormalsArray);
@@ -520,113 +460,19 @@ void Packer::copyCellData(const vtkIdType* cellIds, vtkIdType begin, vtkIdType e
   this->Output->GetCellData()->CopyData(this->Grid->GetCellData(), cells, rows);
 }
 
-void Packer::addReport(const std::vector<IsovalueParticles>& isovalues)
+/// Passes the grid's field data, and tells of the run and of the mesh.
+void Packer::addFieldData(const std::vector<IsovalueParticles>& isovalues)
 {
   vtkFieldData* target = this->Output->GetFieldData();
   target->PassData(this->Grid->GetFieldData());
-  if (!this->Passed.diagnostics)
+  removeReports(target);
+  if (this->Passed.diagnostics)
   {
-    for (const ReportArray& row : reportArrays())
-    {
-      target->RemoveArray(row.name);
-    }
-    return;
+    addRunReport(isovalues, this->Blocks, this->Block, this->Elements.census[this->Block], target);
   }
-  const BlockReport report = reportOf(
-    isovalues, this->Census, this->FirstCell, this->FirstCell + this->Grid->GetNumberOfCells());
-  for (const ReportArray& row : reportArrays())
+  if (this->Content.nodesPerCell > 0)
   {
-    vtkNew<vtkIdTypeArray> array;
-    array->SetName(row.name);
-    hide(array);
-    for (const vtkIdType value : row.values(report))
-    {
-      array->InsertNextValue(value);
-    }
-    target->AddArray(array);
-  }
-}
-
-/// Tells, in any mesh, what it lacks.
-void Packer::addMeshReport(const std::vector<IsovalueParticles>& isovalues)
-{
-  vtkFieldData* target = this->Output->GetFieldData();
-  const MeshNumbers report = meshReportOf(isovalues, this->Elements.units.length);
-  for (const MeshReportArray& row : meshReportArrays())
-  {
-    target->RemoveArray(row.name);
-    if (this->Content.nodesPerCell == 0)
-    {
-      continue;
-    }
-    const auto add = [&](auto* array, auto value)
-    {
-      array->SetName(row.name);
-      hide(array);
-      array->InsertNextValue(value);
-      target->AddArray(array);
-    };
-    if (const auto* count = std::get_if<0>(&row.value))
-    {
-      add(vtkNew<vtkIdTypeArray>().Get(), static_cast<vtkIdType>((*count)(report)));
-    }
-    else
-    {
-      add(vtkNew<vtkDoubleArray>().Get(), std::get<1>(row.value)(report));
-    }
-  }
-}
-
-void append(std::int64_t value, vtkDataArray& to)
-{
-  to.InsertNextTuple1(static_cast<double>(value));
-}
-
-void append(double value, vtkDataArray& to)
-{
-  to.InsertNextTuple1(value);
-}
-
-void append(const glm::dvec3& value, vtkDataArray& to)
-{
-  to.InsertNextTuple3(value.x, value.y, value.z);
-}
-
-/// An empty array of ids, of numbers or of points.
-vtkSmartPointer<vtkDataArray> arrayFor(const ComponentArray& column)
-{
-  vtkSmartPointer<vtkDataArray> array;
-  array.TakeReference(std::holds_alternative<std::int64_t (*)(const ComponentRow&)>(column.value)
-      ? static_cast<vtkDataArray*>(vtkIdTypeArray::New())
-      : vtkDoubleArray::New());
-  array->SetName(column.name);
-  array->SetNumberOfComponents(
-    std::holds_alternative<glm::dvec3 (*)(const ComponentRow&)>(column.value) ? 3 : 1);
-  hide(array);
-  return array;
-}
-
-/// Tells what is known of each component of the mesh.
-void Packer::addComponents(const std::vector<IsovalueParticles>& isovalues)
-{
-  vtkFieldData* target = this->Output->GetFieldData();
-  for (const ComponentArray& column : componentArrays())
-  {
-    target->RemoveArray(column.name);
-    if (this->Content.nodesPerCell == 0)
-    {
-      continue;
-    }
-    const vtkSmartPointer<vtkDataArray> array = arrayFor(column);
-    for (const IsovalueParticles& some : isovalues)
-    {
-      for (const MeshComponent& component : some.mesh.parts)
-      {
-        const ComponentRow row{ component, some.isovalue, this->Elements.units.length };
-        std::visit([&](const auto& valueOf) { append(valueOf(row), *array); }, column.value);
-      }
-    }
-    target->AddArray(array);
+    addMeshReports(isovalues, this->Elements.units.length, target);
   }
 }
 

@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "Python"))
+sys.path.insert(0, str(Path(sys.argv[1]).parents[1] / "python3" / "dist-packages"))
 
 import numpy as np
 from paraview import simple

@@ -2,9 +2,7 @@
 //
 //   setup_benchmark FILE.vtu ARRAY ISOVALUE [REPETITIONS]
 //
-// Prints a line a number of threads: the best of the repetitions. A solver's 5,040 hexahedra and 696
-// wedges of degree 3, of which 953 can hold the surface: 12 ms on one thread (0.47 million cells a
-// second), 8.2 ms on two; stock Contour takes 106 ms in all.
+// Prints a line a number of threads: the best of the repetitions.
 
 #include "Common/VtkThreads.h"
 #include "Conversion/GridElements.h"

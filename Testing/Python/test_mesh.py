@@ -152,9 +152,21 @@ def test_a_mesh_with_creases_has_a_given_number_of_points(data, plugin):
     ("dolfinx_tet_p3.vtu", "u", 0.28722799),
 ])
 def test_all_open_edges_are_boundary_curves(data, plugin, file, array, value):
-    grid = support.read(data(file))
-    mesh = support.run(grid, array, value, OutputType="Triangles")[0]
-    assert mesh.GetNumberOfCells() > 1000
+    assert_closed(support.run(support.read(data(file)), array, value, OutputType="Triangles")[0])
+
+
+@pytest.mark.parametrize("value, seed", [
+    (2.5949207e-08, 1),  # a boundary curve that passes a corner between two cells, and was traced twice there
+    (-1.72853781e-08, 1),  # a particle inside the surface beside a boundary curve
+    (-1.72853781e-08, 2),
+])
+def test_boundaries_of_a_plate_of_some_particles_are_closed(data, plugin, value, seed):
+    grid = support.read(data("vtkdata_notch_quadratic_hex20_wedge15.vtu"))
+    assert_closed(support.run_quietly(grid, "Nodal Displacement", value, Component=1, OutputType="Triangles", Seed=seed))
+
+
+def assert_closed(mesh):
+    assert mesh.GetNumberOfCells() > 900
     assert support.reported(mesh, "MeshOpenLoops") == support.reported(mesh, "MeshUnusedParticles") == 0
     edges = np.sort(corners_of(mesh)[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
     assert np.unique(edges, axis=0, return_counts=True)[1].max() == 2
@@ -239,6 +251,21 @@ def test_topology_of_a_field_with_jumps_is_not_proven(data, plugin):
     report = support.output_of(mesh)
     assert support.reported(report, "TopologyProven") == 0
     assert support.reported(report, "ComponentsUnproven") > 0
+
+
+@pytest.mark.parametrize("value, components", [(1.75, 13), (2.75, 13), (3.75, 5), (4.75, 1)])
+def test_components_of_a_singular_surface_are_named(data, plugin, value, components):
+    """Extremes on edges of the cells, or a tangency: the mesh is closed, but nothing is proven."""
+    grid = support.read(data("vtkdata_pyramid_quadratic.vtu"))
+    mesh = support.run(grid, "Polynomial", value, OutputType="Triangles")[0]
+    assert_closed(mesh)
+    assert support.reported(mesh, "TopologyProven") == 0
+    assert support.reported(mesh, "ComponentsUnproven") == components
+    parts = components_of(mesh)
+    assert list(parts["Proven"]) == [0] * components
+    assert len(np.unique(parts["Point"], axis=0)) == components
+    apart = np.linalg.norm(points_of(mesh)[:, None] - parts["Point"], axis=2).min(axis=0)
+    assert apart.max() < 0.02  # each names a place on the surface
 
 
 def components_of(mesh):

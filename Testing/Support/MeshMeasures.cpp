@@ -15,6 +15,14 @@ namespace
 using Corners = std::array<int, 3>;
 constexpr double degreesPerRadian = 57.295779513082321;
 
+/// Whether the surface ends at a particle, to a twentieth of its spacing.
+bool isAtBoundary(const Particle& particle)
+{
+  return std::any_of(particle.clips.begin(), particle.clips.end(),
+    [&](const ClipPlane& plane)
+    { return plane.isBoundary() && plane.distance <= 0.05 * particle.spacing; });
+}
+
 /// The triangles with coincident particles as one vertex.
 class WeldedMesh
 {
@@ -26,15 +34,30 @@ public:
     {
       this->VertexOf.unite(a, b);
     }
+    for (std::size_t p = 0; p < distribution.particles.size(); ++p)
+    {
+      if (isAtBoundary(distribution.particles[p]))
+      {
+        this->BesideSegments.insert(this->VertexOf.root(static_cast<int>(p)));
+      }
+    }
     for (const auto& [a, b] : distribution.edges.segments)
     {
       this->Segments.insert(std::minmax(this->VertexOf.root(a), this->VertexOf.root(b)));
+      this->BesideSegments.erase(this->VertexOf.root(a));
+      this->BesideSegments.erase(this->VertexOf.root(b));
     }
     for (const Corners& triangle : triangles)
     {
       this->Triangles.push_back({ this->VertexOf.root(triangle[0]),
         this->VertexOf.root(triangle[1]), this->VertexOf.root(triangle[2]) });
     }
+  }
+
+  bool isBoundary(const std::pair<int, int>& edge) const
+  {
+    return this->Segments.count(edge) > 0 || this->BesideSegments.count(edge.first) > 0 ||
+      this->BesideSegments.count(edge.second) > 0;
   }
 
   void measure(MeshMeasures& measures)
@@ -59,7 +82,7 @@ public:
       if (corners.size() == 1)
       {
         ++measures.openEdges;
-        measures.holeEdges += this->Segments.count(edge) == 0;
+        measures.holeEdges += !this->isBoundary(edge);
         loops.unite(edge.first, edge.second);
         open.insert(edge.first);
       }
@@ -117,6 +140,8 @@ private:
   Sets VertexOf;
   std::vector<Corners> Triangles;
   std::set<std::pair<int, int>> Segments;
+  /// Particles on no segment at which the surface ends.
+  std::set<int> BesideSegments;
 };
 
 /// Degrees.

@@ -18,7 +18,8 @@ struct MeshMeasures
   /// Edges with one triangle, and the loops that they form.
   std::int64_t openEdges = 0;
   std::int64_t openLoops = 0;
-  /// Open edges that are none of Distribution::edges.
+  /// Open edges that are none of Distribution::edges, nor end at a particle that stands beside one, within a twentieth of
+  /// its spacing.
   std::int64_t holeEdges = 0;
   /// Vertices whose triangles form more than one fan.
   std::int64_t badVertices = 0;

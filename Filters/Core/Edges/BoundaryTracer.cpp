@@ -642,6 +642,18 @@ bool BoundaryTracer::replacesStart(const BoundaryVertex& last, const BoundaryVer
   return leadsToStart ? last.corner || start.corner : last.corner && isCut;
 }
 
+/// Remembers what is traced. A chord may lead past a corner of an element to another one, which has the rest of it. (Two
+/// elements whose surfaces jump have curves of their own.)
+void BoundaryTracer::addChord(const BoundaryPoint& from, const BoundaryPoint& to)
+{
+  this->Chords.add({ from, to });
+  const int there = to.at.location.element;
+  if (there != from.at.location.element && this->Surface.mesh->neighbor(there, to.face).element < 0)
+  {
+    this->Chords.add({ to, from });
+  }
+}
+
 /// Follows a boundary curve in one direction, and adds its vertices behind the start.
 /// \param direction 1 or -1, of velocity()
 /// \return whether the boundary curve came back to its start
@@ -650,12 +662,12 @@ bool BoundaryTracer::follow(const BoundaryPoint& start, double step, double dire
 {
   BoundaryPoint here = start;
   std::optional<Passed> before;
-  std::optional<BoundaryChords::Chord> lastChord;
+  std::optional<std::array<BoundaryPoint, 2>> lastChord;
   const auto addLast = [&]()
   {
     if (lastChord)
     {
-      this->Chords.add(*lastChord);
+      this->addChord((*lastChord)[0], (*lastChord)[1]);
     }
   };
   double chord = step;
@@ -681,7 +693,7 @@ bool BoundaryTracer::follow(const BoundaryPoint& start, double step, double dire
     // The last chord ends where this one begins, and is added only now: it would be met at once.
     const bool again = this->Chords.pass(next->leaving);
     addLast();
-    lastChord.emplace(here, next->arriving);
+    lastChord = { here, next->arriving };
     if (again)
     {
       addLast();

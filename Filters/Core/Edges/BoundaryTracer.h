@@ -211,6 +211,7 @@ private:
   bool replacesStart(const BoundaryVertex& last, const BoundaryVertex& start) const;
   bool follow(const BoundaryPoint& start, double step, double direction,
     std::vector<BoundaryVertex>& vertices, const ParallelFor& parallelFor);
+  void addChord(const BoundaryPoint& from, const BoundaryPoint& to);
   std::optional<BoundaryVertex> advanceAtMost(double& chord, double step, const Heading& heading);
   Ahead advance(const Heading& heading, double step);
   ReferenceVector predict(const Heading& heading, double step) const;

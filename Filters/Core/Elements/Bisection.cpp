@@ -1,5 +1,7 @@
 #include "Elements/Bisection.h"
 
+#include "Elements/KernelAccess.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -26,6 +28,14 @@ LatticeLines::LatticeLines(Domain domain, const Degrees& degrees, const LatticeP
     }
   }
   this->Begin.push_back(static_cast<int>(this->Index.size()));
+}
+
+void LatticeLines::bisect(Buffer<Coefficient>& coefficients, Buffer<Coefficient>& second) const
+{
+  second.resize(coefficients.size());
+  const kernel::Lines lines{ this->Begin.data(), this->Index.data(),
+    static_cast<std::ptrdiff_t>(this->Begin.size()) - 1 };
+  kernel::current().bisection(lines, &coefficients.front().x, &second.front().x);
 }
 
 double LatticeLines::variation(const std::vector<double>& coefficients) const

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Elements/Bernstein.h"
+#include "Support/Buffer.h"
 
 namespace hop
 {
@@ -18,6 +19,9 @@ public:
   /// \param second receives the coefficients of the other half
   template <class Value>
   void bisect(std::vector<Value>& coefficients, std::vector<Value>& second) const;
+
+  /// The same for coefficients of elements, by a kernel.
+  void bisect(Buffer<Coefficient>& coefficients, Buffer<Coefficient>& second) const;
 
   /// Sum of the absolute differences of neighbouring coefficients along the direction.
   double variation(const std::vector<double>& coefficients) const;
@@ -42,17 +46,17 @@ void LatticeLines::bisect(std::vector<Value>& coefficients, std::vector<Value>& 
     {
       line[i] = coefficients[where[i]];
     }
-    for (int step = 0; step < n; ++step)
+    for (int left = n - 1; left >= 0; --left)
     {
-      second[where[n - 1 - step]] = line[n - 1];
-      for (int i = n - 1; i > step; --i)
+      coefficients[where[n - 1 - left]] = line[0];
+      for (int k = 0; k < left; ++k)
       {
-        line[i] = 0.5 * (line[i] + line[i - 1]);
+        line[k] = 0.5 * (line[k] + line[k + 1]);
       }
     }
     for (int i = 0; i < n; ++i)
     {
-      coefficients[where[i]] = line[i];
+      second[where[i]] = line[i];
     }
   }
 }

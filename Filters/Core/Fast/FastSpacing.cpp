@@ -30,6 +30,9 @@ struct RoughProxy
   /// in flat cells, have boundary curves all the same. Chosen so that it does not matter elsewhere: a surface through n
   /// boxes of the size w with N > n particles has spacings of about w sqrt(n/N), above w n/N.
   static constexpr double LengthShare = 0.1;
+  /// Largest spacing for which its boxes are kept, in units of the one that they are made for, where elements as small as
+  /// boxes make them finer than the guess. Larger: more boxes than are needed; smaller: the surface is isolated twice.
+  static constexpr double Kept = 2.0;
 };
 
 } // namespace
@@ -89,7 +92,13 @@ double FastSystem::guessSpacing(double count)
   {
     length += box.size;
   }
-  return std::max(proxy.spacingFor(count), RoughProxy::LengthShare * length / count);
+  const double spacing =
+    std::max(proxy.spacingFor(count), RoughProxy::LengthShare * length / count);
+  if (spacing < RoughProxy::Kept * wide.spacing)
+  {
+    this->RoughBoxes = proxy.boxes();
+  }
+  return spacing;
 }
 
 /// Thins out the particles on boundary curves where they are more than a given number: their corners stay at any

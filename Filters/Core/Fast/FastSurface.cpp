@@ -125,8 +125,8 @@ SurfaceProxy FastSystem::proxyOfBoxesAt(const SizingFunction& sizing, double sha
 {
   const auto isFineEnough = [&](const SurfaceBox& box) { return this->isFineEnough(box, sizing); };
   const auto found = [&](double share) { this->Work.raiseFraction(shareOfRun * share); };
-  std::vector<SurfaceBox> boxes =
-    findSurfaceBoxes(this->Mesh, this->Surface.isovalue, isFineEnough, this->Parallel, found);
+  std::vector<SurfaceBox> boxes = findSurfaceBoxes(this->Mesh, this->Surface.isovalue, isFineEnough,
+    this->Parallel, found, this->RoughBoxes.empty() ? nullptr : &this->RoughBoxes);
   this->dropFarBeyondPolygon(boxes);
   SurfaceProxy proxy(this->Surface, this->Sizing, std::move(boxes), this->Parallel);
   this->Evaluations += proxy.evaluations();

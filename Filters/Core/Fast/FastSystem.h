@@ -153,6 +153,8 @@ protected:
   Interruptible Work;
   ParallelFor Parallel;
   FaceLocator Locator;
+  /// Boxes of the rough proxy that guessed the spacing of a given number, if they may be as fine as this wants them.
+  std::vector<SurfaceBox> RoughBoxes;
   std::unique_ptr<SurfaceProxy> Proxy;
   FaceJumps Jumps;
   BoundaryCurves Curves;

@@ -1,5 +1,7 @@
 #include "Isolation/ElementPieces.h"
 
+#include "Elements/KernelAccess.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +12,11 @@ namespace
 {
 
 constexpr Degrees cornerDegrees{ 1, 1, 1 };
+
+kernel::ComponentBounds boundsOf(const Buffer<Coefficient>& points)
+{
+  return kernel::current().bounds(&points.front().x, static_cast<std::ptrdiff_t>(points.size()));
+}
 
 /// For each edge along a direction, the storage indices of the lattice points on the edge.
 std::vector<std::vector<int>> edgeLines(
@@ -116,9 +123,8 @@ std::vector<double> Piece::values() const
 
 Range Piece::range() const
 {
-  const auto [lowest, highest] = std::minmax_element(this->coefficients.begin(),
-    this->coefficients.end(), [](const Coefficient& a, const Coefficient& b) { return a.w < b.w; });
-  return { lowest->w, highest->w };
+  const kernel::ComponentBounds bounds = boundsOf(this->coefficients);
+  return { bounds.lower[3], bounds.upper[3] };
 }
 
 Range Piece::cornerRange() const
@@ -177,16 +183,18 @@ bool Piece::isOnBoundary() const
 
 double Piece::worldSize() const
 {
-  const BernsteinForm form = this->form();
-  glm::dvec3 lower(controlPoint(form, 0));
-  glm::dvec3 upper = lower;
-  for (int i = 1; i < static_cast<int>(this->coefficients.size()); ++i)
+  Buffer<Coefficient> projected;
+  if (!this->weights.empty())
   {
-    const glm::dvec3 x(controlPoint(form, i));
-    lower = glm::min(lower, x);
-    upper = glm::max(upper, x);
+    projected.reserve(this->coefficients.size());
+    for (std::size_t i = 0; i < this->coefficients.size(); ++i)
+    {
+      projected.push_back(this->coefficients[i] / this->weights[i]);
+    }
   }
-  return glm::distance(lower, upper);
+  const auto [lower, upper] = boundsOf(projected.empty() ? this->coefficients : projected);
+  return glm::distance(
+    glm::dvec3(lower[0], lower[1], lower[2]), glm::dvec3(upper[0], upper[1], upper[2]));
 }
 
 Piece wholeElement(const ElementMesh& mesh, int element, double isovalue, const PieceKind& kind)

@@ -3,6 +3,7 @@
 #include "Elements/Bisection.h"
 #include "Elements/ElementMesh.h"
 #include "Isolation/MonotoneTest.h"
+#include "Support/Buffer.h"
 
 namespace hop
 {
@@ -37,7 +38,7 @@ struct Piece
   /// Outlives the piece.
   const PieceKind* kind = nullptr;
   /// Bernstein coefficients of (x, y, z, F - c), or of w (x, y, z, F - c) if the element is rational.
-  std::vector<Coefficient> coefficients;
+  Buffer<Coefficient> coefficients;
   /// Bernstein coefficients of w; empty if the element is not rational.
   std::vector<double> weights;
   /// Corners in the element's reference space, in storage order of the lattice of degree 1.

@@ -2,6 +2,7 @@
 
 #include "Isolation/ElementSplitter.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace hop
@@ -15,6 +16,48 @@ namespace
 constexpr std::size_t fewElements = 16;
 
 using IsSmall = std::function<bool(const SurfaceBox&)>;
+
+/// What is known of the boxes of elements before they are split.
+class KnownBoxes
+{
+public:
+  /// \param boxes nullptr: nothing is known. Outlives it
+  KnownBoxes(const std::vector<SurfaceBox>* boxes, std::size_t elementCount)
+    : Boxes(boxes)
+    , First(boxes ? elementCount + 1 : 0, 0)
+  {
+    for (std::size_t b = 0; boxes && b < boxes->size(); ++b)
+    {
+      this->First[(*boxes)[b].middle.element + 1] = b + 1;
+    }
+    for (std::size_t e = 1; e < this->First.size(); ++e)
+    {
+      this->First[e] = std::max(this->First[e], this->First[e - 1]);
+    }
+  }
+
+  /// Appends the boxes of an element, unless they are not known, or one is not certified or not fine enough. An element
+  /// that had no boxes has no surface.
+  /// \return whether the element is done
+  bool take(int element, const IsSmall& isFineEnough, std::vector<SurfaceBox>& boxes) const
+  {
+    if (!this->Boxes)
+    {
+      return false;
+    }
+    const auto first = this->Boxes->begin() + static_cast<std::ptrdiff_t>(this->First[element]);
+    const auto last = this->Boxes->begin() + static_cast<std::ptrdiff_t>(this->First[element + 1]);
+    const bool isDone = std::all_of(
+      first, last, [&](const SurfaceBox& box) { return box.certified && isFineEnough(box); });
+    boxes.insert(boxes.end(), first, isDone ? last : first);
+    return isDone;
+  }
+
+private:
+  const std::vector<SurfaceBox>* Boxes;
+  /// Index of the first box of each element, then the number of boxes.
+  std::vector<std::size_t> First;
+};
 
 /// Boxes of all elements in one list.
 std::vector<SurfaceBox> joined(const std::vector<std::vector<SurfaceBox>>& ofElement)
@@ -32,23 +75,29 @@ std::vector<SurfaceBox> joined(const std::vector<std::vector<SurfaceBox>>& ofEle
 /// Splits elements one after the other, each by all threads.
 /// \param progress is told how many elements are done
 std::vector<SurfaceBox> splitInTurn(const ElementMesh& mesh, double isovalue,
-  const IsSmall& isFineEnough, const ParallelFor& parallelFor, const ReportProgress& progress)
+  const IsSmall& isFineEnough, const KnownBoxes& known, const ParallelFor& parallelFor,
+  const ReportProgress& progress)
 {
   std::vector<SurfaceBox> boxes;
   const PreparedKinds kinds(mesh, isovalue);
   ElementSplitter splitter(mesh, isovalue, kinds, isFineEnough);
   for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
   {
-    splitter.split(
-      e, parallelFor, [&, e](double share) { progress(e + share); }, boxes);
+    if (!known.take(e, isFineEnough, boxes))
+    {
+      splitter.split(
+        e, parallelFor, [&, e](double share) { progress(e + share); }, boxes);
+    }
     progress(e + 1);
   }
   return boxes;
 }
 
-/// Splits many elements at a time, each by one thread, and then those that take long by all threads. Parameters are those of splitInTurn.
+/// Splits many elements at a time, each by one thread, and then those that take long by all threads. Parameters are those
+/// of splitInTurn.
 std::vector<SurfaceBox> splitAtOnce(const ElementMesh& mesh, double isovalue,
-  const IsSmall& isFineEnough, const ParallelFor& parallelFor, const ReportProgress& progress)
+  const IsSmall& isFineEnough, const KnownBoxes& known, const ParallelFor& parallelFor,
+  const ReportProgress& progress)
 {
   const PreparedKinds kinds(mesh, isovalue);
   std::atomic<int> done{ 0 };
@@ -60,7 +109,9 @@ std::vector<SurfaceBox> splitAtOnce(const ElementMesh& mesh, double isovalue,
       ElementSplitter splitter(mesh, isovalue, kinds, isFineEnough);
       for (std::ptrdiff_t e = begin; e < end; ++e)
       {
-        isLong[e] = !splitter.splitIfShort(static_cast<int>(e), ofElement[e]);
+        const int element = static_cast<int>(e);
+        isLong[e] = !known.take(element, isFineEnough, ofElement[e]) &&
+          !splitter.splitIfShort(element, ofElement[e]);
         if (!isLong[e])
         {
           progress(++done);
@@ -91,13 +142,15 @@ std::vector<SurfaceBox> findSurfaceBoxes(
 }
 
 std::vector<SurfaceBox> findSurfaceBoxes(const ElementMesh& mesh, double isovalue,
-  const IsSmall& isFineEnough, const ParallelFor& parallelFor, const ReportProgress& progress)
+  const IsSmall& isFineEnough, const ParallelFor& parallelFor, const ReportProgress& progress,
+  const std::vector<SurfaceBox>* known)
 {
+  const KnownBoxes knownBoxes(known, mesh.elements.size());
   const auto reportElements = [&](double done)
   { report(progress, done / static_cast<double>(mesh.elements.size())); };
   return mesh.elements.size() < fewElements
-    ? splitInTurn(mesh, isovalue, isFineEnough, parallelFor, reportElements)
-    : splitAtOnce(mesh, isovalue, isFineEnough, parallelFor, reportElements);
+    ? splitInTurn(mesh, isovalue, isFineEnough, knownBoxes, parallelFor, reportElements)
+    : splitAtOnce(mesh, isovalue, isFineEnough, knownBoxes, parallelFor, reportElements);
 }
 
 } // namespace hop

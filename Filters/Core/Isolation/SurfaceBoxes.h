@@ -19,8 +19,10 @@ std::vector<SurfaceBox> findSurfaceBoxes(
 /// The same with a size that depends on the box.
 /// \param isFineEnough whether a certified box is small enough; called from several threads
 /// \param progress receives the share of the work that is done, 0 to 1; called from several threads
+/// \param known boxes of the same surface that were found before, in the order of the elements: an element all of whose
+///   boxes are certified and fine enough keeps them. nullptr: there are none
 std::vector<SurfaceBox> findSurfaceBoxes(const ElementMesh& mesh, double isovalue,
   const std::function<bool(const SurfaceBox&)>& isFineEnough, const ParallelFor& parallelFor,
-  const std::function<void(double)>& progress = {});
+  const std::function<void(double)>& progress = {}, const std::vector<SurfaceBox>* known = nullptr);
 
 } // namespace hop

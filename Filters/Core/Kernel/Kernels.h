@@ -142,6 +142,44 @@ struct PlaneCell
 /// \return an area that means nothing, and a huge reach, where they do not surround the origin
 using PlaneCellFunction = PlaneCell (*)(const FlatPoints&, const CellBend&);
 
+/// Lines of an element's lattice along one direction: where each begins in `index`, then where the last ends.
+struct Lines
+{
+  const std::int32_t* begin;
+  /// Of coefficients, line after line; no line is longer than MaximumDegree + 1.
+  const std::int32_t* index;
+  std::ptrdiff_t count;
+};
+
+/// Bisects a polynomial at the middle of each line, by de Casteljau's algorithm.
+/// \param coefficients x, y, z, f of one after the other; replaced by those of the half at the start of the lines
+/// \param second receives the coefficients of the other half
+using BisectionFunction = void (*)(const Lines&, double* coefficients, double* second);
+
+/// Smallest and largest x, y, z, f.
+struct ComponentBounds
+{
+  double lower[4];
+  double upper[4];
+};
+
+/// \param coefficients x, y, z, f of one after the other
+/// \param count > 0
+using BoundsFunction = ComponentBounds (*)(const double* coefficients, std::ptrdiff_t count);
+
+/// From a to b, counterclockwise around the origin.
+struct FlatSegment
+{
+  double ax, ay;
+  double bx, by;
+};
+
+/// Writes for each point a number that is positive if the line from the origin to the point crosses one of the segments
+/// between its ends, else zero.
+/// \param hidden room for points.count numbers
+using HiddenFunction = void (*)(const FlatPoints& points, const FlatSegment* segments,
+  std::ptrdiff_t segmentCount, double* hidden);
+
 struct Kernels
 {
   DomainKernels hexahedron;
@@ -150,6 +188,9 @@ struct Kernels
   SweepFunction sweep;
   NearFunction near;
   PlaneCellFunction planeCell;
+  BisectionFunction bisection;
+  BoundsFunction bounds;
+  HiddenFunction hidden;
 };
 
 Kernels baselineKernels();

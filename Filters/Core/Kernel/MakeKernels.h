@@ -1,6 +1,8 @@
 #pragma once
 
+#include "Kernel/Hidden.h"
 #include "Kernel/Jets.h"
+#include "Kernel/Lines.h"
 #include "Kernel/Near.h"
 #include "Kernel/PlaneCell.h"
 #include "Kernel/Sweep.h"
@@ -166,7 +168,8 @@ constexpr Kernels makeKernels()
   return { makeDomainKernels<Hexahedron, PointLanes, ComponentLanes>(),
     makeDomainKernels<Tetrahedron, PointLanes, ComponentLanes>(),
     makeDomainKernels<Wedge, PointLanes, ComponentLanes>(), sweepBlocks, findNear<PointLanes>,
-    measurePlaneCell<PointLanes> };
+    measurePlaneCell<PointLanes>, bisectLines<ComponentLanes>, boundComponents<ComponentLanes>,
+    findHidden<PointLanes> };
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "Mesh/ConstrainedEdges.h"
 
 #include "Mesh/EdgeChains.h"
+#include "Mesh/EdgeSplitting.h"
 
 #include <algorithm>
 #include <cmath>
@@ -82,6 +83,7 @@ ConstrainedEdges::ConstrainedEdges(const Distribution& distribution)
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   closeChains(distribution.particles, edges);
+  splitAtParticles(distribution, edges);
   this->set(edges, distribution.particles.size());
 }
 
@@ -103,15 +105,18 @@ void ConstrainedEdges::set(const std::vector<Edge>& edges, std::size_t particleC
   }
 }
 
-void ConstrainedEdges::replace(const Edge& edge, const Edge& by, std::size_t particleCount)
+void ConstrainedEdges::change(
+  const std::set<Edge>& removed, const std::set<Edge>& added, std::size_t particleCount)
 {
-  std::vector<Edge> edges;
+  std::vector<Edge> edges(added.begin(), added.end());
   for (int particle = 0; particle < static_cast<int>(this->IsOnEdge.size()); ++particle)
   {
     for (const int next : this->after(particle))
     {
-      const Edge one{ particle, next };
-      edges.push_back(one == edge ? by : one);
+      if (removed.count({ particle, next }) == 0)
+      {
+        edges.push_back({ particle, next });
+      }
     }
   }
   std::sort(edges.begin(), edges.end());

@@ -4,6 +4,7 @@
 #include "Surface/Particles.h"
 
 #include <array>
+#include <set>
 #include <vector>
 
 namespace hop
@@ -18,9 +19,9 @@ public:
 
   explicit ConstrainedEdges(const Distribution& distribution);
 
-  /// \pre the first edge is there
-  /// \param particleCount more than the indices of the second edge's ends
-  void replace(const Edge& edge, const Edge& by, std::size_t particleCount);
+  /// \param particleCount more than the indices of all edges' ends
+  void change(
+    const std::set<Edge>& removed, const std::set<Edge>& added, std::size_t particleCount);
 
   bool empty() const { return this->IsOnEdge.empty(); }
   /// The ends of the edges that begin at a particle, ascending.

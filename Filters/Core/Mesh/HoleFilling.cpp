@@ -76,7 +76,7 @@ public:
   void fillAll()
   {
     this->Loops = findOpenLoops(this->Particles, this->Edges, this->Fans, this->Parallel);
-    this->cutAtPinches();
+    cutAtPinches(this->Particles, this->Loops);
     this->sortLoops();
     this->findLoose();
     this->prepareWalks();
@@ -130,57 +130,6 @@ private:
     return sum / 3.0;
   }
 
-  /// Twice the area of a loop as seen from where the normals of its particles point to: negative around a piece of the
-  /// mesh.
-  double areaOf(const std::vector<int>& loop) const
-  {
-    glm::dvec3 area(0.0), normal(0.0);
-    for (std::size_t n = 0; n < loop.size(); ++n)
-    {
-      const glm::dvec3 a = this->at(loop[n]) - this->at(loop[0]);
-      const glm::dvec3 b = this->at(loop[n + 1 < loop.size() ? n + 1 : 0]) - this->at(loop[0]);
-      area += glm::cross(a, b);
-      normal += this->normalOf(loop[n]);
-    }
-    return glm::dot(area, normal);
-  }
-
-  /// Takes a part of a loop that begins and ends at the same particle, if this part and the rest are holes: they only
-  /// touch there.
-  std::optional<std::vector<int>> takePinched(std::vector<int>& loop) const
-  {
-    for (auto last = loop.begin(); last != loop.end(); ++last)
-    {
-      const auto first = std::find(loop.begin(), last, *last);
-      std::vector<int> part(first, last);
-      std::vector<int> rest(loop.begin(), first);
-      rest.insert(rest.end(), last, loop.end());
-      if (part.size() >= 3 && rest.size() >= 3 && this->areaOf(part) > 0.0 &&
-        this->areaOf(rest) > 0.0)
-      {
-        loop = std::move(rest);
-        return part;
-      }
-    }
-    return std::nullopt;
-  }
-
-  void cutAtPinches()
-  {
-    for (std::size_t n = 0; n < this->Loops.size(); ++n)
-    {
-      while (this->Loops[n].isClosed)
-      {
-        auto part = this->takePinched(this->Loops[n].particles);
-        if (!part)
-        {
-          break;
-        }
-        this->Loops.push_back({ std::move(*part), true });
-      }
-    }
-  }
-
   void sortLoops()
   {
     for (std::size_t n = 0; n < this->Loops.size(); ++n)
@@ -188,7 +137,8 @@ private:
       const OpenLoop& loop = this->Loops[n];
       if (loop.isClosed && loop.edgeCount() <= Hole::MostEdges)
       {
-        const bool isHole = loop.particles.size() >= 3 && this->areaOf(loop.particles) > 0.0;
+        const bool isHole =
+          loop.particles.size() >= 3 && areaInside(this->Particles, loop.particles) > 0.0;
         (isHole ? this->Holes : this->Islands).push_back(n);
         for (const int particle : isHole ? loop.particles : std::vector<int>())
         {

@@ -101,9 +101,47 @@ std::vector<int> verticesWithSeveralFans(const TriangleFans& fans, const Paralle
   return markedIndices(isTouched, isTouched.size());
 }
 
+/// Constrained edges that are exchanged one by one, and written all at once.
+class ChangedEdges
+{
+public:
+  explicit ChangedEdges(const ConstrainedEdges& edges)
+    : Edges(edges)
+  {
+  }
+
+  bool has(const ConstrainedEdges::Edge& edge) const
+  {
+    return this->Added.count(edge) > 0 ||
+      (this->Edges.has(edge[0], edge[1]) && this->Removed.count(edge) == 0);
+  }
+
+  /// \pre the first edge is there
+  void replace(const ConstrainedEdges::Edge& edge, const ConstrainedEdges::Edge& by)
+  {
+    if (this->Added.erase(edge) == 0)
+    {
+      this->Removed.insert(edge);
+    }
+    this->Added.insert(by);
+  }
+
+  void writeTo(ConstrainedEdges& edges, std::size_t particleCount) const
+  {
+    if (!this->Added.empty())
+    {
+      edges.change(this->Removed, this->Added, particleCount);
+    }
+  }
+
+private:
+  const ConstrainedEdges& Edges;
+  std::set<ConstrainedEdges::Edge> Removed, Added;
+};
+
 /// Moves a fan of triangles, and the edges at which it begins and ends, from one vertex to another.
 void moveFan(
-  const TriangleFans::Fan& fan, int from, int to, ConstrainedEdges& edges, TriangleFans& fans)
+  const TriangleFans::Fan& fan, int from, int to, ChangedEdges& edges, TriangleFans& fans)
 {
   for (const LinkEdge& edge : fan)
   {
@@ -112,8 +150,8 @@ void moveFan(
   }
   const int begin = fan.front().from;
   const int end = fan.back().to;
-  edges.replace({ from, begin }, { to, begin }, fans.vertexCount());
-  edges.replace({ end, from }, { end, to }, fans.vertexCount());
+  edges.replace({ from, begin }, { to, begin });
+  edges.replace({ end, from }, { end, to });
 }
 
 /// \return whether triangles were removed
@@ -229,22 +267,25 @@ std::vector<std::array<int, 2>> splitFans(ConstrainedEdges& edges, Buffer<Partic
   TriangleFans& fans, const ParallelFor& parallelFor)
 {
   std::vector<std::array<int, 2>> copies;
+  ChangedEdges changed(edges);
   for (const int vertex : verticesWithSeveralFans(fans, parallelFor))
   {
     const std::vector<TriangleFans::Fan> all = fansAt(vertex, fans);
     const auto kept = largestOf(all);
     for (auto fan = all.cbegin(); fan != all.cend(); ++fan)
     {
-      if (fan != kept && edges.has(vertex, fan->front().from) && edges.has(fan->back().to, vertex))
+      if (fan != kept && changed.has({ vertex, fan->front().from }) &&
+        changed.has({ fan->back().to, vertex }))
       {
         const int copy = static_cast<int>(particles.size());
         particles.push_back(Particle(particles[vertex]));
         fans.appendVertex();
-        moveFan(*fan, vertex, copy, edges, fans);
+        moveFan(*fan, vertex, copy, changed, fans);
         copies.push_back({ vertex, copy });
       }
     }
   }
+  changed.writeTo(edges, fans.vertexCount());
   return copies;
 }
 
@@ -253,13 +294,13 @@ bool keepOneFan(TriangleFans& fans, const ParallelFor& parallelFor)
   return keepOneFanAt(verticesWithSeveralFans(fans, parallelFor), fans);
 }
 
-void keepManifold(
+std::vector<Triangle> keepManifold(
   const std::vector<int>& places, TriangleFans& fans, const ParallelFor& parallelFor)
 {
-  const std::vector<Triangle> triangles = fans.triangles(parallelFor);
+  std::vector<Triangle> triangles = fans.triangles(parallelFor);
   if (isManifold(places, triangles))
   {
-    return;
+    return triangles;
   }
   WeldedFans welded(places);
   std::vector<char> isAdded;
@@ -276,6 +317,7 @@ void keepManifold(
       fans.remove(triangles[t]);
     }
   }
+  return fans.triangles(parallelFor);
 }
 
 } // namespace hop

@@ -25,7 +25,8 @@ bool keepOneFan(TriangleFans& fans, const ParallelFor& parallelFor);
 /// Makes a mesh a manifold with boundary also where particles in one place are one vertex. Of triangles on one side of an
 /// edge the first stays: where many creases meet within a spacing, those of several sheets may end in the same two places.
 /// \param places for each particle the first one in its place
-void keepManifold(
+/// \return all triangles, as TriangleFans::triangles()
+std::vector<Triangle> keepManifold(
   const std::vector<int>& places, TriangleFans& fans, const ParallelFor& parallelFor);
 
 } // namespace hop

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
+#include <utility>
 
 namespace hop
 {
@@ -126,7 +128,57 @@ private:
   std::map<int, std::vector<int>> Ends;
 };
 
+/// Takes a part of a loop that begins and ends at the same particle, if this part and the rest are holes.
+std::optional<std::vector<int>> takePinched(
+  const Buffer<Particle>& particles, std::vector<int>& loop)
+{
+  for (auto last = loop.begin(); last != loop.end(); ++last)
+  {
+    const auto first = std::find(loop.begin(), last, *last);
+    std::vector<int> part(first, last);
+    std::vector<int> rest(loop.begin(), first);
+    rest.insert(rest.end(), last, loop.end());
+    if (part.size() >= 3 && rest.size() >= 3 && areaInside(particles, part) > 0.0 &&
+      areaInside(particles, rest) > 0.0)
+    {
+      loop = std::move(rest);
+      return part;
+    }
+  }
+  return std::nullopt;
+}
+
 } // namespace
+
+double areaInside(const Buffer<Particle>& particles, const std::vector<int>& loop)
+{
+  const auto at = [&](int particle) { return particles[particle].position.xyz; };
+  glm::dvec3 area(0.0), normal(0.0);
+  for (std::size_t n = 0; n < loop.size(); ++n)
+  {
+    const glm::dvec3 a = at(loop[n]) - at(loop[0]);
+    const glm::dvec3 b = at(loop[n + 1 < loop.size() ? n + 1 : 0]) - at(loop[0]);
+    area += glm::cross(a, b);
+    normal += particles[loop[n]].normal.xyz;
+  }
+  return glm::dot(area, normal);
+}
+
+void cutAtPinches(const Buffer<Particle>& particles, std::vector<OpenLoop>& loops)
+{
+  for (std::size_t n = 0; n < loops.size(); ++n)
+  {
+    while (loops[n].isClosed)
+    {
+      auto part = takePinched(particles, loops[n].particles);
+      if (!part)
+      {
+        break;
+      }
+      loops.push_back({ std::move(*part), true });
+    }
+  }
+}
 
 std::vector<OpenLoop> findOpenLoops(const Buffer<Particle>& particles,
   const ConstrainedEdges& edges, const TriangleFans& fans, const ParallelFor& parallelFor)

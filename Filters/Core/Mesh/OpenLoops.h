@@ -25,4 +25,11 @@ struct OpenLoop
 std::vector<OpenLoop> findOpenLoops(const Buffer<Particle>& particles,
   const ConstrainedEdges& edges, const TriangleFans& fans, const ParallelFor& parallelFor);
 
+/// Twice the area that a loop encloses as seen from where the normals of its particles point to: negative around a piece
+/// of the mesh.
+double areaInside(const Buffer<Particle>& particles, const std::vector<int>& loop);
+
+/// Cuts closed loops that pass a particle twice in two, if both parts are holes: they only touch there.
+void cutAtPinches(const Buffer<Particle>& particles, std::vector<OpenLoop>& loops);
+
 } // namespace hop

@@ -75,11 +75,8 @@ SurfaceMesh meshSurface(const Isosurface& surface, Distribution& distribution,
   }
   joinLooseParticles(neighbors, edges, fans);
   const std::vector<int> places = firstInPlace(distribution.edges, distribution.particles.size());
-  if (!distribution.edges.coincident.empty())
-  {
-    keepManifold(places, fans, parallel);
-  }
-  mesh.triangles = fans.triangles(parallel);
+  mesh.triangles = distribution.edges.coincident.empty() ? fans.triangles(parallel)
+                                                         : keepManifold(places, fans, parallel);
   countOpen(distribution, edges, fans, mesh, parallel);
   mesh.unusedParticles = countUnused(places, fans);
   return mesh;

@@ -1,5 +1,7 @@
 #include "Mesh/TangentView.h"
 
+#include "Kernel/InstructionSet.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -189,7 +191,7 @@ void TangentView::lookAtEdges()
   std::size_t kept = 0;
   for (std::size_t n = 0; n < neighbors.size(); ++n)
   {
-    if (!this->IsCrossed[n] || !this->isHidden(neighbors[n]))
+    if (this->Crossed[n] <= 0.0 || !this->isHidden(neighbors[n]))
     {
       neighbors[kept++] = neighbors[n];
     }
@@ -197,35 +199,29 @@ void TangentView::lookAtEdges()
   neighbors.resize(kept);
 }
 
-/// Marks the places behind edges as crosses() tells, that is with the ends of edges where these are rounded: without a
-/// branch, so that compilers make vectors of it.
+/// Marks the places behind edges as crosses() tells, that is with the ends of edges where these are rounded.
 void TangentView::findCrossed()
 {
-  const std::size_t count = this->Neighbors.size();
+  const std::size_t used = this->Neighbors.size();
+  const std::size_t count =
+    kernel::MaximumLanes * ((used + kernel::MaximumLanes - 1) / kernel::MaximumLanes);
   this->X.resize(count);
   this->Y.resize(count);
-  this->IsCrossed.assign(count, 0);
-  for (std::size_t n = 0; n < count; ++n)
+  this->Crossed.resize(count);
+  for (std::size_t n = 0; n < used; ++n)
   {
     this->X[n] = this->Neighbors[n].place.x;
     this->Y[n] = this->Neighbors[n].place.y;
   }
-  const double* const x = this->X.data();
-  const double* const y = this->Y.data();
-  std::int64_t* const isCrossed = this->IsCrossed.data();
-  for (const FlatEdge& edge : this->FlatEdges)
+  this->Segments.clear();
+  for (const auto& [from, to] : this->FlatEdges)
   {
-    const glm::dvec2 a = edge.from.place;
-    const glm::dvec2 b = edge.to.place;
-    const glm::dvec2 along = b - a;
-    for (std::size_t n = 0; n < count; ++n)
-    {
-      const bool isAfter = a.x * y[n] - a.y * x[n] > 0.0;
-      const bool isBefore = x[n] * b.y - y[n] * b.x > 0.0;
-      const bool isBeyond = along.x * (y[n] - a.y) - along.y * (x[n] - a.x) < 0.0;
-      isCrossed[n] |= static_cast<std::int64_t>(isAfter & isBefore & isBeyond);
-    }
+    this->Segments.push_back({ from.place.x, from.place.y, to.place.x, to.place.y });
   }
+  kernel::current().hidden({ this->X.data(), this->Y.data(), static_cast<std::ptrdiff_t>(used),
+                             static_cast<std::ptrdiff_t>(count) },
+    this->Segments.data(), static_cast<std::ptrdiff_t>(this->Segments.size()),
+    this->Crossed.data());
 }
 
 bool TangentView::isHidden(const FlatNeighbor& neighbor) const

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "Kernel/Kernels.h"
 #include "Mesh/ConstrainedEdges.h"
 #include "Mesh/TangentPlane.h"
 #include "Support/SpacedPoints.h"
@@ -7,7 +8,6 @@
 
 #include <glm/glm.hpp>
 
-#include <cstdint>
 #include <vector>
 
 namespace hop
@@ -117,9 +117,9 @@ private:
   /// The neighbours whose edges are collected; edges that end at them, which may begin at others.
   std::vector<int> EdgesCollected;
   std::vector<FlatEdge> IncomingEdges;
-  /// The neighbours' places, and whether the way to them crosses an edge.
-  std::vector<double> X, Y;
-  std::vector<std::int64_t> IsCrossed;
+  /// The neighbours' places, and, more than zero, that the way to them crosses one of the edges.
+  std::vector<double> X, Y, Crossed;
+  std::vector<kernel::FlatSegment> Segments;
   /// The other ends of the edges at the middle.
   std::vector<FlatNeighbor> Ends;
   /// Their memory only grows.

@@ -11,11 +11,11 @@ namespace
 struct SplitLimits
 {
   /// Coefficients of all boxes, over all levels, and between which bounds the number of boxes stays: a third of a
-  /// second at most. Chosen by experiment. Larger: more elements in which sheets nearly meet are resolved; smaller:
-  /// elements that are singular along lines take less time.
+  /// second at most. Chosen by experiment. Larger: more elements in which sheets nearly meet are resolved, and thinner
+  /// discs; smaller: elements that are singular along lines take less time.
   static constexpr std::size_t Coefficients = std::size_t{ 1 } << 23;
   static constexpr std::size_t FewestBoxes = 2048;
-  static constexpr std::size_t MostBoxes = 16384;
+  static constexpr std::size_t MostBoxes = 65536;
   /// Size of a leaf, in units of the smallest one, from which it is not split because the field is the isovalue at
   /// one of its corners, to rounding: where the surface is singular, all leaves at this corner would be like it. Smaller:
   /// fewer components pass unresolved leaves, and elements that are singular along edges or in faces take longer: 2 ms

@@ -295,6 +295,29 @@ TEST_P(OpenCover, ReachesTheBoundaryAndStaysEven)
   EXPECT_NEAR(static_cast<double>(result.particles.size()), expected, 0.05 * expected);
 }
 
+/// Where two planes meet at a face between elements. The paper refines there (its section 4.3); Classic does not.
+TEST(ClassicDistribution, IsEvenAcrossACreaseAndNoDenserThere)
+{
+  for (const double angle : { 15.0, 30.0, 60.0 })
+  {
+    SCOPED_TRACE(angle);
+    const double slope = std::tan(glm::radians(0.5 * angle));
+    MeshRecipe recipe;
+    recipe.field = [=](const glm::dvec3& x)
+    { return x.z - 0.11 + slope * (std::abs(x.x) + 0.3 * x.y); };
+    const ElementMesh mesh = makeMesh(recipe);
+    const Distribution even = distribute(mesh, withSpacing(0.1));
+    const Distribution denser = distribute(mesh, withSpacing(0.1, 10.0));
+    EXPECT_EQ(denser.particles.size(), even.particles.size());
+    EXPECT_GE(smallest(nearestSpacings(even.particles)), 0.6);
+    const auto nearCrease = std::count_if(even.particles.begin(), even.particles.end(),
+      [](const Particle& p) { return std::abs(p.position.xyz.x) < 0.2; });
+    const double share =
+      static_cast<double>(nearCrease) / static_cast<double>(even.particles.size());
+    EXPECT_NEAR(share, 0.2, 0.03);
+  }
+}
+
 TEST(ClassicDistribution, DependsOnTheSeedAndNotOnThreads)
 {
   MeshRecipe recipe;

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -160,6 +161,41 @@ TEST(SurfaceBoxes, AreTheSameForAnyNumberOfThreads)
     EXPECT_EQ(threaded[i].middle.element, serial[i].middle.element);
     EXPECT_EQ(threaded[i].middle.u.xyz, serial[i].middle.u.xyz);
     EXPECT_EQ(threaded[i].size, serial[i].size);
+  }
+}
+
+TEST(SurfaceBoxes, AreKeptWhereTheyAreKnownAndFineEnough)
+{
+  MeshRecipe recipe;
+  recipe.degrees = { 3, 3, 3 };
+  recipe.map = wavyMap(0.15);
+  recipe.field = gyroid(0.7);
+  for (const int cells : { 2, 4 }) // 64 elements are split in another loop than a few
+  {
+    SCOPED_TRACE(cells);
+    recipe.cells = cells;
+    const ElementMesh mesh = makeMesh(recipe);
+    std::atomic<int> asked{ 0 };
+    // Coarse, but not at one end.
+    const auto isFineEnough = [&](const SurfaceBox& box)
+    {
+      ++asked;
+      return box.size < (positionAt(mesh, box.middle).x < 0.0 ? 0.3 : 0.1);
+    };
+    const std::vector<SurfaceBox> found = findSurfaceBoxes(mesh, 0.1, isFineEnough, {});
+    const int askedAtFirst = asked.exchange(0);
+    const std::vector<SurfaceBox> coarse = findSurfaceBoxes(mesh, 0.1, 0.3, {});
+    const auto refined = findSurfaceBoxes(mesh, 0.1, isFineEnough, threadedFor(4), {}, &coarse);
+    EXPECT_LT(asked, askedAtFirst);
+    ASSERT_EQ(refined.size(), found.size());
+    for (std::size_t b = 0; b < found.size(); ++b)
+    {
+      EXPECT_EQ(refined[b].middle.element, found[b].middle.element);
+      EXPECT_EQ(refined[b].middle.u.xyz, found[b].middle.u.xyz);
+    }
+    asked = 0;
+    EXPECT_EQ(findSurfaceBoxes(mesh, 0.1, isFineEnough, {}, {}, &found).size(), found.size());
+    EXPECT_EQ(asked, static_cast<int>(found.size()));
   }
 }
 

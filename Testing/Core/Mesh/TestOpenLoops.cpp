@@ -37,6 +37,35 @@ TEST(OpenLoops, KeepToOneHoleWhereTwoTouch)
   EXPECT_EQ(loops[1].particles.size(), 3u);
 }
 
+/// Particles of two triangular holes that meet in the particle 0.
+Buffer<Particle> bowTie()
+{
+  return particlesAt({ { 0, 0 }, { 1, -0.4 }, { 1, 0.4 }, { -1, 0.4 }, { -1, -0.4 } });
+}
+
+TEST(OpenLoops, AreCutWhereTwoHolesTouch)
+{
+  const Buffer<Particle> particles = bowTie();
+  std::vector<OpenLoop> loops{ { { 1, 2, 0, 3, 4, 0 }, true } };
+  cutAtPinches(particles, loops);
+  ASSERT_EQ(loops.size(), 2u);
+  EXPECT_EQ(loops[0].particles, (std::vector<int>{ 1, 2, 0 }));
+  EXPECT_EQ(loops[1].particles, (std::vector<int>{ 0, 3, 4 }));
+  EXPECT_TRUE(loops[1].isClosed);
+  EXPECT_NEAR(areaInside(particles, loops[0].particles), 2.4, 1e-12); // three normals, twice 0.4
+}
+
+TEST(OpenLoops, AreNotCutWhereAPartSurroundsAPieceOrIsOpen)
+{
+  const Buffer<Particle> particles = bowTie();
+  const std::vector<int> withPiece{ 1, 2, 0, 4, 3, 0 };
+  std::vector<OpenLoop> loops{ { withPiece, true }, { { 1, 2, 0, 3, 4, 0 }, false } };
+  EXPECT_LT(areaInside(particles, { 0, 4, 3 }), 0.0);
+  cutAtPinches(particles, loops);
+  ASSERT_EQ(loops.size(), 2u);
+  EXPECT_EQ(loops[0].particles, withPiece);
+}
+
 TEST(OpenLoops, AreNotAtTheEndOfTheSurface)
 {
   FlatSheet sheet({ { { 0, 0 }, { 0.1, 0 }, { 0, 0.1 } } }, 0.1);

@@ -193,6 +193,56 @@ TEST(SurfaceMesh, ClosesOverCreasesThatMeet)
   EXPECT_NEAR(areas[2] / areas[0], 1.0, 1e-4);
 }
 
+/// Two boxes that meet in x = 0, each with a field of its own.
+ElementMesh halves(const Field& left, const Field& right)
+{
+  MeshRecipe recipe;
+  ElementMesh elements;
+  recipe.field = left;
+  appendBox(elements, recipe, { -1, -1, -1 }, { 0, 1, 1 });
+  recipe.field = right;
+  appendBox(elements, recipe, { 0, -1, -1 }, { 1, 1, 1 });
+  findFaceNeighbors(elements, 1e-9);
+  return elements;
+}
+
+TEST(SurfaceMesh, ClosesOverACreaseThatIsClosedInItsFace)
+{
+  // Half a ball and the cap of a paraboloid on its circle.
+  for (const double r : { 0.5, 0.13, 0.06 })
+  {
+    SCOPED_TRACE(r);
+    const Field ball = [r](const glm::dvec3& x) { return glm::dot(x, x) - r * r; };
+    const Field cap = [r](const glm::dvec3& x) { return x.y * x.y + x.z * x.z - r * r + r * x.x; };
+    const Meshed meshed = meshWithCreases(halves(ball, cap), 0.08, {}, 10.0);
+    expectBorders(meshed, 0, 2);
+    EXPECT_GE(meshed.distribution.edges.coincident.size(), 3u);
+    // The area of the paraboloid: pi / 6 (5^1.5 - 1) r^2.
+    const double area = (2.0 + (5.0 * std::sqrt(5.0) - 1.0) / 6.0) * 3.141592653589793 * r * r;
+    EXPECT_NEAR(measureMesh(meshed.distribution, meshed.mesh.triangles).area / area, 1.0, 0.05);
+  }
+}
+
+TEST(SurfaceMesh, KeepsBranchesOfACreaseApartAtASaddle)
+{
+  // The crease is the hyperbola y z = c, whose branches come within sqrt(8 c) of each other: less than a chord of theirs.
+  constexpr double a = 0.03, b = 0.3;
+  for (const double c : { 2e-5, 5e-5, 2e-4 })
+  {
+    SCOPED_TRACE(c);
+    const ElementMesh elements =
+      halves([&](const glm::dvec3& x) { return x.y * x.z - c + a * x.x; },
+        [&](const glm::dvec3& x) { return x.y * x.z - c + b * x.x; });
+    const Meshed meshed = meshWithCreases(elements, 0.04, {}, 10.0);
+    const MeshMeasures measures = measureMesh(meshed.distribution, meshed.mesh.triangles);
+    EXPECT_FALSE(meshed.distribution.edges.coincident.empty());
+    EXPECT_EQ(measures.badEdges, 0);
+    EXPECT_EQ(measures.holeEdges, 0);
+    EXPECT_EQ(meshed.mesh.openLoops, 0);
+    EXPECT_EQ(meshed.mesh.unusedParticles, 0);
+  }
+}
+
 TEST(SurfaceMesh, IsTheSameOverCreasesForAnyNumberOfThreads)
 {
   const ElementMesh elements = polyhedron();

@@ -1,0 +1,184 @@
+#include "Mesh/EdgeSplitting.h"
+
+#include "Mesh/TangentPlane.h"
+#include "Support/SpacedPoints.h"
+#include "Support/SpacingGrid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace hop
+{
+namespace
+{
+
+using Edge = std::array<int, 2>;
+
+/// When a particle stands on an edge, lengths in units of its spacing. Chosen by experiment.
+struct OnEdge
+{
+  /// Largest distance from the boundary, and to the left of the chord. Larger: edges go back from the boundary; smaller:
+  /// triangles there are turned away where the surface bends.
+  static constexpr double Near = 0.05;
+  /// Largest distance to the right of the chord: how far curves bulge.
+  static constexpr double Beyond = 0.3;
+  /// Least cosine between the normals, as of neighbours in a star.
+  static constexpr double Cosine = 0.3;
+  /// Longest edge.
+  static constexpr double Reach = 2.4;
+};
+
+class EdgeSplitter
+{
+public:
+  EdgeSplitter(const Distribution& distribution, std::vector<Edge>& edges)
+    : Particles(distribution.particles)
+    , Edges(edges)
+    , IsOnEdge(distribution.particles.size(), 0)
+    , IsDouble(distribution.particles.size(), 0)
+  {
+    mark(edges, this->IsOnEdge);
+    mark(distribution.edges.coincident, this->IsDouble);
+  }
+
+  void run()
+  {
+    this->findCandidates();
+    if (!this->Candidates.empty())
+    {
+      this->findEdges();
+      this->split();
+    }
+  }
+
+private:
+  /// Where a particle stands.
+  struct Place
+  {
+    double aside = std::numeric_limits<double>::infinity();
+    Edge edge{ -1, -1 };
+    /// Share of the way along the edge.
+    double share = 0.0;
+  };
+
+  static void mark(const std::vector<Edge>& pairs, std::vector<char>& marks)
+  {
+    for (const auto& [a, b] : pairs)
+    {
+      marks[a] = marks[b] = 1;
+    }
+  }
+
+  void findCandidates()
+  {
+    for (std::size_t i = 0; i < this->Particles.size(); ++i)
+    {
+      const Particle& particle = this->Particles[i];
+      const bool isAtBoundary = std::any_of(particle.clips.begin(), particle.clips.end(),
+        [&](const ClipPlane& plane)
+        { return plane.isBoundary() && plane.distance <= OnEdge::Near * particle.spacing; });
+      if (isAtBoundary && !this->IsOnEdge[i])
+      {
+        this->Candidates.push_back(static_cast<int>(i));
+      }
+    }
+  }
+
+  bool mayBeSplit(const Edge& edge) const
+  {
+    return !(this->IsDouble[edge[0]] && this->IsDouble[edge[1]]) &&
+      !std::binary_search(this->Edges.begin(), this->Edges.end(), Edge{ edge[1], edge[0] });
+  }
+
+  void findEdges()
+  {
+    this->Places.resize(this->Candidates.size());
+    const auto particleAt = [this](std::size_t c) -> const Particle&
+    { return this->Particles[this->Candidates[c]]; };
+    const SpacedPoints points(
+      this->Candidates.size(), [&](std::size_t c) { return particleAt(c).position.xyz; },
+      [&](std::size_t c) { return particleAt(c).spacing; }, {});
+    const SpacingGrid grid(points.positions, points.spacings, OnEdge::Reach);
+    for (const Edge& edge : this->Edges)
+    {
+      if (this->mayBeSplit(edge))
+      {
+        const Particle& first = this->Particles[edge[0]];
+        grid.visit(first.position.xyz, first.spacing, [&](int c) { this->offer(c, edge); });
+      }
+    }
+  }
+
+  /// Takes the edge for a candidate if it is the nearest so far.
+  void offer(int candidate, const Edge& edge)
+  {
+    const Particle& here = this->Particles[this->Candidates[candidate]];
+    const Particle& first = this->Particles[edge[0]];
+    const Particle& last = this->Particles[edge[1]];
+    if (std::min(dot(here.normal, first.normal), dot(here.normal, last.normal)) < OnEdge::Cosine)
+    {
+      return;
+    }
+    const TangentPlane plane(here.position.xyz, glm::vec3(here.normal.xyz), here.spacing);
+    const glm::dvec2 start = plane.flat(first.position.xyz);
+    const glm::dvec2 along = plane.flat(last.position.xyz) - start;
+    const double length = glm::length(along);
+    const double share = glm::dot(-start, along) / (length * length);
+    const double left = crossOf(along, -start) / length;
+    const bool isOn = share > 0.0 && share < 1.0 && length <= OnEdge::Reach &&
+      left <= OnEdge::Near && left >= -OnEdge::Beyond;
+    if (isOn && std::abs(left) < this->Places[candidate].aside)
+    {
+      this->Places[candidate] = { std::abs(left), edge, share };
+    }
+  }
+
+  void split()
+  {
+    std::map<Edge, std::vector<std::pair<double, int>>> passed;
+    for (std::size_t c = 0; c < this->Candidates.size(); ++c)
+    {
+      if (this->Places[c].edge[0] >= 0)
+      {
+        passed[this->Places[c].edge].emplace_back(this->Places[c].share, this->Candidates[c]);
+      }
+    }
+    const auto isSplit = [&](const Edge& edge) { return passed.count(edge) > 0; };
+    this->Edges.erase(
+      std::remove_if(this->Edges.begin(), this->Edges.end(), isSplit), this->Edges.end());
+    for (auto& [edge, particles] : passed)
+    {
+      std::sort(particles.begin(), particles.end());
+      int before = edge[0];
+      for (const auto& [share, particle] : particles)
+      {
+        this->Edges.push_back({ before, particle });
+        before = particle;
+      }
+      this->Edges.push_back({ before, edge[1] });
+    }
+    std::sort(this->Edges.begin(), this->Edges.end());
+  }
+
+  const Buffer<Particle>& Particles;
+  std::vector<Edge>& Edges;
+  /// By particle: whether it is on an edge, and whether there is another one in its place.
+  std::vector<char> IsOnEdge, IsDouble;
+  std::vector<int> Candidates;
+  /// By candidate.
+  std::vector<Place> Places;
+};
+
+} // namespace
+
+void splitAtParticles(const Distribution& distribution, std::vector<Edge>& edges)
+{
+  if (!edges.empty())
+  {
+    EdgeSplitter(distribution, edges).run();
+  }
+}
+
+} // namespace hop

@@ -1,0 +1,75 @@
+#include "AvailableParts.h"
+
+#include "ElementCases.h"
+#include "Elements/Bisection.h"
+#include "Support/Random.h"
+
+#include <algorithm>
+
+namespace hop::testing
+{
+namespace
+{
+
+class Lines : public ::testing::TestWithParam<InstructionSet>
+{
+protected:
+  void SetUp() override { useInstructionSet(GetParam()); }
+  void TearDown() override { useInstructionSet(availableInstructionSets().back()); }
+};
+
+std::vector<Coefficient> randomCoefficients(std::size_t count)
+{
+  Random random(7);
+  std::vector<Coefficient> coefficients(count);
+  for (Coefficient& c : coefficients)
+  {
+    c = { random.uniform() - 0.5, random.uniform(), -random.uniform(), random.uniform() - 0.5 };
+  }
+  return coefficients;
+}
+
+TEST_P(Lines, AreBisectedToTheBitsOfPlainCode)
+{
+  for (const ElementCase& which : allElementCases())
+  {
+    SCOPED_TRACE(which);
+    for (const LatticePoint& direction : facts(which.domain).edgeDirections)
+    {
+      const LatticeLines lines(which.domain, which.degrees, direction);
+      std::vector<Coefficient> first =
+        randomCoefficients(coefficientCount(which.domain, which.degrees));
+      Buffer<Coefficient> firstOfKernel(first.begin(), first.end());
+      std::vector<Coefficient> second;
+      Buffer<Coefficient> secondOfKernel;
+      lines.bisect(first, second);
+      lines.bisect(firstOfKernel, secondOfKernel);
+      EXPECT_TRUE(std::equal(first.begin(), first.end(), firstOfKernel.begin()));
+      ASSERT_EQ(secondOfKernel.size(), second.size());
+      EXPECT_TRUE(std::equal(second.begin(), second.end(), secondOfKernel.begin()));
+    }
+  }
+}
+
+TEST_P(Lines, BoundsAreThoseOfEachComponent)
+{
+  for (const std::size_t count : { 1, 2, 3, 4, 5, 8, 11, 64 })
+  {
+    SCOPED_TRACE(count);
+    const std::vector<Coefficient> points = randomCoefficients(count);
+    const auto [lower, upper] =
+      kernel::current().bounds(&points.front().x, static_cast<std::ptrdiff_t>(count));
+    for (int c = 0; c < 4; ++c)
+    {
+      const auto [least, greatest] = std::minmax_element(points.begin(), points.end(),
+        [&](const Coefficient& a, const Coefficient& b) { return a[c] < b[c]; });
+      EXPECT_EQ(lower[c], (*least)[c]);
+      EXPECT_EQ(upper[c], (*greatest)[c]);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Lines, ::testing::ValuesIn(availableInstructionSets()), nameOfSet);
+
+} // namespace
+} // namespace hop::testing
