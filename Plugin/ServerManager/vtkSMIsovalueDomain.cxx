@@ -32,10 +32,30 @@ double roundedToRange(double value, double range)
   return std::isfinite(rounded) ? rounded + 0.0 : value;
 }
 
-/// A value that shows the field, by the quantiles next to the ends of the values: their middle. Fields that are
-/// symmetric about 0, such as xyz, often have a saddle there, where sheets of the isosurface cross: a twentieth of the
-/// range beside it there is none.
-double isovalueBetween(double low, double high)
+/// Whether values lie alike on both sides of their middle, and most of them near it, as around a saddle (xy), where
+/// planes cross (xyz) or where a field is flat (x^3). There sheets of the isosurface of the middle cross, or it is
+/// singular otherwise.
+bool isCrowdedInItsMiddle(vtkPVQuantileInformation* values, double middle, double range)
+{
+  // Largest difference between the two halves, share of the range. Smaller: what nodes happen to sample counts as a
+  // difference; larger: skewed fields count as symmetric. Chosen by experiment.
+  constexpr double likeness = 0.06;
+  // Largest share of the range in which the middle half of the values lies. It is 0.5 where a field rises evenly, 0.43
+  // for a distance across a torus, 0.3 and less for the fields above. Larger: even fields are moved off their middle.
+  constexpr double crowded = 0.36;
+  const auto isBalanced = [&](double share)
+  {
+    const double sum = values->GetQuantile(share) + values->GetQuantile(1.0 - share);
+    return std::abs(sum - 2.0 * middle) <= likeness * range;
+  };
+  return isBalanced(0.25) && isBalanced(0.4) &&
+    values->GetQuantile(0.75) - values->GetQuantile(0.25) < crowded * range;
+}
+
+/// A value that shows the field: the middle between the quantiles next to the ends of the values. Fields that are
+/// symmetric about 0, or crowded in their middle, often have a saddle there, where sheets of the isosurface cross: a
+/// twentieth of the range beside it there is none.
+double isovalueBetween(double low, double high, vtkPVQuantileInformation* values)
 {
   // Share of the range, without unit. Smaller: near the saddle of xyz the surface still bends too fast for the default
   // spacing; larger: the value may leave the range in which most of a skewed field lies. Chosen by experiment.
@@ -47,7 +67,9 @@ double isovalueBetween(double low, double high)
     return middle;
   }
   const double isovalue = roundedToRange(middle, range);
-  return isovalue == 0.0 && low < 0.0 ? roundedToRange(aside * range, range) : isovalue;
+  const bool isSingular =
+    (isovalue == 0.0 && low < 0.0) || isCrowdedInItsMiddle(values, middle, range);
+  return isSingular ? roundedToRange(isovalue + aside * range, range) : isovalue;
 }
 
 /// 0 for values beyond what doubles hold, as derivatives of large values may be; never -0, which panels show.
@@ -88,7 +110,7 @@ int vtkSMIsovalueDomain::SetDefaultValues(vtkSMProperty* property, bool useUnche
   }
   const double low = values->GetQuantile(leftOut);
   const double high = values->GetQuantile(1.0 - leftOut);
-  double isovalue = isovalueBetween(low, high);
+  double isovalue = isovalueBetween(low, high, values);
   const double largeQ = values->GetQuantile(1.0 - inVortices);
   const double smallLambda2 = values->GetQuantile(inVortices);
   if (quantity == vtkHighOrderParticleIsosurface::Q_CRITERION && largeQ > 0.0 && largeQ < high)

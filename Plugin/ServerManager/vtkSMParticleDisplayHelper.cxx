@@ -12,6 +12,7 @@
 #include "vtkSMSourceProxy.h"
 #include "vtkSmartPointer.h"
 
+#include <set>
 #include <string>
 
 namespace
@@ -37,6 +38,17 @@ bool HasParticlesAsInput(vtkSMProxy* filter)
     }
   }
   return false;
+}
+
+// Why nothing comes of particles, behind the name of the filter.
+const char* WhyNothing(vtkSMProxy* filter)
+{
+  static const std::set<std::string> lookForCells = { "AdaptiveResampleToImage", "Contour", "Cut",
+    "ProbeLine", "ProbePoint", "ResampleToImage", "ResampleWithDataset", "StreamTracer" };
+  return lookForCells.count(filter->GetXMLName()) > 0
+    ? " found nothing in particles, which are points without cells around them: use filters that "
+      "look for cells or cut them (Plot Over Line, Probe, Resample, Slice, Contour) on the grid."
+    : " left none of the particles: it chose none, or failed and said why.";
 }
 
 // How output is to be shown; nullptr where ParaView decides. Our own filters know it before they have any particles.
@@ -77,10 +89,6 @@ void vtkSMParticleDisplayHelper::PostInitializeProxy(
   }
   if (IsNothing(data) && HasParticlesAsInput(filter))
   {
-    vtkWarningMacro(<< filter->GetXMLLabel()
-                    << " found nothing in particles, which are points without cells around "
-                    << "them: use filters that look for cells or cut them (Plot Over Line, Probe, "
-                       "Resample, Slice, "
-                    << "Contour) on the grid.");
+    vtkWarningMacro(<< filter->GetXMLLabel() << WhyNothing(filter));
   }
 }

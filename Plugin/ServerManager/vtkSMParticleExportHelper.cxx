@@ -57,9 +57,11 @@ void vtkSMParticleExportHelper::PostInitializeProxy(
     if (exporter->GetView() && showsSplats(exporter->GetView()))
     {
       tellPython();
-      vtkWarningMacro(
-        "The exported scene has the particles of Surface Splats as points. For a surface "
-        "in it show the filter with Output Type Triangles.");
+      const bool hasPoints = std::string(exporter->GetXMLName()) != "POVExporter";
+      vtkWarningMacro("The exported scene "
+        << (hasPoints ? "has the particles of Surface Splats as points"
+                      : "leaves out the particles of Surface Splats, as it holds triangles alone")
+        << ". For a surface in it show the filter with Output Type Triangles.");
     }
     return;
   }

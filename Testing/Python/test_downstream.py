@@ -98,6 +98,7 @@ def test_hints_of_representations_stay(plugin):
 LOOK_FOR_CELLS = {
     "Plot Over Line": lambda p, grid: simple.PlotOverLine(Input=p),
     "Probe": lambda p, grid: simple.ProbeLocation(Input=p, ProbeType="Fixed Radius Point Source"),
+    "Resample To Image": lambda p, grid: simple.ResampleToImage(Input=p, SamplingDimensions=[8, 8, 8]),
     "Resample With Dataset": lambda p, grid: simple.ResampleWithDataset(SourceDataArrays=p, DestinationMesh=grid),
     "Slice": lambda p, grid: simple.Slice(Input=p),
 }
@@ -110,6 +111,20 @@ def test_filters_that_look_for_cells_say_why_nothing_comes(particles, grid, name
     assert said.count("found nothing in particles") == 1, said
     shown_as(LOOK_FOR_CELLS[name](grid, grid))
     assert "found nothing" not in "".join(capfd.readouterr())
+
+
+LEAVE_NONE = {
+    "Extract Selection": lambda p: simple.ExtractSelection(Input=p, Selection=simple.IDSelectionSource(IDs=[])),
+    "Threshold": lambda p: simple.Threshold(Input=p, Scalars=["POINTS", "Radius"], LowerThreshold=5, UpperThreshold=6),
+    "Gradient": lambda p: simple.Gradient(Input=p, ScalarArray=["POINTS", "not there"]),
+}
+
+
+@pytest.mark.parametrize("name", LEAVE_NONE)
+def test_filters_that_leave_no_particles_are_not_told_to_look_for_cells(particles, name, capfd):
+    shown_as(LEAVE_NONE[name](particles))
+    said = "".join(capfd.readouterr())
+    assert said.count(f"{name} left none of the particles") == 1 and "found nothing" not in said, said
 
 
 # How moved particles look
@@ -210,7 +225,7 @@ def test_stl_files_say_that_they_will_be_empty(particles, grid, tmp_path, capfd)
 
 
 # Some packages of ParaView lack the Python that ends an export for VTK.js.
-EXPORTED = ["gltf", "vtkjs"] if importlib.util.find_spec("paraview.web") else ["gltf"]
+EXPORTED = ["gltf", "x3d", "x3db", "vrml", *(["vtkjs"] if importlib.util.find_spec("paraview.web") else [])]
 
 
 @pytest.mark.parametrize("representation", ["Surface Splats", "Surface Splats With Edges"])
@@ -227,6 +242,13 @@ def test_exported_scenes_say_that_they_have_points(grid, extension, representati
     if extension == "vtkjs":
         scene = json.loads(zipfile.ZipFile(path).read("index.json"))["scene"]
         assert scene[0]["name"] == "surface"
+
+
+def test_scenes_of_triangles_say_that_they_leave_particles_out(particles, tmp_path, capfd):
+    view = simple.CreateView("RenderView")
+    simple.Show(particles, view)
+    simple.ExportView(str(tmp_path / "scene.pov"), view=view)
+    assert said_once(capfd, "leaves out the particles of Surface Splats")
 
 
 def test_exported_scenes_without_splats_say_nothing(particles, grid, tmp_path, capfd):

@@ -4,7 +4,7 @@ near to the faces they are, and they end where the beam does."""
 import numpy as np
 import pytest
 from paraview import simple
-from paraview.vtk.util.numpy_support import numpy_to_vtk
+from paraview.vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from pictures import read_png
 from support import add_point_array, distances_to, make_filter, nearest_neighbors, output_of, points_of, run
 
@@ -27,12 +27,9 @@ def bend(straight, is_bent):
     return bent if is_bent else straight
 
 
-@pytest.fixture(scope="module", params=[(cells, is_bent) for cells in CELLS for is_bent in (False, True)],
-                ids=lambda p: f"{'bent' if p[1] else 'flat'} {p[0]}")
-def beam(request):
-    """(16 x 2 x 2 blocks of cubic cells, whether they are bent); the field is 0 in the middle, where cells meet."""
-    cells, is_bent = request.param
-    source = simple.UnstructuredCellTypes(CellType=CELLS[cells], CellOrder=3, BlocksDimensions=[16, 2, 2])
+def make_beam(cell_type, order, blocks, is_bent=False):
+    """A beam whose field is 0 in the middle of its thickness."""
+    source = simple.UnstructuredCellTypes(CellType=cell_type, CellOrder=order, BlocksDimensions=blocks)
     made = output_of(source)
     grid = made.NewInstance()
     grid.DeepCopy(made)
@@ -41,7 +38,15 @@ def beam(request):
     straight = (x - lower) / (upper - lower) * [LENGTH, 1, 1] - [0, 0.5, 0.5]
     grid.GetPoints().SetData(numpy_to_vtk(bend(straight, is_bent), deep=1))
     add_point_array(grid, "u", straight[:, 1] * slope(straight[:, 0]))
-    return grid, is_bent
+    return grid
+
+
+@pytest.fixture(scope="module", params=[(cells, is_bent) for cells in CELLS for is_bent in (False, True)],
+                ids=lambda p: f"{'bent' if p[1] else 'flat'} {p[0]}")
+def beam(request):
+    """(16 x 2 x 2 blocks of cubic cells, whether they are bent); the field is 0 in the middle, where cells meet."""
+    cells, is_bent = request.param
+    return make_beam(CELLS[cells], 3, [16, 2, 2], is_bent), is_bent
 
 
 @pytest.mark.parametrize("offset", OFFSETS)
@@ -68,19 +73,36 @@ def test_no_particle_is_missing(beam, offset):
 def test_elements_agree_on_what_is_in_a_face(offset):
     """Near rounding errors the surface may lie in a face for one element alone. Of a beam of quadratic wedges 40% were
     missing at -1e-14, as each element left the surface to the other."""
-    source = simple.UnstructuredCellTypes(CellType="Lagrange Wedge", CellOrder=2, BlocksDimensions=[11, 2, 1])
-    made = output_of(source)
-    grid = made.NewInstance()
-    grid.DeepCopy(made)
-    x = points_of(grid)
-    lower, upper = x.min(axis=0), x.max(axis=0)
-    straight = (x - lower) / (upper - lower) * [LENGTH, 1, 1] - [0, 0.5, 0.5]
-    grid.GetPoints().SetData(numpy_to_vtk(straight, deep=1))
-    add_point_array(grid, "u", straight[:, 1] * slope(straight[:, 0]))
+    grid = make_beam("Lagrange Wedge", 2, [11, 2, 1])
     particles, messages = run(grid, "u", offset, Spacing=0.1, AngularDensity=0.0)
     assert not messages.errors and not messages.warnings
     hexagons = LENGTH / (np.sqrt(3) / 2 * 0.1**2)
     assert 0.97 * hexagons < particles.GetNumberOfPoints() < 1.16 * hexagons
+
+
+def clip_planes(particles):
+    """(normals, particles x 3 x 3; distances, particles x 3) of the planes at which splats are cut off."""
+    arrays = particles.GetPointData()
+    normals = vtk_to_numpy(arrays.GetArray("Clip_Normal")).reshape(-1, 3, 3)
+    return normals, vtk_to_numpy(arrays.GetArray("Clip_Distance"))
+
+
+@pytest.mark.parametrize("quality", ["Draft", "Standard"])
+@pytest.mark.parametrize("cell_type, order, offset", [("Bezier Wedge", 3, 1e-14), ("Bezier Wedge", 3, -7e-15),
+                                                      ("Lagrange Wedge", 2, -3e-14)])
+def test_all_splats_are_cut_off_at_the_ends(cell_type, order, offset, quality):
+    """A boundary curve along an edge of the mesh goes on past places where, for the element behind the edge, the surface
+    lies in a face."""
+    particles, messages = run(make_beam(cell_type, order, [11, 2, 1]), "u", offset, Spacing=0.16, Quality=quality)
+    assert not messages.errors and not messages.warnings
+    x = points_of(particles)
+    normals, distances = clip_planes(particles)
+    near = 0.9 * vtk_to_numpy(particles.GetPointData().GetArray("Radius"))
+    for outward, depth in (([-1, 0, 0], x[:, 0]), ([1, 0, 0], LENGTH - x[:, 0]),
+                           ([0, 0, -1], x[:, 2] + 0.5), ([0, 0, 1], 0.5 - x[:, 2])):
+        is_cut = ((normals @ outward > 0.99) & (abs(distances - depth[:, None]) < 0.02)).any(axis=1)
+        assert (depth < near).sum() > 5
+        assert is_cut[depth < near].all(), f"at the end to {outward}"
 
 
 def silhouette(grid, offset, path):

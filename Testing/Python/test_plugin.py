@@ -160,6 +160,35 @@ def test_the_default_isovalue_of_a_symmetric_field_is_beside_its_saddle(scale):
     assert reported(output, "SingularPoints") == 0
 
 
+# On [-1,1]^3, with values u and -u equally often. At 0 sheets cross, or the gradient vanishes.
+SYMMETRIC_FIELDS = {
+    "saddle": lambda x, y, z: x * y,
+    "turned saddle": lambda x, y, z: x**2 - y**2,
+    "three planes": lambda x, y, z: x * y * z,
+    "monkey saddle": lambda x, y, z: x**3 - 3 * x * y**2,
+    "flat": lambda x, y, z: x**3,
+    "odd polynomial": lambda x, y, z: x * y * z + x**3,
+    "waves": lambda x, y, z: np.sin(np.pi * x) * np.sin(np.pi * y),
+}
+
+
+@pytest.mark.parametrize("middle", [0.0, 5.0])
+@pytest.mark.parametrize("cell_type", ["Lagrange Hexahedron", "Lagrange Tetrahedron"])
+def test_no_default_isovalue_is_near_the_middle_of_a_symmetric_field(cell_type, middle):
+    grid = output_of(simple.UnstructuredCellTypes(CellType=cell_type, CellOrder=3, BlocksDimensions=[4, 4, 4]))
+    x = points_of(grid)
+    x = (x - x.min(axis=0)) / np.ptp(x, axis=0) * 2 - 1
+    for name, field in SYMMETRIC_FIELDS.items():
+        add_point_array(grid, name, middle + field(*x.T))
+    proxy = simple.HighOrderParticleIsosurface(Input=source_of(grid))
+    for name in SYMMETRIC_FIELDS:
+        proxy.ContourBy = ["POINTS", name]
+        proxy.SMProxy.GetProperty("ContourValues").ResetToDomainDefaults()
+        (isovalue,) = proxy.Isosurfaces
+        values = array_of(grid, name)
+        assert 0.02 < (isovalue - middle) / np.ptp(values) < 0.1, f"{name}: {isovalue}"
+
+
 @pytest.mark.parametrize("width, expected", [(1.0, 4.0), (0.1, 2.8)])  # the second: 0.35 of the range
 def test_the_default_isovalue_is_not_that_of_a_narrow_place(width, expected):
     """A bar of eight cells, in the middle as wide as told; the field is the place along it."""

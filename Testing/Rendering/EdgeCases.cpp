@@ -103,20 +103,6 @@ glm::dvec3 Same(const glm::dvec3& x)
   return x;
 }
 
-void AddStrip(GridBuilder& grid, double width)
-{
-  grid.AddBox({ 8, 1, 8 }, 1, { -1., 0., -1. }, { 1., width, 1. }, Same,
-    [](const glm::dvec3& x) { return x.z - 0.1; });
-}
-
-void AddWave(GridBuilder& grid, double width)
-{
-  const auto map = [](const glm::dvec3& x)
-  { return glm::dvec3(x.x, x.y + 0.2 * std::sin(4. * x.x), x.z); };
-  grid.AddBox({ 10, 1, 8 }, 3, { -1., 0., -1. }, { 1., width, 1. }, map,
-    [](const glm::dvec3& x) { return x.z - 0.2 * std::cos(3. * x.x) - 0.3 * x.y; });
-}
-
 void AddTaper(GridBuilder& grid, double width)
 {
   const auto map = [=](const glm::dvec3& x)
@@ -179,17 +165,17 @@ void AddFan(GridBuilder& grid, int sides, double fold)
   }
 }
 
-// A cube of cells, each of six tetrahedra around its diagonal.
-void AddTetrahedra(GridBuilder& grid, int cells, int order, const Field& field)
+// A box of cells, each of six tetrahedra around its diagonal; their corners are mapped.
+void AddTetrahedra(GridBuilder& grid, const glm::ivec3& cells, int order, const glm::dvec3& low,
+  const glm::dvec3& high, const Map& map, const Field& field)
 {
   const int ways[6][3] = { { 0, 1, 2 }, { 1, 2, 0 }, { 2, 0, 1 }, { 0, 2, 1 }, { 2, 1, 0 },
     { 1, 0, 2 } };
-  const double size = 2. / cells;
-  for (int cell = 0; cell < cells * cells * cells; ++cell)
+  const glm::dvec3 size = (high - low) / glm::dvec3(cells);
+  for (int cell = 0; cell < cells.x * cells.y * cells.z; ++cell)
   {
     const glm::dvec3 first =
-      size * glm::dvec3(cell % cells, cell / cells % cells, cell / (cells * cells)) -
-      glm::dvec3(1.);
+      low + size * glm::dvec3(cell % cells.x, cell / cells.x % cells.y, cell / (cells.x * cells.y));
     for (const auto& way : ways)
     {
       glm::dvec3 corners[4] = { first, first, first, first };
@@ -197,12 +183,34 @@ void AddTetrahedra(GridBuilder& grid, int cells, int order, const Field& field)
       {
         for (int corner = step + 1; corner < 4; ++corner)
         {
-          corners[corner][way[step]] += size;
+          corners[corner][way[step]] += size[way[step]];
         }
+      }
+      for (glm::dvec3& corner : corners)
+      {
+        corner = map(corner);
       }
       grid.AddTetrahedron(order, corners, field);
     }
   }
+}
+
+// How a box is filled with cells: by GridBuilder::AddBox or AddTetrahedra.
+using FillBox = std::function<void(GridBuilder&, const glm::ivec3& cells, int order,
+  const glm::dvec3& low, const glm::dvec3& high, const Map& map, const Field& field)>;
+
+void AddStrip(GridBuilder& grid, double width, const FillBox& fill)
+{
+  fill(grid, { 8, 1, 8 }, 1, { -1., 0., -1. }, { 1., width, 1. }, Same,
+    [](const glm::dvec3& x) { return x.z - 0.1; });
+}
+
+void AddWave(GridBuilder& grid, double width, const FillBox& fill)
+{
+  const auto map = [](const glm::dvec3& x)
+  { return glm::dvec3(x.x, x.y + 0.2 * std::sin(4. * x.x), x.z); };
+  fill(grid, { 10, 1, 8 }, 3, { -1., 0., -1. }, { 1., width, 1. }, map,
+    [](const glm::dvec3& x) { return x.z - 0.2 * std::cos(3. * x.x) - 0.3 * x.y; });
 }
 
 using AddCells = std::function<void(GridBuilder&, double size)>;
@@ -210,8 +218,16 @@ using AddCells = std::function<void(GridBuilder&, double size)>;
 const std::map<std::string, AddCells>& Kinds()
 {
   static const std::map<std::string, AddCells> kinds = {
-    { "strip", [](GridBuilder& grid, double size) { AddStrip(grid, size * Spacing); } },
-    { "wave", [](GridBuilder& grid, double size) { AddWave(grid, size * Spacing); } },
+    { "strip",
+      [](GridBuilder& grid, double size)
+      { AddStrip(grid, size * Spacing, std::mem_fn(&GridBuilder::AddBox)); } },
+    { "wave",
+      [](GridBuilder& grid, double size)
+      { AddWave(grid, size * Spacing, std::mem_fn(&GridBuilder::AddBox)); } },
+    { "tetstrip",
+      [](GridBuilder& grid, double size) { AddStrip(grid, size * Spacing, AddTetrahedra); } },
+    { "tetwave",
+      [](GridBuilder& grid, double size) { AddWave(grid, size * Spacing, AddTetrahedra); } },
     { "taper", [](GridBuilder& grid, double size) { AddTaper(grid, size * Spacing); } },
     { "shaving",
       [](GridBuilder& grid, double size)
@@ -270,7 +286,8 @@ const std::map<std::string, AddCells>& Kinds()
     { "facets",
       [](GridBuilder& grid, double size)
       {
-        AddTetrahedra(grid, static_cast<int>(std::lround(2. / (size * Spacing))), 1,
+        const int cells = static_cast<int>(std::lround(2. / (size * Spacing)));
+        AddTetrahedra(grid, glm::ivec3(cells), 1, glm::dvec3(-1.), glm::dvec3(1.), Same,
           [](const glm::dvec3& x) { return glm::length(x - glm::dvec3(0.02, 0.03, 0.01)) - 0.7; });
       } },
   };

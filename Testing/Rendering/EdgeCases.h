@@ -6,6 +6,7 @@
 // Names are KIND:SIZE, the size in spacings of the filter (0.02 world units):
 //   strip     flat, straight, that wide
 //   wave      the same, but bent across and along
+//   tetstrip, tetwave  the same in tetrahedra, whose corners lie on the bent strip
 //   taper     a strip whose width falls from three sizes to a tenth of one
 //   shaving   what a slanted plane cuts from an edge of a cube, that wide
 //   cap       what a face of the cube leaves of a sphere: a disc of that radius

@@ -8,6 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+
 namespace
 {
 PictureErrors ErrorsOf(const SurfaceCase& surface, const hop::testing::PictureCamera& camera)
@@ -41,6 +44,40 @@ INSTANTIATE_TEST_SUITE_P(Cases, EdgePictures,
   testing::Values("strip:0.3", "strip:1", "wave:0.6", "taper:1", "shaving:0.6", "corner:0.6",
     "corner:1.4", "corner:3", "cap:2"),
   [](const auto& which) { return "Case" + std::to_string(which.index); });
+
+int CountCovered(const SurfacePicture& picture)
+{
+  return static_cast<int>(std::count_if(picture.Seen.begin(), picture.Seen.end(),
+    [](const hop::testing::SeenPoint& point) { return point.covered(); }));
+}
+
+class StripPictures : public testing::TestWithParam<const char*>
+{
+};
+
+// By the pixels that show them, 25 a spacing. In tetrahedra narrower ones are too wide (Documentation/limitations.md).
+TEST_P(StripPictures, AreAsWideAsRaysSeeThem)
+{
+  const std::string kind = GetParam();
+  const bool isInTetrahedra = kind.rfind("tet", 0) == 0;
+  for (const char* width : { isInTetrahedra ? "1" : "0.5", "1", "1.5", "2", "3" })
+  {
+    const SurfaceCase surface = MakeEdgeCase(kind + ":" + width);
+    const auto near = ViewsOfCorners(surface, 400, 1);
+    ASSERT_EQ(near.size(), 1u);
+    vtkNew<vtkSurfaceSplatMapper> mapper;
+    mapper->SetInputData(surface.Particles);
+    mapper->ScalarVisibilityOff();
+    const double seen = CountCovered(CastSurface(surface, near[0]));
+    const double drawn = CountCovered(DrawSurface(mapper, near[0]));
+    ASSERT_GT(seen, 500.);
+    EXPECT_NEAR(drawn / seen, 1., 0.005) << width << " spacings";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, StripPictures,
+  testing::Values("strip", "wave", "tetstrip", "tetwave"),
+  [](const auto& which) { return std::string(which.param); });
 
 // Where one layer hides another less than a radius behind it, the nearer one is seen, not the average of both. Without
 // being told apart 156 pixels are off; with it up to 34, by which of two particles at the step stays.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace hop
 {
@@ -540,6 +541,12 @@ bool BoundaryTracer::bendsEvenly(const BoundaryPoint& from, const BoundaryPoint&
     2.0 * this->Surface.tolerance * hop::length(point.gradient);
 }
 
+/// Whether a step keeps its distance from a face, to rounding.
+bool BoundaryTracer::runsAlong(int element, int face, const ReferenceVector& step) const
+{
+  return std::abs(dot(this->Surface.mesh->face(element, face).inward, step)) < OnFace;
+}
+
 /// The face of a point, and another one that holds the point and that a step leaves by no more than rounding: where the
 /// surface all but lies in that face, the curve runs along it. Where the surface lies in the face, the edge is passed,
 /// but for a curve that has just passed an edge without moving: the element behind might send it back.
@@ -552,11 +559,10 @@ ActiveFaces BoundaryTracer::facesAlong(const Heading& heading, const ReferenceVe
   faces.add(from.face);
   for (int f = 0; f < this->faceCount(here) && faces.count < 2; ++f)
   {
-    const ReferenceVector& inward = this->Surface.mesh->face(here.element, f).inward;
     if (f != from.face && isOnFace(*this->Surface.mesh, here, f) &&
       (heading.standsStill ||
         faceMargin(this->Surface.mesh->face(here.element, f), here.u) > inFace) &&
-      std::abs(dot(inward, step)) < OnFace)
+      this->runsAlong(here.element, f, step))
     {
       faces.add(f);
     }
@@ -570,14 +576,27 @@ BoundaryTracer::Ahead BoundaryTracer::advance(const Heading& heading, double ste
   const BoundaryPoint& from = heading.here;
   const Domain domain = this->Surface.mesh->elements[from.at.location.element].domain;
   const ReferenceVector du = this->predict(heading, step);
-  const Exit exit = findExit(domain, from.at.location.u, du, this->facesAlong(heading, du));
-  const ReferencePoint u = from.at.location.u + exit.fraction * du;
-  if (exit.face >= 0)
+  ActiveFaces held = this->facesAlong(heading, du);
+  const auto endOfStep = [&]()
   {
-    const Ahead ahead = this->passEdge(from, u, exit.face, step);
+    const Exit exit = findExit(domain, from.at.location.u, du, held);
+    return std::pair{ exit.face, from.at.location.u + exit.fraction * du };
+  };
+  auto [edge, u] = endOfStep();
+  Ahead passed = edge >= 0 ? this->passEdge(from, u, edge, step) : Ahead{};
+  if (passed.vertex && !this->crosses(passed.vertex->leaving) && held.count == 1 &&
+    this->runsAlong(from.at.location.element, edge, du))
+  {
+    // The surface lies in the face behind the edge, and no curve goes on there, but one may along the edge.
+    held.add(edge);
+    std::tie(edge, u) = endOfStep();
+    passed = edge >= 0 ? this->passEdge(from, u, edge, step) : Ahead{};
+  }
+  if (edge >= 0)
+  {
     const bool isAcross =
-      this->HasCuts && ahead.vertex && !this->bendsEvenly(from, ahead.vertex->arriving);
-    return isAcross ? Ahead{} : ahead;
+      this->HasCuts && passed.vertex && !this->bendsEvenly(from, passed.vertex->arriving);
+    return isAcross ? Ahead{} : passed;
   }
   const auto next = this->project({ from.at.location.element, u }, from.face, step);
   if (!next || dot(this->tangent(*next), this->tangent(from)) < TraceAngles::LeastCosine ||

@@ -215,6 +215,7 @@ private:
   std::optional<BoundaryVertex> advanceAtMost(double& chord, double step, const Heading& heading);
   Ahead advance(const Heading& heading, double step);
   ReferenceVector predict(const Heading& heading, double step) const;
+  bool runsAlong(int element, int face, const ReferenceVector& step) const;
   ActiveFaces facesAlong(const Heading& heading, const ReferenceVector& step) const;
   bool staysOnFace(const BoundaryPoint& from, const BoundaryPoint& to) const;
   bool bendsEvenly(const BoundaryPoint& from, const BoundaryPoint& to);

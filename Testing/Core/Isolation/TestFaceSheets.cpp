@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace hop::testing
@@ -37,11 +38,31 @@ double wanted(const ElementMesh& mesh, double isovalue)
   return proxy.particleCount();
 }
 
-std::size_t particleCount(const ElementMesh& mesh, double isovalue)
+Buffer<Particle> particlesOf(const ElementMesh& mesh, double isovalue)
 {
   DistributionParameters parameters;
   parameters.sizing = { spacing, 0.0 };
-  return distributeFast({ &mesh, isovalue, 1e-9 }, parameters, {}, {}).particles.size();
+  return distributeFast({ &mesh, isovalue, 1e-9 }, parameters, {}, {}).particles;
+}
+
+/// Whether splats near the end of the square [-1,1]^2 at the place `end` (1 or -1) of an axis are cut off there.
+::testing::AssertionResult areCutOff(const Buffer<Particle>& particles, int axis, double end)
+{
+  int nearCount = 0;
+  for (const Particle& particle : particles)
+  {
+    const double depth = 1.0 - end * particle.position.xyz[axis];
+    const auto isEnd = [&](const ClipPlane& plane) {
+      return end * plane.normal.xyz[axis] > 0.99 &&
+        std::abs(plane.distance - depth) < 0.1 * spacing;
+    };
+    nearCount += depth < 0.9 * spacing;
+    if (depth < 0.9 * spacing && std::none_of(particle.clips.begin(), particle.clips.end(), isEnd))
+    {
+      return ::testing::AssertionFailure() << depth << " from " << end << " on axis " << axis;
+    }
+  }
+  return nearCount > 0 ? ::testing::AssertionSuccess() : ::testing::AssertionFailure();
 }
 
 /// Rounding errors are shares of the field, in whatever unit it comes.
@@ -87,7 +108,13 @@ TEST_P(Sheets, AreThereOnceForFAndMinusFInsideAndOnTheBoundary)
         const double isovalue = sign * (place + 0.3);
         EXPECT_NEAR(wanted(mesh, isovalue), packed, 1e-3 * packed)
           << "axis " << axis << " at " << place << ", sign " << sign;
-        counts[minus] = axis == 2 ? particleCount(mesh, isovalue) : 0;
+        const Buffer<Particle> particles = particlesOf(mesh, isovalue);
+        counts[minus] = particles.size();
+        for (const int other : { (axis + 1) % 3, (axis + 2) % 3 })
+        {
+          EXPECT_TRUE(areCutOff(particles, other, 1.0) && areCutOff(particles, other, -1.0))
+            << "axis " << axis << " at " << place << ", sign " << sign;
+        }
       }
       EXPECT_NEAR(counts[0], counts[1], 0.03 * packed) << "axis " << axis << " at " << place;
     }
