@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Aborts runs at random moments, and measures how long they go on.
 
-    aborts.py [--moments N] [--noise N] [--limit S] [--only WORD] [FOLDER ...]
+    aborts.py [FOLDER ...] [--moments N] [--noise N] [--limit S] [--only WORD] [--kinds KIND ...]
 
 Every .vtu file of the folders (default: Testing/Data and that of HOP_SHARED_DATA) and some random grids of noise are
 contoured by every kind of request below, on one thread: once to the end, and then N times with an abort at a moment
