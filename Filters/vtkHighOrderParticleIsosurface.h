@@ -393,6 +393,7 @@ protected:
    */
   virtual hop::RunProperties PropertiesOfRun();
   virtual void Run(vtkDataObject* input, vtkDataObject* output);
+  bool HasRunFailed() const { return this->HasFailed; }
   virtual void Tell(const std::vector<hop::UserMessage>& messages);
   virtual void ReviewSurfaces(const hop::InputBlocks& blocks, const std::vector<double>& isovalues,
     const std::vector<std::int64_t>& counts, bool isExplained);

@@ -173,7 +173,16 @@ void vtkHighOrderParticleSlice::Run(vtkDataObject* input, vtkDataObject* output)
   }
   else if (this->TakesBox())
   {
-    this->RunFaces(input, output);
+    this->Box = std::make_unique<BoxRuns>();
+    try
+    {
+      this->RunFaces(input, output);
+    }
+    catch (...)
+    {
+      this->Box.reset(); // else what is told of the failure would wait for the next box
+      throw;
+    }
   }
 }
 
@@ -193,13 +202,12 @@ bool vtkHighOrderParticleSlice::TakesBox()
     refuse("A slice along a box takes no NumberOfParticles; set it to 0, and the Spacing instead.");
 }
 
-/// Makes the faces of a box one by one, and puts them together.
+/// Makes the faces of a box one by one, and puts them together. Where one has failed or is aborted, there are none.
 void vtkHighOrderParticleSlice::RunFaces(vtkDataObject* input, vtkDataObject* output)
 {
   constexpr int faceCount = 6;
-  this->Box = std::make_unique<BoxRuns>();
   std::vector<vtkSmartPointer<vtkDataObject>> faces;
-  for (int face = 0; face < faceCount; ++face)
+  for (int face = 0; face < faceCount && !this->HasRunFailed(); ++face)
   {
     this->Box->face = face;
     this->SetProgressShiftScale(face / double(faceCount), 1.0 / faceCount);
@@ -207,7 +215,14 @@ void vtkHighOrderParticleSlice::RunFaces(vtkDataObject* input, vtkDataObject* ou
     this->Superclass::Run(input, faces.back());
   }
   this->SetProgressShiftScale(0.0, 1.0);
-  hop::appendOutputs(faces, output);
+  if (this->HasRunFailed())
+  {
+    output->Initialize();
+  }
+  else
+  {
+    hop::appendOutputs(faces, output);
+  }
   const std::unique_ptr<BoxRuns> runs = std::move(this->Box);
   this->Tell(runs->messages);
   this->Tell(runs->review());

@@ -153,6 +153,18 @@ void GridRecipe::tame()
   }
 }
 
+void GridRecipe::keepSmall()
+{
+  const auto bound = [this](const char* name, double least, double most)
+  { this->Values[name] = std::clamp((*this)[name], least, most); };
+  const bool isDerived = this->count("Quantity") > 0;
+  bound("order", 1.0, isDerived ? 2.0 : 4.0);
+  bound("blocks", 1.0, (*this)["order"] < 2.0 && !isDerived ? 2.0 : 1.0);
+  bound("Spacing", 0.5, 3.0);
+  bound("AngularDensity", 0.0, 2.0);
+  bound("NumberOfParticles", 0.0, 7.0);
+}
+
 std::string GridRecipe::text() const
 {
   std::ostringstream line;

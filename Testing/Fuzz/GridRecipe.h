@@ -33,6 +33,9 @@ public:
   int count(const std::string& name) const { return static_cast<int>((*this)[name]); }
   std::uint64_t seed() const { return this->Seed; }
 
+  /// Bounds the degree, the cells and the particles, so that hundreds of recipes run in a second.
+  void keepSmall();
+
   /// The seed and what is not plain.
   std::string text() const;
   /// Recipes with one choice made plain, or with a lower degree or fewer blocks.

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Aborts runs at random moments, and measures how long they go on.
 
-    aborts.py [--moments N] [--noise N] [--limit S] [--only WORD] [FOLDER ...]
+    aborts.py [FOLDER ...] [--moments N] [--noise N] [--limit S] [--only WORD] [--kinds KIND ...]
 
 Every .vtu file of the folders (default: Testing/Data and that of HOP_SHARED_DATA) and some random grids of noise are
 contoured by every kind of request below, on one thread: once to the end, and then N times with an abort at a moment
@@ -33,6 +33,7 @@ KINDS = {
     "number": {"NumberOfParticles": 3000},
     "triangles": {"OutputType": vtkHighOrderParticleIsosurface.TRIANGLES},
     "curved": {"OutputType": vtkHighOrderParticleIsosurface.CURVED_TRIANGLES, "Order": 3},
+    "gradient": {"Quantity": vtkHighOrderParticleIsosurface.GRADIENT_MAGNITUDE},
     "classic": {"Method": vtkHighOrderParticleIsosurface.CLASSIC},
 }
 # Classic takes minutes for what Fast does in a second: seconds of a run after which it is ended, for all kinds.
@@ -72,13 +73,20 @@ class Run:
             self.stopped = True
 
 
+def middling_gradient(grid, name, component):
+    """About what the field changes by over half of the grid's diagonal."""
+    array = grid.GetPointData().GetArray(name)
+    least, most = array.GetRange(component if component < array.GetNumberOfComponents() else -1)
+    return 2 * (most - least) / grid.GetLength()
+
+
 def filter_of(grid, name, component, isovalue, properties):
     contour = vtkHighOrderParticleIsosurface()
     contour.SetPassDiagnostics(True)
     contour.SetWarmStart(False)
     contour.SetInputArrayToProcess(0, 0, 0, 0, name)
     contour.SetComponent(component)
-    contour.SetValue(0, isovalue)
+    contour.SetValue(0, middling_gradient(grid, name, component) if "Quantity" in properties else isovalue)
     contour.SetInputDataObject(grid)
     for key, value in properties.items():
         getattr(contour, "Set" + key)(value)

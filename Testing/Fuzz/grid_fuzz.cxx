@@ -5,6 +5,8 @@
 //   grid_fuzz [limit=SECONDS] FILE                       the recipes of a file, one a line; '#' begins a comment
 //   grid_fuzz from=SEED to=SEED list                     writes such a file
 //
+// With `small`, recipes are of few cells of low degrees and of few particles: many more of them fit into an hour.
+//
 // A recipe fails if its process ends, if a run of the filter takes more than `limit` seconds of processor time or is
 // silent for a tenth of that, or if OutputJudge.h complains; of every fourth seed, if another number of threads gives
 // another bit. Recipes that fail are printed at once as lines for such a file; at the end the first one of each kind of
@@ -39,6 +41,7 @@ struct Options
   std::uint64_t from = 0, to = 300;
   double limit = 10.0;
   bool isList = false;
+  bool isSmall = false;
   std::string file;
 };
 
@@ -212,6 +215,10 @@ Options parse(int count, char** words)
     {
       options.limit = std::stod(value);
     }
+    else if (word == "small")
+    {
+      options.isSmall = true;
+    }
     else if (word == "list")
     {
       options.isList = true;
@@ -232,12 +239,16 @@ void list(const std::vector<GridRecipe>& recipes)
   }
 }
 
-std::vector<GridRecipe> recipesOf(std::uint64_t begin, std::uint64_t end)
+std::vector<GridRecipe> recipesOf(std::uint64_t begin, std::uint64_t end, bool isSmall)
 {
   std::vector<GridRecipe> recipes;
   for (std::uint64_t seed = begin; seed < end; ++seed)
   {
     recipes.emplace_back(seed);
+    if (isSmall)
+    {
+      recipes.back().keepSmall();
+    }
   }
   return recipes;
 }
@@ -251,7 +262,7 @@ int main(int count, char** words)
     vtkLogger::VERBOSITY_OFF); // VTK's own cells have much to say of odd ones
   if (options.isList)
   {
-    list(recipesOf(options.from, options.to));
+    list(recipesOf(options.from, options.to, options.isSmall));
     return 0;
   }
   std::size_t grids = 0, failed = 0;
@@ -270,7 +281,7 @@ int main(int count, char** words)
   }
   for (std::uint64_t seed = options.from; options.file.empty() && seed < options.to; seed += Batch)
   {
-    run(recipesOf(seed, std::min<std::uint64_t>(options.to, seed + Batch)));
+    run(recipesOf(seed, std::min<std::uint64_t>(options.to, seed + Batch), options.isSmall));
     std::fprintf(stderr, "up to seed %llu\n", static_cast<unsigned long long>(seed + Batch));
   }
   shrinkAll(kept, options.limit);

@@ -4,13 +4,14 @@
     long_use.py [--runs N] [--views N]
 
 A run changes the isovalue, and every tenth time the type of the output, the quality and the input's values. A view is
-made, shows the particles, is drawn and deleted: as ParaView's own Surface, and as splats, which may grow no more than
-Surface does. The first tenth of all uses warms up; then resident memory and processor time of the tenth that follows
-are compared with those of the last tenth. To be run by pvpython,
-with a display (`bash Utilities/with-display.sh`) and with the plugin's path in HOP_PLUGIN.
+made, shows the particles, is drawn and deleted: as ParaView's own Surface, and as splats. The first tenth of all uses
+warms up; then resident memory and processor time of the tenth that follows are compared with those of the last tenth.
+To be run by pvpython, with a display (`bash Utilities/with-display.sh`) and with the plugin's path in HOP_PLUGIN.
 """
 
 import argparse
+import ctypes
+import gc
 import os
 import sys
 import time
@@ -61,17 +62,38 @@ def run_filter(count):
         yield
 
 
+def open_files():
+    return len(os.listdir("/proc/self/fd"))
+
+
+def use_view(proxy, representation):
+    """Opens, draws and closes a view. Returns the window's X connection."""
+    view = simple.CreateView("RenderView")
+    view.ViewSize = [200, 200]
+    shown = simple.Show(proxy, view)
+    shown.SetRepresentationType(representation)
+    simple.Render(view)
+    connection = view.GetRenderWindow().GetGenericDisplayId()  # "_<address>_p_void"
+    simple.Delete(shown)
+    simple.Delete(view)
+    return int(connection.split("_")[1], 16)
+
+
 def use_views(count, representation):
-    """Views, one after the other."""
+    """Views, one after the other.
+
+    VTK 9.1's interactor leaves the X connection of its window open, with or without particles, and with it 1.4 MB and
+    five threads of Mesa's. It is closed here, so that what else is left shows.
+    """
+    x11 = ctypes.CDLL("libX11.so.6")
+    x11.XCloseDisplay.argtypes = [ctypes.c_void_p]
     proxy, _ = support.make_filter(grid_of_sphere(), "u", 1.0, Spacing=0.1)
     for _ in range(count):
-        view = simple.CreateView("RenderView")
-        view.ViewSize = [200, 200]
-        shown = simple.Show(proxy, view)
-        shown.SetRepresentationType(representation)
-        simple.Render(view)
-        simple.Delete(shown)
-        simple.Delete(view)
+        before = open_files()
+        connection = use_view(proxy, representation)
+        gc.collect()
+        if open_files() > before:
+            x11.XCloseDisplay(connection)
         yield
 
 
@@ -103,11 +125,8 @@ def main():
         failed |= (measure("runs", run_filter(arguments.runs), arguments.runs) > most).any()
     if arguments.views:
         simple.LoadPlugin(os.environ["HOP_PLUGIN"], remote=False, ns=vars(simple))
-        stock, splats = (
-            measure(f"views with {kind}", use_views(arguments.views, kind), arguments.views)
-            for kind in ("Surface", "Surface Splats")
-        )
-        failed |= (splats > np.maximum(stock, 0) + most).any()
+        for kind in ("Surface Splats", "Surface"):
+            failed |= (measure(f"views with {kind}", use_views(arguments.views, kind), arguments.views) > most).any()
     sys.exit(1 if failed else 0)
 
 

@@ -19,26 +19,14 @@ import pytest
 import support
 from paraview import simple
 from pictures import write_png
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
-
-WIDTH, HEIGHT = 1280, 800
-PARAVIEW = Path(os.environ["HOP_PVPYTHON"]).parent / "paraview"
+from window import FILTERS_PANEL, HEIGHT, PANEL, PARAVIEW, WIDTH, event, own_screen, start, write_scalar_and_vector
 
 
 @pytest.fixture
 def screen(tmp_path):
     """A display of our own: (its name, the file with its pixels)."""
-    reading, writing = os.pipe()
-    server = subprocess.Popen(
-        ["Xvfb", "-displayfd", str(writing), "-screen", "0", f"{WIDTH}x{HEIGHT}x24", "-fbdir", str(tmp_path),
-         "-noreset", "-nolisten", "tcp"],
-        pass_fds=[writing], stderr=subprocess.DEVNULL)
-    os.close(writing)
-    with os.fdopen(reading) as number:
-        display = ":" + number.readline().strip()
-    yield display, tmp_path / "Xvfb_screen0"
-    server.terminate()
-    server.wait()
+    with own_screen(tmp_path) as screen:
+        yield screen
 
 
 def pixels_of(path):
@@ -63,15 +51,6 @@ def watch(process, screen_file, seconds):
     assert seen, "no window"
     screen_file.write_bytes(max(seen, key=seen.count))
     return pixels_of(screen_file)
-
-
-def start(display, home, plugin, *arguments):
-    """ParaView in a window that fills the screen, with settings of its own, and the plugin if it is named."""
-    loaded = [f"--plugin-search-paths={plugin.parent}", f"--plugins={plugin.stem}"] if plugin else []
-    homes = {"HOME": str(home), "XDG_CONFIG_HOME": str(home), "XDG_RUNTIME_DIR": str(home)}
-    return subprocess.Popen(
-        [str(PARAVIEW), "-qwindowgeometry", f"{WIDTH}x{HEIGHT}+0+0", "--dr", *loaded, *arguments],
-        env={**os.environ, **homes, "DISPLAY": display}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
 
 pytestmark = [
@@ -101,9 +80,6 @@ def test_a_user_finds_the_filter_and_sees_the_surface(plugin, data, screen, tmp_
     assert 0.05 < surface.mean() < 0.6
     assert np.unique(view[surface], axis=0).shape[0] > 1000, "shaded, and coloured by curvature"
 
-
-PANEL = "pqClientMainWindow/propertiesDock/propertiesPanel"
-FILTERS_PANEL = f"{PANEL}/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/PropertiesFrame/ProxyPanel"
 
 # What a user does to each property of the filter, in this order: name in the XML, widget, event, what it is set to.
 EDITS = {
@@ -139,10 +115,6 @@ EDITED = {
 }
 
 
-def event(path, command, arguments="", kind="pqevent"):
-    return f'<{kind} object="{path}" {"property" if kind == "pqcheck" else "command"}="{command}" arguments="{arguments}" />'
-
-
 def edit_every_property(state):
     """A script of events: the filter is made on the open file, every property edited, the state saved."""
     steps = [
@@ -166,17 +138,6 @@ def edit_every_property(state):
     return "<pqevents>" + "\n".join(steps) + "</pqevents>"
 
 
-def write_scalar_and_vector(data, path):
-    """A file with the scalar u and the vector velocity."""
-    grid = support.output_of(support.read(data("mfem_hex1_p8.vtu")))
-    support.add_point_array(grid, "velocity", support.points_of(grid))
-    writer = vtkXMLUnstructuredGridWriter()
-    writer.SetFileName(str(path))
-    writer.SetInputData(grid)
-    writer.SetDataModeToBinary()
-    writer.Write()
-
-
 def test_every_property_is_edited_in_the_panel(plugin, data, screen, tmp_path):
     """Those of the guide's table. ParaView makes no widget for some kinds of properties, and says nothing."""
     guide = (Path(__file__).resolve().parents[2] / "Documentation" / "user-guide.md").read_text()
@@ -185,7 +146,7 @@ def test_every_property_is_edited_in_the_panel(plugin, data, screen, tmp_path):
     assert set(labels) == {"Input", *EDITS}
 
     display, screen_file = screen
-    write_scalar_and_vector(data, tmp_path / "both.vtu")
+    write_scalar_and_vector(data("mfem_hex1_p8.vtu"), tmp_path / "both.vtu")
     state, script = tmp_path / "edited.pvsm", tmp_path / "edits.xml"
     script.write_text(edit_every_property(str(state)))
     process = start(

@@ -270,6 +270,13 @@ def test_boxes_do_not_depend_on_threads_and_keep_blocks():
     assert outputs[0] == outputs[1] and len(outputs[0]) == 2
 
 
+def test_an_aborted_box_has_no_particles():
+    cut, _ = make_slice(box(), turned_box((2, 2, 2), HALF), Spacing=0.1)
+    cut.AddObserver("ProgressEvent", lambda *_: 0.4 < cut.GetProgress() < 1 and cut.SetAbortExecute(1))
+    cut.Update()
+    assert cut.GetAbortExecute() and cut.GetOutput().GetNumberOfPoints() == 0, "three of six faces were done"
+
+
 @pytest.mark.parametrize("name", ["Plane", "Sphere", "Cylinder"])
 def test_proxies_of_paraview_are_followed(name):
     """Their planes have an offset, their cylinders an axis of any direction: both are in no property of VTK's classes."""
