@@ -5,8 +5,9 @@
  * vtkSMArrayRangeDomain's default is the middle of the whole range, which one bad corner of a simulation
  * moves to where there is nothing to see. Here it is the middle of what remains without the lowest and the
  * highest hundredth of the nodal values, rounded to three digits of their range. Where that is 0 and values of both
- * signs exist, it is a twentieth of the range: fields that are symmetric about 0 often have a saddle at 0. Where the
- * surface of that value is tiny beside others, as in the notch of a bar, one of a value beside it is taken.
+ * signs exist, or values are alike on both sides of it and crowded there, a twentieth of the range is added: there
+ * symmetric fields often have a saddle. Where the surface of that value is tiny beside others, as in the notch of a bar,
+ * one of a value beside it is taken.
  *
  * Of a field made of derivatives the values in the middles of cells count in place of nodal values. Of the Q criterion
  * the default is a high quantile: its positive values are what is looked for.

@@ -198,7 +198,8 @@ def test_defaults_that_the_data_give_are_as_described(data):
     assert particles.Spacing == pytest.approx(support.longest_side(grid) / 100)
     u = support.array_of(grid, "u")
     low, high = sorted(u)[len(u) // 100], sorted(u)[-1 - len(u) // 100]
-    assert particles.Isosurfaces[0] == pytest.approx((low + high) / 2, abs=0.02 * (high - low))
+    # The values are alike on both sides of their middle, and crowded there.
+    assert particles.Isosurfaces[0] == pytest.approx(low + 0.55 * (high - low), abs=0.005 * (high - low))
 
 
 # Arrays

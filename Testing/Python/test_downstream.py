@@ -225,7 +225,7 @@ def test_stl_files_say_that_they_will_be_empty(particles, grid, tmp_path, capfd)
 
 
 # Some packages of ParaView lack the Python that ends an export for VTK.js.
-EXPORTED = ["gltf", "x3d", "x3db", "vrml", *(["vtkjs"] if importlib.util.find_spec("paraview.web") else [])]
+EXPORTED = ["gltf", "x3d", "vrml", *(["vtkjs"] if importlib.util.find_spec("paraview.web") else [])]
 
 
 @pytest.mark.parametrize("representation", ["Surface Splats", "Surface Splats With Edges"])

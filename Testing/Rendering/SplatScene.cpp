@@ -6,6 +6,8 @@
 
 #include "SplatScene.h"
 
+#include "BackgroundDepth.h"
+
 #include "vtkActor.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
@@ -202,7 +204,7 @@ SplatScene::Ray SplatScene::RayOf(double x, double y) const
 std::optional<glm::dvec3> SplatScene::PositionAt(int x, int y) const
 {
   const double depth = this->Depth[y * Size + x];
-  if (depth >= 1.)
+  if (depth >= BackgroundDepth)
   {
     return std::nullopt;
   }
@@ -230,7 +232,7 @@ int SplatScene::CountDrawnPixels() const
   int count = 0;
   for (float depth : this->Depth)
   {
-    count += depth < 1.f;
+    count += depth < BackgroundDepth;
   }
   return count;
 }

@@ -1,5 +1,6 @@
 #include "SurfacePicture.h"
 
+#include "BackgroundDepth.h"
 #include "Common/VtkThreads.h"
 #include "Conversion/GridElements.h"
 #include "SurfaceCases.h"
@@ -76,7 +77,7 @@ struct Window
 
   double DepthOf(double zBuffer, bool parallel) const
   {
-    if (zBuffer >= 1.)
+    if (zBuffer >= BackgroundDepth)
     {
       return std::numeric_limits<double>::infinity();
     }
