@@ -29,7 +29,7 @@ inline bool liesOnFace(const SurfaceBox& box, const Face& side, const Face& face
 }
 
 /// The crossing between two corners of a box that lie on a face, as if F were linear between them.
-/// \pre F - c has different signs there
+/// \pre F - c has opposite signs there
 inline FaceCrossing crossingBetween(
   const SurfaceBox& box, int cornerA, int cornerB, const Face& face, int faceNumber)
 {
@@ -49,15 +49,8 @@ inline FaceCrossing crossingBetween(
     box.valueUnit * std::abs(first - last) };
 }
 
-/// 1, 0 or -1.
-inline int signOf(float value)
-{
-  return (value > 0.0f) - (value < 0.0f);
-}
-
 /// Calls use(crossing) for the crossings on faces of the box's element that are part of the box, face by face: between
-/// two neighbouring corners of the box where F - c has different signs; it is 0 at corners where the surface lies in a
-/// face. On each side of the box they come in pairs: the
+/// two neighbouring corners of the box where F - c has opposite signs. On each side of the box they come in pairs: the
 /// surface enters the side and leaves it.
 /// \param wanted tells for the number of a face whether it is of interest
 template <class Wanted, class Use>
@@ -78,7 +71,7 @@ void visitFaceCrossings(
       {
         const int a = side.corners[c];
         const int b = side.corners[(c + 1) % side.cornerCount];
-        if (signOf(box.values[a]) != signOf(box.values[b]))
+        if ((box.values[a] > 0.0f) != (box.values[b] > 0.0f))
         {
           use(crossingBetween(box, a, b, faces[f], f));
         }
