@@ -99,6 +99,8 @@ TEST_P(Sheets, AreThereOnceForFAndMinusFInsideAndOnTheBoundary)
   {
     for (const double place : { -1.0, 0.0, 1.0 })
     {
+      // In a face at the end of the domain, with no value above it in any tetrahedron, curves have no hints.
+      const bool mayLackCurves = this->GetParam() == Domain::Tetrahedron && place == -1.0;
       std::array<std::size_t, 2> counts{};
       for (const int minus : { 0, 1 })
       {
@@ -110,19 +112,15 @@ TEST_P(Sheets, AreThereOnceForFAndMinusFInsideAndOnTheBoundary)
           << "axis " << axis << " at " << place << ", sign " << sign;
         const Buffer<Particle> particles = particlesOf(mesh, isovalue);
         counts[minus] = particles.size();
-        // Where a sheet in a face at the end of the domain has no tetrahedron with values above it, curves have no hints.
-        const bool hasHints = this->GetParam() != Domain::Tetrahedron || !minus || place != -1.0;
         for (const int other : { (axis + 1) % 3, (axis + 2) % 3 })
         {
-          if (!hasHints)
-          {
-            continue;
-          }
-          EXPECT_TRUE(areCutOff(particles, other, 1.0) && areCutOff(particles, other, -1.0))
+          EXPECT_TRUE((mayLackCurves && minus) ||
+            (areCutOff(particles, other, 1.0) && areCutOff(particles, other, -1.0)))
             << "axis " << axis << " at " << place << ", sign " << sign;
         }
       }
-      EXPECT_NEAR(counts[0], counts[1], 0.07 * packed) << "axis " << axis << " at " << place;
+      EXPECT_NEAR(counts[0], counts[1], (mayLackCurves ? 0.1 : 0.03) * packed)
+        << "axis " << axis << " at " << place;
     }
   }
 }
