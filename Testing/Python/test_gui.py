@@ -59,20 +59,24 @@ pytestmark = [
 ]
 
 
-def test_a_user_finds_the_filter_and_sees_the_surface(plugin, data, screen, tmp_path):
+def play(plugin, screen, tmp_path, file, events, picture):
+    """The pixels of ParaView's window, and a picture of them, after the events of a script; it says nothing."""
     display, screen_file = screen
     process = start(
-        display, tmp_path, plugin, f"--data={data('mfem_hex1_p8.vtu')}",
-        f"--test-script={Path(__file__).parent / 'gui_events.xml'}", "--exit")
+        display, tmp_path, plugin, f"--data={file}", f"--test-script={Path(__file__).parent / events}", "--exit")
     try:
         window = watch(process, screen_file, 120)
         said = process.stdout.read()
     finally:
         process.kill()
-    write_png(Path(os.environ["HOP_BUILD"]) / "Testing" / "gui.png", window)
+    write_png(Path(os.environ["HOP_BUILD"]) / "Testing" / picture, window)
     assert process.returncode == 0, said
     assert "ERR|" not in said and "WARN|" not in said, said
+    return window
 
+
+def test_a_user_finds_the_filter_and_sees_the_surface(plugin, data, screen, tmp_path):
+    window = play(plugin, screen, tmp_path, data("mfem_hex1_p8.vtu"), "gui_events.xml", "gui.png")
     view = window[HEIGHT // 4 : -50, WIDTH // 4 : -20]
     colors, counts = np.unique(view.reshape(-1, 3), axis=0, return_counts=True)
     background = colors[counts.argmax()]
@@ -369,17 +373,7 @@ def particle_file(plugin, data, tmp_path):
 
 
 def test_what_cuts_particles_hides_them(plugin, particle_file, screen, tmp_path):
-    display, screen_file = screen
-    process = start(
-        display, tmp_path, plugin, f"--data={particle_file}",
-        f"--test-script={Path(__file__).parent / 'gui_clip_events.xml'}", "--exit")
-    try:
-        window = watch(process, screen_file, 120)
-        said = process.stdout.read()
-    finally:
-        process.kill()
-    write_png(Path(os.environ["HOP_BUILD"]) / "Testing" / "gui_clip.png", window)
-    assert process.returncode == 0, said
+    window = play(plugin, screen, tmp_path, particle_file, "gui_clip_events.xml", "gui_clip.png")
     red, green, blue = (window[:, :, c].astype(int) for c in range(3))
     # Grey: the background is blue, and the plane red. The outline is one pixel wide.
     grey = (np.abs(red - green) < 10) & (np.abs(green - blue) < 15)

@@ -3,6 +3,7 @@
 #include "AnalyticFields.h"
 #include "DistributionMeasures.h"
 #include "ElementCases.h"
+#include "OpenCases.h"
 #include "ThreadedFor.h"
 
 #include <gtest/gtest.h>
@@ -236,37 +237,12 @@ TEST(ClassicDistribution, NumberFollowsTheSizingFunction)
   EXPECT_NEAR(static_cast<double>(result.particles.size()), expected, 0.05 * expected);
 }
 
-/// A surface that leaves the cube [-1,1]^3, with its area inside and the length of its boundary curves.
-struct OpenCase
-{
-  const char* name;
-  KnownSurface surface;
-  double area = 0.0;
-  double boundary = 0.0;
-};
-
-std::ostream& operator<<(std::ostream& out, const OpenCase& which)
-{
-  return out << which.name;
-}
-
 class OpenCover : public ::testing::TestWithParam<std::tuple<OpenCase, Domain>>
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(ClassicDistribution, OpenCover,
-  ::testing::Combine(
-    ::testing::Values(OpenCase{ "Plane", plane({ 0, 0, 1 }, 0.05), 4.0, 8.0 },
-      // Six caps of height 0.2 are cut off, in circles of radius sqrt(1.2^2 - 1).
-      OpenCase{ "Sphere", sphere({ 0, 0, 0 }, 1.2), 2.0 * Pi * 1.2 * (2.4 - 6.0 * 0.2),
-        6.0 * 2.0 * Pi* std::sqrt(0.44) },
-      OpenCase{ "Cylinder", cylinder(0.7), 2.0 * 2.0 * Pi * 0.7, 2.0 * 2.0 * Pi * 0.7 }),
-    ::testing::ValuesIn(allDomains)),
-  [](const auto& which)
-  {
-    return std::get<0>(which.param).name +
-      ("In" + ::testing::PrintToString(std::get<1>(which.param)));
-  });
+INSTANTIATE_TEST_SUITE_P(
+  ClassicDistribution, OpenCover, openCasesInAllDomains(), nameOfOpenCase);
 
 TEST_P(OpenCover, ReachesTheBoundaryAndStaysEven)
 {
@@ -281,8 +257,7 @@ TEST_P(OpenCover, ReachesTheBoundaryAndStaysEven)
   int onBoundary = 0;
   for (const Particle& p : result.particles)
   {
-    const glm::dvec3 x = p.position.xyz;
-    const bool atWall = std::max({ std::abs(x.x), std::abs(x.y), std::abs(x.z) }) > 1.0 - 1e-11;
+    const bool atWall = onCube(p.position.xyz);
     EXPECT_EQ(boundaryFaceCount(mesh, p.location) > 0, atWall);
     onBoundary += atWall;
   }

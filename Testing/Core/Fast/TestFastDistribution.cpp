@@ -3,6 +3,7 @@
 #include "AnalyticFields.h"
 #include "DistributionMeasures.h"
 #include "ElementCases.h"
+#include "OpenCases.h"
 #include "ThreadedFor.h"
 
 #include <gtest/gtest.h>
@@ -65,42 +66,12 @@ double smallest(const std::vector<double>& values)
   return values.empty() ? 0.0 : *std::min_element(values.begin(), values.end());
 }
 
-bool onCube(const glm::dvec3& x)
-{
-  return std::max({ std::abs(x.x), std::abs(x.y), std::abs(x.z) }) > 1.0 - 1e-11;
-}
-
-/// A surface that leaves the cube [-1,1]^3, with its area inside and the length of its boundary curves.
-struct OpenCase
-{
-  const char* name;
-  KnownSurface surface;
-  double area = 0.0;
-  double boundary = 0.0;
-};
-
-std::ostream& operator<<(std::ostream& out, const OpenCase& which)
-{
-  return out << which.name;
-}
-
 class FastOpenCover : public ::testing::TestWithParam<std::tuple<OpenCase, Domain>>
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(FastDistribution, FastOpenCover,
-  ::testing::Combine(
-    ::testing::Values(OpenCase{ "Plane", plane({ 0, 0, 1 }, 0.05), 4.0, 8.0 },
-      // Six caps of height 0.2 are cut off, in circles of radius sqrt(1.2^2 - 1).
-      OpenCase{ "Sphere", sphere({ 0, 0, 0 }, 1.2), 2.0 * Pi * 1.2 * (2.4 - 6.0 * 0.2),
-        6.0 * 2.0 * Pi* std::sqrt(0.44) },
-      OpenCase{ "Cylinder", cylinder(0.7), 2.0 * 2.0 * Pi * 0.7, 2.0 * 2.0 * Pi * 0.7 }),
-    ::testing::ValuesIn(allDomains)),
-  [](const auto& which)
-  {
-    return std::get<0>(which.param).name +
-      ("In" + ::testing::PrintToString(std::get<1>(which.param)));
-  });
+INSTANTIATE_TEST_SUITE_P(
+  FastDistribution, FastOpenCover, openCasesInAllDomains(), nameOfOpenCase);
 
 TEST_P(FastOpenCover, BoundariesAreClosedLinesOfParticles)
 {
