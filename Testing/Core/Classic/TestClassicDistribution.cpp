@@ -241,8 +241,7 @@ class OpenCover : public ::testing::TestWithParam<std::tuple<OpenCase, Domain>>
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(
-  ClassicDistribution, OpenCover, openCasesInAllDomains(), nameOfOpenCase);
+INSTANTIATE_TEST_SUITE_P(ClassicDistribution, OpenCover, openCasesInAllDomains(), nameOfOpenCase);
 
 TEST_P(OpenCover, ReachesTheBoundaryAndStaysEven)
 {

@@ -70,8 +70,7 @@ class FastOpenCover : public ::testing::TestWithParam<std::tuple<OpenCase, Domai
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(
-  FastDistribution, FastOpenCover, openCasesInAllDomains(), nameOfOpenCase);
+INSTANTIATE_TEST_SUITE_P(FastDistribution, FastOpenCover, openCasesInAllDomains(), nameOfOpenCase);
 
 TEST_P(FastOpenCover, BoundariesAreClosedLinesOfParticles)
 {
