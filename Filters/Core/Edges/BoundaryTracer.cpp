@@ -1,6 +1,7 @@
 #include "Edges/BoundaryTracer.h"
 
 #include "Edges/FaceJumps.h"
+#include "Edges/FacesAtEdges.h"
 #include "Edges/TraceLimits.h"
 
 #include <algorithm>
@@ -49,95 +50,13 @@ struct ChordLengths
   /// Largest distance between the curve and the cubic of a chord, in units of the chord's length. Larger: where two parts
   /// of a curve turn back close to each other, a chord leads across; smaller: more evaluations.
   static constexpr double Unevenness = 0.01;
-  /// A chord passes a point that is nearer to it than this, in units of its own length. More takes another boundary
-  /// curve close by for the same one; less than what the curve bends away from its chords traces it twice.
-  static constexpr double PassShare = 0.2;
 };
 
 /// What rounding leaves between a face and places on it that the locator found, in half-space values of the face
 /// (faceMargin(), of order one).
 constexpr double locatedOnFace = 1e-6;
 
-/// Whether two lines in a plane cross or touch, to what single precision leaves.
-bool meet(const std::array<glm::dvec3, 2>& a, const std::array<glm::dvec3, 2>& b)
-{
-  constexpr double rounding = 1e-6; // of places in reference space, which are of order one
-  const auto lieApart =
-    [](const std::array<glm::dvec3, 2>& before, const std::array<glm::dvec3, 2>& behind)
-  {
-    const glm::dvec3 gap = glm::min(behind[0], behind[1]) - glm::max(before[0], before[1]);
-    return glm::any(glm::greaterThan(gap, glm::dvec3(10.0 * rounding)));
-  };
-  if (lieApart(a, b) || lieApart(b, a))
-  {
-    return false; // boxes around them are apart, as most are
-  }
-  const glm::dvec3 along = b[1] - b[0];
-  const double length = glm::length(along);
-  const glm::dvec3 normal = glm::cross(along, a[1] - a[0]);
-  const double size = glm::length(normal);
-  if (!(size > rounding * rounding))
-  {
-    return false; // one of them is a point, or they are parallel
-  }
-  const glm::dvec3 aside = glm::cross(normal, along) / (size * length);
-  const double first = glm::dot(aside, a[0] - b[0]);
-  const double last = glm::dot(aside, a[1] - b[0]);
-  const double t = std::clamp(first / (first - last), 0.0, 1.0);
-  const glm::dvec3 nearest = glm::mix(a[0], a[1], t);
-  const double reached = glm::dot(nearest - b[0], along) / length;
-  return std::abs(glm::dot(aside, nearest - b[0])) <= rounding && reached >= -rounding &&
-    reached <= length + rounding;
-}
-
 } // namespace
-
-double distanceToSegment(const glm::dvec3& x, const glm::dvec3& a, const glm::dvec3& b)
-{
-  const glm::dvec3 d = b - a;
-  const double length2 = glm::dot(d, d);
-  const double t = length2 > 0.0 ? std::clamp(glm::dot(x - a, d) / length2, 0.0, 1.0) : 0.0;
-  return glm::distance(x, a + t * d);
-}
-
-BoundaryChords::Chord::Chord(const BoundaryPoint& from, const BoundaryPoint& to)
-  : face(faceSlot(from.at.location.element, from.face))
-  , positions{ from.at.point.map.position.xyz, to.at.point.map.position.xyz }
-  , gradient(from.at.point.gradient)
-{
-  const Location& first = from.at.location;
-  const Location& last = to.at.location;
-  // Of a chord that leaves its element only the first place lies in the element's reference space.
-  this->places = { first.u.xyz, (last.element == first.element ? last : first).u.xyz };
-}
-
-bool BoundaryChords::pass(const BoundaryPoint& point) const
-{
-  const auto found = this->Chords.find(faceSlot(point.at.location.element, point.face));
-  const glm::dvec3& x = point.at.point.map.position.xyz;
-  return found != this->Chords.end() &&
-    std::any_of(found->second.begin(), found->second.end(),
-      [&](const Chord& chord)
-      {
-        const auto& [a, b] = chord.positions;
-        return distanceToSegment(x, a, b) <= ChordLengths::PassShare * glm::distance(a, b) &&
-          dot(chord.gradient, point.at.point.gradient) > 0.0;
-      });
-}
-
-bool BoundaryChords::cross(int element, int face, const std::array<glm::dvec3, 2>& ends) const
-{
-  const auto found = this->Chords.find(faceSlot(element, face));
-  return found != this->Chords.end() &&
-    std::any_of(found->second.begin(), found->second.end(),
-      [&ends](const Chord& chord) { return meet(chord.places, ends); });
-}
-
-int BoundaryTracer::faceCount(const Location& location) const
-{
-  return static_cast<int>(
-    facts(this->Surface.mesh->elements[location.element].domain).faces.size());
-}
 
 /// The boundary face on which a place lies, the preferred one if the place lies on several; -1 if there is none.
 int BoundaryTracer::boundaryFaceOf(const Location& location, int preferred) const
@@ -149,7 +68,7 @@ int BoundaryTracer::boundaryFaceOf(const Location& location, int preferred) cons
   {
     return preferred;
   }
-  for (int f = 0; f < this->faceCount(location); ++f)
+  for (int f = 0; f < faceCount(*this->Surface.mesh, location); ++f)
   {
     if (liesOn(f))
     {
@@ -176,7 +95,7 @@ std::optional<BoundaryPoint> BoundaryTracer::project(
   // Newton's method in all directions would leave the edge of an element, where a corner of the boundary curve may be.
   if (face >= 0 && isOnFace(*this->Surface.mesh, start, face))
   {
-    const int other = this->otherFaceAt(start, face, OnFace);
+    const int other = otherFaceAt(*this->Surface.mesh, start, face, OnFace);
     const auto corner =
       other >= 0 ? this->projectAlongEdge(start, face, other, maximumTravel) : std::nullopt;
     if (corner)
@@ -299,71 +218,6 @@ std::optional<Evaluated> BoundaryTracer::projectAlongEdge(
   return std::nullopt;
 }
 
-/// Numbers of a face's corners in the mesh, ascending.
-std::vector<std::int64_t> BoundaryTracer::cornersOf(const Location& location, int face) const
-{
-  const ElementMesh& mesh = *this->Surface.mesh;
-  const Face& which = mesh.face(location.element, face);
-  std::vector<std::int64_t> numbers;
-  numbers.reserve(which.cornerCount);
-  for (int c = 0; c < which.cornerCount; ++c)
-  {
-    numbers.push_back(mesh.elements[location.element].corners[which.corners[c]]);
-  }
-  std::sort(numbers.begin(), numbers.end());
-  return numbers;
-}
-
-/// Numbers of the corners that two faces of an element share, ascending.
-std::vector<std::int64_t> BoundaryTracer::edgeBetween(
-  const Location& location, int faceA, int faceB) const
-{
-  const auto first = this->cornersOf(location, faceA);
-  const auto second = this->cornersOf(location, faceB);
-  std::vector<std::int64_t> edge;
-  std::set_intersection(
-    first.begin(), first.end(), second.begin(), second.end(), std::back_inserter(edge));
-  return edge;
-}
-
-/// The face of an element, other than the one by which it was entered, that has the corners of an edge; -1 if there is
-/// none.
-int BoundaryTracer::faceAtEdge(
-  const Location& location, int entry, const std::vector<std::int64_t>& edge) const
-{
-  for (int f = 0; f < this->faceCount(location); ++f)
-  {
-    const auto corners = this->cornersOf(location, f);
-    if (f != entry && std::includes(corners.begin(), corners.end(), edge.begin(), edge.end()))
-    {
-      return f;
-    }
-  }
-  return -1;
-}
-
-/// A face of an element, other than a given one, on which a place lies; -1 if there is none.
-int BoundaryTracer::otherFaceAt(const Location& location, int one, double accuracy) const
-{
-  for (int f = 0; f < this->faceCount(location); ++f)
-  {
-    if (f != one && isOnFace(*this->Surface.mesh, location, f, accuracy))
-    {
-      return f;
-    }
-  }
-  return -1;
-}
-
-/// The foot in reference space of a place on the plane of a face.
-Location BoundaryTracer::ontoFace(const Location& location, int face) const
-{
-  const Face& which = this->Surface.mesh->face(location.element, face);
-  const glm::dvec3& inward = which.inward.xyz;
-  return { location.element,
-    { location.u.xyz - faceMargin(which, location.u) / glm::dot(inward, inward) * inward } };
-}
-
 /// Crosses the face of a walk into the element behind it, and finds the face at the edge by which to leave that
 /// element.
 /// \return the place on the face if the surface ends there instead
@@ -395,15 +249,15 @@ std::optional<BoundaryPoint> BoundaryTracer::crossAtEdge(EdgeWalk& walk)
   }
   if (neighbor.element >= 0)
   {
-    walk.face = this->faceAtEdge(walk.location, entry, walk.corners);
+    walk.face = faceAtEdge(*this->Surface.mesh, walk.location, entry, walk.corners);
     return std::nullopt;
   }
-  walk.face = this->otherFaceAt(walk.location, entry, locatedOnFace);
+  walk.face = otherFaceAt(*this->Surface.mesh, walk.location, entry, locatedOnFace);
   if (walk.face >= 0)
   {
     walk.here.reset();
-    walk.location = this->ontoFace(walk.location, walk.face);
-    walk.corners = this->edgeBetween(walk.location, entry, walk.face);
+    walk.location = ontoFace(*this->Surface.mesh, walk.location, walk.face);
+    walk.corners = edgeBetween(*this->Surface.mesh, walk.location, entry, walk.face);
   }
   return std::nullopt;
 }
@@ -430,7 +284,8 @@ std::optional<BoundaryPoint> BoundaryTracer::walkAroundEdge(
 {
   constexpr int maximumElements =
     64; // more than meshes have around an edge: a walk that is longer goes round
-  EdgeWalk walk{ at.location, at, face, this->edgeBetween(at.location, boundaryFace, face) };
+  EdgeWalk walk{ at.location, at, face,
+    edgeBetween(*this->Surface.mesh, at.location, boundaryFace, face) };
   for (int n = 0; n < maximumElements && walk.face >= 0; ++n)
   {
     if (const auto end = this->crossAtEdge(walk))
@@ -557,7 +412,7 @@ ActiveFaces BoundaryTracer::facesAlong(const Heading& heading, const ReferenceVe
   const Location& here = from.at.location;
   ActiveFaces faces;
   faces.add(from.face);
-  for (int f = 0; f < this->faceCount(here) && faces.count < 2; ++f)
+  for (int f = 0; f < faceCount(*this->Surface.mesh, here) && faces.count < 2; ++f)
   {
     if (f != from.face && isOnFace(*this->Surface.mesh, here, f) &&
       (heading.standsStill ||
@@ -700,7 +555,8 @@ bool BoundaryTracer::follow(const BoundaryPoint& start, double step, double dire
       // A trace that meets another boundary curve, not its own start, is open.
       const glm::dvec3& begin = start.at.point.map.position.xyz;
       const bool isClosed = distanceToSegment(begin, position.xyz, next->position()) <
-        (this->HasCuts ? std::max(0.5 * moved, ChordLengths::PassShare * firstChord) : 0.5 * moved);
+        (this->HasCuts ? std::max(0.5 * moved, BoundaryChords::PassShare * firstChord)
+                       : 0.5 * moved);
       if (isClosed && direction > 0.0 && this->replacesStart(*next, vertices.front()))
       {
         vertices.front() = *next;
@@ -721,7 +577,8 @@ BoundaryTrace BoundaryTracer::trace(
 {
   BoundaryTrace result;
   // On an edge of an element the boundary curve may have a corner: how it comes there is not known yet.
-  const bool isOnEdge = this->otherFaceAt(start.at.location, start.face, OnFace) >= 0;
+  const bool isOnEdge =
+    otherFaceAt(*this->Surface.mesh, start.at.location, start.face, OnFace) >= 0;
   result.vertices.push_back({ start, start, isOnEdge });
   result.closed = this->follow(start, step, 1.0, result.vertices, parallelFor);
   if (!result.closed)

@@ -1,89 +1,14 @@
 #pragma once
 
+#include "Edges/BoundaryChords.h"
 #include "Edges/FaceCrossings.h"
 #include "Surface/ActiveFaces.h"
 #include "Surface/SurfaceWalker.h"
 
 #include <optional>
-#include <unordered_map>
 
 namespace hop
 {
-
-/// A point of a boundary curve. It lies on a boundary face: a face of an element at which the surface may end, because
-/// nothing lies behind it or because the field jumps there (Isosurface::mayEnd).
-struct BoundaryPoint
-{
-  Evaluated at;
-  int face = -1;
-};
-
-/// Whether the surface is cut along the face of a point.
-inline bool isCutAt(const Isosurface& surface, const BoundaryPoint& point)
-{
-  return surface.isCutAt(point.at.location.element, point.face);
-}
-
-/// Where a particle is to stand on a boundary curve, nearly.
-struct BoundaryPlace
-{
-  Location location;
-  /// Of the element; -1 where it is yet to be found.
-  int face = -1;
-  /// Wanted nearby, world units.
-  double spacing = 0.0;
-};
-
-/// A vertex of a traced boundary curve. On an edge of the mesh it has two faces: one on which the curve comes, one on
-/// which it goes on.
-struct BoundaryVertex
-{
-  BoundaryPoint arriving;
-  BoundaryPoint leaving;
-  /// The boundary curve has a corner here, or passes an edge of the mesh and is a cut before or behind it.
-  bool corner = false;
-
-  const glm::dvec3& position() const { return this->arriving.at.point.map.position.xyz; }
-};
-
-struct BoundaryTrace
-{
-  std::vector<BoundaryVertex> vertices;
-  /// The last vertex is followed by the first.
-  bool closed = false;
-};
-
-/// Distance of a place from the line between two others.
-double distanceToSegment(const glm::dvec3& x, const glm::dvec3& a, const glm::dvec3& b);
-
-/// Chords of the boundary curves traced so far, by the face on which they run.
-class BoundaryChords
-{
-public:
-  struct Chord
-  {
-    Chord(const BoundaryPoint& from, const BoundaryPoint& to);
-
-    std::size_t face = 0; ///< slot
-    /// Of the ends, in the world and in the element's reference space.
-    std::array<glm::dvec3, 2> positions;
-    std::array<glm::dvec3, 2> places;
-    /// Gradient of the field at the first end: on two sheets close to each other the gradients are opposite.
-    WorldVector gradient;
-  };
-
-  void add(const Chord& chord) { this->Chords[chord.face].push_back(chord); }
-
-  /// Whether a chord of the same sheet on the same face passes a point, to a fifth of the chord's length.
-  bool pass(const BoundaryPoint& point) const;
-
-  /// Whether a chord on a face crosses the line between two places on that face.
-  bool cross(int element, int face, const std::array<glm::dvec3, 2>& ends) const;
-
-private:
-  /// By the slots of the faces.
-  std::unordered_map<std::size_t, std::vector<Chord>> Chords;
-};
 
 /// Follows boundary curves of the isosurface: curves {F = c} on faces, as far as the surface ends there.
 /// Derivation: Documentation/algorithm.md, section Boundary curves and creases.
@@ -226,12 +151,6 @@ private:
   std::optional<BoundaryPoint> crossAtEdge(EdgeWalk& walk);
   void lookAtCrease(const Location& here, int face, const Location& there);
   Evaluated polished(Evaluated at, const ActiveFaces& held, double farthest);
-  std::vector<std::int64_t> cornersOf(const Location& location, int face) const;
-  std::vector<std::int64_t> edgeBetween(const Location& location, int faceA, int faceB) const;
-  int faceCount(const Location& location) const;
-  int faceAtEdge(const Location& location, int entry, const std::vector<std::int64_t>& edge) const;
-  int otherFaceAt(const Location& location, int one, double accuracy) const;
-  Location ontoFace(const Location& location, int face) const;
   int boundaryFaceOf(const Location& location, int preferred) const;
   WorldVector tangent(const BoundaryPoint& point) const;
 

@@ -1,0 +1,85 @@
+#include "Edges/BoundaryChords.h"
+
+#include <algorithm>
+
+namespace hop
+{
+namespace
+{
+
+/// Whether two lines in a plane cross or touch, to what single precision leaves.
+bool meet(const std::array<glm::dvec3, 2>& a, const std::array<glm::dvec3, 2>& b)
+{
+  constexpr double rounding = 1e-6; // of places in reference space, which are of order one
+  const auto lieApart =
+    [](const std::array<glm::dvec3, 2>& before, const std::array<glm::dvec3, 2>& behind)
+  {
+    const glm::dvec3 gap = glm::min(behind[0], behind[1]) - glm::max(before[0], before[1]);
+    return glm::any(glm::greaterThan(gap, glm::dvec3(10.0 * rounding)));
+  };
+  if (lieApart(a, b) || lieApart(b, a))
+  {
+    return false; // boxes around them are apart, as most are
+  }
+  const glm::dvec3 along = b[1] - b[0];
+  const double length = glm::length(along);
+  const glm::dvec3 normal = glm::cross(along, a[1] - a[0]);
+  const double size = glm::length(normal);
+  if (!(size > rounding * rounding))
+  {
+    return false; // one of them is a point, or they are parallel
+  }
+  const glm::dvec3 aside = glm::cross(normal, along) / (size * length);
+  const double first = glm::dot(aside, a[0] - b[0]);
+  const double last = glm::dot(aside, a[1] - b[0]);
+  const double t = std::clamp(first / (first - last), 0.0, 1.0);
+  const glm::dvec3 nearest = glm::mix(a[0], a[1], t);
+  const double reached = glm::dot(nearest - b[0], along) / length;
+  return std::abs(glm::dot(aside, nearest - b[0])) <= rounding && reached >= -rounding &&
+    reached <= length + rounding;
+}
+
+} // namespace
+
+double distanceToSegment(const glm::dvec3& x, const glm::dvec3& a, const glm::dvec3& b)
+{
+  const glm::dvec3 d = b - a;
+  const double length2 = glm::dot(d, d);
+  const double t = length2 > 0.0 ? std::clamp(glm::dot(x - a, d) / length2, 0.0, 1.0) : 0.0;
+  return glm::distance(x, a + t * d);
+}
+
+BoundaryChords::Chord::Chord(const BoundaryPoint& from, const BoundaryPoint& to)
+  : face(faceSlot(from.at.location.element, from.face))
+  , positions{ from.at.point.map.position.xyz, to.at.point.map.position.xyz }
+  , gradient(from.at.point.gradient)
+{
+  const Location& first = from.at.location;
+  const Location& last = to.at.location;
+  // Of a chord that leaves its element only the first place lies in the element's reference space.
+  this->places = { first.u.xyz, (last.element == first.element ? last : first).u.xyz };
+}
+
+bool BoundaryChords::pass(const BoundaryPoint& point) const
+{
+  const auto found = this->Chords.find(faceSlot(point.at.location.element, point.face));
+  const glm::dvec3& x = point.at.point.map.position.xyz;
+  return found != this->Chords.end() &&
+    std::any_of(found->second.begin(), found->second.end(),
+      [&](const Chord& chord)
+      {
+        const auto& [a, b] = chord.positions;
+        return distanceToSegment(x, a, b) <= PassShare * glm::distance(a, b) &&
+          dot(chord.gradient, point.at.point.gradient) > 0.0;
+      });
+}
+
+bool BoundaryChords::cross(int element, int face, const std::array<glm::dvec3, 2>& ends) const
+{
+  const auto found = this->Chords.find(faceSlot(element, face));
+  return found != this->Chords.end() &&
+    std::any_of(found->second.begin(), found->second.end(),
+      [&ends](const Chord& chord) { return meet(chord.places, ends); });
+}
+
+} // namespace hop

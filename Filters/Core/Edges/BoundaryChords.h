@@ -1,0 +1,48 @@
+#pragma once
+
+#include "Edges/BoundaryTrace.h"
+
+#include <array>
+#include <unordered_map>
+#include <vector>
+
+namespace hop
+{
+
+/// Distance of a place from the line between two others.
+double distanceToSegment(const glm::dvec3& x, const glm::dvec3& a, const glm::dvec3& b);
+
+/// Chords of the boundary curves traced so far, by the face on which they run.
+class BoundaryChords
+{
+public:
+  /// A chord passes a point that is nearer to it than this, in units of its own length. More takes another boundary
+  /// curve close by for the same one; less than what the curve bends away from its chords traces it twice.
+  static constexpr double PassShare = 0.2;
+
+  struct Chord
+  {
+    Chord(const BoundaryPoint& from, const BoundaryPoint& to);
+
+    std::size_t face = 0; ///< slot
+    /// Of the ends, in the world and in the element's reference space.
+    std::array<glm::dvec3, 2> positions;
+    std::array<glm::dvec3, 2> places;
+    /// Gradient of the field at the first end: on two sheets close to each other the gradients are opposite.
+    WorldVector gradient;
+  };
+
+  void add(const Chord& chord) { this->Chords[chord.face].push_back(chord); }
+
+  /// Whether a chord of the same sheet on the same face passes a point, to a fifth of the chord's length.
+  bool pass(const BoundaryPoint& point) const;
+
+  /// Whether a chord on a face crosses the line between two places on that face.
+  bool cross(int element, int face, const std::array<glm::dvec3, 2>& ends) const;
+
+private:
+  /// By the slots of the faces.
+  std::unordered_map<std::size_t, std::vector<Chord>> Chords;
+};
+
+} // namespace hop
