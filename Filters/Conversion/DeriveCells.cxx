@@ -168,6 +168,7 @@ void Deriver::derive(JudgedCells& range, CellValues& values) const
     }
     for (DerivedCell& derived : found.cells)
     {
+      derived.partsOfCell = found.cells.size();
       kept.push_back({ cell.cell, cell.basis, found.change });
       range.derived.push_back(std::move(derived));
     }

@@ -18,6 +18,8 @@ struct DerivedCell
   int exponent = 0;
   /// The part of the cell.
   ReferencePart place;
+  /// Parts of the cell that can hold surface, this one among them.
+  std::size_t partsOfCell = 1;
   /// The field itself, point by point, if it stands in for the element's wherever particles are; else without coefficients.
   ExactSource exact;
   /// Whether the element holds the field to rounding, or to the tolerance of an interpolation.

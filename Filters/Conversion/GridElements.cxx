@@ -213,6 +213,7 @@ Element Builder::elementOf(const JudgedCells& range, std::size_t i) const
   if (this->Blocks.isDerived())
   {
     element.degrees = range.derived[i].element.degrees;
+    element.partsOfCell = static_cast<std::uint16_t>(range.derived[i].partsOfCell);
     element.rational = !range.derived[i].element.weights.empty();
   }
   else

@@ -73,6 +73,8 @@ std::vector<Ingredient> makeIngredients()
     { "WarmStart", 0, { 0, 1 } },
     { "change", 0, mostly(4, 0, { 1, 2, 3, 4, 5 }) }, // see FilterSession::change()
     { "threads", 1, { 1, 2, 3, 4 } },
+    // So many at most; 0: all.
+    { "cells", 0, { 0 } },
   };
 }
 
@@ -163,6 +165,14 @@ void GridRecipe::keepSmall()
   bound("Spacing", 0.5, 3.0);
   bound("AngularDensity", 0.0, 2.0);
   bound("NumberOfParticles", 0.0, 7.0);
+}
+
+void GridRecipe::keepTiny()
+{
+  this->keepSmall();
+  this->Values["cells"] = 1.0 + static_cast<double>(this->Seed % 4);
+  this->Values["Spacing"] = std::max((*this)["Spacing"], 1.0);
+  this->Values["threads"] = std::min((*this)["threads"], 2.0);
 }
 
 std::string GridRecipe::text() const

@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace hop::testing
 {
@@ -115,6 +116,27 @@ Mesh straightMesh(const GridRecipe& recipe)
     default:
       return meshOfSource(recipe);
   }
+}
+
+/// The first cells, and the nodes that these have.
+Mesh firstCells(const Mesh& mesh, std::size_t count)
+{
+  Mesh kept;
+  std::map<vtkIdType, vtkIdType> newIds;
+  for (std::size_t c = 0; c < std::min(count, mesh.cells.size()); ++c)
+  {
+    Cell& cell = kept.cells.emplace_back(mesh.cells[c]);
+    for (vtkIdType& id : cell.nodes)
+    {
+      const auto [known, isNew] = newIds.emplace(id, static_cast<vtkIdType>(kept.nodes.size()));
+      if (isNew)
+      {
+        kept.nodes.push_back(mesh.nodes[id]);
+      }
+      id = known->second;
+    }
+  }
+  return kept;
 }
 
 /// A value at a point of the box [0, 1]^3, about one in size.
@@ -326,6 +348,10 @@ vtkSmartPointer<vtkUnstructuredGrid> makeGrid(const GridRecipe& recipe, int chan
 {
   Random dice(2 * recipe.seed() + 1 + 1000003ULL * static_cast<std::uint64_t>(change));
   Mesh mesh = straightMesh(recipe);
+  if (const int most = recipe.count("cells"))
+  {
+    mesh = firstCells(mesh, static_cast<std::size_t>(most));
+  }
   std::vector<double> numbers = values(recipe, mesh, dice);
   mesh.nodes = bentNodes(recipe, mesh, dice);
   spoil(recipe.count("bad"), mesh, numbers, dice);

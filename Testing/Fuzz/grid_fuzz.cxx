@@ -5,7 +5,8 @@
 //   grid_fuzz [limit=SECONDS] FILE                       the recipes of a file, one a line; '#' begins a comment
 //   grid_fuzz from=SEED to=SEED list                     writes such a file
 //
-// With `small`, recipes are of few cells of low degrees and of few particles: many more of them fit into an hour.
+// With `small`, recipes are of few cells of low degrees and of few particles: many more of them fit into an hour. With
+// `tiny`, they are of one to four such cells and as few particles as there can be.
 //
 // A recipe fails if its process ends, if a run of the filter takes more than `limit` seconds of processor time or is
 // silent for a tenth of that, or if OutputJudge.h complains; of every fourth seed, if another number of threads gives
@@ -36,12 +37,20 @@ using hop::testing::FilterSession;
 using hop::testing::GridRecipe;
 using hop::testing::Tally;
 
+/// What recipes are bounded by.
+enum class Size
+{
+  Any,
+  Small,
+  Tiny
+};
+
 struct Options
 {
   std::uint64_t from = 0, to = 300;
   double limit = 10.0;
   bool isList = false;
-  bool isSmall = false;
+  Size size = Size::Any;
   std::string file;
 };
 
@@ -55,8 +64,11 @@ struct Report
 /// The first of each kind of complaint; see kindOf().
 using Reports = std::map<std::string, Report>;
 
-/// Recipes that one child process runs before it looks for leaks.
-constexpr std::size_t Batch = 20;
+/// Recipes that one child process runs before it looks for leaks, which takes as long as some tiny ones.
+std::size_t batchOf(Size size)
+{
+  return size == Size::Tiny ? 200 : 20;
+}
 
 void append(const std::vector<std::string>& complaints, std::string& text)
 {
@@ -217,7 +229,11 @@ Options parse(int count, char** words)
     }
     else if (word == "small")
     {
-      options.isSmall = true;
+      options.size = Size::Small;
+    }
+    else if (word == "tiny")
+    {
+      options.size = Size::Tiny;
     }
     else if (word == "list")
     {
@@ -239,15 +255,19 @@ void list(const std::vector<GridRecipe>& recipes)
   }
 }
 
-std::vector<GridRecipe> recipesOf(std::uint64_t begin, std::uint64_t end, bool isSmall)
+std::vector<GridRecipe> recipesOf(std::uint64_t begin, std::uint64_t end, Size size)
 {
   std::vector<GridRecipe> recipes;
   for (std::uint64_t seed = begin; seed < end; ++seed)
   {
     recipes.emplace_back(seed);
-    if (isSmall)
+    if (size == Size::Small)
     {
       recipes.back().keepSmall();
+    }
+    else if (size == Size::Tiny)
+    {
+      recipes.back().keepTiny();
     }
   }
   return recipes;
@@ -262,7 +282,7 @@ int main(int count, char** words)
     vtkLogger::VERBOSITY_OFF); // VTK's own cells have much to say of odd ones
   if (options.isList)
   {
-    list(recipesOf(options.from, options.to, options.isSmall));
+    list(recipesOf(options.from, options.to, options.size));
     return 0;
   }
   std::size_t grids = 0, failed = 0;
@@ -279,10 +299,11 @@ int main(int count, char** words)
   {
     run(recipesOf(options.file));
   }
-  for (std::uint64_t seed = options.from; options.file.empty() && seed < options.to; seed += Batch)
+  const std::size_t batch = batchOf(options.size);
+  for (std::uint64_t seed = options.from; options.file.empty() && seed < options.to; seed += batch)
   {
-    run(recipesOf(seed, std::min<std::uint64_t>(options.to, seed + Batch), options.isSmall));
-    std::fprintf(stderr, "up to seed %llu\n", static_cast<unsigned long long>(seed + Batch));
+    run(recipesOf(seed, std::min<std::uint64_t>(options.to, seed + batch), options.size));
+    std::fprintf(stderr, "up to seed %llu\n", static_cast<unsigned long long>(seed + batch));
   }
   shrinkAll(kept, options.limit);
   std::printf("# %zu recipes, %lld runs, %lld of them with %lld points, %zu recipes failed\n",

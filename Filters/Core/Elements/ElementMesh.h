@@ -29,6 +29,8 @@ struct Element
   /// Index of its first coefficient (and weight) in the mesh.
   std::size_t firstCoefficient = 0;
   bool rational = false;
+  /// Elements that share the limits of a cell (UndecidedPieces.h), at least 1: the parts of the cell that hold surface.
+  std::uint16_t partsOfCell = 1;
   /// Index in the mesh's exactFields, or -1: the polynomial is the field.
   int exactField = -1;
   /// Cell of the input that the element was made of.

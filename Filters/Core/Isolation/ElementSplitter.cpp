@@ -87,7 +87,8 @@ bool ElementSplitter::splitWithin(std::size_t mostPieces, int element,
       boxes.resize(before);
       return false;
     }
-    const StopRule rule = stopRuleOf(level, boxes.size() > before, this->Tests);
+    const StopRule rule = stopRuleOf(
+      level, boxes.size() > before, this->Tests, this->Mesh.elements[element].partsOfCell);
     ofElement.beginLevel(level.size());
     std::vector<Outcome> outcomes = this->decideAll(level, rule, parallelFor, ofElement);
     level = sortOut(std::move(level), std::move(outcomes), boxes, undecided);

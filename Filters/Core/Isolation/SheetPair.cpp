@@ -204,15 +204,20 @@ std::optional<SheetPair> findSheetPair(
       line.reach > PairLimits::Steady * middleLine.reach &&
       middleLine.reach > PairLimits::Steady * line.reach;
   };
+  // Most pieces fail at the first line or the second; each costs three evaluations.
+  if (!isSteadyPair(middleLine))
+  {
+    return std::nullopt;
+  }
   std::vector<FieldOnLines::Line> lines;
   lines.reserve(corners.size());
   for (const ReferencePoint& corner : corners)
   {
     lines.push_back(along.through(corner.xyz));
-  }
-  if (!isSteadyPair(middleLine) || !std::all_of(lines.begin(), lines.end(), isSteadyPair))
-  {
-    return std::nullopt;
+    if (!isSteadyPair(lines.back()))
+    {
+      return std::nullopt;
+    }
   }
   pair.between = middle - middleLine.distance * direction;
   for (const int n : { 0, 1 })

@@ -39,19 +39,21 @@ std::ptrdiff_t undecidedCount(const std::vector<Piece>& pieces)
     pieces.begin(), pieces.end(), [](const Piece& piece) { return !piece.certified(); });
 }
 
-/// The limit on undecided pieces of the size of a piece.
-std::ptrdiff_t mostUndecided(const Piece& piece)
+/// The limit on undecided pieces of the size of a piece, in one of the elements of a cell.
+std::ptrdiff_t mostUndecided(const Piece& piece, int partsOfCell)
 {
   const std::size_t bytes =
     piece.coefficients.size() * sizeof(Coefficient) + piece.weights.size() * sizeof(double);
-  return piece.bisections >= TooManyPieces::LongBisections
+  const std::ptrdiff_t ofCell = piece.bisections >= TooManyPieces::LongBisections
     ? TooManyPieces::LongCount
     : std::min<std::ptrdiff_t>(TooManyPieces::Count, TooManyPieces::Bytes / bytes);
+  return std::max<std::ptrdiff_t>(1, ofCell / partsOfCell);
 }
 
 } // namespace
 
-StopRule stopRuleOf(const std::vector<Piece>& level, bool isCrossed, const PieceTests& tests)
+StopRule stopRuleOf(
+  const std::vector<Piece>& level, bool isCrossed, const PieceTests& tests, int partsOfCell)
 {
   StopRule rule;
   // Undecided pieces of a level are of one size; certified ones may have been halved more often.
@@ -61,7 +63,7 @@ StopRule stopRuleOf(const std::vector<Piece>& level, bool isCrossed, const Piece
   {
     return rule;
   }
-  rule.all = undecidedCount(level) > mostUndecided(*undecided);
+  rule.all = undecidedCount(level) > mostUndecided(*undecided, partsOfCell);
   const int bisections = undecided->bisections;
   if (bisections < TangencyTests::First || bisections % TangencyTests::Interval != 0)
   {

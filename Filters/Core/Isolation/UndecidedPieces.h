@@ -22,7 +22,9 @@ struct StopRule
 /// undecided however often they are halved: many of them tell of a tangency.
 /// \param level all pieces of the element that are left, of one number of bisections; not empty
 /// \param isCrossed whether the element has boxes already, so that the surface crosses it
-StopRule stopRuleOf(const std::vector<Piece>& level, bool isCrossed, const PieceTests& tests);
+/// \param partsOfCell elements that share the limits of a cell, at least 1
+StopRule stopRuleOf(
+  const std::vector<Piece>& level, bool isCrossed, const PieceTests& tests, int partsOfCell = 1);
 
 /// Whether halving a piece that is not certified would not decide it: the field is nothing but the isovalue, or
 /// `tangent` or `apart` of the rule holds for the piece.
@@ -41,7 +43,7 @@ struct UndecidedPieces
 void appendUndecided(const UndecidedPieces& undecided, const Piece& whole, const PieceTests& tests,
   std::vector<SurfaceBox>& boxes);
 
-/// Undecided pieces of an element at most. Where the surface is singular along lines, two sheets that cross for
+/// Undecided pieces of a cell at most, which its elements share evenly. Where the surface is singular along lines, two sheets that cross for
 /// instance, undecided pieces along the lines double in number with each halving of their length. Larger limits take
 /// more time and memory there, smaller ones stop pieces that further bisections would decide. Chosen by experiment.
 struct TooManyPieces

@@ -7,7 +7,7 @@ namespace hop
 namespace
 {
 
-/// How long one element is split.
+/// How long one cell is split.
 struct SplitLimits
 {
   /// Coefficients of all boxes, over all levels, and between which bounds the number of boxes stays: a third of a
@@ -16,15 +16,19 @@ struct SplitLimits
   static constexpr std::size_t Coefficients = std::size_t{ 1 } << 23;
   static constexpr std::size_t FewestBoxes = 2048;
   static constexpr std::size_t MostBoxes = 65536;
+  /// Boxes that each of several elements of a cell has at least. Smaller: derived fields have more meshes that are not
+  /// proven; larger: where they are singular all over, a cell of 64 elements takes longer (seed 1075 of grid_fuzz).
+  static constexpr std::size_t FewestBoxesOfPart = 256;
   /// Size of a leaf, in units of the smallest one, from which it is not split because the field is the isovalue at
   /// one of its corners, to rounding: where the surface is singular, all leaves at this corner would be like it. Smaller:
   /// fewer components pass unresolved leaves, and elements that are singular along edges or in faces take longer: 2 ms
   /// each at a 32nd, 0.1 s without this limit (topology_benchmark vtkdata_pyramid_quadratic.vtu DistanceToCenter 0.866).
   static constexpr int SizeAtZero = LeafGrid::Size / 32;
 
-  static std::size_t boxes(std::size_t coefficients)
+  static std::size_t boxes(std::size_t coefficients, int partsOfCell)
   {
-    return std::clamp(Coefficients / coefficients, FewestBoxes, MostBoxes);
+    const std::size_t ofCell = std::clamp(Coefficients / coefficients, FewestBoxes, MostBoxes);
+    return std::max(ofCell / static_cast<std::size_t>(partsOfCell), FewestBoxesOfPart);
   }
 };
 
@@ -110,12 +114,12 @@ glm::dvec3 LeafGrid::toCube(const glm::dvec3& place)
   return t;
 }
 
-ElementLeaves findLeaves(const ElementCube& cube, const LeafTests& tests)
+ElementLeaves findLeaves(const ElementCube& cube, const LeafTests& tests, int partsOfCell)
 {
   ElementLeaves leaves;
   std::vector<Box> level;
   std::size_t examined = 0;
-  const std::size_t most = SplitLimits::boxes(cube.values.size());
+  const std::size_t most = SplitLimits::boxes(cube.values.size(), partsOfCell);
   const auto examine = [&](Leaf leaf, std::vector<double> values, std::vector<Box>& undecided)
   {
     ++examined;

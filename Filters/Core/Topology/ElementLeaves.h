@@ -43,6 +43,7 @@ struct ElementLeaves
 
 /// Splits an element's cube until nothing is undecided, or leaves are as small as they may be, or too many.
 /// \param tests for the cube's degrees
-ElementLeaves findLeaves(const ElementCube& cube, const LeafTests& tests);
+/// \param partsOfCell elements that share the limits of a cell, at least 1
+ElementLeaves findLeaves(const ElementCube& cube, const LeafTests& tests, int partsOfCell = 1);
 
 } // namespace hop

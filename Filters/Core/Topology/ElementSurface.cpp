@@ -311,7 +311,8 @@ ElementSurface findElementSurface(
   {
     tests.emplace(cube.degrees);
   }
-  ElementSurface surface = joinLeaves(cube.shape, findLeaves(cube, *tests));
+  const int partsOfCell = mesh.elements[element].partsOfCell;
+  ElementSurface surface = joinLeaves(cube.shape, findLeaves(cube, *tests, partsOfCell));
   surface.isLifted = cube.isLifted;
   return surface;
 }

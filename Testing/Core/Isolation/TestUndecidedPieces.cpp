@@ -96,6 +96,18 @@ TEST_P(StopRules, LimitTheNumberOfUndecidedPieces)
     this->ruleOf(planeField, TooManyPieces::LongBisections, TooManyPieces::LongCount + 1).all);
 }
 
+TEST_P(StopRules, PartsOfACellShareItsLimit)
+{
+  const WholeElement element(this->GetParam(), 2, planeField);
+  const Piece piece = element.piece();
+  const PieceTests tests = testsOf(piece);
+  const auto areTooMany = [&](int pieces, int parts)
+  { return stopRuleOf(std::vector<Piece>(pieces, piece), false, tests, parts).all; };
+  EXPECT_FALSE(areTooMany(TooManyPieces::Count / 64, 64));
+  EXPECT_TRUE(areTooMany(TooManyPieces::Count / 64 + 1, 64));
+  EXPECT_FALSE(areTooMany(1, 10 * TooManyPieces::Count)) << "one piece is no more than it was";
+}
+
 TEST_P(StopRules, DoNotLimitCertifiedPieces)
 {
   const WholeElement element(this->GetParam(), 1, planeField);
