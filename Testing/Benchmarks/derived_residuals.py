@@ -25,7 +25,7 @@ FILES = [  # file, array, quantity
     ("pyfr_cylinder_3360hex_7656prism_p3.vtu", "Pressure", "Gradient Magnitude"),
     ("ngsolve_cylinder_ns_tet_p3.vtu", "pressure", "Gradient Magnitude"),
 ]
-MOST = 3000
+MOST = 2000
 
 
 def magnitude(cell, place, nodal):
@@ -51,7 +51,7 @@ for file, name, quantity in FILES:
         cell.GetParametricCenter(place)
         middles.append(magnitude(cell, place, field[cells.point_ids(cell)]))
     isovalue, scale = np.quantile(middles, 0.8), np.quantile(middles, 0.95)
-    particles, _ = support.run(reader, name, isovalue, Quantity=quantity)
+    particles, _ = support.run(reader, name, isovalue, Quantity=quantity, Spacing=0.1, AngularDensity=0)
     ids = support.array_of(particles, "vtkOriginalCellIds")
     places = support.array_of(particles, "ParametricCoordinates").astype(float)
     some = np.unique(np.linspace(0, len(ids) - 1, MOST).astype(int))
