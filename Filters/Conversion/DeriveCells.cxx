@@ -26,6 +26,22 @@ namespace
 /// than those of their interpolated parts; smaller: cubic cells are interpolated, too, and are not exact any more.
 constexpr int MostOfProducts = 16;
 
+/// How often parts are halved on, each alone, where the polynomials lose a component and particles stand on the field
+/// itself. Fewer: components beside creases of lambda 2 are missed (test_derived_components.py); more: parts of many small
+/// ones cost more.
+constexpr int MostHalvingsOfParts = 2;
+
+/// The eight parts that halving all edges of a part gives.
+std::vector<ReferencePart> halvesOf(Domain domain, const ReferencePart& part)
+{
+  std::vector<ReferencePart> halves = partsOf(domain, 1);
+  for (ReferencePart& half : halves)
+  {
+    half = { part.inWhole({ half.origin }).xyz, part.axes * half.axes };
+  }
+  return halves;
+}
+
 /// Divides the field by a unit in which it is about one.
 /// \return the exponent of the unit, a power of two
 int scaleField(CellValues& values)
@@ -129,12 +145,28 @@ private:
     double change = 0.0;
   };
 
+  /// A cell that is derived part by part.
+  struct SampledCell
+  {
+    const SourceElement& source;
+    StandIn standIn = StandIn::Surface;
+    double rounding = 0.0;
+    /// What its parts have in common.
+    DerivedCell whole;
+    FieldSampler sampler;
+    Found& found;
+  };
+
   Verdict derive(std::size_t block, const KeptCell& kept, CellValues& values, Found& found) const;
   Verdict findByProducts(
     const SourceElement& source, double rounding, DerivedCell cell, Found& found) const;
   Verdict findBySamples(
     const SourceElement& source, double rounding, DerivedCell cell, Found& found) const;
+  Verdict findInParts(
+    const std::vector<ReferencePart>& parts, int halvings, SampledCell& cell) const;
+  Verdict findInPart(const ReferencePart& place, int halvings, SampledCell& cell) const;
   Verdict judge(const Range& range, double slack, int exponent, double& change) const;
+  std::vector<double> levelsOf(int exponent) const;
   bool straddles(const Range& range, int exponent) const;
   Range boundsOf(const SourceElement& source, const DerivativeBounds& bounds) const;
 
@@ -290,51 +322,72 @@ Verdict Deriver::findByProducts(
 Verdict Deriver::findBySamples(
   const SourceElement& source, double rounding, DerivedCell cell, Found& found) const
 {
-  const std::vector<ReferencePart>& parts = this->Parts[static_cast<std::size_t>(source.domain)];
   const StandIn standIn = standInFor(this->Blocks.quantity(), source);
-  FieldSampler sampler(source, this->Function, rounding, standIn);
+  SampledCell sampled{ source, standIn, rounding, std::move(cell),
+    FieldSampler(source, this->Function, rounding, standIn), found };
+  const int halvings = standIn == StandIn::Proof ? MostHalvingsOfParts : 0;
+  return this->findInParts(this->Parts[static_cast<std::size_t>(source.domain)], halvings, sampled);
+}
+
+/// \param halvings that parts may take, see findInPart()
+Verdict Deriver::findInParts(
+  const std::vector<ReferencePart>& parts, int halvings, SampledCell& cell) const
+{
   Verdict verdict = Verdict::Drop;
-  ExactSource exact;
-  for (std::size_t n = 0; n < parts.size(); ++n)
+  for (const ReferencePart& part : parts)
   {
-    SampledPart sampled = sampler.sample(
-      parts[n], [&](const Range& range) { return this->straddles(range, cell.exponent); });
-    if (sampled.element.state != DerivedElement::State::Sound)
+    const Verdict ofPart = this->findInPart(part, halvings, cell);
+    if (ofPart == Verdict::Undefined || ofPart == Verdict::Singular)
     {
-      return sampled.element.state == DerivedElement::State::NotFinite ? Verdict::Undefined
-                                                                       : Verdict::Singular;
+      return ofPart;
     }
-    if (!sampled.canHoldSurface)
-    {
-      continue;
-    }
-    Range range{ std::numeric_limits<double>::infinity(),
-      -std::numeric_limits<double>::infinity() };
-    for (const Coefficient& coefficient : sampled.element.coefficients)
-    {
-      range.include(coefficient.w);
-    }
-    double change = 0.0;
-    const Verdict ofPart = this->judge(range, rounding, cell.exponent, change);
     verdict = verdict == Verdict::Keep ? verdict : ofPart;
-    if (ofPart == Verdict::Keep)
-    {
-      DerivedCell& part = found.cells.emplace_back(cell);
-      part.element = std::move(sampled.element);
-      part.place = parts[n];
-      part.isResolved = sampled.isResolved;
-      if (standIn == StandIn::Proof)
-      {
-        exact = exact.coefficients.empty() ? exactSource(source, this->Blocks.quantity()) : exact;
-        part.exact = exact;
-        part.exact.field.part = part.place;
-      }
-      found.change = std::max(found.change, change);
-    }
   }
   return verdict;
 }
 
+/// Derives a part of a cell, or its halves where the part's polynomial loses a component.
+/// \param halvings that may follow
+Verdict Deriver::findInPart(const ReferencePart& place, int halvings, SampledCell& cell) const
+{
+  SampledPart sampled = cell.sampler.sample(
+    place, [&](const Range& range) { return this->straddles(range, cell.whole.exponent); },
+    halvings > 0 ? this->levelsOf(cell.whole.exponent) : std::vector<double>());
+  if (sampled.element.state != DerivedElement::State::Sound)
+  {
+    return sampled.element.state == DerivedElement::State::NotFinite ? Verdict::Undefined
+                                                                     : Verdict::Singular;
+  }
+  if (!sampled.canHoldSurface)
+  {
+    return Verdict::Drop;
+  }
+  if (sampled.losesComponents)
+  {
+    return this->findInParts(halvesOf(cell.source.domain, place), halvings - 1, cell);
+  }
+  Range range{ std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity() };
+  for (const Coefficient& coefficient : sampled.element.coefficients)
+  {
+    range.include(coefficient.w);
+  }
+  double change = 0.0;
+  const Verdict verdict = this->judge(range, cell.rounding, cell.whole.exponent, change);
+  if (verdict == Verdict::Keep)
+  {
+    if (cell.standIn == StandIn::Proof && cell.whole.exact.coefficients.empty())
+    {
+      cell.whole.exact = exactSource(cell.source, this->Blocks.quantity());
+    }
+    DerivedCell& part = cell.found.cells.emplace_back(cell.whole);
+    part.element = std::move(sampled.element);
+    part.place = place;
+    part.exact.field.part = place;
+    part.isResolved = sampled.isResolved;
+    cell.found.change = std::max(cell.found.change, change);
+  }
+  return verdict;
+}
 /// Whether a field with that range can hold surface, or is the same throughout.
 /// \param change receives how much the quantity changes
 Verdict Deriver::judge(const Range& range, double slack, int exponent, double& change) const
@@ -349,17 +402,28 @@ Verdict Deriver::judge(const Range& range, double slack, int exponent, double& c
   return range.upper - range.lower <= slack ? Verdict::Level : Verdict::Keep;
 }
 
+/// The isovalues in the field of a derived cell.
+std::vector<double> Deriver::levelsOf(int exponent) const
+{
+  const bool isSquare = isSquareRoot(this->Blocks.quantity());
+  std::vector<double> levels;
+  for (const double c : this->Isovalues)
+  {
+    const double level = std::ldexp(c, isSquare ? -exponent / 2 : -exponent);
+    if (!isSquare || c >= 0.0)
+    {
+      levels.push_back(isSquare ? level * level : level);
+    }
+  }
+  return levels;
+}
+
 /// Whether an isovalue of the quantity lies in a range of the field of a derived cell.
 bool Deriver::straddles(const Range& range, int exponent) const
 {
-  const bool isSquare = isSquareRoot(this->Blocks.quantity());
-  return std::any_of(this->Isovalues.begin(), this->Isovalues.end(),
-    [&](double c)
-    {
-      const double level = std::ldexp(c, isSquare ? -exponent / 2 : -exponent);
-      const double field = isSquare ? level * level : level;
-      return (!isSquare || c >= 0.0) && range.lower <= field && field <= range.upper;
-    });
+  const std::vector<double> levels = this->levelsOf(exponent);
+  return std::any_of(levels.begin(), levels.end(),
+    [&](double level) { return range.lower <= level && level <= range.upper; });
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 class vtkDataArray;
@@ -16,5 +17,9 @@ namespace hop
 /// \return finite values only; none where the quantity needs a vector and the array is none
 std::vector<double> sampleDerived(
   vtkDataSet* data, vtkDataArray* array, int component, int quantity, long long step);
+
+/// The same of a formula of the data set's point arrays, see FieldExpression.
+/// \return finite values only; none where the text is no formula of these arrays
+std::vector<double> sampleExpression(vtkDataSet* data, const std::string& text, long long step);
 
 } // namespace hop

@@ -7,6 +7,7 @@
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
+#include "vtkHighOrderParticleIsosurface.h"
 #include "vtkMultiProcessStream.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -103,16 +104,22 @@ void vtkPVQuantileInformation::AddDerived(vtkDataObject* data)
   {
     size += block->GetNumberOfCells();
   }
+  const long long step = 1 + (size - 1) / mostCells;
   for (vtkDataSet* block : blocks)
   {
     vtkDataArray* array = block->GetPointData()->GetArray(this->ArrayName.c_str());
-    if (array && array->GetNumberOfTuples() >= block->GetNumberOfPoints())
+    std::vector<double> values;
+    if (this->Quantity == vtkHighOrderParticleIsosurface::EXPRESSION)
     {
-      for (const double value : hop::sampleDerived(
-             block, array, this->Component, this->Quantity, 1 + (size - 1) / mostCells))
-      {
-        this->Samples.emplace_back(value, 1.0);
-      }
+      values = hop::sampleExpression(block, this->Expression, step);
+    }
+    else if (array && array->GetNumberOfTuples() >= block->GetNumberOfPoints())
+    {
+      values = hop::sampleDerived(block, array, this->Component, this->Quantity, step);
+    }
+    for (const double value : values)
+    {
+      this->Samples.emplace_back(value, 1.0);
     }
   }
 }
@@ -211,13 +218,13 @@ void vtkPVQuantileInformation::CopyFromStream(const vtkClientServerStream* strea
 void vtkPVQuantileInformation::CopyParametersToStream(vtkMultiProcessStream& stream)
 {
   stream << this->Port << this->ArrayName << this->SpacingArrayName << this->Component
-         << this->Quantity;
+         << this->Quantity << this->Expression;
 }
 
 void vtkPVQuantileInformation::CopyParametersFromStream(vtkMultiProcessStream& stream)
 {
   stream >> this->Port >> this->ArrayName >> this->SpacingArrayName >> this->Component >>
-    this->Quantity;
+    this->Quantity >> this->Expression;
 }
 
 void vtkPVQuantileInformation::PrintSelf(ostream& os, vtkIndent indent)
@@ -228,5 +235,6 @@ void vtkPVQuantileInformation::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SpacingArrayName: " << this->SpacingArrayName << "\n";
   os << indent << "Component: " << this->Component << "\n";
   os << indent << "Quantity: " << this->Quantity << "\n";
+  os << indent << "Expression: " << this->Expression << "\n";
   os << indent << "Samples: " << this->Samples.size() << "\n";
 }

@@ -8,7 +8,7 @@
  * quantiles of shares that are thousandths are exact; with several ranks they are off by less than a thousandth of a
  * rank's values.
  *
- * Of a field made of derivatives, values in the middles of cells are looked at instead of nodal values, of a few
+ * Of a field made of derivatives, or a formula, values in the middles of cells are looked at instead of nodal values, of a few
  * thousand cells a rank.
  *
  * Particles stand closer where the surface bends, so that half of them may cover a twentieth of it. With an array of
@@ -49,6 +49,13 @@ public:
    * One of vtkHighOrderParticleIsosurface::QuantityType; 0, the default, is the array itself.
    */
   vtkSetMacro(Quantity, int);
+  ///@}
+
+  ///@{
+  /**
+   * The formula, where that is the quantity: of all point arrays, whatever the array is.
+   */
+  vtkSetMacro(Expression, std::string);
   ///@}
 
   /**
@@ -95,6 +102,7 @@ private:
   std::string SpacingArrayName;
   int Component = 0;
   int Quantity = 0;
+  std::string Expression;
   /// Values, each with the number of values, or the area, for which it stands.
   std::vector<std::pair<double, double>> Samples;
 };

@@ -94,16 +94,14 @@ int vtkSMIsovalueDomain::SetDefaultValues(vtkSMProperty* property, bool useUnche
   // shear layers between vortices, too, smaller ones the cores of the strongest vortices alone. Chosen by experiment.
   constexpr double inVortices = 0.05;
   const int quantity = this->GetQuantity(true);
-  if (quantity == vtkHighOrderParticleIsosurface::EXPRESSION)
-  {
-    return 1; // what values a formula has is not known here: the value stays
-  }
   vtkNew<vtkPVQuantileInformation> values;
   values->SetQuantity(quantity);
+  values->SetExpression(this->GetExpression(true));
   this->Gather(values.Get());
   if (!values->HasValues())
   {
-    // The array may lack the quantity, as a scalar lacks a divergence: what stands here serves the next choice.
+    // The array may lack the quantity, as a scalar lacks a divergence, or the formula may not be complete: what stands here
+    // serves the next choice.
     return quantity == vtkHighOrderParticleIsosurface::VALUE
       ? this->SetMiddleOfRange(property, useUnchecked)
       : 1;
@@ -187,8 +185,18 @@ std::string vtkSMIsovalueDomain::GetChoice(bool useUnchecked)
   array.SetUseUnchecked(useUnchecked);
   component.SetUseUnchecked(useUnchecked);
   const char* name = array.GetInputArrayNameToProcess();
-  return std::to_string(this->GetQuantity(useUnchecked)) + " " +
-    std::to_string(component.GetAsInt()) + " " + (name ? name : "");
+  const int quantity = this->GetQuantity(useUnchecked);
+  return std::to_string(quantity) + " " + std::to_string(component.GetAsInt()) + " " +
+    (quantity == vtkHighOrderParticleIsosurface::EXPRESSION ? this->GetExpression(useUnchecked)
+                                                            : std::string(name ? name : ""));
+}
+
+std::string vtkSMIsovalueDomain::GetExpression(bool useUnchecked)
+{
+  vtkSMPropertyHelper expression(this->GetRequiredProperty("ExpressionSelection"));
+  expression.SetUseUnchecked(useUnchecked);
+  const char* text = expression.GetAsString();
+  return text ? text : "";
 }
 
 int vtkSMIsovalueDomain::GetQuantity(bool useUnchecked)

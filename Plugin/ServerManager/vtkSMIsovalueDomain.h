@@ -9,10 +9,10 @@
  * symmetric fields often have a saddle. Where the surface of that value is tiny beside others, as in the notch of a bar,
  * one of a value beside it is taken.
  *
- * Of a field made of derivatives the values in the middles of cells count in place of nodal values. Of the Q criterion
+ * Of a field made of derivatives, and of a formula, the values in the middles of cells count in place of nodal values. Of the Q criterion
  * the default is a high quantile: its positive values are what is looked for.
  *
- * Where another array, component or quantity is chosen, an isovalue that is still the default of the last choice becomes the
+ * Where another array, component, quantity or formula is chosen, an isovalue that is still the default of the last choice becomes the
  * default of the new one. In the panel, before Apply, this is the unchecked value.
  */
 #ifndef vtkSMIsovalueDomain_h
@@ -55,11 +55,12 @@ private:
     std::vector<double> Isovalue;
   };
 
-  /// Quantity, component and array, as text.
+  /// Quantity, component and array or formula, as text.
   std::string GetChoice(bool useUnchecked);
   void FollowChoice(bool useUnchecked);
   int SetMiddleOfRange(vtkSMProperty* property, bool useUnchecked);
   int GetQuantity(bool useUnchecked);
+  std::string GetExpression(bool useUnchecked);
   double ValueOfLargeSurface(double low, double high, double isovalue);
 
   template <class Information>

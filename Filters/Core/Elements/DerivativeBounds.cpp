@@ -2,6 +2,7 @@
 
 #include "Elements/LatticeRows.h"
 #include "Elements/RangeArithmetic.h"
+#include "Elements/SymmetricEigenvalues.h"
 
 #include <glm/glm.hpp>
 
@@ -207,6 +208,44 @@ double DerivativeBounds::rounding(Quantity quantity) const
   return share * (orderOf(quantity) == 1 ? largest : largest * largest);
 }
 
+namespace
+{
+
+/// No eigenvalue of a symmetric matrix moves by more than the norm of what is added to the matrix (Weyl 1912): the middle
+/// one of the middles of A = (G G + (G G)^T) / 2 by the norm of the radii at most.
+Range boundsOfLambdaTwo(const std::vector<std::array<Range, 3>>& g)
+{
+  glm::dmat3 middle(0.0);
+  glm::dmat3 radius(0.0);
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      Range entry = i == j ? square(g[i][i]) : Range{};
+      for (int k = 0; k < 3; ++k)
+      {
+        if (i != j || k != i)
+        {
+          const Range both = sum(product(g[i][k], g[k][j]), product(g[j][k], g[k][i]));
+          entry = sum(entry, scaledBy(0.5, both));
+        }
+      }
+      middle[i][j] = 0.5 * (entry.lower + entry.upper);
+      radius[i][j] = 0.5 * (entry.upper - entry.lower);
+    }
+  }
+  const glm::dvec3 rows = radius * glm::dvec3(1.0);
+  const double norm = std::max({ rows.x, rows.y, rows.z });
+  if (!(norm < infinity))
+  {
+    return everything;
+  }
+  const double value = eigensystemOf(middle).values[1];
+  return { value - norm, value + norm };
+}
+
+} // namespace
+
 Range boundsFrom(Quantity quantity, const std::vector<std::array<Range, 3>>& g)
 {
   Range result;
@@ -238,13 +277,7 @@ Range boundsFrom(Quantity quantity, const std::vector<std::array<Range, 3>>& g)
       case Quantity::Expression:
         return everything;
       case Quantity::Lambda2:
-        // An eigenvalue of S^2 + W^2 is within the largest ones of S^2 and -W^2: the sums of their squares bound both.
-        for (const Range& entry : g[i])
-        {
-          const double size2 = entry.magnitude() * entry.magnitude();
-          result = sum(result, { -size2, size2 });
-        }
-        break;
+        return boundsOfLambdaTwo(g);
     }
   }
   return result;

@@ -1,6 +1,7 @@
 #include "Elements/SampledField.h"
 
 #include "Elements/BatchEvaluator.h"
+#include "Elements/LatticeRows.h"
 #include "Elements/NodalBasis.h"
 #include "Elements/SymmetricEigenvalues.h"
 
@@ -12,6 +13,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <numeric>
 #include <utility>
 
 namespace hop
@@ -241,6 +243,64 @@ bool isHopeless(const std::vector<SampledPart>& tried, int stepsLeft, double tol
   return true;
 }
 
+/// A lattice's domain and degrees.
+struct LatticeKind
+{
+  Domain domain;
+  Degrees degrees;
+};
+
+/// Whether among the sets of points that hang together along the lattice's edges and are of one side there is one without
+/// a mark.
+/// \param side, mark of each point, in storage order
+bool hasSetWithoutMark(
+  const LatticeKind& lattice, const std::vector<char>& side, const std::vector<char>& mark)
+{
+  std::vector<int> setOf(side.size());
+  std::iota(setOf.begin(), setOf.end(), 0);
+  const auto rootOf = [&](int n)
+  {
+    while (setOf[n] != n)
+    {
+      n = setOf[n] = setOf[setOf[n]];
+    }
+    return n;
+  };
+  int n = 0;
+  visitLatticePoints(lattice.domain, lattice.degrees,
+    [&](const LatticePoint& point)
+    {
+      for (const LatticePoint& edge : facts(lattice.domain).edgeDirections)
+      {
+        const LatticePoint next{ point.i + edge.i, point.j + edge.j, point.k + edge.k };
+        if (!inLattice(lattice.domain, lattice.degrees, next))
+        {
+          continue;
+        }
+        const int other = coefficientIndex(lattice.domain, lattice.degrees, next);
+        if (side[other] == side[n])
+        {
+          setOf[rootOf(other)] = rootOf(n);
+        }
+      }
+      ++n;
+    });
+  std::vector<char> isMarked(side.size(), 0);
+  for (n = 0; n < static_cast<int>(side.size()); ++n)
+  {
+    char& ofSet = isMarked[rootOf(n)];
+    ofSet = static_cast<char>(ofSet != 0 || mark[n] != 0);
+  }
+  for (n = 0; n < static_cast<int>(side.size()); ++n)
+  {
+    if (isMarked[rootOf(n)] == 0)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 } // namespace
 
 FieldFunction functionOf(Quantity quantity)
@@ -335,7 +395,8 @@ FieldSampler::Samples FieldSampler::valuesAt(
 SampledPart FieldSampler::interpolated(const ReferencePart& part, int degree, const Samples& checks)
 {
   const Lattice& lattice = latticeOf(this->Source.domain, degree);
-  const Samples nodal = this->valuesAt(part, lattice.nodes);
+  this->Nodal = this->valuesAt(part, lattice.nodes);
+  const Samples& nodal = this->Nodal;
   SampledPart result;
   if (!isFinite(nodal) || !isFinite(checks))
   {
@@ -377,8 +438,8 @@ double FieldSampler::toleranceOf(const Samples& checks) const
   return std::max(share * largestField(checks), Sampling::Caution * this->Noise);
 }
 
-SampledPart FieldSampler::sample(
-  const ReferencePart& part, const std::function<bool(const Range&)>& canHoldSurface)
+SampledPart FieldSampler::sample(const ReferencePart& part,
+  const std::function<bool(const Range&)>& canHoldSurface, const std::vector<double>& isovalues)
 {
   const Samples checks = this->valuesAt(part, checkPointsOf(this->Source.domain));
   const int highest = highestDegree(this->Source.domain);
@@ -405,9 +466,30 @@ SampledPart FieldSampler::sample(
         isHopeless(tried, stepsLeft, this->toleranceOf(checks))))
     {
       this->FirstDegree = Sampling::LowestDegree;
-      return simplestOf(std::move(tried));
+      SampledPart simplest = simplestOf(std::move(tried));
+      simplest.losesComponents = std::any_of(isovalues.begin(), isovalues.end(),
+        [&](double isovalue) { return this->losesComponents(simplest, degree, isovalue); });
+      return simplest;
     }
   }
+}
+
+/// \param degree of the last lattice, whose nodes are compared
+bool FieldSampler::losesComponents(const SampledPart& sampled, int degree, double isovalue) const
+{
+  const Lattice& lattice = latticeOf(this->Source.domain, degree);
+  JetBatch jets;
+  evaluateGradients(formOf(this->Source.domain, sampled.element), lattice.nodes.data(),
+    static_cast<int>(lattice.nodes.size()), jets);
+  const double* polynomial = jets.row(quantity::value, 3);
+  std::vector<char> isAbove(lattice.nodes.size());
+  std::vector<char> isKept(lattice.nodes.size());
+  for (std::size_t n = 0; n < lattice.nodes.size(); ++n)
+  {
+    isAbove[n] = this->Nodal[n].w > isovalue;
+    isKept[n] = isAbove[n] == static_cast<char>(polynomial[n] > isovalue);
+  }
+  return hasSetWithoutMark({ this->Source.domain, lattice.basis.degrees() }, isAbove, isKept);
 }
 
 } // namespace hop

@@ -36,6 +36,9 @@ struct SampledPart
   bool isResolved = false;
   /// Whether the field may have an isovalue on the part.
   bool canHoldSurface = true;
+  /// Whether the field is on one side of an isovalue at nodes of a lattice that hang together, and the polynomial at none
+  /// of them. Never true of what is resolved.
+  bool losesComponents = false;
 };
 
 /// Fields of elements by interpolation, for what is no polynomial of low degree: on a part of the element the polynomial
@@ -52,14 +55,17 @@ public:
 
   /// Parts that cannot hold surface are left as they are at a low degree.
   /// \param canHoldSurface whether the field has an isovalue in a range
-  SampledPart sample(
-    const ReferencePart& part, const std::function<bool(const Range&)>& canHoldSurface);
+  /// \param isovalues of the field; what is not resolved is searched for components of these that are lost
+  SampledPart sample(const ReferencePart& part,
+    const std::function<bool(const Range&)>& canHoldSurface,
+    const std::vector<double>& isovalues = {});
 
 private:
   using Samples = std::vector<Coefficient>;
 
   Samples valuesAt(const ReferencePart& part, const std::vector<ReferencePoint>& points);
   SampledPart interpolated(const ReferencePart& part, int degree, const Samples& checks);
+  bool losesComponents(const SampledPart& sampled, int degree, double isovalue) const;
   void judge(SampledPart& sampled, const Samples& checks) const;
   double toleranceOf(const Samples& checks) const;
 
@@ -71,6 +77,8 @@ private:
   std::vector<std::vector<Coefficient>> Groups;
   /// Whether they are finite wherever valuesAt() has been asked.
   bool AreDerivativesFinite = true;
+  /// Of the last call of interpolated(), at the nodes of its lattice.
+  Samples Nodal;
   /// Where to begin: the next part is about as smooth as the last one.
   int FirstDegree = 0;
 };

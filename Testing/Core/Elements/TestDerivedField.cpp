@@ -3,6 +3,7 @@
 
 #include "ElementCases.h"
 #include "TestMeshes.h"
+#include "VectorElements.h"
 
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
@@ -168,6 +169,40 @@ TEST(DerivedField, AgreesWithDerivativesPointByPoint)
           EXPECT_TRUE(range.lower <= expected && expected <= range.upper);
         }
       }
+    }
+  }
+}
+
+/// Bounds of lambda 2 hold, and where the gradient hardly changes they are narrow.
+TEST(DerivedField, BoundsLambda2)
+{
+  Random random(16);
+  const FieldFunction lambda2 = functionOf(Quantity::Lambda2);
+  for (const ElementCase& which : cases())
+  {
+    for (const Shape shape : allShapes)
+    {
+      VectorElement element(which, shape, random);
+      for (std::size_t i = 0; i < element.control.size(); i += 6)
+      {
+        double* row = &element.control[i];
+        const glm::dvec3 linear(row[1] - 2.0 * row[0], row[2], row[0] + row[2]);
+        for (int c = 0; c < 3; ++c)
+        {
+          row[3 + c] = linear[c] + 1e-4 * row[3 + c];
+        }
+      }
+      const Range range = DerivativeBounds(element.source()).of(Quantity::Lambda2);
+      for (int n = 0; n < 20; ++n)
+      {
+        const ReferencePoint u =
+          insidePoint(which.domain, { random.uniform(), random.uniform(), random.uniform() });
+        const double value = lambda2(vectorFieldAt(element.source(), u));
+        EXPECT_LT(range.lower, value);
+        EXPECT_GT(range.upper, value);
+      }
+      // The squares of the gradient's entries, by which it could be bounded, too, sum up to 8.
+      EXPECT_TRUE(shape != Shape::Affine || range.upper - range.lower < 1.0) << which;
     }
   }
 }

@@ -1,3 +1,4 @@
+#include "Elements/NodalBasis.h"
 #include "Elements/SampledField.h"
 #include "Elements/SymmetricEigenvalues.h"
 
@@ -146,6 +147,29 @@ TEST(SampledField, HoldsSmoothFieldsOfProofs)
   const SampledPart sampled =
     FieldSampler(source, smooth, 0.0, StandIn::Proof).sample({}, everything);
   EXPECT_TRUE(sampled.isResolved);
+}
+
+/// A ball around a node of the last lattice that is tried, far above a field with a crease: lower degrees do not see it.
+TEST(SampledField, TellsOfComponentsThatItLoses)
+{
+  Random random(27);
+  for (const Domain domain : { Domain::Hexahedron, Domain::Tetrahedron, Domain::Wedge })
+  {
+    const Bent bent({ domain, { 2, 2, 2 } }, true, random);
+    const SourceElement source = bent.source();
+    const double onLine = double(gaussLobattoPoints(8)[3]);
+    const glm::dvec3 node =
+      domain == Domain::Hexahedron ? glm::dvec3(onLine) : glm::dvec3(0.375, 0.125, 0.125);
+    const glm::dvec3 middle = bent.at({ node }).x;
+    const FieldFunction ball = [&](const FieldPoint& at)
+    { return std::max(0.02 - glm::distance(at.x, middle), -0.3 - std::abs(at.x.y - 0.3)); };
+    FieldSampler sampler(source, ball, 0.0, StandIn::Proof);
+    const SampledPart inBall = sampler.sample({}, everything, { 0.0 });
+    EXPECT_FALSE(inBall.isResolved);
+    EXPECT_TRUE(inBall.losesComponents);
+    EXPECT_FALSE(sampler.sample({}, everything, { 0.1 }).losesComponents);
+    EXPECT_FALSE(sampler.sample({}, everything).losesComponents);
+  }
 }
 
 TEST(SymmetricEigenvalues, FindsTheMiddleOne)
