@@ -32,13 +32,13 @@ public:
   const std::vector<SurfaceBox>& boxes() const { return this->Proxy->boxes(); }
 };
 
-/// Twelve planes at right angles to x, one in the middle of each layer of elements: an area of 48 in a cube whose
+/// Twelve planes at right angles to x, one in the middle of each layer of linear elements: an area of 48 in a cube whose
 /// diagonal's square is 12. That is more than a number's first guess takes for granted, so that the spacing comes out
 /// larger than the one at which the rough proxy was made.
 ElementMesh layersOfPlanes()
 {
   MeshRecipe recipe;
-  recipe.degrees = { 4, 4, 4 };
+  recipe.degrees = { 1, 1, 1 };
   recipe.cells = 12;
   recipe.field = [](const glm::dvec3& x) { return std::cos(6.0 * Pi * x.x); };
   return makeMesh(recipe);
