@@ -1,9 +1,13 @@
 #include "Fast/GivenNumber.h"
 
+#include "Fast/FastSystem.h"
 #include "Fast/PatchDistances.h"
 #include "MovingOnSphere.h"
+#include "TestMeshes.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace hop::testing
 {
@@ -15,6 +19,46 @@ DistributionParameters withCount(std::size_t count)
   DistributionParameters parameters;
   parameters.particleCount = static_cast<std::int64_t>(count);
   return parameters;
+}
+
+/// Shows the boxes of a system that has found the spacing which goes with a number.
+class SpacingOfNumber : public FastSystem
+{
+public:
+  using FastSystem::FastSystem;
+
+  void find() { this->matchSpacing(this->Parameters.particleCount); }
+  const std::vector<SurfaceBox>& roughBoxes() const { return this->RoughBoxes; }
+  const std::vector<SurfaceBox>& boxes() const { return this->Proxy->boxes(); }
+};
+
+/// Twelve planes at right angles to x, one in the middle of each layer of linear elements: an area of 48 in a cube whose
+/// diagonal's square is 12. That is more than a number's first guess takes for granted, so that the spacing comes out
+/// larger than the one at which the rough proxy was made.
+ElementMesh layersOfPlanes()
+{
+  MeshRecipe recipe;
+  recipe.degrees = { 1, 1, 1 };
+  recipe.cells = 12;
+  recipe.field = [](const glm::dvec3& x) { return std::cos(6.0 * Pi * x.x); };
+  return makeMesh(recipe);
+}
+
+TEST(GivenNumber, BoxesOfTheRoughProxyAreKeptWhereTheyAreFineEnough)
+{
+  const ElementMesh mesh = layersOfPlanes();
+  SpacingOfNumber system({ &mesh, 0.0, 1e-10 }, withCount(16000), {}, threadedFor(2));
+  system.find();
+  // At the spacing that was found an element is small enough for one box.
+  ASSERT_GT(system.roughBoxes().size(), mesh.elements.size());
+  ASSERT_EQ(system.boxes().size(), system.roughBoxes().size());
+  for (std::size_t b = 0; b < system.boxes().size(); ++b)
+  {
+    const SurfaceBox& box = system.boxes()[b];
+    const SurfaceBox& rough = system.roughBoxes()[b];
+    ASSERT_EQ(box.middle.element, rough.middle.element) << b;
+    ASSERT_EQ(box.middle.u.xyz, rough.middle.u.xyz) << b;
+  }
 }
 
 TEST(GivenNumber, IsReachedFromFewerAndFromMore)
