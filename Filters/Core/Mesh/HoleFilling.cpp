@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -38,6 +37,10 @@ struct Hole
   static constexpr double LeastCost = 3.464;
   /// Times that a triangulation is sought without what was wrong with the last one.
   static constexpr int Attempts = 24;
+  /// The same, and the largest number of edges, where triangles may be turned away. Larger: the few holes of surfaces that
+  /// particles cannot follow, which stay open all the same, cost a third of the mesh (PyFR's flow, mesh_table).
+  static constexpr int AttemptsTurned = 6;
+  static constexpr std::size_t MostEdgesTurned = 24;
   /// What a corner from whose normal a triangle is turned away costs, where it may be. Larger: fewer of these corners,
   /// and worse angles; smaller: more of them.
   static constexpr double CostOfTurnedCorner = 20.0;
@@ -103,13 +106,6 @@ public:
     for (const Turned turned : { Turned::Never, Turned::FromCorners, Turned::FromAll })
     {
       this->Allowed = turned;
-      if (turned == Turned::FromAll)
-      {
-        const auto isCrossed = [this](std::size_t island)
-        { return this->lacksConstrained(this->Loops[island]); };
-        std::copy_if(
-          this->Islands.begin(), this->Islands.end(), std::back_inserter(open), isCrossed);
-      }
       std::vector<std::size_t> stillOpen;
       for (const std::size_t hole : open)
       {
@@ -180,22 +176,6 @@ private:
         }
       }
     }
-  }
-
-  /// Whether a loop has edges of the surface to whose left triangles are missing: it surrounds a hole, whichever way it
-  /// seems to run.
-  bool lacksConstrained(const OpenLoop& loop) const
-  {
-    const std::vector<int>& corners = loop.particles;
-    for (std::size_t n = 0; n < corners.size(); ++n)
-    {
-      const int next = corners[n + 1 < corners.size() ? n + 1 : 0];
-      if (this->Edges.has(corners[n], next) && !this->Edges.has(next, corners[n]))
-      {
-        return true;
-      }
-    }
-    return false;
   }
 
   /// Whether a loop runs around a particle once, counterclockwise, in the particle's tangent plane.
@@ -512,7 +492,13 @@ private:
     std::vector<int> border = this->Loops[hole].particles;
     this->join(border, this->Loose[hole]);
     this->Rejected.clear();
-    for (int attempt = 0; attempt < Hole::Attempts; ++attempt)
+    const bool isLast = this->Allowed != Turned::Never;
+    if (isLast && border.size() > Hole::MostEdgesTurned)
+    {
+      return false;
+    }
+    const int attempts = isLast ? Hole::AttemptsTurned : Hole::Attempts;
+    for (int attempt = 0; attempt < attempts; ++attempt)
     {
       const std::vector<Triangle> triangles = this->triangulate(border);
       if (triangles.empty())
