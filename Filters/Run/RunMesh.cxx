@@ -159,9 +159,10 @@ void addMesh(const Isosurface& surface, OutputType type, int order, bool isCut,
   Distribution& distribution = some.distribution;
   std::vector<std::array<int, 3>> triangles;
   std::vector<std::array<int, 2>> copies;
+  const ConstrainedEdges edges(distribution);
   if (type != OutputType::Particles)
   {
-    SurfaceMesh mesh = meshSurface(surface, distribution, monitor, parallelFor);
+    SurfaceMesh mesh = meshSurface(surface, edges, distribution, monitor, parallelFor);
     triangles = std::move(mesh.triangles);
     copies = std::move(mesh.copies);
     some.mesh.openLoops = mesh.openLoops;
@@ -175,7 +176,7 @@ void addMesh(const Isosurface& surface, OutputType type, int order, bool isCut,
     Interruptible loops(monitor, parallelFor);
     prove(surface, distribution.particles, triangles, isCut, some.mesh, std::ref(loops));
   }
-  std::vector<double> areas = particleAreas(distribution, monitor, parallelFor);
+  std::vector<double> areas = particleAreas(distribution, edges, monitor, parallelFor);
   shareAreas(copies, areas);
   forAll(
     parallelFor, areas.size(), [&](std::size_t p) { distribution.particles[p].area = areas[p]; });

@@ -124,8 +124,10 @@ double meshTime(const hop::Isosurface& surface, const hop::Distribution& distrib
     hop::Distribution copy;
     copy.particles.reserve(distribution.particles.capacity());
     copy = distribution;
-    least = std::min(
-      least, hop::testing::fastest(1, 1, [&]() { hop::meshSurface(surface, copy, {}, {}); }).cpu);
+    least = std::min(least,
+      hop::testing::fastest(
+        1, 1, [&]() { hop::meshSurface(surface, hop::ConstrainedEdges(copy), copy, {}, {}); })
+        .cpu);
   }
   return least;
 }
@@ -156,13 +158,15 @@ void measure(const Options& options, const Case& which, const std::filesystem::p
   const std::size_t before = distribution.particles.size();
   hop::SurfaceMesh mesh;
   std::vector<double> areas;
-  const double areaTime =
-    hop::testing::fastest(1, 5, [&]() { areas = hop::particleAreas(distribution, {}, {}); }).cpu;
+  const double areaTime = hop::testing::fastest(1, 5,
+    [&]() {
+      areas = hop::particleAreas(distribution, hop::ConstrainedEdges(distribution), {}, {});
+    }).cpu;
   const double time = meshTime(surface, distribution);
   ::malloc_trim(0); // what the distribution has freed is no memory of the mesh
   std::ofstream("/proc/self/clear_refs") << "5"; // the peak begins anew
   const double megabytes = hop::testing::presentMegabytes();
-  mesh = hop::meshSurface(surface, distribution, {}, {});
+  mesh = hop::meshSurface(surface, hop::ConstrainedEdges(distribution), distribution, {}, {});
   const double bytes = 1e6 * (hop::testing::peakMegabytes() - megabytes) / count;
   const hop::testing::MeshMeasures m = hop::testing::measureMesh(distribution, mesh.triangles);
   std::printf(

@@ -71,8 +71,10 @@ void measure(vtkUnstructuredGrid* grid, vtkDataArray* array, double isovalue)
   hop::SurfaceMesh mesh;
   const double distributed =
     secondsOf([&]() { distribution = hop::distributeFast(surface, parameters, {}, {}); });
-  const double meshed =
-    secondsOf([&]() { mesh = hop::meshSurface(surface, distribution, {}, {}); });
+  const double meshed = secondsOf(
+    [&]() {
+      mesh = hop::meshSurface(surface, hop::ConstrainedEdges(distribution), distribution, {}, {});
+    });
   const hop::TopologyComparison comparison =
     hop::compareTopology(topology, distribution.particles, mesh.triangles, {});
   const auto same = std::count_if(comparison.meshComponents.begin(),

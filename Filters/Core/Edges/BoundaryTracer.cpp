@@ -35,8 +35,9 @@ struct ChordLengths
   /// A boundary curve that cannot be followed by chords this short ends: all but tangent to its face it is not known to
   /// be there. Shorter ones cost evaluations at every dead end; longer ones give up at sharp bends.
   static constexpr double Shortest = 1.0 / 32.0;
-  /// The same on surfaces that are cut, where curves end nowhere: they may bend within far less than the spacing where spacings are small.
-  static constexpr double ShortestOnCut = 1.0 / 1024.0;
+  /// The same where curves end nowhere, as on surfaces that are cut and at the end of the mesh: they may bend within far
+  /// less than the spacing at the place where the trace began.
+  static constexpr double ShortestOnEndless = 1.0 / 16384.0;
   /// Where the surface goes on beyond its face, a boundary curve ends within this distance of the place at which the
   /// surface begins to go on. Shorter ones cost evaluations.
   static constexpr double ShortestAtFade = 1.0 / 4.0;
@@ -449,8 +450,10 @@ BoundaryTracer::Ahead BoundaryTracer::advance(const Heading& heading, double ste
   }
   if (edge >= 0)
   {
-    const bool isAcross =
-      this->HasCuts && passed.vertex && !this->bendsEvenly(from, passed.vertex->arriving);
+    // At a saddle of the field on the face, a chord may lead across to another part of the curve, which runs the other way.
+    const bool isAcross = passed.vertex &&
+      (dot(this->tangent(passed.vertex->arriving), this->tangent(from)) < 0.0 ||
+        (this->HasCuts && !this->bendsEvenly(from, passed.vertex->arriving)));
     return isAcross ? Ahead{} : passed;
   }
   const auto next = this->project({ from.at.location.element, u }, from.face, step);
@@ -471,8 +474,11 @@ BoundaryTracer::Ahead BoundaryTracer::advance(const Heading& heading, double ste
 std::optional<BoundaryVertex> BoundaryTracer::advanceAtMost(
   double& chord, double step, const Heading& heading)
 {
+  const BoundaryPoint& here = heading.here;
+  const bool isEndless =
+    this->HasCuts || !this->Surface.isOpenToBoth(here.at.location.element, here.face);
   // A step of zero, where single precision has no spacing as small, would be halved for ever.
-  const double least = this->HasCuts ? ChordLengths::ShortestOnCut : ChordLengths::Shortest;
+  const double least = isEndless ? ChordLengths::ShortestOnEndless : ChordLengths::Shortest;
   for (double shortest = least * step; chord > 0.0 && chord >= shortest; chord *= 0.5)
   {
     const Ahead ahead = this->advance(heading, chord);

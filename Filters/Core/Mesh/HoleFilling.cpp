@@ -37,6 +37,28 @@ struct Hole
   static constexpr double LeastCost = 3.464;
   /// Times that a triangulation is sought without what was wrong with the last one.
   static constexpr int Attempts = 24;
+  /// The same, and the largest number of edges, where triangles may be turned away. Larger: the few holes of surfaces that
+  /// particles cannot follow, which stay open all the same, cost a third of the mesh (PyFR's flow, mesh_table).
+  static constexpr int AttemptsTurned = 6;
+  static constexpr std::size_t MostEdgesTurned = 24;
+  /// What a corner from whose normal a triangle is turned away costs, where it may be. Larger: fewer of these corners,
+  /// and worse angles; smaller: more of them.
+  static constexpr double CostOfTurnedCorner = 20.0;
+  /// Twice the area of a triangle, in units of the sum of squares of its sides, below which none costs more: the cost
+  /// stays finite where three particles are on a line.
+  static constexpr double LeastArea = 1e-6;
+};
+
+/// From which normals a triangle may be turned away.
+enum class Turned
+{
+  /// From none of its corners'.
+  Never,
+  /// From a corner's, though not from the mean of all three: where the surface bends by more than a right angle within a
+  /// spacing no triangle suits all corners.
+  FromCorners,
+  /// From all of them: where the two sides of a jump reach over each other, the border of a hole crosses itself.
+  FromAll
 };
 
 /// A triangle in space.
@@ -80,14 +102,22 @@ public:
     this->sortLoops();
     this->findLoose();
     this->prepareWalks();
-    for (const std::size_t hole : this->Holes)
+    std::vector<std::size_t> open = this->Holes;
+    for (const Turned turned : { Turned::Never, Turned::FromCorners, Turned::FromAll })
     {
-      askCaller(this->Parallel);
-      const std::size_t before = this->Particles.size();
-      if (!this->fill(hole))
+      this->Allowed = turned;
+      std::vector<std::size_t> stillOpen;
+      for (const std::size_t hole : open)
       {
-        this->dropParticlesBehind(before);
+        askCaller(this->Parallel);
+        const std::size_t before = this->Particles.size();
+        if (!this->fill(hole))
+        {
+          this->dropParticlesBehind(before);
+          stillOpen.push_back(hole);
+        }
       }
+      open = std::move(stillOpen);
     }
   }
 
@@ -324,14 +354,21 @@ private:
       return forbidden;
     }
     const Shape shape = this->shapeOf(triangle);
+    double sum = 0.0;
+    double turned = 0.0;
     for (const int corner : triangle)
     {
-      if (glm::dot(shape.normal, this->normalOf(corner)) <= 0.0)
-      {
-        return forbidden;
-      }
+      const double facing = glm::dot(shape.normal, this->normalOf(corner));
+      sum += facing;
+      turned += facing <= 0.0 ? 1.0 : 0.0;
     }
-    return shape.sumOfSquares / glm::length(shape.normal);
+    if ((turned > 0.0 && this->Allowed == Turned::Never) ||
+      (!(sum > 0.0) && this->Allowed != Turned::FromAll) || shape.productOfSides == 0.0)
+    {
+      return forbidden;
+    }
+    const double size = std::max(glm::length(shape.normal), Hole::LeastArea * shape.sumOfSquares);
+    return shape.sumOfSquares / size + Hole::CostOfTurnedCorner * turned;
   }
 
   static Triangle sorted(Triangle triangle)
@@ -360,7 +397,9 @@ private:
   {
     const Shape shape = this->shapeOf(triangle);
     const auto there = this->placeBelow(shape.middle, triangle[0], this->spacingOf(triangle));
-    return there && glm::dot(surfaceNormal(there->point.gradient).xyz, shape.normal) > 0.0;
+    return there &&
+      (this->Allowed == Turned::FromAll ||
+        glm::dot(surfaceNormal(there->point.gradient).xyz, shape.normal) > 0.0);
   }
 
   /// Adds the triangles if none of them is wrong; else remembers what is.
@@ -453,7 +492,13 @@ private:
     std::vector<int> border = this->Loops[hole].particles;
     this->join(border, this->Loose[hole]);
     this->Rejected.clear();
-    for (int attempt = 0; attempt < Hole::Attempts; ++attempt)
+    const bool isLast = this->Allowed != Turned::Never;
+    if (isLast && border.size() > Hole::MostEdgesTurned)
+    {
+      return false;
+    }
+    const int attempts = isLast ? Hole::AttemptsTurned : Hole::Attempts;
+    for (int attempt = 0; attempt < attempts; ++attempt)
     {
       const std::vector<Triangle> triangles = this->triangulate(border);
       if (triangles.empty())
@@ -496,6 +541,7 @@ private:
   std::map<int, std::vector<std::size_t>> HolesOf;
   /// By hole: what lies inside it.
   std::map<std::size_t, std::vector<std::vector<int>>> Loose;
+  Turned Allowed = Turned::Never;
   /// Triangles that a triangulation of the present hole must not have, sorted corners.
   std::set<Triangle> Rejected;
 };

@@ -178,6 +178,15 @@ private:
   std::vector<std::array<int, 2>> Border;
 };
 
+/// Whether a particle is on no edge that tells where the surface ends: on edges in both directions alone, of which no side
+/// has a triangle, as chains are led back along themselves (EdgeChains.h).
+bool isOnNoBoundary(const ConstrainedEdges& edges, int particle)
+{
+  const Span<int> after = edges.after(particle);
+  const Span<int> before = edges.before(particle);
+  return std::equal(after.begin(), after.end(), before.begin(), before.end());
+}
+
 } // namespace
 
 void joinLooseParticles(
@@ -186,7 +195,7 @@ void joinLooseParticles(
   for (std::size_t i = 0; i < neighbors.seen.size(); ++i)
   {
     const int particle = static_cast<int>(i);
-    if (!fans.hasTriangles(particle) && !edges.isOnEdge(particle))
+    if (!fans.hasTriangles(particle) && isOnNoBoundary(edges, particle))
     {
       Insertion(neighbors, edges, fans, particle).run();
     }

@@ -43,6 +43,22 @@ std::vector<int> openEdgesOf(int particle, const ConstrainedEdges& edges, const 
   return ends;
 }
 
+/// Whether a row of edges leads along edges of which the particles do not tell on which side the surface is: it ends on
+/// the side that has no triangles.
+bool isAlongSlit(const OpenLoop& loop, const ConstrainedEdges& edges)
+{
+  for (std::size_t n = 0; n < loop.edgeCount(); ++n)
+  {
+    const int a = loop.particles[n];
+    const int b = loop.particles[n + 1];
+    if (!edges.has(a, b) || !edges.has(b, a))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 /// Joins edges to loops.
 class LoopWalker
 {
@@ -192,9 +208,9 @@ std::vector<OpenLoop> findOpenLoops(const Buffer<Particle>& particles,
     walker.add(particle, openEdgesOf(particle, edges, fans));
   }
   std::vector<OpenLoop> loops = walker.walk();
-  loops.erase(std::remove_if(loops.begin(), loops.end(),
-                [](const OpenLoop& loop) { return loop.isClosed && loop.edgeCount() < 3; }),
-    loops.end());
+  const auto enclosesNothing = [&](const OpenLoop& loop)
+  { return loop.isClosed ? loop.edgeCount() < 3 : isAlongSlit(loop, edges); };
+  loops.erase(std::remove_if(loops.begin(), loops.end(), enclosesNothing), loops.end());
   return loops;
 }
 

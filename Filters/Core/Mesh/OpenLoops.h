@@ -21,7 +21,8 @@ struct OpenLoop
 };
 
 /// All edges that lack a triangle though the surface does not end there, as loops, in the order of their first
-/// particles. Two edges between the same two particles enclose nothing, and are no loop.
+/// particles. Two edges between the same two particles enclose nothing, and are no loop; nor are rows of edges that count in
+/// both directions and have triangles on one side alone.
 std::vector<OpenLoop> findOpenLoops(const Buffer<Particle>& particles,
   const ConstrainedEdges& edges, const TriangleFans& fans, const ParallelFor& parallelFor);
 

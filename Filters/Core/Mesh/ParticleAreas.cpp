@@ -234,9 +234,10 @@ private:
 class Areas
 {
 public:
-  Areas(const Distribution& distribution, const ParallelFor& parallelFor)
+  Areas(
+    const Distribution& distribution, const ConstrainedEdges& edges, const ParallelFor& parallelFor)
     : Places(distribution.particles, parallelFor)
-    , Edges(distribution)
+    , Edges(edges)
     , Parallel(parallelFor)
     , Found(distribution.particles.size())
   {
@@ -259,7 +260,7 @@ private:
   void findAmongAll(const std::vector<int>& particles);
 
   ParticlePlaces Places;
-  ConstrainedEdges Edges;
+  const ConstrainedEdges& Edges;
   const ParallelFor& Parallel;
   std::vector<double> Found;
 };
@@ -331,12 +332,12 @@ void Areas::findAmongAll(const std::vector<int>& particles)
 
 } // namespace
 
-std::vector<double> particleAreas(
-  const Distribution& distribution, const Monitor& monitor, const ParallelFor& parallelFor)
+std::vector<double> particleAreas(const Distribution& distribution, const ConstrainedEdges& edges,
+  const Monitor& monitor, const ParallelFor& parallelFor)
 {
   Interruptible work(monitor, parallelFor);
   const ParallelFor parallel(std::ref(work));
-  return Areas(distribution, parallel).find();
+  return Areas(distribution, edges, parallel).find();
 }
 
 } // namespace hop

@@ -54,12 +54,11 @@ void countOpen(const Distribution& distribution, const ConstrainedEdges& edges,
 
 } // namespace
 
-SurfaceMesh meshSurface(const Isosurface& surface, Distribution& distribution,
-  const Monitor& monitor, const ParallelFor& parallelFor)
+SurfaceMesh meshSurface(const Isosurface& surface, ConstrainedEdges edges,
+  Distribution& distribution, const Monitor& monitor, const ParallelFor& parallelFor)
 {
   Interruptible work(monitor, parallelFor);
   const ParallelFor parallel(std::ref(work));
-  ConstrainedEdges edges(distribution);
   const ParticleNeighbors neighbors(distribution.particles, parallel);
   TriangleFans fans = agreedTriangles(neighbors, edges, parallel);
   SurfaceMesh mesh;

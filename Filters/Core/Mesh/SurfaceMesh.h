@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Common/Monitor.h"
+#include "Mesh/ConstrainedEdges.h"
 #include "Surface/Particles.h"
 
 #include <array>
@@ -33,15 +34,17 @@ struct SurfaceMesh
 /// agree about (ParticleStars.h). No edge has three triangles, and no triangle is turned away from the normal of one of
 /// its corners.
 /// Derivation: Documentation/algorithm.md, section Mesh.
+/// \param edges of the distribution as it is before
 /// \param distribution may get particles where a hole is filled with new ones, and where boundary curves touch
 /// \throw Interrupted if the monitor asks for an early end
-SurfaceMesh meshSurface(const Isosurface& surface, Distribution& distribution,
-  const Monitor& monitor, const ParallelFor& parallelFor);
+SurfaceMesh meshSurface(const Isosurface& surface, ConstrainedEdges edges,
+  Distribution& distribution, const Monitor& monitor, const ParallelFor& parallelFor);
 
 /// Area of the surface around each particle, world units squared: its cell of the Voronoi diagram in its tangent plane,
 /// cut off at boundary curves and creases. Needs no mesh.
+/// \param edges of the distribution; those of before meshSurface() will do, as no particle that it adds is on one
 /// \throw Interrupted if the monitor asks for an early end
-std::vector<double> particleAreas(
-  const Distribution& distribution, const Monitor& monitor, const ParallelFor& parallelFor);
+std::vector<double> particleAreas(const Distribution& distribution, const ConstrainedEdges& edges,
+  const Monitor& monitor, const ParallelFor& parallelFor);
 
 } // namespace hop

@@ -113,7 +113,8 @@ INSTANTIATE_TEST_SUITE_P(ConstrainedEdges, Borders,
 TEST_P(Borders, AreTheOnlyOpenEdges)
 {
   FlatSheet sheet(this->GetParam().loops, 0.1);
-  const SurfaceMesh mesh = meshSurface(sheet.surface(), sheet.distribution, {}, {});
+  const SurfaceMesh mesh =
+    meshSurface(sheet.surface(), ConstrainedEdges(sheet.distribution), sheet.distribution, {}, {});
   const MeshMeasures measures = measureMesh(sheet.distribution, mesh.triangles);
   EXPECT_EQ(measures.badEdges, 0);
   EXPECT_EQ(measures.badVertices, 0);
@@ -130,7 +131,8 @@ TEST_P(Borders, AreTheOnlyOpenEdges)
 TEST_P(Borders, EndTheAreasOfParticles)
 {
   const FlatSheet sheet(this->GetParam().loops, 0.1);
-  const std::vector<double> areas = particleAreas(sheet.distribution, {}, {});
+  const std::vector<double> areas =
+    particleAreas(sheet.distribution, ConstrainedEdges(sheet.distribution), {}, {});
   // Cells are cut off at the border of the particle itself, not at other parts of the border near it.
   EXPECT_NEAR(std::accumulate(areas.begin(), areas.end(), 0.0) / sheet.area(), 1.0, 0.03);
 }

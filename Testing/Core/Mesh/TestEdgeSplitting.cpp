@@ -75,7 +75,8 @@ TEST(EdgeSplitting, LeavesNoParticleOver)
   particle.clips = {};
   particle.clips[0].normal = { { 0, -1, 0 } };
   sheet.distribution.particles.push_back(particle);
-  const SurfaceMesh mesh = meshSurface(sheet.surface(), sheet.distribution, {}, {});
+  const SurfaceMesh mesh =
+    meshSurface(sheet.surface(), ConstrainedEdges(sheet.distribution), sheet.distribution, {}, {});
   EXPECT_EQ(mesh.unusedParticles, 0);
   EXPECT_EQ(mesh.openLoops, 0);
 }

@@ -121,6 +121,29 @@ TEST(HoleFilling, AddsParticlesWhereTheyAreMissing)
   EXPECT_GE(filled.measures.worstMinAngle, 15.0);
 }
 
+TEST(HoleFilling, ClosesWhereNoTriangleSuitsAllCorners)
+{
+  FlatSheet sheet({ square }, spacing);
+  const Filled filled = fillAfter(sheet,
+    [&](TriangleFans& fans)
+    {
+      cutOut(sheet.distribution, { 0.1, 0.2, 0.0 }, 0.25, fans);
+      // A particle at the border of the hole, as behind a sharp bend.
+      const glm::dvec3 place(0.3, 0.2, 0.0);
+      auto& particles = sheet.distribution.particles;
+      const auto bent = std::min_element(particles.begin(), particles.end(),
+        [&](const Particle& a, const Particle& b)
+        { return glm::distance(a.position.xyz, place) < glm::distance(b.position.xyz, place); });
+      bent->normal.xyz = { 0.92, 0.0, -0.4 };
+    });
+  EXPECT_EQ(filled.measures.badEdges, 0);
+  EXPECT_EQ(filled.measures.badVertices, 0);
+  EXPECT_EQ(filled.measures.holeEdges, 0);
+  EXPECT_EQ(filled.measures.unusedParticles, 0);
+  EXPECT_GT(filled.measures.turnedTriangles, 0);
+  EXPECT_NEAR(filled.measures.area, sheet.area(), 1e-9);
+}
+
 TEST(HoleFilling, LeavesOpenWhereTheSurfaceDoesNotGoOn)
 {
   // The surface is z = 0 in the cube; here particles claim that it goes on in a bump of a height of five spacings.

@@ -40,7 +40,8 @@ Meshed meshOf(const Field& field, int degree, double spacing, double angularDens
   DistributionParameters parameters;
   parameters.sizing = { spacing, angularDensity, smallestSpacing };
   result.distribution = distributeFast(surface, parameters, {}, {});
-  result.mesh = meshSurface(surface, result.distribution, {}, {});
+  result.mesh =
+    meshSurface(surface, ConstrainedEdges(result.distribution), result.distribution, {}, {});
   return result;
 }
 
@@ -138,7 +139,8 @@ Meshed meshWithCreases(const ElementMesh& elements, double spacing,
   parameters.sizing = { spacing, angularDensity };
   parameters.onCreases = true;
   result.distribution = distributeFast(surface, parameters, {}, parallelFor);
-  result.mesh = meshSurface(surface, result.distribution, {}, parallelFor);
+  result.mesh = meshSurface(
+    surface, ConstrainedEdges(result.distribution), result.distribution, {}, parallelFor);
   return result;
 }
 
@@ -346,8 +348,11 @@ TEST(SurfaceMesh, EndsEarlyWhereTheMonitorAsks)
   Meshed meshed = meshOf(sphere({ 0, 0, 0 }, 0.6).field, 4, 0.1);
   const Isosurface surface{ &meshed.elements, 0.0, 1e-9 };
   const Monitor stop{ [](double) { return false; } };
-  EXPECT_THROW(meshSurface(surface, meshed.distribution, stop, {}), Interrupted);
-  EXPECT_THROW(particleAreas(meshed.distribution, stop, {}), Interrupted);
+  EXPECT_THROW(
+    meshSurface(surface, ConstrainedEdges(meshed.distribution), meshed.distribution, stop, {}),
+    Interrupted);
+  EXPECT_THROW(particleAreas(meshed.distribution, ConstrainedEdges(meshed.distribution), stop, {}),
+    Interrupted);
 }
 
 TEST(SurfaceMesh, IsTheSameForAnyNumberOfThreads)
@@ -356,7 +361,9 @@ TEST(SurfaceMesh, IsTheSameForAnyNumberOfThreads)
   const Isosurface surface{ &one.elements, 0.0, 1e-9 };
   for (const int threads : { 2, 5 })
   {
-    EXPECT_EQ(meshSurface(surface, one.distribution, {}, threadedFor(threads)).triangles,
+    EXPECT_EQ(meshSurface(surface, ConstrainedEdges(one.distribution), one.distribution, {},
+                threadedFor(threads))
+                .triangles,
       one.mesh.triangles);
   }
 }
@@ -364,20 +371,25 @@ TEST(SurfaceMesh, IsTheSameForAnyNumberOfThreads)
 TEST(SurfaceMesh, IsEmptyWithoutParticles)
 {
   Distribution nothing;
-  const SurfaceMesh mesh = meshSurface({}, nothing, {}, {});
+  const SurfaceMesh mesh = meshSurface({}, ConstrainedEdges(nothing), nothing, {}, {});
   EXPECT_TRUE(mesh.triangles.empty());
   EXPECT_EQ(mesh.openLoops, 0);
-  EXPECT_TRUE(particleAreas(nothing, {}, {}).empty());
+  EXPECT_TRUE(particleAreas(nothing, ConstrainedEdges(nothing), {}, {}).empty());
 }
 
 TEST(ParticleAreas, AddUpToTheSurface)
 {
   const KnownSurface ball = sphere({ 0, 0, 0 }, 0.6);
   const Meshed coarse = meshOf(ball.field, 4, 0.1);
-  EXPECT_NEAR(sumOf(particleAreas(coarse.distribution, {}, {})) / ball.area, 1.0, 0.002);
+  EXPECT_NEAR(
+    sumOf(particleAreas(coarse.distribution, ConstrainedEdges(coarse.distribution), {}, {})) /
+      ball.area,
+    1.0, 0.002);
   const KnownSurface ring = torus(0.5, 0.22);
   const Meshed fine = meshOf(ring.field, 6, 0.05);
-  EXPECT_NEAR(sumOf(particleAreas(fine.distribution, {}, {})) / ring.area, 1.0, 0.002);
+  EXPECT_NEAR(sumOf(particleAreas(fine.distribution, ConstrainedEdges(fine.distribution), {}, {})) /
+      ring.area,
+    1.0, 0.002);
 }
 
 /// Hexagonal packing in the plane z = 0, spacing 1, around the origin, where two particles are missing.
@@ -405,7 +417,8 @@ TEST(ParticleAreas, CoverTheHoleOfMissingParticles)
 {
   // The particles above and below the hole meet in its middle, farther apart than neighbours are looked for first.
   const Distribution distribution = packingWithAHole();
-  const std::vector<double> areas = particleAreas(distribution, {}, {});
+  const std::vector<double> areas =
+    particleAreas(distribution, ConstrainedEdges(distribution), {}, {});
   constexpr double hexagon = 0.8660254037844386;
   double more = 0.0;
   for (std::size_t i = 0; i < areas.size(); ++i)
