@@ -300,9 +300,10 @@ std::optional<LocatedPlace> FaceLocator::locateIn(const OpenFace& to, const Worl
     const double aside = length(rest - (across / slope) * its);
     const double gap = std::max(length(rest), std::max(0.0, faceMargin(face, u)) / slope);
     const double slack = rounding * to.bounds.diagonal();
-    // A point nearer to the far side of a thin element lies behind the far side: two plates that are thinner than the
-    // tolerance must not be taken for each other's neighbours through their far sides.
-    const bool isNearFace = faceMargin(face, u) <= nearSide;
+    // A point beyond the far side of a thin element, or nearer to it, lies behind the far side: two plates that are
+    // thinner than the tolerance must not be taken for each other's neighbours through their far sides, nor the two
+    // faces of a plate of tetrahedra, whose far sides are inclined.
+    const bool isNearFace = faceMargin(face, u) <= nearSide && across <= slack;
     const bool facesIt = dot(inward, its) <= facingAtPlace * length(inward) * slope;
     const bool behind =
       isNearFace && facesIt && gap <= tolerance + slack && aside <= std::abs(across) + slack;

@@ -318,33 +318,71 @@ TEST(ClipPlanes, OfBentBoundariesFollowThemOnInclinedSurfaces)
   EXPECT_GT(onBoundary, 130);
 }
 
+/// The first plane of a particle beside a place at which a sheet ends: at the origin, where the sheet is z = 0 and ends
+/// along x, in a curve that bends (1/spacing).
+/// \param place in units of the spacing
+ClipPlane planeBesideEnd(double bend, const glm::dvec3& place, const glm::dvec3& normal)
+{
+  const ElementMesh mesh = makeMesh(MeshRecipe{});
+  const Isosurface surface{ &mesh, 0.0, 1e-9 };
+  Buffer<BoundaryParticle> onBoundary(1);
+  onBoundary[0] = {};
+  onBoundary[0].particle.location.element = 0;
+  onBoundary[0].particle.normal = { { 0, 0, 1 } };
+  onBoundary[0].particle.spacing = spacing;
+  onBoundary[0].patch.spacing = static_cast<float>(spacing);
+  onBoundary[0].side = { 0, { { 1, 0, 0 } }, bend / spacing };
+  Buffer<Particle> particles(1);
+  particles[0] = {};
+  particles[0].location.element = 0;
+  particles[0].position = { spacing * place };
+  particles[0].normal = { normal };
+  particles[0].spacing = spacing;
+  const ParticleGrid all(particles, onBoundary, {});
+  Buffer<BoundaryParticle> thinned;
+  markClipPlanes(surface, all, thinned, {});
+  return particles[0].clips[0];
+}
+
 /// Beyond a spacing a boundary curve that bends within less than one may run anywhere: no plane is turned far to follow
 /// it.
 TEST(ClipPlanes, OfBoundariesThatBendStronglyAreNotTurnedFar)
 {
-  const ElementMesh mesh = makeMesh(MeshRecipe{});
-  const Isosurface surface{ &mesh, 0.0, 1e-9 };
   for (const double bend : { -0.9, 0.9 })
   {
-    Buffer<BoundaryParticle> onBoundary(1);
-    onBoundary[0] = {};
-    onBoundary[0].particle.location.element = 0;
-    onBoundary[0].particle.normal = { { 0, 0, 1 } };
-    onBoundary[0].particle.spacing = spacing;
-    onBoundary[0].patch.spacing = static_cast<float>(spacing);
-    onBoundary[0].side = { 0, { { 1, 0, 0 } }, bend / spacing };
-    Buffer<Particle> particles(1);
-    particles[0] = {};
-    particles[0].location.element = 0;
-    particles[0].position = { { -0.9 * spacing, 1.1 * spacing, 0.0 } };
-    particles[0].normal = onBoundary[0].particle.normal;
-    particles[0].spacing = spacing;
-    const ParticleGrid all(particles, onBoundary, {});
-    Buffer<BoundaryParticle> thinned;
-    markClipPlanes(surface, all, thinned, {});
-    const ClipPlane& plane = particles[0].clips[0];
+    const ClipPlane plane = planeBesideEnd(bend, { -0.9, 1.1, 0.0 }, { 0, 0, 1 });
     ASSERT_TRUE(plane.exists()) << bend;
     EXPECT_GT(plane.normal.xyz.x, std::cos(0.5)) << bend;
+  }
+}
+
+/// A sheet that passes over the end of another one goes on there, however it is inclined.
+TEST(ClipPlanes, OfBoundariesDoNotCutSheetsThatPassOverThem)
+{
+  for (const double degrees : { -40.0, -20.0, 0.0, 20.0, 40.0 })
+  {
+    const double angle = glm::radians(degrees);
+    const glm::dvec3 normal(std::sin(angle), 0.0, std::cos(angle));
+    for (const double height : { -0.8, -0.4, 0.4, 0.8 })
+    {
+      const glm::dvec3 over = height * glm::normalize(normal + glm::dvec3(0, 0, 1));
+      EXPECT_FALSE(planeBesideEnd(0.0, over - glm::dvec3(0.1, 0, 0), normal).exists())
+        << degrees << " " << height;
+    }
+  }
+}
+
+/// The same sheet, though it is a circle with a radius of 1.25 spacings: a particle of it may stand as high.
+TEST(ClipPlanes, OfBoundariesCutSheetsThatBendTowardsThem)
+{
+  constexpr double radius = 1.25; // spacings
+  for (const double angle : { -1.0, -0.7, -0.3, 0.3, 0.7, 1.0 })
+  {
+    const double turn = std::abs(angle);
+    const glm::dvec3 place(
+      -radius * std::sin(turn), 0.0, std::copysign(radius * (1.0 - std::cos(turn)), angle));
+    const glm::dvec3 normal(std::sin(angle), 0.0, std::cos(angle));
+    EXPECT_TRUE(planeBesideEnd(0.0, place, normal).exists()) << angle;
   }
 }
 

@@ -123,7 +123,8 @@ LocalMap mapOfBox(const glm::dvec3& place)
 
 /// Calls use() with random places on faces behind which an element may lie, and what the locator finds there.
 template <class Use>
-void visitPlacesAtOpenFaces(const ElementMesh& mesh, const FaceLocator& locator, const Use& use)
+void visitPlacesAtOpenFaces(
+  const ElementMesh& mesh, const FaceLocator& locator, const Use& use, double tolerance = 1e-6)
 {
   Random random(2);
   for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
@@ -141,7 +142,7 @@ void visitPlacesAtOpenFaces(const ElementMesh& mesh, const FaceLocator& locator,
         {
           std::int64_t evaluations = 0;
           const LocalMap map = mapAt(mesh, e, u);
-          use(e, map.position, locator.locate(map, e, f, 1e-6, evaluations), evaluations);
+          use(e, map.position, locator.locate(map, e, f, tolerance, evaluations), evaluations);
         }
       }
     }
@@ -342,6 +343,30 @@ TEST(FaceLocator, PassesNoGapWiderThanTolerated)
   EXPECT_LE(glm::distance(positionAt(mesh, near->location), glm::dvec3(gap, 0.3, 0.6)), 1e-9);
   EXPECT_FALSE(
     locator.locate(mapOfBox({ 0, 0.3, 0.6 }), 0, 1, 0.99 * gap, evaluations).has_value());
+}
+
+/// The two faces of a plate look away from each other, and nothing lies behind either. Between them tetrahedra have faces
+/// that are inclined, and nearer.
+TEST(FaceLocator, FindsNothingBehindAPlateOfTetrahedra)
+{
+  constexpr double thickness = 0.02;
+  MeshRecipe recipe;
+  recipe.domain = Domain::Tetrahedron;
+  recipe.field = [](const glm::dvec3&) { return 0.0; };
+  ElementMesh mesh;
+  appendBox(mesh, recipe, { -1, -1, 0 }, { 1, 1, thickness });
+  findFaceNeighbors(mesh, 1e-9);
+  const FaceLocator locator(mesh, 0.0, {});
+  int places = 0;
+  visitPlacesAtOpenFaces(
+    mesh, locator,
+    [&](int, const WorldPoint& place, const std::optional<LocatedPlace>& found, std::int64_t)
+    {
+      ++places;
+      EXPECT_FALSE(found) << place.xyz.x << " " << place.xyz.y << " " << place.xyz.z;
+    },
+    2.0 * thickness);
+  EXPECT_GT(places, 10);
 }
 
 TEST(FaceLocator, SurvivesSingularAndPoisonedElements)
