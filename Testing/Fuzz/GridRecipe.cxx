@@ -171,8 +171,12 @@ void GridRecipe::keepTiny()
 {
   this->keepSmall();
   this->Values["cells"] = 1.0 + static_cast<double>(this->Seed % 4);
-  this->Values["Spacing"] = std::max((*this)["Spacing"], 1.0);
+  this->Values["Spacing"] = 3.0;
   this->Values["threads"] = std::min((*this)["threads"], 2.0);
+  if (this->count("Method") == 0)
+  {
+    this->Values["Quality"] = 0.0; // Classic takes a second at a higher one
+  }
 }
 
 std::string GridRecipe::text() const

@@ -5,9 +5,8 @@ the last changes take longer.
     gui_session.py [--changes N] [--parts N] [--seed N]
 
 First the same round of changes is made: every property once. Then come parts of random changes, the same round after
-each; the first part warms up. What is compared are the bytes that are allocated after the rounds, and the processor
-time of the rounds. Resident memory is told, too, as it is and after glibc has given back what is free: in between it
-keeps pages that are free in parts of its pools.
+each; the first part warms up. What is compared are the bytes that are allocated after the rounds, and the processor time of the rounds. Resident memory
+is told, too: it has what glibc keeps in pieces.
 To be run by pvpython in the environment that `ctest -R Python.test_gui -V` shows.
 """
 
@@ -69,14 +68,10 @@ mallinfo2.restype = Allocations
 def note(*_):
     with open("/proc/self/statm") as numbers:
         resident = 4096 * int(numbers.read().split()[1])
-    if surface.Seed == {round_ends}:
-        ctypes.CDLL(None).malloc_trim(0)
-    with open("/proc/self/statm") as numbers:
-        trimmed = 4096 * int(numbers.read().split()[1])
     allocations = mallinfo2()
     names = [name for name in surface.ListProperties() if name not in ("Input", "Isosurfaces")]
     state = [str(surface.GetPropertyValue(name)) for name in names] + [str(shown.Representation)]
-    log.write(json.dumps(dict(seed=surface.Seed, state=state, resident=resident, trimmed=trimmed, time=time.process_time(),
+    log.write(json.dumps(dict(seed=surface.Seed, state=state, resident=resident, time=time.process_time(),
                               used=allocations.uordblks + allocations.hblkhd,
                               points=surface.GetClientSideObject().GetOutputDataObject(0).GetNumberOfElements(0))) + "\\n")
 simple.GetActiveView().GetRenderWindow().AddObserver("EndEvent", note)
@@ -130,13 +125,13 @@ def events_of(changes, parts, dice):
 
 
 def rounds_of(pictures):
-    """(allocated bytes, resident bytes, those after what is free was given back, seconds) of every round."""
+    """(allocated bytes, resident bytes, seconds) of every round."""
     rounds, begin = [], None
     for before, now in zip(pictures, pictures[1:]):
         if now["seed"] == ROUND_BEGINS and before["seed"] != ROUND_BEGINS:
             begin = now["time"]
         if now["seed"] == ROUND_ENDS and before["seed"] != ROUND_ENDS:
-            rounds.append((now["used"], now["resident"], now["trimmed"], now["time"] - begin))
+            rounds.append((now["used"], now["resident"], now["time"] - begin))
     return rounds
 
 
@@ -145,7 +140,7 @@ def run(arguments, folder):
     simple.LoadPlugin(os.environ["HOP_PLUGIN"], remote=False, ns=vars(simple))
     file, log, script, events = (folder / name for name in ("both.vtu", "log.json", "watcher.py", "events.xml"))
     write_scalar_and_vector(str(Path(os.environ["HOP_DATA"]) / "mfem_hex1_p8.vtu"), file)
-    script.write_text(WATCHER.format(file=str(file), log=str(log), round_ends=ROUND_ENDS))
+    script.write_text(WATCHER.format(file=str(file), log=str(log)))
     events.write_text(events_of(arguments.changes, arguments.parts, random.Random(arguments.seed)))
     with own_screen(folder) as (display, _):
         process = start(display, folder, Path(os.environ["HOP_PLUGIN"]), f"--script={script}", f"--test-script={events}", "--exit")
@@ -167,13 +162,12 @@ def main():
     print(f"{applied} changes were drawn in {len(pictures)} pictures, {len({str(p['state']) for p in pictures})} states; "
           f"up to {max(p['points'] for p in pictures):,} points")
     rounds = rounds_of(pictures)
-    for n, (used, resident, trimmed, seconds) in enumerate(rounds):
+    for n, (used, resident, seconds) in enumerate(rounds):
         print(f"after {max(0, n) * (arguments.changes // arguments.parts)} random changes: "
-              f"{used / 1e6:.1f} MB allocated, {resident / 1e6:.1f} MB resident, {trimmed / 1e6:.1f} MB after a trim, "
-              f"{seconds:.2f} s of processor time for a round")
+              f"{used / 1e6:.1f} MB allocated, {resident / 1e6:.1f} MB resident, {seconds:.2f} s of processor time for a round")
     assert len(rounds) == arguments.parts + 2, "a round is missing"
-    growth, of_resident, of_trimmed, slowdown = (last / first - 1 for first, last in zip(rounds[1], rounds[-1]))
-    print(f"allocated {growth:+.2%}, resident {of_resident:+.2%}, after a trim {of_trimmed:+.2%}, time {slowdown:+.0%}")
+    growth, of_resident, slowdown = (last / first - 1 for first, last in zip(rounds[1], rounds[-1]))
+    print(f"allocated {growth:+.2%}, resident {of_resident:+.2%}, time {slowdown:+.0%}")
     sys.exit(1 if growth > MOST_GROWTH or slowdown > MOST_SLOWDOWN else 0)
 
 
