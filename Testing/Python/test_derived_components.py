@@ -115,8 +115,9 @@ def unseen(labels, u):
 @pytest.mark.parametrize("name", KINDS)
 @pytest.mark.parametrize("quantity", QUANTITIES)
 def test_no_component_is_missed(quantity, name, bend):
-    """Three random vectors, three isovalues each, of which bent cells, which take several times as long, have the first. (Lambda 2, which no polynomial holds beside its creases, misses 8 of 233 where
-    parts that lose components are not halved.)"""
+    """Three random vectors, three isovalues each, of which bent cells, which take several times as long, have the first.
+    Lambda 2, which no polynomial holds beside its creases, misses 8 of 233 where parts that lose components are not
+    halved."""
     dice = np.random.default_rng(7 * list(KINDS).index(name) + QUANTITIES.index(quantity))
     components = missed = 0
     for which in range(3):
