@@ -115,8 +115,9 @@ def unseen(labels, u):
 @pytest.mark.parametrize("name", KINDS)
 @pytest.mark.parametrize("quantity", QUANTITIES)
 def test_no_component_is_missed(quantity, name, bend):
-    """Three random vectors, three isovalues each. (Lambda 2, which no polynomial holds beside its creases, misses 8 of 233 where
-    parts that lose components are not halved.)"""
+    """Three random vectors, three isovalues each, of which bent cells, which take several times as long, have the first.
+    Lambda 2, which no polynomial holds beside its creases, misses 8 of 233 where parts that lose components are not
+    halved."""
     dice = np.random.default_rng(7 * list(KINDS).index(name) + QUANTITIES.index(quantity))
     components = missed = 0
     for which in range(3):
@@ -124,7 +125,7 @@ def test_no_component_is_missed(quantity, name, bend):
         values = np.full(within.shape, np.nan)
         values[within] = values_of(quantity, first, gradients)
         numbered = components_on(values.reshape((KINDS[name] + 1,) * 3))
-        isovalues = np.quantile(values[within], dice.random(3))
+        isovalues = np.quantile(values[within], dice.random(3))[: 1 if bend else 3]
         # In one run, as cells are converted once for all isovalues.
         particles, messages = support.run(
             grid, "u", list(isovalues), Quantity=quantity, Expression=FORMULA, Spacing=0.1, AngularDensity=0
@@ -137,5 +138,5 @@ def test_no_component_is_missed(quantity, name, bend):
             missed += len(unseen(labels, places[whose == n]))
             components += len(np.unique(labels)) - 1
     print(f"{quantity}, {name}, bent by {bend}: {missed} of {components} components missed")
-    assert components >= 9
+    assert components >= (3 if bend else 9)
     assert missed == 0
