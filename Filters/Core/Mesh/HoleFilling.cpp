@@ -493,7 +493,7 @@ private:
     this->join(border, this->Loose[hole]);
     this->Rejected.clear();
     const bool isLast = this->Allowed != Turned::Never;
-    if (isLast && border.size() > Hole::MostEdgesTurned)
+    if (isLast && this->Loops[hole].edgeCount() > Hole::MostEdgesTurned)
     {
       return false;
     }

@@ -13,6 +13,7 @@ namespace hop
 ///  - if no edge gets a third triangle by it,
 ///  - if its normal points to the same side as those of its corners,
 ///  - if the surface goes on below its middle.
+/// Small holes that have no such triangulation get one whose triangles are turned away from as few corners as may be.
 /// Holes that have no such triangulation, or too many edges, stay open.
 /// Derivation: Documentation/algorithm.md, section Mesh.
 /// \param distribution receives the particles that are added

@@ -32,7 +32,7 @@ struct SurfaceMesh
 
 /// Joins particles to triangles: those that the Delaunay triangulations in the tangent planes of all three corners
 /// agree about (ParticleStars.h). No edge has three triangles, and no triangle is turned away from the normal of one of
-/// its corners.
+/// its corners, but for those that close holes which no others can (HoleFilling.h).
 /// Derivation: Documentation/algorithm.md, section Mesh.
 /// \param edges of the distribution as it is before
 /// \param distribution may get particles where a hole is filled with new ones, and where boundary curves touch
