@@ -57,6 +57,7 @@ MeshNumbers meshReportOf(const std::vector<IsovalueParticles>& isovalues, double
   {
     sum.openLoops += some.mesh.openLoops;
     sum.unusedParticles += some.mesh.unusedParticles;
+    sum.turnedTriangles += some.mesh.turnedTriangles;
     sum.openLength += unitOfLength * some.mesh.openLength;
     sum.straightNodes += some.mesh.straightNodes;
     sum.components += some.mesh.components;

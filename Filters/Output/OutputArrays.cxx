@@ -265,6 +265,9 @@ std::vector<MeshReportArray> makeMeshReportArrays()
     { "MeshUnusedParticles",
       "Particles that are corners of no triangle, and not in the output; of all blocks together.",
       [](const MeshNumbers& report) { return report.unusedParticles; } },
+    { "MeshTurnedTriangles",
+      "Triangles that are turned away from the normal of a corner; of all blocks together.",
+      [](const MeshNumbers& report) { return report.turnedTriangles; } },
     { "MeshStraightNodes",
       "Nodes of curved triangles that were not found on the surface, and stay on straight edges or "
       "in the plane of the corners; of all blocks together.",

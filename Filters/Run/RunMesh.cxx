@@ -170,6 +170,7 @@ void addMesh(const Isosurface& surface, OutputType type, int order, bool isCut,
     some.mesh.longestLoop = mesh.longestLoop;
     some.mesh.onLongestLoop = mesh.onLongestLoop;
     some.mesh.unusedParticles = mesh.unusedParticles;
+    some.mesh.turnedTriangles = mesh.turnedTriangles;
     some.mesh.nodesPerCell = 3;
     some.mesh.vertices = firstInPlace(distribution.edges, distribution.particles.size());
     some.mesh.shared = sharedPlaces(some.mesh.vertices);

@@ -284,7 +284,14 @@ UserMessages reviewMesh(
   {
     text << mesh.unusedParticles << " particles are corners of no triangle, and left out. ";
   }
-  if (mesh.openLoops == 0 && mesh.straightNodes == 0 && mesh.unusedParticles == 0)
+  if (mesh.turnedTriangles > 0)
+  {
+    text << mesh.turnedTriangles
+         << " triangles are turned away from the surface at a corner, as no others close small "
+            "holes. ";
+  }
+  if (mesh.openLoops == 0 && mesh.straightNodes == 0 && mesh.unusedParticles == 0 &&
+    mesh.turnedTriangles == 0)
   {
     return {};
   }

@@ -99,7 +99,7 @@ def test_triangles_are_closed_oriented_and_on_the_surface(grid):
     assert (np.einsum("ij,ij->i", np.cross(b - a, c - a), a + b + c - 3 * CENTER) > 0).all()
     # The same particles with the same arrays, and the same order.
     assert support.contents(particles) == support.contents(mesh)
-    for name in ("MeshOpenLoops", "MeshUnusedParticles", "MeshStraightNodes"):
+    for name in ("MeshOpenLoops", "MeshUnusedParticles", "MeshTurnedTriangles", "MeshStraightNodes"):
         assert support.reported(mesh, name) == 0
     assert support.reported(mesh, "MeshOpenLength") == 0.0
 
@@ -294,6 +294,15 @@ def test_components_are_listed(grid):
 
 def test_particles_have_no_list_of_components(grid):
     assert components_of(mesh_of(grid, "Particles")) == {}
+
+
+def test_triangles_that_close_holes_turned_away_are_told(data, plugin):
+    # The two sides of a jump reach over each other.
+    mesh, messages = support.run(
+        support.read(data("mfem_dg_advection_2.vtu")), "rho", 0.0563662, OutputType="Triangles")
+    turned = support.reported(mesh, "MeshTurnedTriangles")
+    assert turned > 0
+    assert f"{turned} triangles are turned away from the surface at a corner" in messages.warnings[0]
 
 
 def test_a_warning_says_where_the_mesh_has_a_hole(data, plugin):

@@ -6,6 +6,7 @@
 #include "Mesh/ParticleStars.h"
 #include "Support/Interruptible.h"
 
+#include <algorithm>
 #include <functional>
 
 namespace hop
@@ -27,6 +28,21 @@ std::int64_t countUnused(const std::vector<int>& places, const TriangleFans& fan
     unused += places[p] == static_cast<int>(p) && !isUsed[p];
   }
   return unused;
+}
+
+/// Triangles that are turned away from the normal of a corner.
+std::int64_t countTurned(
+  const Buffer<Particle>& particles, const std::vector<std::array<int, 3>>& triangles)
+{
+  const auto isTurned = [&particles](const std::array<int, 3>& corners)
+  {
+    const glm::dvec3& from = particles[corners[0]].position.xyz;
+    const glm::dvec3 normal = glm::cross(
+      particles[corners[1]].position.xyz - from, particles[corners[2]].position.xyz - from);
+    return std::any_of(corners.begin(), corners.end(),
+      [&](int corner) { return glm::dot(normal, particles[corner].normal.xyz) <= 0.0; });
+  };
+  return std::count_if(triangles.begin(), triangles.end(), isTurned);
 }
 
 /// What is open.
@@ -78,6 +94,7 @@ SurfaceMesh meshSurface(const Isosurface& surface, ConstrainedEdges edges,
                                                          : keepManifold(places, fans, parallel);
   countOpen(distribution, edges, fans, mesh, parallel);
   mesh.unusedParticles = countUnused(places, fans);
+  mesh.turnedTriangles = countTurned(distribution.particles, mesh.triangles);
   return mesh;
 }
 

@@ -26,6 +26,8 @@ struct SurfaceMesh
   int onLongestLoop = -1;
   /// Particles without a triangle.
   std::int64_t unusedParticles = 0;
+  /// Triangles that are turned away from the normal of a corner.
+  std::int64_t turnedTriangles = 0;
   /// Pairs of a particle and one that was added in its place, because boundary curves touch there.
   std::vector<std::array<int, 2>> copies;
 };

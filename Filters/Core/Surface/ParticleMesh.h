@@ -29,6 +29,8 @@ struct MeshNumbers
   double openLength = 0.0;
   /// Particles that no cell uses.
   std::int64_t unusedParticles = 0;
+  /// Triangles, before they are bent, that are turned away from the normal of a corner.
+  std::int64_t turnedTriangles = 0;
   /// Nodes of curved cells that are not on the surface.
   std::int64_t straightNodes = 0;
   /// Connected parts of the mesh, and those that are not proven to be as the surface is, with the components of the

@@ -321,6 +321,7 @@ TEST(SurfaceMesh, ClosesThinBodies)
     const MeshMeasures measures = measureMesh(meshed.distribution, meshed.mesh.triangles);
     EXPECT_EQ(measures.badEdges, 0);
     EXPECT_EQ(measures.unusedParticles, meshed.mesh.unusedParticles);
+    EXPECT_EQ(measures.turnedTriangles, meshed.mesh.turnedTriangles);
     EXPECT_EQ(measures.openLoops, meshed.mesh.openLoops);
     EXPECT_LE(measures.openLoops, smallest > 0.0 ? 0 : 2);
     EXPECT_EQ(measures.eulerCharacteristic, 2 - measures.openLoops);
