@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Build and test the numerics, without VTK and ParaView, as compilers other than GCC see them: GCC and Clang without
-# vector types (plain C++, as MSVC would take it), and Clang with them. Warnings are errors.
+# Build and test the numerics, without VTK and ParaView, as compilers other than GCC see them: Clang with vector types
+# and without them (plain C++, as MSVC would take it). Warnings are errors.
 #   bash Utilities/test-compilers.sh [CTEST_OPTION ...]
-# Installs what is missing, as setup.sh does; without Clang where it cannot be had. Builds into build-gcc-portable/ etc.
+# Installs what is missing, as setup.sh does. Where Clang cannot be had, GCC without vector types. Builds into
+# build-clang/, build-clang-portable/ or build-gcc-portable/.
 set -euo pipefail
 case "${1:-}" in -h | --help) sed -n 2,5p "${BASH_SOURCE[0]}" && exit ;; esac
 
@@ -62,11 +63,11 @@ run() { # NAME COMPILER VECTORS [CTEST_OPTION ...]
   [ "$status" -eq 0 ] || failed+=("$1")
 }
 
-run gcc-portable g++ OFF "$@"
 if command -v clang++ >/dev/null; then
   run clang clang++ ON "$@"
   run clang-portable clang++ OFF "$@"
 else
-  say "no Clang here: GCC alone was tried"
+  say "no Clang here: GCC"
+  run gcc-portable g++ OFF "$@"
 fi
 [ "${#failed[@]}" -eq 0 ] || fail "failed: ${failed[*]}"
