@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import support
 
-RANKS = [1, 2, 3, 4, 8]
+RANKS = [1, 2, 3, 8]
 VALUES = [0.3, 0.4]
 NUMBER = 1000
 # Of the file that is redistributed.
@@ -346,7 +346,7 @@ class Run:
             return subprocess.run(["timeout", "--kill-after=10", str(seconds), *command, part, *files],
                                   env=support.environment_of_ranks(), capture_output=True, text=True)
 
-        self.is_redistributed = self.redistribute(run)
+        self.is_redistributed = ranks < 8 and self.redistribute(run)
         done = run("cases", 600)
         assert done.returncode == 0, done.stdout + done.stderr
         self.said, self.progress = (
@@ -423,7 +423,7 @@ CASES = ["in pieces", "scattered", "on one rank", "with ghosts", "with wrong gho
 @pytest.mark.parametrize("ranks", RANKS[1:])
 def test_ranks_have_the_particles_of_one_rank(runs, case, ranks):
     if case == "redistributed" and not (runs[1].is_redistributed and runs[ranks].is_redistributed):
-        pytest.skip("ParaView's RedistributeDataSet failed")
+        pytest.skip("ParaView's RedistributeDataSet failed, or was not tried")
     for block in range(2 if case in ("halves", "two results") else 1):
         expected = runs[1].particles(case, block)
         assert len(expected) > 200
