@@ -16,13 +16,24 @@ namespace
 
 using Edge = std::array<int, 2>;
 
+/// Distance from the boundary of the surface, as far as the particle knows of one; infinite if it does not.
+double distanceFromBoundary(const Particle& particle)
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (const ClipPlane& plane : particle.clips)
+  {
+    least = plane.isBoundary() ? std::min(least, static_cast<double>(plane.distance)) : least;
+  }
+  return least;
+}
+
 /// When a particle stands on an edge, lengths in units of its spacing. Chosen by experiment.
 struct OnEdge
 {
-  /// Largest distance from the boundary, and to the left of the chord. Larger: edges go back from the boundary; smaller:
-  /// triangles there are turned away where the surface bends.
+  /// Largest distance from the boundary of a particle to the left of the chord, and from the chord. Larger: edges go back
+  /// from the boundary; smaller: triangles there are turned away where the surface bends.
   static constexpr double Near = 0.05;
-  /// Largest distance to the right of the chord: how far curves bulge.
+  /// Largest distance from the boundary, and to the right of the chord: how far curves bulge.
   static constexpr double Beyond = 0.3;
   /// Least cosine between the normals, as of neighbours in a star.
   static constexpr double Cosine = 0.3;
@@ -76,10 +87,8 @@ private:
     for (std::size_t i = 0; i < this->Particles.size(); ++i)
     {
       const Particle& particle = this->Particles[i];
-      const bool isAtBoundary = std::any_of(particle.clips.begin(), particle.clips.end(),
-        [&](const ClipPlane& plane)
-        { return plane.isBoundary() && plane.distance <= OnEdge::Near * particle.spacing; });
-      if (isAtBoundary && !this->IsOnEdge[i])
+      if (!this->IsOnEdge[i] &&
+        distanceFromBoundary(particle) <= OnEdge::Beyond * particle.spacing)
       {
         this->Candidates.push_back(static_cast<int>(i));
       }
@@ -127,8 +136,10 @@ private:
     const double length = glm::length(along);
     const double share = glm::dot(-start, along) / (length * length);
     const double left = crossOf(along, -start) / length;
-    const bool isOn = share > 0.0 && share < 1.0 && length <= OnEdge::Reach &&
-      left <= OnEdge::Near && left >= -OnEdge::Beyond;
+    const double most =
+      distanceFromBoundary(here) <= OnEdge::Near * here.spacing ? OnEdge::Near : 0.0;
+    const bool isOn = share > 0.0 && share < 1.0 && length <= OnEdge::Reach && left <= most &&
+      left >= -OnEdge::Beyond;
     if (isOn && std::abs(left) < this->Places[candidate].aside)
     {
       this->Places[candidate] = { std::abs(left), edge, share };

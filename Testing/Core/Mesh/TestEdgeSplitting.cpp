@@ -41,7 +41,11 @@ TEST(EdgeSplitting, IsAtParticlesOnAnEdgeInTheirOrder)
 
 TEST(EdgeSplitting, IsAtParticlesBeyondTheChordOfACurve)
 {
-  EXPECT_EQ(split(above({ { 0.1, -0.1 } }, 0.0), { { 0, 1 } }), (Edges{ { 0, 2 }, { 2, 1 } }));
+  for (const double fromCurve : { 0.0, 0.2 })
+  {
+    EXPECT_EQ(
+      split(above({ { 0.1, -0.1 } }, fromCurve), { { 0, 1 } }), (Edges{ { 0, 2 }, { 2, 1 } }));
+  }
 }
 
 TEST(EdgeSplitting, IsNotWhereTheSurfaceGoesOn)
