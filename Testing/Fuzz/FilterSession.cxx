@@ -164,6 +164,10 @@ void FilterSession::noteTime()
 void FilterSession::asked(vtkObject*, unsigned long, void*)
 {
   this->noteTime();
+  if (this->Filter->GetProgress() >= 1.0)
+  {
+    return; // the output is there
+  }
   const bool isLate = this->LastQuestion - this->Begin > this->Limit;
   if (isLate || this->QuestionsLeft == 0)
   {

@@ -15,6 +15,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -61,7 +62,7 @@ struct Sample
   glm::dvec3 position{ 0.0 };
   /// Of the contoured component, or the magnitude of all.
   double value = 0.0;
-  /// By how much the value may change over the tolerance; infinite where VTK has no derivatives.
+  /// By how much the value may change over the tolerance; infinite in flat cells.
   double rise = infinity;
   /// Sizes of the numbers that are added up to the position and to the value.
   double roundingOfPosition = 0.0, roundingOfValue = 0.0;
@@ -110,27 +111,64 @@ double magnitude(const std::vector<double>& numbers)
   return unit * std::sqrt(sum);
 }
 
-/// By how much the field may change over a distance. The cell's points are changed: VTK takes cells that are small in
-/// world units for singular.
+/// What VTK's shape functions give at a place of a cell.
+struct Interpolated
+{
+  glm::dvec3 position{ 0.0 };
+  std::vector<double> value, weights;
+};
+
+Interpolated interpolate(vtkCell& cell, const double* place, const NodalValues& values)
+{
+  const auto count = static_cast<std::size_t>(cell.GetNumberOfPoints());
+  Interpolated result;
+  result.weights.resize(count);
+  result.value.assign(static_cast<std::size_t>(values.components), 0.0);
+  int subId = 0;
+  double position[3];
+  cell.EvaluateLocation(subId, place, position, result.weights.data());
+  result.position = vectorOf(position);
+  for (std::size_t n = 0; n < count; ++n)
+  {
+    for (std::size_t c = 0; c < result.value.size(); ++c)
+    {
+      result.value[c] += result.weights[n] * values.numbers[n * result.value.size() + c];
+    }
+  }
+  return result;
+}
+
+/// By how much the field may change over a distance, by central differences: VTK's own derivatives are wrong in Bezier
+/// cells and in quadratic pyramids. Infinite where the cell is flat.
 double riseOver(double distance, vtkCell& cell, const double* place, const NodalValues& values)
 {
+  constexpr double step = 1e-6;
   const double length = longestSide(*cell.GetPoints());
   const double height = std::max(largest(values.numbers), std::numeric_limits<double>::min());
-  const glm::dvec3 first = vectorOf(cell.GetPoints()->GetPoint(0));
-  for (vtkIdType n = 0; n < cell.GetNumberOfPoints(); ++n)
+  // Rows: by parametric coordinate. Numbers of order one do not overflow.
+  glm::dmat3 positions(0.0);
+  std::array<std::vector<double>, 3> slopes;
+  for (int axis = 0; axis < 3; ++axis)
   {
-    const glm::dvec3 x = (vectorOf(cell.GetPoints()->GetPoint(n)) - first) / length;
-    cell.GetPoints()->SetPoint(n, x.x, x.y, x.z);
+    glm::dvec3 ahead = vectorOf(place), behind = ahead;
+    ahead[axis] += step;
+    behind[axis] -= step;
+    const Interpolated there = interpolate(cell, &ahead.x, values);
+    const Interpolated back = interpolate(cell, &behind.x, values);
+    positions[axis] = (there.position - back.position) / (2.0 * step * length);
+    for (std::size_t c = 0; c < there.value.size(); ++c)
+    {
+      slopes[axis].push_back((there.value[c] - back.value[c]) / (2.0 * step * height));
+    }
   }
-  std::vector<double> scaled = values.numbers;
-  for (double& number : scaled)
+  const glm::dmat3 toWorld = glm::inverse(glm::transpose(positions));
+  double sum = 0.0;
+  for (std::size_t c = 0; c < slopes[0].size(); ++c)
   {
-    number /= height;
+    const glm::dvec3 gradient = toWorld * glm::dvec3(slopes[0][c], slopes[1][c], slopes[2][c]);
+    sum += glm::dot(gradient, gradient);
   }
-  std::vector<double> gradients(3 * static_cast<std::size_t>(values.components));
-  cell.Derivatives(0, place, scaled.data(), values.components, gradients.data());
-  const double slope = magnitude(gradients);
-  // Zero in cells that are flat beside their length: VTK takes them for singular.
+  const double slope = std::sqrt(sum);
   return slope > 0.0 && slope < infinity ? slope * (distance / length) * height : infinity;
 }
 
@@ -141,33 +179,18 @@ bool isBezier(int type)
 
 Sample sampleOf(vtkCell& cell, const double* place, const NodalValues& values, double distance)
 {
-  Sample sample;
-  int subId = 0;
-  const auto count = static_cast<std::size_t>(cell.GetNumberOfPoints());
-  std::vector<double> weights(count);
-  double position[3];
-  cell.EvaluateLocation(subId, place, position, weights.data());
-  sample.position = vectorOf(position);
-  std::vector<double> value(static_cast<std::size_t>(values.components), 0.0);
+  const Interpolated here = interpolate(cell, place, values);
   double rounding = 0.0, farthest = 0.0;
-  for (std::size_t n = 0; n < count; ++n)
+  for (std::size_t n = 0; n < here.weights.size(); ++n)
   {
-    rounding += std::abs(weights[n]);
-    farthest = std::max(farthest, largest(vectorOf(cell.GetPoints()->GetPoint(n))));
-    for (std::size_t c = 0; c < value.size(); ++c)
-    {
-      value[c] += weights[n] * values.numbers[n * value.size() + c];
-    }
+    rounding += std::abs(here.weights[n]);
+    farthest =
+      std::max(farthest, largest(vectorOf(cell.GetPoints()->GetPoint(static_cast<vtkIdType>(n)))));
   }
-  sample.value = value.size() == 1 ? value[0] : magnitude(value);
   // Shape functions of high degrees add numbers much larger than their sum.
-  sample.roundingOfPosition = rounding * farthest;
-  sample.roundingOfValue = rounding * largest(values.numbers);
-  if (!isBezier(cell.GetCellType())) // derivatives of VTK's Bezier cells are wrong
-  {
-    sample.rise = riseOver(distance, cell, place, values);
-  }
-  return sample;
+  return { here.position, here.value.size() == 1 ? here.value[0] : magnitude(here.value),
+    riseOver(distance, cell, place, values), rounding * farthest,
+    rounding * largest(values.numbers) };
 }
 
 bool isEvaluatedByVtk(const GridRecipe& recipe, int type)
