@@ -87,8 +87,7 @@ private:
     for (std::size_t i = 0; i < this->Particles.size(); ++i)
     {
       const Particle& particle = this->Particles[i];
-      if (!this->IsOnEdge[i] &&
-        distanceFromBoundary(particle) <= OnEdge::Beyond * particle.spacing)
+      if (!this->IsOnEdge[i] && distanceFromBoundary(particle) <= OnEdge::Beyond * particle.spacing)
       {
         this->Candidates.push_back(static_cast<int>(i));
       }
