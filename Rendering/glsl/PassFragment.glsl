@@ -10,7 +10,7 @@
 flat in vec4 splatPixelToDisk;
 flat in vec2 splatCentrePixel;
 flat in vec3 splatDepths;
-vec2 splatDiskCoord;
+vec2 splatDiskCoord = vec2(0.0); // set by splatMeetRay(); compilers warn of it otherwise
 vec3 splatOffsetVC;
 float splatDepthVC;
 #elif SPLAT_CURVED
@@ -23,7 +23,7 @@ flat in vec3 splatNormalChange[2];
 flat in float splatCentreDepth;
 flat in vec3 splatClipDepths;
 flat in float splatRadiusVC;
-vec2 splatDiskCoord;
+vec2 splatDiskCoord = vec2(0.0); // set by splatMeetRay(); compilers warn of it otherwise
 float splatBelowDisk; // distance of the bent splat from its disk (MC)
 vec3 splatOffsetVC;
 float splatDepthVC;
