@@ -43,9 +43,10 @@ struct UndecidedPieces
 void appendUndecided(const UndecidedPieces& undecided, const Piece& whole, const PieceTests& tests,
   std::vector<SurfaceBox>& boxes);
 
-/// Undecided pieces of a cell at most, which its elements share evenly. Where the surface is singular along lines, two sheets that cross for
-/// instance, undecided pieces along the lines double in number with each halving of their length. Larger limits take
-/// more time and memory there, smaller ones stop pieces that further bisections would decide. Chosen by experiment.
+/// Undecided pieces of a cell at most, which its elements share evenly. Where the surface is singular along lines, two
+/// sheets that cross for instance, undecided pieces along the lines double in number with each halving of their length.
+/// Larger limits take more time and memory there, smaller ones stop pieces that further bisections would decide. Chosen
+/// by experiment.
 struct TooManyPieces
 {
   /// Pieces of any size.
