@@ -21,6 +21,9 @@ from paraview import simple
 from pictures import write_png
 from window import FILTERS_PANEL, HEIGHT, PANEL, PARAVIEW, WIDTH, event, own_screen, start, write_scalar_and_vector
 
+VERSION = (simple.GetParaViewVersion().major, simple.GetParaViewVersion().minor)
+at_places_of_5 = pytest.mark.skipif(VERSION >= (6, 0), reason="it looks at places of ParaView 5's window")
+
 
 @pytest.fixture
 def screen(tmp_path):
@@ -114,7 +117,7 @@ EDITED = {
     "SelectInputScalars": ["", "", "", "0", "velocity"], "Component": ["1"], "Spacing": ["0.25"], "AngularDensity": ["3"],
     "SmallestSpacing": ["0.125"], "Quantity": ["6"], "PassDerivatives": ["1"], "ParticlesPerWorker": ["5000"],
     "Expression": ["2 * u"], "Derivatives": ["1"],
-    "Quality": ["2"], "Tolerance": ["0.000001"], "NodeSpacing": ["1"], "WarmStart": ["1"], "Method": ["0"], "Seed": ["7"],
+    "Quality": ["2"], "NodeSpacing": ["1"], "WarmStart": ["1"], "Method": ["0"], "Seed": ["7"],
     "NumberOfParticles": ["400"], "PassDiagnostics": ["1"], "OutputType": ["2"], "Order": ["3"],
 }
 
@@ -165,9 +168,11 @@ def test_every_property_is_edited_in_the_panel(plugin, data, screen, tmp_path):
     proxy = ElementTree.parse(state).find(".//Proxy[@type='HighOrderParticleIsosurface']")
     values = {p.get("name"): [e.get("value") for e in p.findall("Element")] for p in proxy.findall("Property")}
     assert len(values["ContourValues"]) == 2, "one more isovalue"
+    assert float(values.pop("Tolerance")[0]) == 1e-6  # versions write it in two ways
     assert {name: values[name] for name in EDITED} == EDITED
 
 
+@at_places_of_5
 def test_the_icons_stand_behind_those_of_paraview(plugin, data, screen, tmp_path, monkeypatch):
     """Also where the plugin is auto-loaded: ParaView then reads it before its own list of filters."""
     display, screen_file = screen
@@ -279,6 +284,7 @@ def test_ctrl_space_and_contour_find_the_filter(watched):
     assert "ContourHighOrderCells" in pipeline()
 
 
+@at_places_of_5
 @pytest.mark.skipif(not shutil.which("xdotool"), reason="no xdotool")
 @pytest.mark.parametrize("watched", [
     "simple.HighOrderParticleIsosurface(Input=reader, ContourBy=['POINTS', 'u'], Isosurfaces=[0.2])"], indirect=True)
@@ -329,9 +335,6 @@ def place_of_abort_button(window):
     return (int(columns.mean()), HEIGHT - 30 + int(rows.mean())) if red.sum() > 10 else None
 
 
-VERSION = (simple.GetParaViewVersion().major, simple.GetParaViewVersion().minor)
-
-
 # Before 6.1 the button does nothing; from 6.2 on it is for what Apply starts, not for scripts.
 @pytest.mark.skipif(VERSION != (6, 1), reason="this ParaView's abort button does not end a script's run")
 @pytest.mark.skipif(not shutil.which("xdotool"), reason="no xdotool")
@@ -375,8 +378,9 @@ def particle_file(plugin, data, tmp_path):
 def test_what_cuts_particles_hides_them(plugin, particle_file, screen, tmp_path):
     window = play(plugin, screen, tmp_path, particle_file, "gui_clip_events.xml", "gui_clip.png")
     red, green, blue = (window[:, :, c].astype(int) for c in range(3))
-    # Grey: the background is blue, and the plane red. The outline is one pixel wide.
-    grey = (np.abs(red - green) < 10) & (np.abs(green - blue) < 15)
+    # Grey: the background is blue, or one brownish grey, and the plane red. The outline is one pixel wide.
+    background = window[HEIGHT - 60, WIDTH - 30].astype(int)
+    grey = (np.abs(red - green) < 10) & (np.abs(green - blue) < 15) & (np.abs(window - background).max(axis=2) > 4)
     surface = np.zeros_like(grey)
     surface[1:-1, 1:-1] = (grey[1:-1, 1:-1] & grey[:-2, 1:-1] & grey[2:, 1:-1] & grey[1:-1, :-2] & grey[1:-1, 2:])
     middle = WIDTH // 4 + 3 * WIDTH // 8  # of the view, as of the particles

@@ -68,7 +68,8 @@ def test_the_plugin_is_described_once():
     version = re.search(r"project\(\w+ VERSION ([\d.]+)", (project / "CMakeLists.txt").read_text())[1]
     known = servermanager.vtkSMProxyManager.GetProxyManager().GetPluginManager().GetLocalInformation()
     i = next(i for i in range(known.GetNumberOfPlugins()) if known.GetPluginName(i) == NAME)
-    assert known.GetPluginVersion(i) == version
+    # ParaView 6.1 knows the versions of the plugins in its own list alone.
+    assert known.GetPluginVersion(i) in ((version, "") if simple.GetParaViewVersion() >= 6 else (version,))
     assert re.sub(r"\s+", " ", known.GetDescription(i)).strip() in re.sub(r"\s+", " ", description.read_text())
 
 
