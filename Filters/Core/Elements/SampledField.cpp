@@ -419,10 +419,12 @@ void FieldSampler::judge(SampledPart& sampled, const Samples& checks) const
   static_assert(sizeof(Coefficient) == 4 * sizeof(double), "rows of numbers are converted");
   const BernsteinForm form = formOf(this->Source.domain, sampled.element);
   const std::vector<ReferencePoint>& points = checkPointsOf(this->Source.domain);
+  JetBatch jets;
+  evaluateGradients(form, points.data(), static_cast<int>(points.size()), jets);
   double ofGeometry = 0.0;
   for (std::size_t n = 0; n < points.size(); ++n)
   {
-    const Coefficient value = evaluateGradient(form, points[n]).value;
+    const Coefficient value = jets.jet(static_cast<int>(n)).value;
     sampled.error = std::max(sampled.error, std::abs(value.w - checks[n].w));
     ofGeometry = std::max(ofGeometry, glm::distance(glm::dvec3(value), glm::dvec3(checks[n])));
   }

@@ -180,6 +180,21 @@ struct FlatSegment
 using HiddenFunction = void (*)(const FlatPoints& points, const FlatSegment* segments,
   std::ptrdiff_t segmentCount, double* hidden);
 
+/// Two rows of numbers, whose product, as of polynomials, has the entry left_0 right_n + left_1 right_(n-1) + ... in
+/// column n.
+struct RowPair
+{
+  const double* left;
+  int leftCount;
+  /// Zeros stand before and behind the row, wherever the sum over all left_i asks for them, up to whole vectors.
+  const double* right;
+};
+
+/// Adds products of rows to one row.
+/// \param sum `length` numbers, with room up to the next multiple of MaximumLanes
+using RowProductsFunction = void (*)(
+  const RowPair* pairs, std::ptrdiff_t count, int length, double* sum);
+
 struct Kernels
 {
   DomainKernels hexahedron;
@@ -191,6 +206,7 @@ struct Kernels
   BisectionFunction bisection;
   BoundsFunction bounds;
   HiddenFunction hidden;
+  RowProductsFunction rowProducts;
 };
 
 Kernels baselineKernels();

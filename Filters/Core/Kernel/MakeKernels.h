@@ -5,6 +5,7 @@
 #include "Kernel/Lines.h"
 #include "Kernel/Near.h"
 #include "Kernel/PlaneCell.h"
+#include "Kernel/RowProducts.h"
 #include "Kernel/Sweep.h"
 
 #include <utility>
@@ -169,7 +170,7 @@ constexpr Kernels makeKernels()
     makeDomainKernels<Tetrahedron, PointLanes, ComponentLanes>(),
     makeDomainKernels<Wedge, PointLanes, ComponentLanes>(), sweepBlocks, findNear<PointLanes>,
     measurePlaneCell<PointLanes>, bisectLines<ComponentLanes>, boundComponents<ComponentLanes>,
-    findHidden<PointLanes> };
+    findHidden<PointLanes>, addRowProducts<PointLanes> };
 }
 
 } // namespace
