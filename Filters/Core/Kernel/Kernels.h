@@ -195,6 +195,10 @@ struct RowPair
 using RowProductsFunction = void (*)(
   const RowPair* pairs, std::ptrdiff_t count, int length, double* sum);
 
+/// The product of a rows x columns matrix with `columns` rows of `width` values: `rows` rows as long.
+using MatrixFunction = void (*)(const double* matrix, int rows, int columns, const double* values,
+  std::ptrdiff_t width, double* result);
+
 struct Kernels
 {
   DomainKernels hexahedron;
@@ -207,6 +211,7 @@ struct Kernels
   BoundsFunction bounds;
   HiddenFunction hidden;
   RowProductsFunction rowProducts;
+  MatrixFunction matrix;
 };
 
 Kernels baselineKernels();

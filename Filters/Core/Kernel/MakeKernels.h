@@ -3,6 +3,7 @@
 #include "Kernel/Hidden.h"
 #include "Kernel/Jets.h"
 #include "Kernel/Lines.h"
+#include "Kernel/MatrixRows.h"
 #include "Kernel/Near.h"
 #include "Kernel/PlaneCell.h"
 #include "Kernel/RowProducts.h"
@@ -170,7 +171,7 @@ constexpr Kernels makeKernels()
     makeDomainKernels<Tetrahedron, PointLanes, ComponentLanes>(),
     makeDomainKernels<Wedge, PointLanes, ComponentLanes>(), sweepBlocks, findNear<PointLanes>,
     measurePlaneCell<PointLanes>, bisectLines<ComponentLanes>, boundComponents<ComponentLanes>,
-    findHidden<PointLanes>, addRowProducts<PointLanes> };
+    findHidden<PointLanes>, addRowProducts<PointLanes>, multiplyMatrix<ComponentLanes> };
 }
 
 } // namespace

@@ -80,7 +80,7 @@ TEST_P(RowProducts, AreThoseOfPolynomials)
 }
 
 INSTANTIATE_TEST_SUITE_P(
-  Sets, RowProducts, ::testing::ValuesIn(availableInstructionSets()), nameOfSet);
+  All, RowProducts, ::testing::ValuesIn(availableInstructionSets()), nameOfSet);
 
 } // namespace
 } // namespace hop::testing
