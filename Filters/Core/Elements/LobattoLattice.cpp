@@ -11,6 +11,11 @@ namespace
 
 using Extended = long double;
 
+LineMatrix zeros(std::size_t rows, int columns)
+{
+  return { static_cast<int>(rows), columns, std::vector<double>(rows * columns) };
+}
+
 /// P_0 to P_n at x, by Legendre's recurrence n P_n = (2n - 1) x P_{n-1} - (n - 1) P_{n-2}.
 std::vector<Extended> legendreAt(Extended x, int n)
 {
@@ -28,7 +33,7 @@ std::vector<Extended> legendreAt(Extended x, int n)
 LineMatrix toLegendre(int n)
 {
   const std::vector<Extended> points = gaussLobattoPoints(n);
-  LineMatrix matrix{ n + 1, n + 1, std::vector<double>((n + 1) * (n + 1)) };
+  LineMatrix matrix = zeros(n + 1, n + 1);
   for (int i = 0; i <= n; ++i)
   {
     const std::vector<Extended> p = legendreAt(2.0L * points[i] - 1.0L, n);
@@ -46,7 +51,7 @@ LineMatrix toLegendre(int n)
 /// elevated.
 LineMatrix fromLegendre(int n)
 {
-  LineMatrix matrix{ n + 1, n + 1, std::vector<double>((n + 1) * (n + 1)) };
+  LineMatrix matrix = zeros(n + 1, n + 1);
   for (int k = 0; k <= n; ++k)
   {
     std::vector<Extended> coefficients;
@@ -73,45 +78,50 @@ LineMatrix fromLegendre(int n)
 }
 
 /// Values of the Bernstein polynomials of a degree at t, by their recurrence over the degree.
-std::vector<double> bernsteinAt(int degree, double t)
+/// \param basis room for degree + 1 values
+void bernsteinAt(int degree, double t, double* basis)
 {
-  std::vector<double> basis{ 1.0 };
+  basis[0] = 1.0;
   for (int n = 1; n <= degree; ++n)
   {
-    basis.push_back(t * basis[n - 1]);
+    basis[n] = t * basis[n - 1];
     for (int i = n - 1; i > 0; --i)
     {
       basis[i] = (1.0 - t) * basis[i] + t * basis[i - 1];
     }
     basis[0] *= 1.0 - t;
   }
-  return basis;
 }
 
 } // namespace
 
 LineMatrix bernsteinValues(int degree, const std::vector<double>& points)
 {
-  LineMatrix matrix{ static_cast<int>(points.size()), degree + 1, {} };
+  LineMatrix matrix = zeros(points.size(), degree + 1);
+  double* row = matrix.entries.data();
   for (const double t : points)
   {
-    const std::vector<double> basis = bernsteinAt(degree, t);
-    matrix.entries.insert(matrix.entries.end(), basis.begin(), basis.end());
+    bernsteinAt(degree, t, row);
+    row += matrix.columns;
   }
   return matrix;
 }
 
 LineMatrix bernsteinSlopes(int degree, const std::vector<double>& points)
 {
-  LineMatrix matrix{ static_cast<int>(points.size()), degree + 1, {} };
+  LineMatrix matrix = zeros(points.size(), degree + 1);
+  double* row = matrix.entries.data();
   for (const double t : points)
   {
-    const std::vector<double> basis = bernsteinAt(degree - 1, t);
-    for (int i = 0; i <= degree; ++i)
+    // B'_i,p = p (B_i-1,p-1 - B_i,p-1), from the last one on, in place.
+    bernsteinAt(degree - 1, t, row);
+    row[degree] = degree * row[degree - 1];
+    for (int i = degree - 1; i > 0; --i)
     {
-      matrix.entries.push_back(
-        degree * ((i > 0 ? basis[i - 1] : 0.0) - (i < degree ? basis[i] : 0.0)));
+      row[i] = degree * (row[i - 1] - row[i]);
     }
+    row[0] *= -degree;
+    row += matrix.columns;
   }
   return matrix;
 }
