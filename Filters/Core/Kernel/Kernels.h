@@ -156,6 +156,9 @@ struct Lines
 /// \param second receives the coefficients of the other half
 using BisectionFunction = void (*)(const Lines&, double* coefficients, double* second);
 
+/// The same of polynomials with one number a coefficient, along lines of 2 MaximumDegree + 1 at most.
+using NumberBisectionFunction = void (*)(const Lines&, double* numbers, double* second);
+
 /// Smallest and largest x, y, z, f.
 struct ComponentBounds
 {
@@ -208,6 +211,7 @@ struct Kernels
   NearFunction near;
   PlaneCellFunction planeCell;
   BisectionFunction bisection;
+  NumberBisectionFunction numberBisection;
   BoundsFunction bounds;
   HiddenFunction hidden;
   RowProductsFunction rowProducts;

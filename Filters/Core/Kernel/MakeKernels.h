@@ -170,8 +170,9 @@ constexpr Kernels makeKernels()
   return { makeDomainKernels<Hexahedron, PointLanes, ComponentLanes>(),
     makeDomainKernels<Tetrahedron, PointLanes, ComponentLanes>(),
     makeDomainKernels<Wedge, PointLanes, ComponentLanes>(), sweepBlocks, findNear<PointLanes>,
-    measurePlaneCell<PointLanes>, bisectLines<ComponentLanes>, boundComponents<ComponentLanes>,
-    findHidden<PointLanes>, addRowProducts<PointLanes>, multiplyMatrix<ComponentLanes> };
+    measurePlaneCell<PointLanes>, bisectLines<ComponentLanes>, bisectNumbers<PointLanes>,
+    boundComponents<ComponentLanes>, findHidden<PointLanes>, addRowProducts<PointLanes>,
+    multiplyMatrix<ComponentLanes> };
 }
 
 } // namespace
