@@ -117,6 +117,7 @@ std::vector<double> lineInWhole(
   const ReferencePart& part, int axis, const std::vector<double>& line)
 {
   std::vector<double> result;
+  result.reserve(line.size());
   for (const double t : line)
   {
     result.push_back(part.origin[axis] + part.axes[axis][axis] * t);
