@@ -370,6 +370,9 @@ hop::RunProperties vtkHighOrderParticleIsosurface::PropertiesOfRun()
   properties.isovalues = this->FindIsovalues();
   properties.angularDensity = this->AngularDensity;
   properties.smallestSpacing = this->SmallestSpacing;
+  properties.averaged = this->Derivatives == AVERAGED_AT_NODES && this->Quantity != EXPRESSION
+    ? static_cast<hop::Quantity>(this->Quantity)
+    : hop::Quantity::Value;
   properties.nodeSpacing = this->NodeSpacing == UNIFORM ? hop::NodeSpacing::Uniform
                                                         : hop::NodeSpacing::GaussLobattoLegendre;
   properties.quality = static_cast<hop::Quality>(this->Quality);

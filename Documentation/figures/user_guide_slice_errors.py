@@ -16,13 +16,12 @@ from vtkmodules.vtkCommonDataModel import vtkGenericCell, vtkStaticCellLocator
 LoadPlugin(sys.argv[1], remote=False, ns=globals())
 
 NORMAL = np.array([0.3, 0.2, 1.0]) / np.linalg.norm([0.3, 0.2, 1.0])
-CASES = [  # file, array, slice type
-    ("mfem_cylinder_hex_prism_p3.vtu", "phi", "Plane"),
-    ("mfem_cylinder_hex_prism_p3.vtu", "phi", "Sphere"),
-    ("mfem_torus_wedge_p4.vtu", "f", "Plane"),
-    ("mfem_torus_wedge_p4.vtu", "f", "Sphere"),
-    ("ngsolve_cylinder_ns_tet_p3.vtu", "pressure", "Plane"),
-    ("ngsolve_cylinder_ns_tet_p3.vtu", "pressure", "Sphere"),
+ANGLE = 8.0  # of boxes around z, degrees
+KINDS = ["Plane", "Sphere", "Cylinder", "Box"]
+FILES = [  # file, array
+    ("mfem_cylinder_hex_prism_p3.vtu", "phi"),
+    ("mfem_torus_wedge_p4.vtu", "f"),
+    ("ngsolve_cylinder_ns_tet_p3.vtu", "pressure"),
 ]
 
 
@@ -65,37 +64,67 @@ class Cells:
         return np.nan
 
 
-def errors_of(output, name, middle, radius, cells):
+class Cut:
+    """A cut through the middle of a grid's bounds, its width 0.62 of their longest side, or 0.6 of each side for a box."""
+
+    def __init__(self, kind, grid):
+        bounds = np.reshape(grid.GetBounds(), (3, 2))
+        self.kind, self.middle, self.sides = kind, bounds.mean(axis=1), bounds[:, 1] - bounds[:, 0]
+        self.radius = 0.31 * self.sides.max()
+        c, s = np.cos(np.radians(ANGLE)), np.sin(np.radians(ANGLE))
+        self.turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+    def give(self, function):
+        """Sets the properties of ParaView's proxy."""
+        if self.kind == "Plane":
+            function.Origin, function.Normal = list(self.middle), list(NORMAL)
+        elif self.kind == "Box":
+            function.Position = list(self.middle - self.turn @ (0.3 * self.sides))
+            function.Length, function.Rotation = list(0.6 * self.sides), [0.0, 0.0, ANGLE]
+        else:
+            function.Center, function.Radius = list(self.middle), self.radius
+            if self.kind == "Cylinder":
+                function.Axis = list(NORMAL)
+
+    def distances(self, points):
+        """Of points from the cut."""
+        x = points - self.middle
+        along = x @ NORMAL
+        if self.kind == "Plane":
+            return np.abs(along)
+        if self.kind == "Box":
+            beyond = np.abs(x @ self.turn) - 0.3 * self.sides
+            return np.where((beyond > 0).any(axis=1), np.linalg.norm(np.maximum(beyond, 0), axis=1), -beyond.max(axis=1))
+        across = x - np.outer(along, NORMAL) if self.kind == "Cylinder" else x
+        return np.abs(np.linalg.norm(across, axis=1) - self.radius)
+
+
+def errors_of(output, name, cut, cells):
     """Largest distance from the cut, mean and largest error of the array at some 2,000 points."""
     points = vtk_to_numpy(output.GetPoints().GetData()).astype(float)
-    x = points - middle
-    off = np.abs(np.linalg.norm(x, axis=1) - radius) if radius else np.abs(x @ NORMAL)
     some = np.linspace(0, len(points) - 1, min(len(points), 2000)).astype(int)
-    error = np.abs(vtk_to_numpy(output.GetPointData().GetArray(name)).astype(float)[some] - [cells.value(x) for x in points[some]])
+    values = vtk_to_numpy(output.GetPointData().GetArray(name)).astype(float)[some]
+    error = np.abs(values - [cells.value(x) for x in points[some]])
     assert np.isfinite(error).mean() > 0.8
-    return off.max(), np.nanmean(error), np.nanmax(error)
+    return cut.distances(points).max(), np.nanmean(error), np.nanmax(error)
 
 
 print("| file, cut | points | off the cut | array: mean | largest |")
 print("|---|---|---|---|---|")
-for file, name, kind in CASES:
+for file, name in FILES:
     reader = XMLUnstructuredGridReader(FileName=[str(Path(__file__).parents[2] / "Testing/Data" / file)])
     grid = output_of(reader)
-    bounds = np.reshape(grid.GetBounds(), (3, 2))
-    middle, size = bounds.mean(axis=1), np.linalg.norm(bounds[:, 1] - bounds[:, 0])
-    radius = 0.31 * (bounds[:, 1] - bounds[:, 0]).max() if kind == "Sphere" else 0.0
     cells = Cells(grid, name)
-    span = np.ptp(cells.nodal)
-    for title, make in (("Slice", Slice), ("particles", HighOrderParticleSlice)):
-        cut = make(Input=reader, SliceType=kind)
-        if kind == "Sphere":
-            cut.SliceType.Center, cut.SliceType.Radius = list(middle), radius
-        else:
-            cut.SliceType.Origin, cut.SliceType.Normal = list(middle), list(NORMAL)
-        output = output_of(cut)
-        off, mean, largest = errors_of(output, name, middle, radius, cells)
-        print(
-            f"| {file.split('_p')[0]}, {kind}: {title} | {output.GetNumberOfPoints():,} | {off / size:.0e} |"
-            f" {mean / span:.0e} | {largest / span:.0e} |",
-            flush=True,
-        )
+    span, size = np.ptp(cells.nodal), grid.GetLength()
+    for kind in KINDS:
+        cut = Cut(kind, grid)
+        for title, make in (("Slice", Slice), ("particles", HighOrderParticleSlice)):
+            proxy = make(Input=reader, SliceType=kind)
+            cut.give(proxy.SliceType)
+            output = output_of(proxy)
+            off, mean, largest = errors_of(output, name, cut, cells)
+            print(
+                f"| {file.split('_p')[0]}, {kind}: {title} | {output.GetNumberOfPoints():,} | {off / size:.0e} |"
+                f" {mean / span:.0e} | {largest / span:.0e} |",
+                flush=True,
+            )

@@ -23,25 +23,29 @@ namespace hop
 namespace
 {
 
-std::vector<NamedArray> pointArraysOf(vtkUnstructuredGrid* grid)
+/// Adds the point arrays of a grid, if there are none of their names yet.
+void addPointArrays(vtkUnstructuredGrid* grid, std::vector<NamedArray>& arrays)
 {
-  std::vector<NamedArray> arrays;
   vtkPointData* data = grid->GetPointData();
   for (int a = 0; a < data->GetNumberOfArrays(); ++a)
   {
     vtkDataArray* array = data->GetArray(a);
-    if (array && array->GetName() && array->GetNumberOfTuples() >= grid->GetNumberOfPoints())
+    const bool isUsable =
+      array && array->GetName() && array->GetNumberOfTuples() >= grid->GetNumberOfPoints();
+    if (isUsable &&
+      std::none_of(arrays.begin(), arrays.end(),
+        [&](const NamedArray& other) { return other.name == array->GetName(); }))
     {
       arrays.push_back({ array->GetName(), array->GetNumberOfComponents() });
     }
   }
-  return arrays;
 }
 
 /// Whether a grid has arrays, with as many components.
 bool hasAll(vtkUnstructuredGrid* grid, const std::vector<NamedArray>& wanted)
 {
-  const std::vector<NamedArray> there = pointArraysOf(grid);
+  std::vector<NamedArray> there;
+  addPointArrays(grid, there);
   return std::all_of(wanted.begin(), wanted.end(),
     [&](const NamedArray& one)
     {
@@ -251,10 +255,15 @@ CheckedBlocks checkExpression(const GatheredBlocks& gathered, const std::string&
   {
     return checked;
   }
+  // Blocks without some of the arrays take no part.
+  std::vector<NamedArray> arrays;
+  for (const InputBlock& block : blocks)
+  {
+    addPointArrays(block.grid, arrays);
+  }
   try
   {
-    checked.expression =
-      std::make_shared<const FieldExpression>(text, pointArraysOf(blocks[0].grid));
+    checked.expression = std::make_shared<const FieldExpression>(text, arrays);
   }
   catch (const std::invalid_argument& wrong)
   {

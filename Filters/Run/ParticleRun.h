@@ -28,6 +28,8 @@ struct RunProperties
   double angularDensity = 0.0;
   /// World units; 0 for the automatic one.
   double smallestSpacing = 0.0;
+  /// What the scalars were made of by averages at nodes; Value: they were not.
+  Quantity averaged = Quantity::Value;
   NodeSpacing nodeSpacing = NodeSpacing::Uniform;
   Quality quality = Quality::Standard;
   std::uint64_t seed = 1;

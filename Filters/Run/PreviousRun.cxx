@@ -39,9 +39,10 @@ bool RunOrigin::continues(const RunOrigin& before) const
   const bool somethingChanged =
     this->isovalue != before.isovalue || this->dataTime != before.dataTime;
   return somethingChanged && this->array == before.array && this->component == before.component &&
-    this->quantity == before.quantity && this->cells == before.cells &&
-    this->points == before.points && this->nodeSpacing == before.nodeSpacing &&
-    sameSpacing(*this, before) && sameRequest(this->parameters, before.parameters);
+    this->quantity == before.quantity && this->averaged == before.averaged &&
+    this->cells == before.cells && this->points == before.points &&
+    this->nodeSpacing == before.nodeSpacing && sameSpacing(*this, before) &&
+    sameRequest(this->parameters, before.parameters);
 }
 
 RunOrigin originOf(const InputBlocks& blocks)

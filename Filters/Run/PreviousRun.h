@@ -23,6 +23,8 @@ struct RunOrigin
   std::string array;
   int component = 0;
   Quantity quantity = Quantity::Value;
+  /// What the scalars were made of by averages at nodes; Value: they were not.
+  Quantity averaged = Quantity::Value;
   /// Numbers of cells and points of the input.
   std::int64_t cells = 0;
   std::int64_t points = 0;
@@ -36,7 +38,7 @@ struct RunOrigin
   bool continues(const RunOrigin& before) const;
 };
 
-/// What the data say about the isosurfaces of a mesh; isovalue, node spacing and parameters are left as they are.
+/// What the data say about the isosurfaces of a mesh; isovalue, averages, node spacing and parameters are left as they are.
 /// \pre blocks.size() > 0
 RunOrigin originOf(const InputBlocks& blocks);
 

@@ -70,6 +70,7 @@ RunOrigin SurfaceWorker::makeOrigin(double isovalue) const
 {
   RunOrigin origin = this->Blocks.origin();
   origin.isovalue = isovalue;
+  origin.averaged = this->Properties.averaged;
   origin.nodeSpacing = this->Properties.nodeSpacing;
   origin.unit = this->Scale.unit;
   origin.parameters.sizing = this->sizingAt(this->Scale.spacing);

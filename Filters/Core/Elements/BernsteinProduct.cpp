@@ -1,6 +1,7 @@
 #include "Elements/BernsteinProduct.h"
 
 #include "Elements/LatticeRows.h"
+#include "Kernel/InstructionSet.h"
 
 #include <algorithm>
 #include <array>
@@ -22,14 +23,16 @@ double computedBinomial(int n, int k)
   return result;
 }
 
-/// Binomial coefficients n over k, 0 <= k <= n <= MaximumPolynomialDegree: looked up for every coefficient of every
-/// polynomial.
+/// Highest degree of any polynomial here: those of a Jacobian determinant times a weight are the highest, and half as high.
+constexpr int MaximumKeptDegree = 2 * MaximumPolynomialDegree;
+
+/// Binomial coefficients n over k, 0 <= k <= n <= MaximumKeptDegree: looked up for every coefficient of every polynomial.
 class BinomialTable
 {
 public:
   BinomialTable()
   {
-    for (int n = 0; n <= MaximumPolynomialDegree; ++n)
+    for (int n = 0; n <= MaximumKeptDegree; ++n)
     {
       for (int k = 0; k <= n; ++k)
       {
@@ -38,34 +41,55 @@ public:
     }
   }
 
-  double at(int n, int k) const { return this->Rows[n][k]; }
+  const double* row(int n) const { return this->Rows[n].data(); }
 
 private:
-  std::array<std::array<double, MaximumPolynomialDegree + 1>, MaximumPolynomialDegree + 1> Rows{};
+  std::array<std::array<double, MaximumKeptDegree + 1>, MaximumKeptDegree + 1> Rows{};
 };
+
+/// n over 0, n over 1, ...
+const double* binomials(int n)
+{
+  static const BinomialTable table;
+  return table.row(n);
+}
 
 double binomial(int n, int k)
 {
-  static const BinomialTable table;
-  // Fields of derivatives have factors of higher degrees.
-  return n <= MaximumPolynomialDegree ? table.at(n, k) : computedBinomial(n, k);
+  return binomials(n)[k];
 }
 
-/// The multinomial factors of a basis function, one a simplex of which the domain is the product.
-double multiplicity(Domain domain, const Degrees& degrees, const LatticePoint& point)
+/// The multinomial factors of a row's basis functions, one a simplex of which the domain is the product, but for the
+/// binomial coefficients along the row, which are those of its length less one: a! / (i! j! k!) = (a over k) (a - k over j)
+/// (a - k - j over i).
+double rowMultiplicity(Domain domain, const Degrees& degrees, int j, int k)
 {
-  const std::array<int, 3> index{ point.i, point.j, point.k };
-  double result = 1.0;
-  for (const SimplexFactor& factor : facts(domain).factors)
+  switch (domain)
   {
-    int rest = degrees[factor.axis];
-    for (int axis = factor.axis; axis < factor.end(); ++axis)
-    {
-      result *= binomial(rest, index[axis]);
-      rest -= index[axis];
-    }
+    case Domain::Hexahedron:
+    case Domain::Wedge:
+      return binomial(degrees[1], j) * binomial(degrees[2], k);
+    case Domain::Tetrahedron:
+      return binomial(degrees[2], k) * binomial(degrees[1] - k, j);
   }
-  return result;
+  unknownDomain();
+}
+
+/// Calls visit(multiplicity, value) for all coefficients: with the multinomial factor of a basis function.
+template <class Value, class Visit>
+void visitMultiplicities(Domain domain, const Degrees& degrees, Value* values, const Visit& visit)
+{
+  visitLatticeRows(domain, degrees,
+    [&](int j, int k, int length)
+    {
+      const double ofRow = rowMultiplicity(domain, degrees, j, k);
+      const double* alongRow = binomials(length - 1);
+      for (int i = 0; i < length; ++i)
+      {
+        visit(ofRow * alongRow[i], values[i]);
+      }
+      values += length;
+    });
 }
 
 Degrees addedDegrees(const Degrees& a, const Degrees& b)
@@ -173,134 +197,206 @@ ScaledPolynomial dividedByOne(const ScaledPolynomial& polynomial, const SimplexF
   return result;
 }
 
-/// Calls visit(start) for every line of the lattice along an axis that is a factor of its own.
-template <class Visit>
-void visitLines(const ScaledPolynomial& polynomial, int axis, const Visit& visit)
-{
-  Degrees ends = polynomial.degrees;
-  ends[axis] = 0;
-  visitLatticePoints(polynomial.domain, ends, visit);
-}
-
-/// Distance of coefficients that are neighbours on such a line.
+/// Distance of coefficients that are neighbours on a line along an axis that is a factor of its own.
 int stepAlong(const ScaledPolynomial& polynomial, int axis)
 {
   return coefficientIndex(
     polynomial.domain, polynomial.degrees, { axis == 0, axis == 1, axis == 2 });
 }
 
-/// dividedByOne() along a line: from both of its ends to the middle.
-ScaledPolynomial dividedByOneAlong(const ScaledPolynomial& polynomial, int axis)
+/// The lines of a polynomial along an axis that is a factor of its own, from which degrees are taken away. Row i holds
+/// coefficient i of all lines, so that lines are computed side by side.
+class LineRows
 {
-  const Domain domain = polynomial.domain;
-  ScaledPolynomial result = oneDegreeLess(polynomial, factorOf(domain, axis));
-  const int degree = result.degrees[axis];
-  const int pStep = stepAlong(polynomial, axis);
-  const int qStep = stepAlong(result, axis);
-  visitLines(polynomial, axis,
-    [&](const LatticePoint& start)
+public:
+  LineRows(const ScaledPolynomial& polynomial, int axis);
+
+  /// Takes one degree away if no Bernstein coefficient changes by more than a tolerance.
+  /// \pre degree() > 0
+  bool lower(double tolerance);
+
+  int degree() const { return static_cast<int>(this->Rows.size()) - 1; }
+  ScaledPolynomial polynomial() const;
+
+private:
+  void findDifferences();
+  double changeToLowerDegree() const;
+  void takeNearestOfLowerDegree();
+  void divideByOne();
+
+  /// Lines between neighbours of one line.
+  std::size_t Step;
+  int Axis;
+  Domain ItsDomain;
+  Degrees Ends;
+  /// Of the lines' first coefficients.
+  std::vector<double> Multiplicities;
+  std::vector<double> Values;
+  std::vector<double*> Rows;
+  /// The n-th difference of each line's coefficients.
+  std::vector<double> Differences;
+};
+
+LineRows::LineRows(const ScaledPolynomial& polynomial, int axis)
+  : Step(stepAlong(polynomial, axis))
+  , Axis(axis)
+  , ItsDomain(polynomial.domain)
+  , Ends(polynomial.degrees)
+  , Values(polynomial.values.size())
+{
+  const std::size_t count = polynomial.degrees[axis] + 1;
+  this->Ends[axis] = 0;
+  this->Multiplicities = one(this->ItsDomain, this->Ends).values;
+  const std::size_t lines = this->Multiplicities.size();
+  this->Differences.resize(lines);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    this->Rows.push_back(&this->Values[i * lines]);
+    for (std::size_t line = 0; line < lines; line += this->Step)
     {
-      const double* p = &polynomial.values[coefficientIndex(domain, polynomial.degrees, start)];
-      double* q = &result.values[coefficientIndex(domain, result.degrees, start)];
-      for (int i = degree; 2 * i >= degree; --i)
-      {
-        q[i * qStep] = p[(i + 1) * pStep] - (i < degree ? q[(i + 1) * qStep] : 0.0);
-      }
-      for (int i = 0; 2 * i < degree; ++i)
-      {
-        q[i * qStep] = p[i * pStep] - (i > 0 ? q[(i - 1) * qStep] : 0.0);
-      }
-    });
+      std::copy_n(&polynomial.values[line * count + i * this->Step], this->Step,
+        &this->Values[i * lines + line]);
+    }
+  }
+}
+
+ScaledPolynomial LineRows::polynomial() const
+{
+  const std::size_t lines = this->Multiplicities.size();
+  ScaledPolynomial result{ this->ItsDomain, this->Ends, {} };
+  result.degrees[this->Axis] = this->degree();
+  result.values.resize(lines * this->Rows.size());
+  for (std::size_t i = 0; i < this->Rows.size(); ++i)
+  {
+    for (std::size_t line = 0; line < lines; line += this->Step)
+    {
+      std::copy_n(this->Rows[i] + line, this->Step,
+        &result.values[line * this->Rows.size() + i * this->Step]);
+    }
+  }
   return result;
 }
 
-/// The nearest polynomial of one degree less along a line, still written with all coefficients. Of degree n are
-/// the coefficients whose n-th difference is zero: what is taken away is a multiple of (-1)^i C(n,i) (Lutterkort, Peters
-/// and Reif 1999, Polynomial degree reduction in the L2-norm equals best Euclidean approximation of Bezier coefficients).
-ScaledPolynomial nearestOfLowerDegree(ScaledPolynomial polynomial, int axis)
+/// Sum of the squares of what nearestOfLowerDegree() takes away, as Bernstein coefficients.
+double squaredNorm(int n)
 {
-  const int n = polynomial.degrees[axis];
-  // In the scaled basis the coefficients are C(n,i) a_i, and what is taken away is (-1)^i C(n,i)^2.
   double norm2 = 0.0;
   for (int i = 0; i <= n; ++i)
   {
     norm2 += binomial(n, i) * binomial(n, i);
   }
-  const int step = stepAlong(polynomial, axis);
-  visitLines(polynomial, axis,
-    [&](const LatticePoint& start)
-    {
-      double* line =
-        &polynomial.values[coefficientIndex(polynomial.domain, polynomial.degrees, start)];
-      double difference = 0.0;
-      for (int i = 0; i <= n; ++i)
-      {
-        difference += (i % 2 == 0 ? 1.0 : -1.0) * line[i * step];
-      }
-      for (int i = 0; i <= n; ++i)
-      {
-        line[i * step] -=
-          (i % 2 == 0 ? 1.0 : -1.0) * binomial(n, i) * binomial(n, i) * difference / norm2;
-      }
-    });
-  return polynomial;
+  return norm2;
 }
 
-/// Largest change of a Bernstein coefficient by nearestOfLowerDegree().
-double changeToLowerDegree(const ScaledPolynomial& polynomial, int axis)
+bool LineRows::lower(double tolerance)
 {
-  const int n = polynomial.degrees[axis];
-  const int step = stepAlong(polynomial, axis);
-  double norm2 = 0.0;
+  this->findDifferences();
+  const bool isLower = !(this->changeToLowerDegree() > tolerance);
+  if (isLower)
+  {
+    this->takeNearestOfLowerDegree();
+    this->divideByOne();
+  }
+  return isLower;
+}
+
+void LineRows::findDifferences()
+{
+  std::fill(this->Differences.begin(), this->Differences.end(), 0.0);
+  for (int i = 0; i <= this->degree(); ++i)
+  {
+    const double sign = i % 2 == 0 ? 1.0 : -1.0;
+    const double* row = this->Rows[i];
+    for (std::size_t line = 0; line < this->Differences.size(); ++line)
+    {
+      this->Differences[line] += sign * row[line];
+    }
+  }
+}
+
+/// Largest change of a Bernstein coefficient by takeNearestOfLowerDegree().
+double LineRows::changeToLowerDegree() const
+{
+  const int n = this->degree();
+  double largest = 0.0;
+  for (std::size_t line = 0; line < this->Differences.size(); ++line)
+  {
+    largest = std::max(largest, std::abs(this->Differences[line]) / this->Multiplicities[line]);
+  }
+  return largest * binomial(n, n / 2) / squaredNorm(n);
+}
+
+/// The nearest polynomials of one degree less, still written with all coefficients. Of degree n - 1 are the coefficients
+/// whose n-th difference is zero: what is taken away is a multiple of (-1)^i C(n,i) (Lutterkort, Peters and Reif 1999,
+/// Polynomial degree reduction in the L2-norm equals best Euclidean approximation of Bezier coefficients). In the scaled
+/// basis the coefficients are C(n,i) a_i, and what is taken away is a multiple of (-1)^i C(n,i)^2.
+void LineRows::takeNearestOfLowerDegree()
+{
+  const int n = this->degree();
+  const double norm2 = squaredNorm(n);
   for (int i = 0; i <= n; ++i)
   {
-    norm2 += binomial(n, i) * binomial(n, i);
-  }
-  double largest = 0.0;
-  visitLines(polynomial, axis,
-    [&](const LatticePoint& start)
+    const double share = (i % 2 == 0 ? 1.0 : -1.0) * binomial(n, i) * binomial(n, i) / norm2;
+    double* row = this->Rows[i];
+    for (std::size_t line = 0; line < this->Differences.size(); ++line)
     {
-      const double* line =
-        &polynomial.values[coefficientIndex(polynomial.domain, polynomial.degrees, start)];
-      double difference = 0.0;
-      for (int i = 0; i <= n; ++i)
-      {
-        difference += (i % 2 == 0 ? 1.0 : -1.0) * line[i * step];
-      }
-      largest = std::max(
-        largest, std::abs(difference) / multiplicity(polynomial.domain, polynomial.degrees, start));
-    });
-  return largest * binomial(n, n / 2) / norm2;
+      row[line] -= share * this->Differences[line];
+    }
+  }
+}
+
+/// dividedByOne() along all lines: from both of their ends to the middle, where a row is left over.
+void LineRows::divideByOne()
+{
+  const int n = this->degree();
+  const auto subtract = [this](int from, int what)
+  {
+    double* row = this->Rows[from];
+    const double* other = this->Rows[what];
+    for (std::size_t line = 0; line < this->Differences.size(); ++line)
+    {
+      row[line] -= other[line];
+    }
+  };
+  const int middle = n / 2;
+  for (int i = n - 1; i > middle; --i)
+  {
+    subtract(i, i + 1);
+  }
+  for (int i = 1; i < middle; ++i)
+  {
+    subtract(i, i - 1);
+  }
+  this->Rows.erase(this->Rows.begin() + middle);
 }
 
 /// Whether some Bernstein coefficients of two polynomials of the same degrees differ by more than a tolerance.
 bool differ(const ScaledPolynomial& a, const ScaledPolynomial& b, double tolerance)
 {
   bool result = false;
-  std::size_t n = 0;
-  visitLatticePoints(a.domain, a.degrees,
-    [&](const LatticePoint& point)
-    {
-      result = result ||
-        std::abs((a.values[n] - b.values[n]) / multiplicity(a.domain, a.degrees, point)) >
-          tolerance;
-      ++n;
-    });
+  const double* other = b.values.data();
+  visitMultiplicities(a.domain, a.degrees, a.values.data(),
+    [&](double multiplicity, double value)
+    { result = result || std::abs((value - *other++) / multiplicity) > tolerance; });
   return result;
 }
 
-/// Takes one degree away along an axis that is a factor of its own, if no coefficient changes by more than a tolerance.
-bool lowerAlong(int axis, double tolerance, ScaledPolynomial& polynomial)
+/// Takes degrees away along an axis that is a factor of its own, as long as no step changes a coefficient by more than a
+/// tolerance.
+ScaledPolynomial loweredAlong(int axis, double tolerance, ScaledPolynomial polynomial)
 {
-  const bool isLower = !(changeToLowerDegree(polynomial, axis) > tolerance);
-  if (isLower)
+  if (polynomial.degrees[axis] == 0)
   {
-    polynomial = dividedByOneAlong(nearestOfLowerDegree(std::move(polynomial), axis), axis);
+    return polynomial;
   }
-  return isLower;
+  LineRows rows(polynomial, axis);
+  while (rows.degree() > 0 && rows.lower(tolerance))
+  {
+  }
+  return rows.degree() < polynomial.degrees[axis] ? rows.polynomial() : std::move(polynomial);
 }
 
-/// The same in a triangle or tetrahedron.
+/// Takes one degree away in a triangle or tetrahedron, if no coefficient changes by more than a tolerance.
 bool lowerIn(const SimplexFactor& factor, double tolerance, ScaledPolynomial& polynomial)
 {
   ScaledPolynomial lower = dividedByOne(polynomial, factor);
@@ -312,67 +408,14 @@ bool lowerIn(const SimplexFactor& factor, double tolerance, ScaledPolynomial& po
   return isLower;
 }
 
-} // namespace
-
-ScaledPolynomial scaled(Domain domain, const Degrees& degrees, std::vector<double> coefficients)
+/// In the scaled basis: d/du of s u^i v^j b^l, with b = 1 - u - v of degree l = p - i - j.
+void differentiateIn(const SimplexFactor& factor, const ScaledPolynomial& polynomial, int axis,
+  ScaledPolynomial& result)
 {
-  auto value = coefficients.begin();
-  visitLatticePoints(domain, degrees,
-    [&](const LatticePoint& point) { *value++ *= multiplicity(domain, degrees, point); });
-  return { domain, degrees, std::move(coefficients) };
-}
-
-std::vector<double> unscaled(ScaledPolynomial polynomial)
-{
-  auto value = polynomial.values.begin();
-  visitLatticePoints(polynomial.domain, polynomial.degrees,
-    [&](const LatticePoint& point)
-    { *value++ /= multiplicity(polynomial.domain, polynomial.degrees, point); });
-  return std::move(polynomial.values);
-}
-
-ScaledPolynomial elevated(ScaledPolynomial polynomial, const Degrees& degrees)
-{
-  for (const SimplexFactor& factor : facts(polynomial.domain).factors)
-  {
-    const int missing = degrees[factor.axis] - polynomial.degrees[factor.axis];
-    Degrees along{ 0, 0, 0 };
-    std::fill(along.begin() + factor.axis, along.begin() + factor.end(), missing);
-    polynomial = missing > 0 ? polynomial * one(polynomial.domain, along) : std::move(polynomial);
-  }
-  return polynomial;
-}
-
-ScaledPolynomial lowered(ScaledPolynomial polynomial, double tolerance)
-{
-  for (const SimplexFactor& factor : facts(polynomial.domain).factors)
-  {
-    bool isLower = true;
-    while (isLower && polynomial.degrees[factor.axis] > 0)
-    {
-      isLower = factor.dimension == 1 ? lowerAlong(factor.axis, tolerance, polynomial)
-                                      : lowerIn(factor, tolerance, polynomial);
-    }
-  }
-  return polynomial;
-}
-
-ScaledPolynomial derivative(const ScaledPolynomial& polynomial, int axis)
-{
-  const Domain domain = polynomial.domain;
-  const SimplexFactor& factor = factorOf(domain, axis);
-  ScaledPolynomial result{ domain, polynomial.degrees, {} };
-  if (polynomial.degrees[axis] == 0)
-  {
-    result.values.assign(polynomial.values.size(), 0.0);
-    return result;
-  }
-  result = oneDegreeLess(polynomial, factor);
-  // In the scaled basis: d/du of s u^i v^j b^l, with b = 1 - u - v of degree l = p - i - j.
   const auto at = [&](const LatticePoint& place)
-  { return polynomial.values[coefficientIndex(domain, polynomial.degrees, place)]; };
+  { return polynomial.values[coefficientIndex(polynomial.domain, polynomial.degrees, place)]; };
   auto value = result.values.begin();
-  visitLatticePoints(domain, result.degrees,
+  visitLatticePoints(result.domain, result.degrees,
     [&](const LatticePoint& point)
     {
       const std::array<int, 4> numbers = barycentric(factor, result.degrees, point);
@@ -381,6 +424,187 @@ ScaledPolynomial derivative(const ScaledPolynomial& polynomial, int axis)
       const LatticePoint next = oneMore(factor, point, axis - factor.axis);
       *value++ = (along + 1) * at(next) - (rest + 1) * at(point);
     });
+}
+
+/// The same along an axis that is a factor of its own.
+void differentiateLines(const ScaledPolynomial& polynomial, int axis, ScaledPolynomial& result)
+{
+  const int step = stepAlong(polynomial, axis);
+  const int n = polynomial.degrees[axis];
+  const double* from = polynomial.values.data();
+  auto value = result.values.begin();
+  while (value != result.values.end())
+  {
+    for (int i = 0; i < n; ++i)
+    {
+      for (int line = 0; line < step; ++line, ++from)
+      {
+        *value++ = (i + 1) * from[step] - (n - i) * from[0];
+      }
+    }
+    from += step;
+  }
+}
+
+/// The product with 1 = u + b along an axis that is a factor of its own: of one degree more there.
+ScaledPolynomial timesOneAlong(const ScaledPolynomial& polynomial, int axis)
+{
+  ScaledPolynomial result{ polynomial.domain, polynomial.degrees, {} };
+  ++result.degrees[axis];
+  result.values.resize(coefficientCount(result.domain, result.degrees));
+  const std::size_t step = stepAlong(polynomial, axis);
+  const std::size_t length = step * (polynomial.degrees[axis] + 1);
+  double* to = result.values.data();
+  for (const double* from = polynomial.values.data();
+       from != polynomial.values.data() + polynomial.values.size(); from += length)
+  {
+    std::copy_n(from, step, to);
+    for (std::size_t i = step; i < length; ++i)
+    {
+      to[i] = from[i] + from[i - step];
+    }
+    std::copy_n(from + length - step, step, to + length);
+    to += length + step;
+  }
+  return result;
+}
+
+/// The rows of a polynomial's lattice with zeros before, between and behind them.
+class PaddedRows
+{
+public:
+  /// \param margin zeros between two rows
+  PaddedRows(const ScaledPolynomial& polynomial, int margin)
+    : Columns(polynomial.degrees[1] + 1)
+    , Stride(polynomial.degrees[0] + 1 + margin)
+    , Margin(margin)
+    , Values(margin + Stride * Columns * (polynomial.degrees[2] + 1), 0.0)
+  {
+    const double* from = polynomial.values.data();
+    visitLatticeRows(polynomial.domain, polynomial.degrees,
+      [&](int j, int k, int length)
+      {
+        std::copy_n(from, length, &this->Values[this->indexOf(j, k)]);
+        from += length;
+      });
+  }
+
+  const double* row(int j, int k) const { return &this->Values[this->indexOf(j, k)]; }
+
+private:
+  std::size_t indexOf(int j, int k) const
+  {
+    return this->Margin + this->Stride * (k * this->Columns + j);
+  }
+
+  std::size_t Columns;
+  std::size_t Stride;
+  std::size_t Margin;
+  std::vector<double> Values;
+};
+
+/// The rows of a polynomial's lattice, times a factor; those that a simplex has not are empty.
+class RowsOfFactor
+{
+public:
+  RowsOfFactor(double factor, const ScaledPolynomial& polynomial)
+    : Columns(polynomial.degrees[1] + 1)
+    , Values(polynomial.values)
+    , Rows(Columns * (polynomial.degrees[2] + 1), { nullptr, 0, nullptr })
+  {
+    for (double& value : this->Values)
+    {
+      value *= factor;
+    }
+    const double* from = this->Values.data();
+    visitLatticeRows(polynomial.domain, polynomial.degrees,
+      [&](int j, int k, int length)
+      {
+        this->Rows[k * this->Columns + j] = { from, length, nullptr };
+        from += length;
+      });
+  }
+
+  /// With nothing on the right.
+  const kernel::RowPair& row(int j, int k) const { return this->Rows[k * this->Columns + j]; }
+
+private:
+  std::size_t Columns;
+  std::vector<double> Values;
+  std::vector<kernel::RowPair> Rows;
+};
+
+} // namespace
+
+ScaledPolynomial scaled(Domain domain, const Degrees& degrees, std::vector<double> coefficients)
+{
+  visitMultiplicities(domain, degrees, coefficients.data(),
+    [](double multiplicity, double& value) { value *= multiplicity; });
+  return { domain, degrees, std::move(coefficients) };
+}
+
+std::vector<double> unscaled(ScaledPolynomial polynomial)
+{
+  visitMultiplicities(polynomial.domain, polynomial.degrees, polynomial.values.data(),
+    [](double multiplicity, double& value) { value /= multiplicity; });
+  return std::move(polynomial.values);
+}
+
+ScaledPolynomial elevated(ScaledPolynomial polynomial, const Degrees& degrees)
+{
+  for (const SimplexFactor& factor : facts(polynomial.domain).factors)
+  {
+    const int missing = degrees[factor.axis] - polynomial.degrees[factor.axis];
+    if (factor.dimension == 1)
+    {
+      for (int n = 0; n < missing; ++n)
+      {
+        polynomial = timesOneAlong(polynomial, factor.axis);
+      }
+    }
+    else if (missing > 0)
+    {
+      Degrees along{ 0, 0, 0 };
+      std::fill(along.begin() + factor.axis, along.begin() + factor.end(), missing);
+      polynomial = polynomial * one(polynomial.domain, along);
+    }
+  }
+  return polynomial;
+}
+
+ScaledPolynomial lowered(ScaledPolynomial polynomial, double tolerance)
+{
+  for (const SimplexFactor& factor : facts(polynomial.domain).factors)
+  {
+    if (factor.dimension == 1)
+    {
+      polynomial = loweredAlong(factor.axis, tolerance, std::move(polynomial));
+      continue;
+    }
+    while (polynomial.degrees[factor.axis] > 0 && lowerIn(factor, tolerance, polynomial))
+    {
+    }
+  }
+  return polynomial;
+}
+
+ScaledPolynomial derivative(const ScaledPolynomial& polynomial, int axis)
+{
+  const SimplexFactor& factor = factorOf(polynomial.domain, axis);
+  if (polynomial.degrees[axis] == 0)
+  {
+    return { polynomial.domain, polynomial.degrees,
+      std::vector<double>(polynomial.values.size(), 0.0) };
+  }
+  ScaledPolynomial result = oneDegreeLess(polynomial, factor);
+  if (factor.dimension == 1)
+  {
+    differentiateLines(polynomial, axis, result);
+  }
+  else
+  {
+    differentiateIn(factor, polynomial, axis, result);
+  }
   return result;
 }
 
@@ -406,7 +630,11 @@ ScaledPolynomial sumOf(const std::vector<std::pair<double, const ScaledPolynomia
   {
     if (!isZero(*term))
     {
-      addProduct(factor, elevated(*term, sum.degrees), one(domain, { 0, 0, 0 }), sum);
+      const ScaledPolynomial alike = elevated(*term, sum.degrees);
+      for (std::size_t i = 0; i < sum.values.size(); ++i)
+      {
+        sum.values[i] += factor * alike.values[i];
+      }
     }
   }
   return sum;
@@ -423,28 +651,32 @@ ScaledPolynomial operator*(const ScaledPolynomial& a, const ScaledPolynomial& b)
 void addProduct(
   double factor, const ScaledPolynomial& a, const ScaledPolynomial& b, ScaledPolynomial& sum)
 {
-  // A row of a times a row of b goes to one row of the sum.
-  const double* left = a.values.data();
-  visitLatticeRows(a.domain, a.degrees,
-    [&](int leftJ, int leftK, int leftCount)
+  // A row of a times a row of b goes to one row of the sum. Numbers of the shorter rows are multiplied by whole rows of the
+  // longer ones.
+  const bool isShorter = a.degrees[0] <= b.degrees[0];
+  const RowsOfFactor left(factor, isShorter ? a : b);
+  const Degrees& ofLeft = (isShorter ? a : b).degrees;
+  const Degrees& ofRight = (isShorter ? b : a).degrees;
+  const PaddedRows right(isShorter ? b : a, ofLeft[0] + kernel::MaximumLanes);
+  const kernel::RowProductsFunction addRowProducts = kernel::current().rowProducts;
+  std::vector<kernel::RowPair> pairs;
+  std::vector<double> row(sum.degrees[0] + kernel::MaximumLanes);
+  double* out = sum.values.data();
+  visitLatticeRows(sum.domain, sum.degrees,
+    [&](int j, int k, int length)
     {
-      const double* right = b.values.data();
-      visitLatticeRows(b.domain, b.degrees,
-        [&](int rightJ, int rightK, int rightCount)
+      pairs.clear();
+      for (int leftK = std::max(0, k - ofRight[2]); leftK <= std::min(k, ofLeft[2]); ++leftK)
+      {
+        for (int leftJ = std::max(0, j - ofRight[1]); leftJ <= std::min(j, ofLeft[1]); ++leftJ)
         {
-          double* out = &sum.values[coefficientIndex(
-            sum.domain, sum.degrees, { 0, leftJ + rightJ, leftK + rightK })];
-          for (int i = 0; i < leftCount; ++i)
-          {
-            const double scale = factor * left[i];
-            for (int n = 0; n < rightCount; ++n)
-            {
-              out[i + n] += scale * right[n];
-            }
-          }
-          right += rightCount;
-        });
-      left += leftCount;
+          pairs.push_back(left.row(leftJ, leftK));
+          pairs.back().right = right.row(j - leftJ, k - leftK);
+        }
+      }
+      std::copy_n(out, length, row.begin());
+      addRowProducts(pairs.data(), static_cast<std::ptrdiff_t>(pairs.size()), length, row.data());
+      out = std::copy_n(row.begin(), length, out);
     });
 }
 

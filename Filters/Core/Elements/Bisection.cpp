@@ -33,9 +33,20 @@ LatticeLines::LatticeLines(Domain domain, const Degrees& degrees, const LatticeP
 void LatticeLines::bisect(Buffer<Coefficient>& coefficients, Buffer<Coefficient>& second) const
 {
   second.resize(coefficients.size());
-  const kernel::Lines lines{ this->Begin.data(), this->Index.data(),
+  kernel::current().bisection(this->lines(), &coefficients.front().x, &second.front().x);
+}
+
+void LatticeLines::bisect(std::vector<double>& numbers, std::vector<double>& second) const
+{
+  static_assert(MaximumPolynomialDegree <= 2 * kernel::MaximumDegree, "lines are no longer");
+  second.resize(numbers.size());
+  kernel::current().numberBisection(this->lines(), numbers.data(), second.data());
+}
+
+kernel::Lines LatticeLines::lines() const
+{
+  return { this->Begin.data(), this->Index.data(),
     static_cast<std::ptrdiff_t>(this->Begin.size()) - 1 };
-  kernel::current().bisection(lines, &coefficients.front().x, &second.front().x);
 }
 
 double LatticeLines::variation(const std::vector<double>& coefficients) const

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Elements/Bernstein.h"
+#include "Kernel/Kernels.h"
 #include "Support/Buffer.h"
 
 namespace hop
@@ -20,13 +21,16 @@ public:
   template <class Value>
   void bisect(std::vector<Value>& coefficients, std::vector<Value>& second) const;
 
-  /// The same for coefficients of elements, by a kernel.
+  /// The same for coefficients of elements, and for numbers, by kernels.
   void bisect(Buffer<Coefficient>& coefficients, Buffer<Coefficient>& second) const;
+  void bisect(std::vector<double>& numbers, std::vector<double>& second) const;
 
   /// Sum of the absolute differences of neighbouring coefficients along the direction.
   double variation(const std::vector<double>& coefficients) const;
 
 private:
+  kernel::Lines lines() const;
+
   /// Where each line begins in Index; last, its length.
   std::vector<int> Begin;
   /// Storage indices of the points, line after line.

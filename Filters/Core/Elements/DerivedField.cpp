@@ -65,18 +65,31 @@ ScaledPolynomial combined(const glm::dvec3& factors, const std::vector<ScaledPol
   return sumOf({ { factors[0], &p[0] }, { factors[1], &p[1] }, { factors[2], &p[2] } });
 }
 
+/// Terms that are zero are left out; of these alone the sum is zero, of degree 0.
 ScaledPolynomial sumOfProducts(
-  const std::vector<std::tuple<double, const ScaledPolynomial*, const ScaledPolynomial*>>& terms)
+  std::vector<std::tuple<double, const ScaledPolynomial*, const ScaledPolynomial*>> terms)
 {
-  std::vector<ScaledPolynomial> products;
-  products.reserve(terms.size());
-  std::vector<std::pair<double, const ScaledPolynomial*>> sum;
+  ScaledPolynomial sum = constant(std::get<1>(terms.front())->domain, 0.0);
+  terms.erase(
+    std::remove_if(terms.begin(), terms.end(),
+      [](const auto& term) { return isZero(*std::get<1>(term)) || isZero(*std::get<2>(term)); }),
+    terms.end());
   for (const auto& [factor, a, b] : terms)
   {
-    products.push_back(isZero(*a) || isZero(*b) ? constant(a->domain, 0.0) : *a * *b);
-    sum.emplace_back(factor, &products.back());
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      sum.degrees[axis] = std::max(sum.degrees[axis], a->degrees[axis] + b->degrees[axis]);
+    }
   }
-  return sumOf(sum);
+  sum.values.assign(coefficientCount(sum.domain, sum.degrees), 0.0);
+  for (const auto& [factor, a, b] : terms)
+  {
+    // One factor takes all degrees that the product lacks.
+    const Degrees wanted{ sum.degrees[0] - b->degrees[0], sum.degrees[1] - b->degrees[1],
+      sum.degrees[2] - b->degrees[2] };
+    addProduct(factor, elevated(*a, wanted), *b, sum);
+  }
+  return sum;
 }
 
 /// A polynomial of the lowest degrees that change nothing that matters.

@@ -2,6 +2,7 @@
 
 #include "Elements/BatchEvaluator.h"
 #include "Elements/LatticeRows.h"
+#include "Elements/LobattoLattice.h"
 #include "Elements/NodalBasis.h"
 #include "Elements/SymmetricEigenvalues.h"
 
@@ -14,6 +15,7 @@
 #include <memory>
 #include <mutex>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace hop
@@ -54,44 +56,80 @@ int highestDegree(Domain domain)
   return domain == Domain::Hexahedron ? 14 : 10;
 }
 
+} // namespace
+
 /// Where a field is sampled for a polynomial, and how that follows.
-struct Lattice
+struct SamplingLattice
 {
-  NodalBasis basis;
+  SamplingLattice(Domain domain, int degree);
+
+  /// Gauss-Lobatto-Legendre points in cubes, else equispaced ones.
   std::vector<ReferencePoint> nodes;
+  Degrees degrees;
+  /// In cubes.
+  std::optional<LobattoLattice> ofCube;
+  /// Else.
+  std::optional<NodalBasis> basis;
 };
 
-std::vector<ReferencePoint> nodesOf(Domain domain, int degree)
+SamplingLattice::SamplingLattice(Domain domain, int degree)
+  : degrees{ degree, degree, degree }
 {
-  const Degrees degrees{ degree, degree, degree };
-  const std::vector<long double> onLine = gaussLobattoPoints(degree);
-  std::vector<ReferencePoint> nodes;
-  for (const LatticePoint& point : latticePoints(domain, degrees))
+  const std::vector<LatticePoint> points = latticePoints(domain, this->degrees);
+  if (domain == Domain::Hexahedron)
   {
-    nodes.push_back(domain == Domain::Hexahedron
-        ? ReferencePoint{ { double(onLine[point.i]), double(onLine[point.j]),
-            double(onLine[point.k]) } }
-        : latticePosition(degrees, point));
+    this->ofCube.emplace(degree);
   }
-  return nodes;
+  else
+  {
+    this->basis = NodalBasis::lagrange(domain, this->degrees, points);
+  }
+  for (const LatticePoint& point : points)
+  {
+    this->nodes.push_back(latticePosition(this->degrees, point));
+    if (this->ofCube)
+    {
+      const std::vector<double>& line = this->ofCube->line();
+      this->nodes.back() = { { line[point.i], line[point.j], line[point.k] } };
+    }
+  }
 }
 
+namespace
+{
+
 /// Made at the first request and kept.
-const Lattice& latticeOf(Domain domain, int degree)
+const SamplingLattice& latticeOf(Domain domain, int degree)
 {
   static std::mutex mutex;
-  static std::map<std::pair<Domain, int>, std::unique_ptr<const Lattice>> known;
+  static std::map<std::pair<Domain, int>, std::unique_ptr<const SamplingLattice>> known;
   const std::lock_guard<std::mutex> lock(mutex);
-  std::unique_ptr<const Lattice>& lattice = known[{ domain, degree }];
+  std::unique_ptr<const SamplingLattice>& lattice = known[{ domain, degree }];
   if (!lattice)
   {
-    const Degrees degrees{ degree, degree, degree };
-    lattice = std::make_unique<const Lattice>(Lattice{
-      NodalBasis::lagrange(domain, degrees, latticePoints(domain, degrees),
-        domain == Domain::Hexahedron ? NodeSpacing::GaussLobattoLegendre : NodeSpacing::Uniform),
-      nodesOf(domain, degree) });
+    lattice = std::make_unique<const SamplingLattice>(domain, degree);
   }
   return *lattice;
+}
+
+/// Where a part of a cube whose axes are those of the cube has the points of a line along an axis.
+std::vector<double> lineInWhole(
+  const ReferencePart& part, int axis, const std::vector<double>& line)
+{
+  std::vector<double> result;
+  result.reserve(line.size());
+  for (const double t : line)
+  {
+    result.push_back(part.origin[axis] + part.axes[axis][axis] * t);
+  }
+  return result;
+}
+
+bool hasAxesOfCube(const ReferencePart& part)
+{
+  const glm::dmat3& axes = part.axes;
+  return axes[0][1] == 0.0 && axes[0][2] == 0.0 && axes[1][0] == 0.0 && axes[1][2] == 0.0 &&
+    axes[2][0] == 0.0 && axes[2][1] == 0.0;
 }
 
 /// The n-th number of the van der Corput sequence, in [0, 1].
@@ -176,6 +214,46 @@ double sumOfSquares(const std::vector<glm::dvec3>& g)
 BernsteinForm formOf(Domain domain, const DerivedElement& element)
 {
   return { domain, element.degrees, element.coefficients.data(), nullptr };
+}
+
+std::vector<Coefficient> coefficientsOf(
+  const SamplingLattice& lattice, const std::vector<Coefficient>& nodal)
+{
+  static_assert(sizeof(Coefficient) == 4 * sizeof(double), "rows of numbers are converted");
+  std::vector<Coefficient> coefficients(nodal.size());
+  if (lattice.ofCube)
+  {
+    const double* numbers = &nodal[0].x;
+    const std::vector<double> converted =
+      lattice.ofCube->toBernstein({ numbers, numbers + 4 * nodal.size() });
+    std::copy(converted.begin(), converted.end(), &coefficients[0].x);
+  }
+  else
+  {
+    lattice.basis->toBernstein(&nodal[0].x, 4, &coefficients[0].x);
+  }
+  return coefficients;
+}
+
+/// Values of an element's field at the nodes of a lattice.
+std::vector<double> fieldAt(const SamplingLattice& lattice, const BernsteinForm& form)
+{
+  const int count = coefficientCount(form.domain, form.degrees);
+  std::vector<double> field;
+  if (lattice.ofCube)
+  {
+    for (int i = 0; i < count; ++i)
+    {
+      field.push_back(form.coefficients[i].w);
+    }
+    const LineMatrix values = bernsteinValues(form.degrees[0], lattice.ofCube->line());
+    return alongAxes({ &values, &values, &values }, field);
+  }
+  JetBatch jets;
+  evaluateGradients(form, lattice.nodes.data(), static_cast<int>(lattice.nodes.size()), jets);
+  const double* row = jets.row(quantity::value, 3);
+  field.assign(row, row + lattice.nodes.size());
+  return field;
 }
 
 bool isFinite(const glm::dvec3& v)
@@ -347,7 +425,7 @@ FieldSampler::FieldSampler(
   }
 }
 
-/// x, y, z and the field.
+/// x, y, z and the field at points of a part.
 FieldSampler::Samples FieldSampler::valuesAt(
   const ReferencePart& part, const std::vector<ReferencePoint>& points)
 {
@@ -364,25 +442,60 @@ FieldSampler::Samples FieldSampler::valuesAt(
                         this->Source.isRational ? this->Source.weights.data() : nullptr },
       inWhole.data(), static_cast<int>(inWhole.size()), jets[g]);
   }
+  return this->samplesOf(points.size(),
+    [&](int quantity, int c, std::size_t n) { return jets[c / 4].row(quantity, c % 4)[n]; });
+}
+
+/// The same at the nodes of a lattice: axis by axis where it has the axes of the whole.
+FieldSampler::Samples FieldSampler::valuesAt(
+  const ReferencePart& part, const SamplingLattice& lattice)
+{
+  if (!lattice.ofCube || this->Source.isRational || !hasAxesOfCube(part))
+  {
+    return this->valuesAt(part, lattice.nodes);
+  }
+  std::array<LineMatrix, 3> values;
+  std::array<LineMatrix, 3> slopes;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const std::vector<double> line = lineInWhole(part, axis, lattice.ofCube->line());
+    values[axis] = bernsteinValues(this->Source.degrees[axis], line);
+    slopes[axis] = bernsteinSlopes(this->Source.degrees[axis], line);
+  }
+  std::array<std::vector<double>, quantity::countOfGradients> rows;
+  for (int q = 0; q < quantity::countOfGradients; ++q)
+  {
+    const auto matrix = [&](int axis)
+    { return q == quantity::first + axis ? &slopes[axis] : &values[axis]; };
+    rows[q] = alongAxes({ matrix(0), matrix(1), matrix(2) }, this->Source.control);
+  }
+  return this->samplesOf(lattice.nodes.size(),
+    [&](int quantity, int c, std::size_t n) { return rows[quantity][n * this->Source.width + c]; });
+}
+
+/// \param number of a quantity of a jet, a component of the source and a point
+template <class Number>
+FieldSampler::Samples FieldSampler::samplesOf(std::size_t count, const Number& number)
+{
   const int components = this->Source.width - 3;
   FieldPoint at;
   at.values.resize(components);
   at.gradients.resize(components);
   Samples samples;
-  samples.reserve(points.size());
-  for (std::size_t n = 0; n < points.size(); ++n)
+  samples.reserve(count);
+  for (std::size_t n = 0; n < count; ++n)
   {
-    const auto number = [&](int quantity, int c) { return jets[c / 4].row(quantity, c % 4)[n]; };
     const auto threeOf = [&](int c)
     {
-      return glm::dvec3(
-        number(quantity::first, c), number(quantity::first + 1, c), number(quantity::first + 2, c));
+      return glm::dvec3(number(quantity::first, c, n), number(quantity::first + 1, c, n),
+        number(quantity::first + 2, c, n));
     };
+    const auto valueOf = [&](int c) { return number(quantity::value, c, n); };
     const glm::dmat3 inverse = glm::inverse(glm::dmat3(threeOf(0), threeOf(1), threeOf(2)));
-    at.x = { number(quantity::value, 0), number(quantity::value, 1), number(quantity::value, 2) };
+    at.x = { valueOf(0), valueOf(1), valueOf(2) };
     for (int c = 0; c < components; ++c)
     {
-      at.values[c] = number(quantity::value, 3 + c);
+      at.values[c] = valueOf(3 + c);
       at.gradients[c] = inverse * threeOf(3 + c); // J^-T, as columns here are rows of J
       this->AreDerivativesFinite = this->AreDerivativesFinite && isFinite(at.gradients[c]);
     }
@@ -394,8 +507,8 @@ FieldSampler::Samples FieldSampler::valuesAt(
 /// \param checks the field at spreadPoints()
 SampledPart FieldSampler::interpolated(const ReferencePart& part, int degree, const Samples& checks)
 {
-  const Lattice& lattice = latticeOf(this->Source.domain, degree);
-  this->Nodal = this->valuesAt(part, lattice.nodes);
+  const SamplingLattice& lattice = latticeOf(this->Source.domain, degree);
+  this->Nodal = this->valuesAt(part, lattice);
   const Samples& nodal = this->Nodal;
   SampledPart result;
   if (!isFinite(nodal) || !isFinite(checks))
@@ -406,9 +519,8 @@ SampledPart FieldSampler::interpolated(const ReferencePart& part, int degree, co
   }
   DerivedElement& element = result.element;
   element.state = DerivedElement::State::Sound;
-  element.degrees = lattice.basis.degrees();
-  element.coefficients.resize(nodal.size());
-  lattice.basis.toBernstein(&nodal[0].x, 4, &element.coefficients[0].x);
+  element.degrees = lattice.degrees;
+  element.coefficients = coefficientsOf(lattice, nodal);
   this->judge(result, checks);
   return result;
 }
@@ -416,13 +528,14 @@ SampledPart FieldSampler::interpolated(const ReferencePart& part, int degree, co
 /// Compares the polynomial with the field at spreadPoints().
 void FieldSampler::judge(SampledPart& sampled, const Samples& checks) const
 {
-  static_assert(sizeof(Coefficient) == 4 * sizeof(double), "rows of numbers are converted");
   const BernsteinForm form = formOf(this->Source.domain, sampled.element);
   const std::vector<ReferencePoint>& points = checkPointsOf(this->Source.domain);
+  JetBatch jets;
+  evaluateGradients(form, points.data(), static_cast<int>(points.size()), jets);
   double ofGeometry = 0.0;
   for (std::size_t n = 0; n < points.size(); ++n)
   {
-    const Coefficient value = evaluateGradient(form, points[n]).value;
+    const Coefficient value = jets.jet(static_cast<int>(n)).value;
     sampled.error = std::max(sampled.error, std::abs(value.w - checks[n].w));
     ofGeometry = std::max(ofGeometry, glm::distance(glm::dvec3(value), glm::dvec3(checks[n])));
   }
@@ -477,11 +590,9 @@ SampledPart FieldSampler::sample(const ReferencePart& part,
 /// \param degree of the last lattice, whose nodes are compared
 bool FieldSampler::losesComponents(const SampledPart& sampled, int degree, double isovalue) const
 {
-  const Lattice& lattice = latticeOf(this->Source.domain, degree);
-  JetBatch jets;
-  evaluateGradients(formOf(this->Source.domain, sampled.element), lattice.nodes.data(),
-    static_cast<int>(lattice.nodes.size()), jets);
-  const double* polynomial = jets.row(quantity::value, 3);
+  const SamplingLattice& lattice = latticeOf(this->Source.domain, degree);
+  const std::vector<double> polynomial =
+    fieldAt(lattice, formOf(this->Source.domain, sampled.element));
   std::vector<char> isAbove(lattice.nodes.size());
   std::vector<char> isKept(lattice.nodes.size());
   for (std::size_t n = 0; n < lattice.nodes.size(); ++n)
@@ -489,7 +600,7 @@ bool FieldSampler::losesComponents(const SampledPart& sampled, int degree, doubl
     isAbove[n] = this->Nodal[n].w > isovalue;
     isKept[n] = isAbove[n] == static_cast<char>(polynomial[n] > isovalue);
   }
-  return hasSetWithoutMark({ this->Source.domain, lattice.basis.degrees() }, isAbove, isKept);
+  return hasSetWithoutMark({ this->Source.domain, lattice.degrees }, isAbove, isKept);
 }
 
 } // namespace hop

@@ -41,6 +41,8 @@ struct SampledPart
   bool losesComponents = false;
 };
 
+struct SamplingLattice;
+
 /// Fields of elements by interpolation, for what is no polynomial of low degree: on a part of the element the polynomial
 /// is taken that has the field's values at the nodes of a lattice, of the lowest degree that holds the field. The error is seen
 /// at points between the nodes, but not proven: a field that bends much faster between two of these points would be
@@ -64,6 +66,9 @@ private:
   using Samples = std::vector<Coefficient>;
 
   Samples valuesAt(const ReferencePart& part, const std::vector<ReferencePoint>& points);
+  Samples valuesAt(const ReferencePart& part, const SamplingLattice& lattice);
+  template <class Number>
+  Samples samplesOf(std::size_t count, const Number& number);
   SampledPart interpolated(const ReferencePart& part, int degree, const Samples& checks);
   bool losesComponents(const SampledPart& sampled, int degree, double isovalue) const;
   void judge(SampledPart& sampled, const Samples& checks) const;

@@ -186,10 +186,10 @@ double Piece::worldSize() const
   Buffer<Coefficient> projected;
   if (!this->weights.empty())
   {
-    projected.reserve(this->coefficients.size());
-    for (std::size_t i = 0; i < this->coefficients.size(); ++i)
+    projected.resize(this->coefficients.size());
+    for (std::size_t i = 0; i < projected.size(); ++i)
     {
-      projected.push_back(this->coefficients[i] / this->weights[i]);
+      projected[i] = this->coefficients[i] / this->weights[i];
     }
   }
   const auto [lower, upper] = boundsOf(projected.empty() ? this->coefficients : projected);

@@ -1,5 +1,7 @@
 #include "Isolation/MonotoneTest.h"
 
+#include "Elements/LatticeRows.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -29,11 +31,6 @@ LatticePoint shifted(const LatticePoint& point, int axis, int by)
     point.k + (axis == 2 ? by : 0) };
 }
 
-int along(const LatticePoint& point, int axis)
-{
-  return axis == 0 ? point.i : axis == 1 ? point.j : point.k;
-}
-
 } // namespace
 
 MonotoneTest::MonotoneTest(Domain domain, const Degrees& degrees)
@@ -44,46 +41,72 @@ MonotoneTest::MonotoneTest(Domain domain, const Degrees& degrees)
 
 void MonotoneTest::listDifferences(Domain domain, const Degrees& degrees)
 {
-  const auto index = [&](const LatticePoint& p) { return coefficientIndex(domain, degrees, p); };
-  for (const LatticePoint& point : latticePoints(domain, degrees))
-  {
-    for (int axis = 0; axis < 3; ++axis)
+  int start = 0;
+  visitLatticeRows(domain, degrees,
+    [&](int j, int k, int length)
     {
-      this->Begin.push_back(static_cast<int>(this->Differences.size()));
-      int rest = degrees[axis]; // alpha_0
-      const SimplexFactor& factor = factorOf(domain, axis);
-      for (int m = factor.axis; m < factor.end(); ++m)
+      Row& row = this->Rows.emplace_back();
+      row.start = start;
+      row.length = length;
+      this->listDifferencesOf(domain, degrees, row, j, k);
+      start += length;
+    });
+}
+
+void MonotoneTest::listDifferencesOf(Domain domain, const Degrees& degrees, Row& row, int j, int k)
+{
+  const auto index = [&](const LatticePoint& p) { return coefficientIndex(domain, degrees, p); };
+  const std::array<int, 3> numbers{ 0, j, k };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    row.begin[axis] = static_cast<int>(this->Differences.size());
+    const SimplexFactor& factor = factorOf(domain, axis);
+    int rest = degrees[axis]; // alpha_0, but for i where the row runs in this simplex
+    for (int m = factor.axis; m < factor.end(); ++m)
+    {
+      rest -= numbers[m];
+      // alpha_m is i along the row, which begins with zero, else the same in all of it.
+      const int first = m == 0 ? 1 : 0;
+      const int alpha = m == 0 ? 1 : numbers[m];
+      if (alpha > 0 && first < row.length)
       {
-        const int alpha = along(point, m);
-        rest -= alpha;
-        if (alpha > 0)
-        {
-          const LatticePoint lower = shifted(point, m, -1);
-          this->Differences.push_back(
-            { index(shifted(lower, axis, 1)), index(lower), static_cast<double>(alpha) });
-        }
-      }
-      if (rest > 0)
-      {
-        this->Differences.push_back(
-          { index(shifted(point, axis, 1)), index(point), static_cast<double>(rest) });
+        const LatticePoint lower = shifted({ first, j, k }, m, -1);
+        this->Differences.push_back({ first, row.length - first, index(shifted(lower, axis, 1)),
+          index(lower), double(alpha), m == 0 ? 1.0 : 0.0 });
       }
     }
+    const bool isAlongRow = factor.axis == 0;
+    const int count = isAlongRow ? row.length - 1 : row.length;
+    if (rest > 0 && count > 0)
+    {
+      this->Differences.push_back({ 0, count, index(shifted({ 0, j, k }, axis, 1)),
+        index({ 0, j, k }), double(rest), isAlongRow ? -1.0 : 0.0 });
+    }
   }
-  this->Begin.push_back(static_cast<int>(this->Differences.size()));
+  row.begin[3] = static_cast<int>(this->Differences.size());
 }
 
 void MonotoneTest::sumMean(std::size_t points)
 {
   this->Mean.resize(points, glm::dvec3(0.0));
-  for (std::size_t n = 0; n + 1 < this->Begin.size(); ++n)
+  for (const Row& row : this->Rows)
   {
-    const int axis = static_cast<int>(n % 3);
-    for (int d = this->Begin[n]; d < this->Begin[n + 1]; ++d)
+    for (int i = 0; i < row.length; ++i)
     {
-      const Difference& difference = this->Differences[d];
-      this->Mean[difference.plus][axis] += difference.weight;
-      this->Mean[difference.minus][axis] -= difference.weight;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        for (int d = row.begin[axis]; d < row.begin[axis + 1]; ++d)
+        {
+          const Difference& difference = this->Differences[d];
+          const int n = i - difference.first;
+          if (n >= 0 && n < difference.count)
+          {
+            const double weight = difference.constant + difference.slope * n;
+            this->Mean[difference.plus + n][axis] += weight;
+            this->Mean[difference.minus + n][axis] -= weight;
+          }
+        }
+      }
     }
   }
 }
@@ -109,21 +132,27 @@ Monotony MonotoneTest::monotony(const std::vector<double>& values) const
   bool isSlow = false;
   bool standsStillBelow = false;
   bool standsStillAbove = false;
-  for (std::size_t point = 0; point < values.size(); ++point)
+  Slopes slopes;
+  for (const Row& row : this->Rows)
   {
-    const double rise = glm::dot(this->gradient(values, point), mean);
-    if (rise > rounding)
+    this->findSlopes(values, row, slopes);
+    for (int i = 0; i < row.length; ++i)
     {
-      rises = true;
-      isSlow = isSlow || rise < slow;
-      continue;
-    }
-    standsStillBelow = standsStillBelow || values[point] < 0.0;
-    standsStillAbove = standsStillAbove || values[point] > 0.0;
-    if (!(rise >= -rounding) || !(std::abs(values[point]) > smallest) ||
-      (standsStillBelow && standsStillAbove))
-    {
-      return Monotony::None;
+      const double value = values[row.start + i];
+      const double rise = glm::dot(slopes.at(i), mean);
+      if (rise > rounding)
+      {
+        rises = true;
+        isSlow = isSlow || rise < slow;
+        continue;
+      }
+      standsStillBelow = standsStillBelow || value < 0.0;
+      standsStillAbove = standsStillAbove || value > 0.0;
+      if (!(rise >= -rounding) || !(std::abs(value) > smallest) ||
+        (standsStillBelow && standsStillAbove))
+      {
+        return Monotony::None;
+      }
     }
   }
   const bool isWeak = isSlow || standsStillBelow || standsStillAbove;
@@ -134,25 +163,38 @@ std::vector<double> MonotoneTest::derivative(
   const std::vector<double>& values, const glm::dvec3& direction) const
 {
   std::vector<double> result(values.size());
-  for (std::size_t point = 0; point < values.size(); ++point)
+  Slopes slopes;
+  for (const Row& row : this->Rows)
   {
-    result[point] = glm::dot(this->gradient(values, point), direction);
+    this->findSlopes(values, row, slopes);
+    for (int i = 0; i < row.length; ++i)
+    {
+      result[row.start + i] = glm::dot(slopes.at(i), direction);
+    }
   }
   return result;
 }
 
-glm::dvec3 MonotoneTest::gradient(const std::vector<double>& values, std::size_t point) const
+/// Term by term, so that a row's coefficients are computed side by side.
+void MonotoneTest::findSlopes(
+  const std::vector<double>& values, const Row& row, Slopes& slopes) const
 {
-  glm::dvec3 result(0.0);
   for (int axis = 0; axis < 3; ++axis)
   {
-    for (int d = this->Begin[3 * point + axis]; d < this->Begin[3 * point + axis + 1]; ++d)
+    double* along = slopes.along[axis].data();
+    std::fill_n(along, row.length, 0.0);
+    for (int d = row.begin[axis]; d < row.begin[axis + 1]; ++d)
     {
       const Difference& difference = this->Differences[d];
-      result[axis] += difference.weight * (values[difference.plus] - values[difference.minus]);
+      const double* plus = values.data() + difference.plus;
+      const double* minus = values.data() + difference.minus;
+      double* to = along + difference.first;
+      for (int n = 0; n < difference.count; ++n)
+      {
+        to[n] += (difference.constant + difference.slope * n) * (plus[n] - minus[n]);
+      }
     }
   }
-  return result;
 }
 
 } // namespace hop

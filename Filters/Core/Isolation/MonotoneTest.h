@@ -2,6 +2,9 @@
 
 #include "Elements/Bernstein.h"
 
+#include <array>
+#include <vector>
+
 namespace hop
 {
 
@@ -49,21 +52,40 @@ private:
   void listDifferences(Domain domain, const Degrees& degrees);
   void sumMean(std::size_t points);
 
-  /// weight (c_plus - c_minus): one term of a coefficient of a derivative.
+  /// Of the coefficients of a derivative in a row of the lattice a term of `count` ones from `first` on: of the n-th of them
+  /// (constant + slope n) (c_(plus + n) - c_(minus + n)).
   struct Difference
   {
+    int first = 0;
+    int count = 0;
     int plus = 0;
     int minus = 0;
-    double weight = 0.0;
+    double constant = 0.0;
+    double slope = 0.0;
+  };
+  struct Row
+  {
+    int start = 0;
+    int length = 0;
+    /// Of the differences along each axis the first, and where the last axis ends.
+    std::array<int, 4> begin{};
+  };
+  /// Coefficients of the three derivatives in a row.
+  struct Slopes
+  {
+    std::array<std::array<double, MaximumDegree + 1>, 3> along;
+
+    glm::dvec3 at(int i) const
+    {
+      return { this->along[0][i], this->along[1][i], this->along[2][i] };
+    }
   };
 
-  /// Coefficients of the three derivatives at a lattice point.
-  glm::dvec3 gradient(const std::vector<double>& values, std::size_t point) const;
+  void listDifferencesOf(Domain domain, const Degrees& degrees, Row& row, int j, int k);
+  void findSlopes(const std::vector<double>& values, const Row& row, Slopes& slopes) const;
 
-  /// The coefficient of the derivative along an axis at a lattice point is the sum of the differences Begin[n] to
-  /// Begin[n + 1] - 1, n = 3 point + axis.
+  std::vector<Row> Rows;
   std::vector<Difference> Differences;
-  std::vector<int> Begin;
   /// Weight of each value in the mean gradient, which is the mean of the derivatives' coefficients times their number.
   std::vector<glm::dvec3> Mean;
 };

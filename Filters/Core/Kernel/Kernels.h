@@ -156,6 +156,9 @@ struct Lines
 /// \param second receives the coefficients of the other half
 using BisectionFunction = void (*)(const Lines&, double* coefficients, double* second);
 
+/// The same of polynomials with one number a coefficient, along lines of 2 MaximumDegree + 1 at most.
+using NumberBisectionFunction = void (*)(const Lines&, double* numbers, double* second);
+
 /// Smallest and largest x, y, z, f.
 struct ComponentBounds
 {
@@ -180,6 +183,25 @@ struct FlatSegment
 using HiddenFunction = void (*)(const FlatPoints& points, const FlatSegment* segments,
   std::ptrdiff_t segmentCount, double* hidden);
 
+/// Two rows of numbers, whose product, as of polynomials, has the entry left_0 right_n + left_1 right_(n-1) + ... in
+/// column n.
+struct RowPair
+{
+  const double* left;
+  int leftCount;
+  /// Zeros stand before and behind the row, wherever the sum over all left_i asks for them, up to whole vectors.
+  const double* right;
+};
+
+/// Adds products of rows to one row.
+/// \param sum `length` numbers, with room up to the next multiple of MaximumLanes
+using RowProductsFunction = void (*)(
+  const RowPair* pairs, std::ptrdiff_t count, int length, double* sum);
+
+/// The product of a rows x columns matrix with `columns` rows of `width` values: `rows` rows as long.
+using MatrixFunction = void (*)(const double* matrix, int rows, int columns, const double* values,
+  std::ptrdiff_t width, double* result);
+
 struct Kernels
 {
   DomainKernels hexahedron;
@@ -189,8 +211,11 @@ struct Kernels
   NearFunction near;
   PlaneCellFunction planeCell;
   BisectionFunction bisection;
+  NumberBisectionFunction numberBisection;
   BoundsFunction bounds;
   HiddenFunction hidden;
+  RowProductsFunction rowProducts;
+  MatrixFunction matrix;
 };
 
 Kernels baselineKernels();

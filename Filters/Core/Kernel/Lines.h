@@ -44,6 +44,66 @@ void bisectLines(const Lines& lines, double* coefficients, double* second)
   }
 }
 
+/// Bisects up to `Lanes` lines of n numbers, one a lane.
+/// \param where the lines, of which all lanes have one: some twice where there are fewer
+template <int Lanes>
+inline void bisectTogether(
+  const std::int32_t* const (&where)[Lanes], int n, double* numbers, double* second)
+{
+  using Doubles = Vector<double, Lanes>;
+  Doubles line[2 * MaximumDegree + 1];
+  double lanes[Lanes];
+  const auto write = [&](Doubles values, int i, double* to)
+  {
+    store(values, lanes);
+    for (int lane = 0; lane < Lanes; ++lane)
+    {
+      to[where[lane][i]] = lanes[lane];
+    }
+  };
+  for (int i = 0; i < n; ++i)
+  {
+    for (int lane = 0; lane < Lanes; ++lane)
+    {
+      lanes[lane] = numbers[where[lane][i]];
+    }
+    line[i] = load<Doubles>(lanes);
+  }
+  for (int left = n - 1; left >= 0; --left)
+  {
+    write(line[0], n - 1 - left, numbers);
+    for (int k = 0; k < left; ++k)
+    {
+      line[k] = 0.5 * (line[k] + line[k + 1]);
+    }
+  }
+  for (int i = 0; i < n; ++i)
+  {
+    write(line[i], i, second);
+  }
+}
+
+/// See NumberBisectionFunction. Lines of the same length go together.
+template <int Lanes>
+void bisectNumbers(const Lines& lines, double* numbers, double* second)
+{
+  const auto lengthOf = [&](std::ptrdiff_t l) { return lines.begin[l + 1] - lines.begin[l]; };
+  for (std::ptrdiff_t first = 0; first < lines.count;)
+  {
+    const int n = lengthOf(first);
+    const std::int32_t* where[Lanes];
+    std::ptrdiff_t next = first;
+    for (int lane = 0; lane < Lanes; ++lane)
+    {
+      const bool isAlike = next < lines.count && lengthOf(next) == n;
+      where[lane] = isAlike ? lines.index + lines.begin[next] : where[0];
+      next += isAlike ? 1 : 0;
+    }
+    bisectTogether<Lanes>(where, n, numbers, second);
+    first = next;
+  }
+}
+
 /// See BoundsFunction.
 /// \tparam Lanes components in a vector
 template <int Lanes>

@@ -3,8 +3,10 @@
 #include "Kernel/Hidden.h"
 #include "Kernel/Jets.h"
 #include "Kernel/Lines.h"
+#include "Kernel/MatrixRows.h"
 #include "Kernel/Near.h"
 #include "Kernel/PlaneCell.h"
+#include "Kernel/RowProducts.h"
 #include "Kernel/Sweep.h"
 
 #include <utility>
@@ -168,8 +170,9 @@ constexpr Kernels makeKernels()
   return { makeDomainKernels<Hexahedron, PointLanes, ComponentLanes>(),
     makeDomainKernels<Tetrahedron, PointLanes, ComponentLanes>(),
     makeDomainKernels<Wedge, PointLanes, ComponentLanes>(), sweepBlocks, findNear<PointLanes>,
-    measurePlaneCell<PointLanes>, bisectLines<ComponentLanes>, boundComponents<ComponentLanes>,
-    findHidden<PointLanes> };
+    measurePlaneCell<PointLanes>, bisectLines<ComponentLanes>, bisectNumbers<PointLanes>,
+    boundComponents<ComponentLanes>, findHidden<PointLanes>, addRowProducts<PointLanes>,
+    multiplyMatrix<ComponentLanes> };
 }
 
 } // namespace

@@ -51,6 +51,36 @@ TEST_P(Lines, AreBisectedToTheBitsOfPlainCode)
   }
 }
 
+/// Several lines at a time, of which some have not all of the same length.
+TEST_P(Lines, OfNumbersAreBisectedToTheSameBits)
+{
+  for (const ElementCase& which : allElementCases())
+  {
+    SCOPED_TRACE(which);
+    for (const LatticePoint& direction : facts(which.domain).edgeDirections)
+    {
+      const LatticeLines lines(which.domain, which.degrees, direction);
+      std::vector<Coefficient> first =
+        randomCoefficients(coefficientCount(which.domain, which.degrees));
+      std::vector<double> numbers;
+      for (const Coefficient& c : first)
+      {
+        numbers.push_back(c.x);
+      }
+      std::vector<Coefficient> second;
+      std::vector<double> secondNumbers;
+      lines.bisect(first, second);
+      lines.bisect(numbers, secondNumbers);
+      ASSERT_EQ(secondNumbers.size(), second.size());
+      for (std::size_t i = 0; i < first.size(); ++i)
+      {
+        EXPECT_EQ(numbers[i], first[i].x);
+        EXPECT_EQ(secondNumbers[i], second[i].x);
+      }
+    }
+  }
+}
+
 TEST_P(Lines, BoundsAreThoseOfEachComponent)
 {
   for (const std::size_t count : { 1, 2, 3, 4, 5, 8, 11, 64 })

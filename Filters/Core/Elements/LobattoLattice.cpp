@@ -1,0 +1,168 @@
+#include "Elements/LobattoLattice.h"
+
+#include "Elements/NodalBasis.h"
+#include "Kernel/InstructionSet.h"
+
+namespace hop
+{
+
+namespace
+{
+
+using Extended = long double;
+
+LineMatrix zeros(std::size_t rows, int columns)
+{
+  return { static_cast<int>(rows), columns, std::vector<double>(rows * columns) };
+}
+
+/// P_0 to P_n at x, by Legendre's recurrence n P_n = (2n - 1) x P_{n-1} - (n - 1) P_{n-2}.
+std::vector<Extended> legendreAt(Extended x, int n)
+{
+  std::vector<Extended> values{ 1.0L, x };
+  for (int k = 2; k <= n; ++k)
+  {
+    values.push_back(((2 * k - 1) * x * values[k - 1] - (k - 1) * values[k - 2]) / k);
+  }
+  return values;
+}
+
+/// Takes values at the Gauss-Lobatto-Legendre points to coefficients of Legendre polynomials, by the points' quadrature with
+/// the weights 2 / (n (n + 1) P_n^2): it takes sum P_k P_l for 2 / (2k + 1) where k = l < n, for 2 / n where k = l = n, and
+/// for 0 else.
+LineMatrix toLegendre(int n)
+{
+  const std::vector<Extended> points = gaussLobattoPoints(n);
+  LineMatrix matrix = zeros(n + 1, n + 1);
+  for (int i = 0; i <= n; ++i)
+  {
+    const std::vector<Extended> p = legendreAt(2.0L * points[i] - 1.0L, n);
+    const Extended weight = 2.0L / (n * (n + 1) * p[n] * p[n]);
+    for (int k = 0; k <= n; ++k)
+    {
+      const Extended square = k < n ? 2.0L / (2 * k + 1) : 2.0L / n;
+      matrix.entries[k * (n + 1) + i] = static_cast<double>(weight * p[k] / square);
+    }
+  }
+  return matrix;
+}
+
+/// Bernstein coefficients of degree n of the Legendre polynomials on [0, 1]: (-1)^(k + i) C(k,i) of degree k, which are
+/// elevated.
+LineMatrix fromLegendre(int n)
+{
+  LineMatrix matrix = zeros(n + 1, n + 1);
+  for (int k = 0; k <= n; ++k)
+  {
+    std::vector<Extended> coefficients;
+    Extended size = k % 2 == 0 ? 1.0L : -1.0L;
+    for (int i = 0; i <= k; ++i)
+    {
+      coefficients.push_back(size);
+      size *= -static_cast<Extended>(k - i) / (i + 1);
+    }
+    for (int degree = k + 1; degree <= n; ++degree)
+    {
+      coefficients.push_back(coefficients.back());
+      for (int i = degree - 1; i > 0; --i)
+      {
+        coefficients[i] = (i * coefficients[i - 1] + (degree - i) * coefficients[i]) / degree;
+      }
+    }
+    for (int i = 0; i <= n; ++i)
+    {
+      matrix.entries[i * (n + 1) + k] = static_cast<double>(coefficients[i]);
+    }
+  }
+  return matrix;
+}
+
+/// Values of the Bernstein polynomials of a degree at t, by their recurrence over the degree.
+/// \param basis room for degree + 1 values
+void bernsteinAt(int degree, double t, double* basis)
+{
+  basis[0] = 1.0;
+  for (int n = 1; n <= degree; ++n)
+  {
+    basis[n] = t * basis[n - 1];
+    for (int i = n - 1; i > 0; --i)
+    {
+      basis[i] = (1.0 - t) * basis[i] + t * basis[i - 1];
+    }
+    basis[0] *= 1.0 - t;
+  }
+}
+
+} // namespace
+
+LineMatrix bernsteinValues(int degree, const std::vector<double>& points)
+{
+  LineMatrix matrix = zeros(points.size(), degree + 1);
+  double* row = matrix.entries.data();
+  for (const double t : points)
+  {
+    bernsteinAt(degree, t, row);
+    row += matrix.columns;
+  }
+  return matrix;
+}
+
+LineMatrix bernsteinSlopes(int degree, const std::vector<double>& points)
+{
+  LineMatrix matrix = zeros(points.size(), degree + 1);
+  double* row = matrix.entries.data();
+  for (const double t : points)
+  {
+    // B'_i,p = p (B_i-1,p-1 - B_i,p-1), from the last one on, in place.
+    bernsteinAt(degree - 1, t, row);
+    row[degree] = degree * row[degree - 1];
+    for (int i = degree - 1; i > 0; --i)
+    {
+      row[i] = degree * (row[i - 1] - row[i]);
+    }
+    row[0] *= -degree;
+    row += matrix.columns;
+  }
+  return matrix;
+}
+
+std::vector<double> alongAxes(
+  const std::array<const LineMatrix*, 3>& matrices, const std::vector<double>& values)
+{
+  std::vector<double> from = values;
+  std::vector<double> to;
+  // Numbers of a point and of the points before it along the axes that are still to come are one row.
+  int blocks = 1;
+  for (int axis = 2; axis >= 0; --axis)
+  {
+    const LineMatrix& matrix = *matrices[axis];
+    const int row = static_cast<int>(from.size()) / (blocks * matrix.columns);
+    to.resize(static_cast<std::size_t>(blocks) * matrix.rows * row);
+    for (int block = 0; block < blocks; ++block)
+    {
+      kernel::current().matrix(matrix.entries.data(), matrix.rows, matrix.columns,
+        from.data() + static_cast<std::ptrdiff_t>(block) * matrix.columns * row, row,
+        to.data() + static_cast<std::ptrdiff_t>(block) * matrix.rows * row);
+    }
+    blocks *= matrix.rows;
+    from.swap(to);
+  }
+  return from;
+}
+
+LobattoLattice::LobattoLattice(int degree)
+  : ToLegendre(toLegendre(degree))
+  , FromLegendre(fromLegendre(degree))
+{
+  const std::vector<Extended> points = gaussLobattoPoints(degree);
+  this->Line.assign(points.begin(), points.end());
+}
+
+std::vector<double> LobattoLattice::toBernstein(const std::vector<double>& values) const
+{
+  const LineMatrix* to = &this->ToLegendre;
+  const LineMatrix* from = &this->FromLegendre;
+  return alongAxes({ from, from, from }, alongAxes({ to, to, to }, values));
+}
+
+} // namespace hop
