@@ -119,9 +119,9 @@ vec3 splatOverlaps(int particle)
     : vec3(texelFetch(splatClip, first + 2).xy, splatClipTexels == 5 ? texelFetch(splatClip, first + 4).x : 0.0);
 }
 
-// The same measured across the planes, in MC. A plane is a face of an element, which may pass the disk aslant: along the
-// disk it is farther. Where the surface jumps at such a face, a wider overlap hides the gap there. A whole splat goes on
-// beyond open planes.
+// The same measured across the planes, in MC. A plane is a face of an element, which may pass the disk aslant: along
+// the disk it is farther. Where the surface jumps at such a face, a wider overlap hides the gap there. A whole splat
+// goes on beyond open planes.
 vec3 splatOverlapsAcross(int particle, SplatDisk disk)
 {
   vec3 overlaps = splatOverlaps(particle);

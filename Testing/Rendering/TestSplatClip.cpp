@@ -208,13 +208,13 @@ TEST(SplatClip, AtCreasesSplatsFillSmallGapsAndStaySharp)
   }
 }
 
-// The plane is a face of an element: however aslant it passes the splat, what lies behind it is measured along the splat.
-// Where the surface jumps at the face, more would hide the gap between its two sides.
+// However aslant a plane passes the splat, what lies behind it is measured along the splat. Where the surface jumps at
+// a face, more would hide the gap between its two sides.
 TEST(SplatClip, GapsAreFilledAsFarBehindSlantedPlanes)
 {
   for (const double degrees : { 5., 12. })
   {
-    for (const double cosine : { 1., 0.6, 0.3 })
+    for (const double cosine : { 1., 0.4 })
     {
       vtkSmartPointer<vtkPolyData> disk = Disks({ { 0., 0., 0. } }, { { 0., 0., 1. } }, Radius);
       AddArray(disk, "Clip_Normal", 3, { cosine, 0., std::sqrt(1. - cosine * cosine) });
