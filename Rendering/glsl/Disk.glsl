@@ -119,6 +119,24 @@ vec3 splatOverlaps(int particle)
     : vec3(texelFetch(splatClip, first + 2).xy, splatClipTexels == 5 ? texelFetch(splatClip, first + 4).x : 0.0);
 }
 
+// The same measured across the planes, in MC. A plane is a face of an element, which may pass the disk aslant: along
+// the disk it is farther. Where the surface jumps at such a face, a wider overlap hides the gap there. A whole splat
+// goes on beyond open planes.
+vec3 splatOverlapsAcross(int particle, SplatDisk disk)
+{
+  vec3 overlaps = splatOverlaps(particle);
+  vec3 across = vec3(length(disk.tangentMC));
+  for (int plane = 0; plane < splatClipPlanes(); ++plane)
+  {
+    vec3 normal = texelFetch(splatClip, splatClipTexel(particle, plane)).xyz;
+    if (overlaps[plane] <= 1.0) // radii; no other overlap is near to that
+    {
+      across[plane] = length(vec2(dot(normal, disk.tangentMC), dot(normal, disk.bitangentMC)));
+    }
+  }
+  return across * overlaps;
+}
+
 // Corners of the equilateral triangle around the unit circle, counter-clockwise; 1.7320508 is sqrt(3).
 const vec2 splatCorner[3] =
   vec2[3](vec2(0.0, 2.0), vec2(-1.7320508, -1.0), vec2(1.7320508, -1.0));

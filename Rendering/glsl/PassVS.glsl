@@ -53,7 +53,7 @@ flat out vec4 splatClipLines[SPLAT_CLIP_PLANES]; // see splatClipLine()
 flat out vec4 splatBorderLines[SPLAT_BORDERS]; // see splatBorderLine()
 flat out float splatDiskToRadius; // takes disk coordinates to offsets in the particle's own radius
 #endif
-flat out vec3 splatBeyondClip; // how far beyond its clip lines the splat fills gaps (MC)
+flat out vec3 splatBeyondClip; // how far beyond its clip planes, across them, the splat fills gaps (MC)
 out vec3 splatPointMC;           // for clipping planes
 flat out vec3 splatNormalVC;     // outward; of length 1 if splats are flat
 flat out float splatSeenFromSide;
@@ -122,7 +122,7 @@ void main()
   {
     splatClipLines[plane] = splatClipLine(splatParticle, plane, disk);
   }
-  splatBeyondClip = length(disk.tangentMC) * splatOverlaps(splatParticle);
+  splatBeyondClip = splatOverlapsAcross(splatParticle, disk);
 
   vec3 centreVC = (splatMCVC * vec4(disk.centreMC, 1.0)).xyz;
   mat3 rotateScale = mat3(splatMCVC);

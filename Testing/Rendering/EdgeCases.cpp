@@ -136,6 +136,24 @@ void AddPlanes(GridBuilder& grid, const std::vector<PlaneInBox>& planes)
   }
 }
 
+// A roof whose ridge is cut off by a facet between two creases, from a twentieth of a width at one end to all of it.
+void AddSliver(GridBuilder& grid, double width)
+{
+  const auto end = [=](double y) { return width * (0.525 + 0.475 * y); };
+  const glm::ivec3 cells(1, 4, 4);
+  const glm::dvec3 low(0., -1., -1.);
+  const glm::dvec3 high(1., 1., 1.);
+  grid.AddBox({ 4, 4, 4 }, 1, glm::dvec3(-1.), { 0., 1., 1. }, Same,
+    [](const glm::dvec3& x) { return x.z - 0.1 - 0.4 * x.x; });
+  grid.AddBox(
+    cells, 1, low, high, [=](const glm::dvec3& x) { return glm::dvec3(x.x * end(x.y), x.y, x.z); },
+    [](const glm::dvec3& x) { return x.z - 0.1 + 0.6 * x.x; });
+  grid.AddBox(
+    cells, 1, low, high,
+    [=](const glm::dvec3& x) { return glm::dvec3(glm::mix(end(x.y), 1., x.x), x.y, x.z); },
+    [=](const glm::dvec3& x) { return x.z - 0.1 + 0.4 * end(x.y) + 0.2 * x.x; });
+}
+
 void AddFan(GridBuilder& grid, int sides, double fold)
 {
   const auto onCircle = [=](int side, double z)
@@ -279,8 +297,9 @@ const std::map<std::string, AddCells>& Kinds()
       [](GridBuilder& grid, double size)
       {
         const double end = size * Spacing;
-        AddPlanes(grid, { { 0., 0., 0.4 }, { end, 0., -0.6 }, { 1., -0.4 * end, -0.2 } });
+        AddPlanes(grid, { { 0., 0.1, 0.4 }, { end, 0.1, -0.6 }, { 1., 0.1 - 0.4 * end, -0.2 } });
       } },
+    { "sliver", [](GridBuilder& grid, double size) { AddSliver(grid, size * Spacing); } },
     { "fan", [](GridBuilder& grid, double size) { AddFan(grid, static_cast<int>(size), 0.); } },
     { "pleats", [](GridBuilder& grid, double size) { AddFan(grid, static_cast<int>(size), 0.5); } },
     { "facets",
@@ -322,8 +341,8 @@ const std::vector<std::string>& EdgeCaseNames()
       }
     }
     for (const char* name : { "notch:0", "notch:1", "cone:0", "cone:0.6", "step:0.3", "step:0.6",
-           "ledge:0.1", "ledge:0.5", "fan:4", "fan:5", "fan:6", "fan:8", "fan:12", "pleats:6",
-           "pleats:8", "pleats:12", "facets:8", "facets:14" })
+           "ledge:0.1", "ledge:0.5", "sliver:0.3", "sliver:1", "fan:4", "fan:5", "fan:6", "fan:8",
+           "fan:12", "pleats:6", "pleats:8", "pleats:12", "facets:8", "facets:14" })
     {
       all.push_back(name);
     }

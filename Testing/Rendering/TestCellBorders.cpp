@@ -17,6 +17,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
+#include <utility>
 
 using hop::testing::PictureCamera;
 
@@ -136,6 +139,36 @@ const FileCase Hexahedra = { "mfem_amr_hanging_hex_p3.vtu:u:0", 0.03, 1., { fals
 const FileCase Tetrahedra = { "dolfinx_tet_p3.vtu:u:0.5", 0.02, 3., { true } };
 const FileCase Wedges = { "mfem_torus_wedge_p4.vtu:f:0.3", 0.03, 2., { false, true } };
 
+// The surface of a file, made once for all tests.
+const SurfaceCase& CaseOf(const FileCase& file)
+{
+  static std::map<std::string, SurfaceCase> cases;
+  const auto found = cases.find(file.Name);
+  return found != cases.end() ? found->second : cases.emplace(file.Name, file.Make()).first->second;
+}
+
+// A camera, and what rays see from it.
+struct CastView
+{
+  PictureCamera Camera;
+  SurfacePicture Reference;
+};
+
+// The view of a file, cast once for all tests.
+const CastView& ViewOf(const FileCase& file, bool parallel)
+{
+  static std::map<std::pair<std::string, bool>, CastView> views;
+  CastView& view = views[{ file.Name, parallel }];
+  if (view.Reference.Seen.empty())
+  {
+    view.Camera = CamerasAround(CaseOf(file), parallel, Size)[2];
+    view.Camera.halfHeight /=
+      file.Zoom * (parallel ? 1. : 1.25); // nearer, the near plane would cut
+    view.Reference = CastSurface(CaseOf(file), view.Camera);
+  }
+  return view;
+}
+
 class CellBordersOf : public testing::TestWithParam<FileCase>
 {
 };
@@ -143,13 +176,11 @@ class CellBordersOf : public testing::TestWithParam<FileCase>
 
 TEST_P(CellBordersOf, AreWhereColorsEnd)
 {
-  const SurfaceCase surface = GetParam().Make();
+  const SurfaceCase& surface = CaseOf(GetParam());
   vtkSmartPointer<vtkPolyData> particles = ColoredByCell(surface);
   for (bool parallel : GetParam().Projections)
   {
-    PictureCamera camera = CamerasAround(surface, parallel, Size)[2];
-    camera.halfHeight /= GetParam().Zoom;
-    const SurfacePicture reference = CastSurface(surface, camera);
+    const auto& [camera, reference] = ViewOf(GetParam(), parallel);
     const auto mapper = MapperOf(particles, "Color");
     const auto figures =
       CompareCells(DrawColors(mapper, camera), reference, camera, surface.Spacing);
@@ -169,8 +200,8 @@ INSTANTIATE_TEST_SUITE_P(
 // A categorical table does not mix colours: the strongest particle of the cell gives its own.
 TEST(CellBorders, CategoriesEndThere)
 {
-  const SurfaceCase surface = Hexahedra.Make();
-  const PictureCamera camera = CamerasAround(surface, true, Size)[2];
+  const SurfaceCase& surface = CaseOf(Hexahedra);
+  const auto& [camera, reference] = ViewOf(Hexahedra, true);
   vtkNew<vtkLookupTable> table;
   table->IndexedLookupOn();
   table->SetNumberOfTableValues(400);
@@ -182,8 +213,7 @@ TEST(CellBorders, CategoriesEndThere)
   }
   const auto mapper = MapperOf(surface.Particles, "Cell_Id");
   mapper->SetLookupTable(table);
-  const auto figures =
-    CompareCells(DrawColors(mapper, camera), CastSurface(surface, camera), camera, surface.Spacing);
+  const auto figures = CompareCells(DrawColors(mapper, camera), reference, camera, surface.Spacing);
   EXPECT_GT(figures.NearBorder, 500);
   EXPECT_LT(figures.Wrong, 0.003 * figures.Pixels) << testing::PrintToString(figures);
 }
@@ -221,7 +251,7 @@ double LargestDifference(
 
 TEST(CellBorders, ChangeNothingWhereValuesAgree)
 {
-  const SurfaceCase surface = Hexahedra.Make();
+  const SurfaceCase& surface = CaseOf(Hexahedra);
   const auto differenceBy = [&](const std::function<double(const double*)>& field)
   {
     return LargestDifference(
@@ -239,7 +269,7 @@ TEST(CellBorders, ChangeNothingWhereValuesAgree)
 // Values that jump keep their slope up to the border.
 TEST(CellBorders, SlopesGoOnToThem)
 {
-  const SurfaceCase surface = Hexahedra.Make();
+  const SurfaceCase& surface = CaseOf(Hexahedra);
   vtkSmartPointer<vtkPolyData> particles = ColoredByCell(surface);
   auto* cells = vtkIdTypeArray::SafeDownCast(particles->GetPointData()->GetArray("Cell_Id"));
   const auto valueOf = [](std::int64_t cell, double x) { return 0.3 * x + 0.4 * (cell % 2); };
@@ -250,7 +280,7 @@ TEST(CellBorders, SlopesGoOnToThem)
     values->InsertNextValue(valueOf(cells->GetValue(i), particles->GetPoint(i)[0]));
   }
   particles->GetPointData()->AddArray(values);
-  const PictureCamera camera = CamerasAround(surface, true, Size)[2];
+  const auto& [camera, reference] = ViewOf(Hexahedra, true);
   const auto mapper = MapperOf(particles, "Values");
   vtkNew<vtkLookupTable> gray;
   gray->SetNumberOfTableValues(256);
@@ -261,7 +291,6 @@ TEST(CellBorders, SlopesGoOnToThem)
   mapper->SetLookupTable(gray);
   mapper->SetScalarRange(-0.5, 1.);
   const std::vector<glm::dvec3> drawn = DrawColors(mapper, camera);
-  const SurfacePicture reference = CastSurface(surface, camera);
   int near = 0;
   int wrong = 0;
   for (int i = 0; i < Size * Size; ++i)
@@ -302,8 +331,9 @@ void PrintTo(const EdgeFigures& figures, std::ostream* os)
       << figures.Wanted;
 }
 
-EdgeFigures LinesOf(const SurfaceCase& surface, const PictureCamera& camera, double width)
+EdgeFigures LinesOf(const SurfaceCase& surface, const CastView& view, double width)
 {
+  const auto& [camera, reference] = view;
   const auto mapper = MapperOf(surface.Particles, nullptr);
   const std::vector<glm::dvec3> drawn = DrawColors(mapper, camera,
     [&](vtkProperty* property)
@@ -312,7 +342,6 @@ EdgeFigures LinesOf(const SurfaceCase& surface, const PictureCamera& camera, dou
       property->SetEdgeColor(0., 0., 0.);
       property->SetLineWidth(static_cast<float>(width));
     });
-  const SurfacePicture reference = CastSurface(surface, camera);
   EdgeFigures figures;
   for (int i = 0; i < Size * Size; ++i)
   {
@@ -345,19 +374,12 @@ EdgeFigures LinesOf(const SurfaceCase& surface, const PictureCamera& camera, dou
 // Lines lie on the borders, and have the same width in pixels however near the eye is.
 TEST_P(CellBordersOf, AreWhereEdgesAreDrawn)
 {
-  const SurfaceCase surface = GetParam().Make();
   for (bool parallel : GetParam().Projections)
   {
-    const double zoom =
-      GetParam().Zoom * (parallel ? 1. : 1.25); // nearer, the near plane would cut
-    PictureCamera camera = CamerasAround(surface, parallel, Size)[2];
-    camera.halfHeight /= zoom;
-    const EdgeFigures figures = LinesOf(surface, camera, 6.);
-    EXPECT_GT(figures.Lines, 150) << zoom << ": " << testing::PrintToString(figures);
-    EXPECT_LT(figures.Light, 0.03 * figures.Lines)
-      << zoom << ": " << testing::PrintToString(figures);
-    EXPECT_LT(figures.Dark, 0.005 * figures.Off) << zoom << ": " << testing::PrintToString(figures);
-    EXPECT_NEAR(figures.Ink / figures.Wanted, 1., 0.08)
-      << zoom << ": " << testing::PrintToString(figures);
+    const EdgeFigures figures = LinesOf(CaseOf(GetParam()), ViewOf(GetParam(), parallel), 6.);
+    EXPECT_GT(figures.Lines, 150) << testing::PrintToString(figures);
+    EXPECT_LT(figures.Light, 0.03 * figures.Lines) << testing::PrintToString(figures);
+    EXPECT_LT(figures.Dark, 0.005 * figures.Off) << testing::PrintToString(figures);
+    EXPECT_NEAR(figures.Ink / figures.Wanted, 1., 0.08) << testing::PrintToString(figures);
   }
 }

@@ -208,6 +208,31 @@ TEST(SplatClip, AtCreasesSplatsFillSmallGapsAndStaySharp)
   }
 }
 
+// However aslant a plane passes the splat, what lies behind it is measured along the splat. Where the surface jumps at
+// a face, more would hide the gap between its two sides.
+TEST(SplatClip, GapsAreFilledAsFarBehindSlantedPlanes)
+{
+  for (const double degrees : { 5., 12. })
+  {
+    for (const double cosine : { 1., 0.4 })
+    {
+      vtkSmartPointer<vtkPolyData> disk = Disks({ { 0., 0., 0. } }, { { 0., 0., 1. } }, Radius);
+      AddArray(disk, "Clip_Normal", 3, { cosine, 0., std::sqrt(1. - cosine * cosine) });
+      AddArray(disk, "Clip_Distance", 1, { 0.2 * cosine });
+      AddArray(disk, "Clip_Angle", 1, { degrees });
+      SplatScene scene(disk);
+      scene.Mapper->SetModeToSplats();
+      scene.LookFrom({ 0., 0., 1. }, true);
+      scene.Render();
+      double farthest = 0.;
+      scene.ForEachDrawnPixel(
+        [&](int, int, glm::dvec3 place) { farthest = std::max(farthest, place.x); });
+      EXPECT_NEAR(farthest, 0.2 + Radius * hop::SplatParticles::OverlapAt(degrees), Pixel)
+        << degrees << ", " << cosine;
+    }
+  }
+}
+
 TEST(SplatClip, NothingIsFilledAtSharpCreasesAndBoundariesNorWithoutAngles)
 {
   for (const double degrees : { 91., 150., 180. })

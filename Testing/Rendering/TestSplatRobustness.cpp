@@ -260,8 +260,8 @@ void ExpectSphereIsSeen(const SplatScene& scene)
 }
 }
 
-// Forty inputs, one after the other in the same mapper, and twenty-five pictures of each.
-TEST(SplatRobustness, AThousandRandomPictures)
+// Forty inputs, one after the other in the same mapper, and seven pictures of each.
+TEST(SplatRobustness, HundredsOfRandomPictures)
 {
   vtkNew<vtkPolyData> nothing;
   SplatScene scene(nothing);
@@ -281,7 +281,7 @@ TEST(SplatRobustness, AThousandRandomPictures)
       AddOddCells(particles, dice);
     }
     scene.Mapper->SetInputDataObject(particles);
-    for (int picture = 0; picture < 25; ++picture)
+    for (int picture = 0; picture < 7; ++picture)
     {
       SCOPED_TRACE(testing::Message() << "input " << seed << ", picture " << picture);
       ChooseScalars(scene, particles, dice);
@@ -295,7 +295,7 @@ TEST(SplatRobustness, AThousandRandomPictures)
       }
     }
   }
-  EXPECT_GT(judged, 80);
+  EXPECT_GT(judged, 22);
 }
 
 namespace

@@ -196,7 +196,8 @@ void thinOut(std::vector<CurvePlace> places, const std::vector<CurveRange>& rang
   {
     if (closesSlit[i])
     {
-      particles[i].side = {};
+      // Of a corner the other curve stays, as where a slit comes to the end of the domain.
+      particles[i].side = std::exchange(particles[i].otherSide, {});
     }
   }
   connect(kept, standIns, std::move(places), ranges, sampled, curves);

@@ -10,7 +10,8 @@ namespace hop
 {
 
 /// Of particles that are too near to each other the first stays; in meshes, one on a corner before others. If the surface
-/// ends at both on the two sides of a slit, it goes on there, and the one that stays ends at no face.
+/// ends at both on the two sides of a slit, it goes on there, and the one that stays ends at no face, but for the other face of
+/// a corner.
 /// \param places what became of the places on all curves
 /// \param ranges of places, one a curve
 /// \param sampled with creases, for meshes, both sides of slits and strips keep their particles

@@ -27,6 +27,10 @@ struct Cover
   static constexpr double Height = 0.4;
   /// Largest distance from what it covers behind a crease at which a splat stands off: more is seen beside the crease.
   static constexpr double StandOff = 0.25;
+  /// Distance aside, and above or below, up to which a particle tells where the surface is behind a crease. With larger
+  /// ones bent surfaces and other sheets are taken for a step, with smaller ones steps are overlooked.
+  static constexpr double Beside = 0.5;
+  static constexpr double Above = 1.0;
 };
 
 /// Distance from its particle up to which a splat covers the surface, in units of the spacing.
@@ -72,6 +76,16 @@ bool reaches(const Particle& particle, const glm::dvec3& place)
   const double h = particle.spacing;
   return std::abs(height) < Cover::Height * h &&
     glm::dot(offset, offset) - height * height < coverReach * coverReach * h * h;
+}
+
+/// Whether a place is above or below the surface around a particle: farther than splats may stand off.
+bool isAStepOff(const Particle& particle, const glm::dvec3& place)
+{
+  const glm::dvec3 offset = place - particle.position.xyz;
+  const double height = std::abs(glm::dot(offset, particle.normal.xyz)) / particle.spacing;
+  const double square = glm::dot(offset, offset) / (particle.spacing * particle.spacing);
+  return height > Cover::StandOff && height < Cover::Above &&
+    square - height * height < Cover::Beside * Cover::Beside;
 }
 
 /// How far a place lies behind the farthest of a particle's planes, world units; infinite if it lies behind a plane
@@ -132,6 +146,7 @@ private:
   bool isCornerOf(int i, int plane, const std::vector<int>& around) const;
   std::vector<int> findAround(int i) const;
   bool isOpen(int i, const glm::dvec3& place, const std::vector<int>& around) const;
+  bool isBehindAStep(const glm::dvec3& place, const std::vector<int>& around) const;
   double openBehind(int i, int plane, const std::vector<int>& around) const;
   double openFrom(int i, int plane, const glm::dvec3& start, const glm::dvec3& away,
     const std::vector<int>& around) const;
@@ -202,6 +217,14 @@ bool CreaseCorners::isOpen(int i, const glm::dvec3& place, const std::vector<int
     });
 }
 
+/// Whether the surface is a step higher or lower at a place behind a crease, as where the field jumps as well: a splat
+/// that went on to the place would hide it, or hide the gap.
+bool CreaseCorners::isBehindAStep(const glm::dvec3& place, const std::vector<int>& around) const
+{
+  return std::any_of(
+    around.begin(), around.end(), [&](int j) { return isAStepOff(this->All.at(j), place); });
+}
+
 /// How far a plane leaves the surface open behind one place of its cut, world units. What lies right behind may be
 /// covered, and be open farther off.
 /// \param start from the particle to that place
@@ -224,11 +247,13 @@ double CreaseCorners::openFrom(int i, int plane, const glm::dvec3& start, const 
   for (int count = 1; count * placeStep <= farthest; ++count)
   {
     const glm::dvec3 offset = start + count * step * away;
-    if (!(glm::length(offset) <= coverReach * particle.spacing) || isBeyondOther(offset))
+    const glm::dvec3 place = particle.position.xyz + offset;
+    if (!(glm::length(offset) <= coverReach * particle.spacing) || isBeyondOther(offset) ||
+      this->isBehindAStep(place, around))
     {
       break;
     }
-    open = this->isOpen(i, particle.position.xyz + offset, around) ? (count + 0.5) * step : open;
+    open = this->isOpen(i, place, around) ? (count + 0.5) * step : open;
   }
   return open;
 }

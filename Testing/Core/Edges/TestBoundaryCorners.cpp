@@ -1,3 +1,4 @@
+#include "Edges/BoundaryThinning.h"
 #include "Fast/FastDistribution.h"
 
 #include "AnalyticFields.h"
@@ -175,6 +176,29 @@ TEST_P(BoundaryCorners, HoldParticlesWhereAJumpMeetsTheBoundary)
     }
   }
   EXPECT_GE(corners, 8);
+}
+
+/// Where a slit that is closed begins at the end of the domain, the surface still ends there.
+TEST(BoundaryThinning, LeavesTheEndOfTheDomainAtCornersOfClosedSlits)
+{
+  BoundaryCurves curves;
+  for (const int element : { 0, 1 })
+  {
+    BoundaryParticle corner;
+    corner.particle.position = { { 0.2 * spacing * element, 0, 0 } };
+    corner.particle.normal = { { 0, 0, 1 } };
+    corner.particle.jump = 0.5f;
+    corner.particle.location.element = element;
+    corner.patch.position = corner.particle.position.xyz;
+    corner.patch.spacing = spacing;
+    corner.side = { 0, { { element == 0 ? 1.0 : -1.0, 0, 0 } }, 0.0 };
+    corner.otherSide = { 1, { { 0, 1, 0 } }, 0.0 };
+    curves.particles.push_back(corner);
+  }
+  thinOut({}, {}, SampledCurves::Boundary, curves, {});
+  ASSERT_EQ(curves.particles.size(), 1u);
+  EXPECT_EQ(curves.particles[0].side.outward.xyz, glm::dvec3(0, 1, 0));
+  EXPECT_FALSE(curves.particles[0].otherSide.exists());
 }
 
 } // namespace

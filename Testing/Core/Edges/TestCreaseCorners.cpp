@@ -84,6 +84,21 @@ TEST(CreaseCorners, PlanesStayWhereOthersCover)
   EXPECT_NEAR(distanceAt(result[0], 1), 0.2 + 0.55, 1e-6);
 }
 
+/// As where the field jumps at a crease: behind it the surface lies half a spacing lower.
+TEST(CreaseCorners, PlanesStayBeforeSteps)
+{
+  std::vector<Particle> particles{ particleAt(
+    { 0, 0 }, planeTo(90, 0.2, 0.3), planeTo(0, 0.2, 0.3)) };
+  for (const double x : { -0.8, -0.4, 0.0, 0.4, 0.8 })
+  {
+    particles.push_back(particleAt({ x, 0.6 }, {}));
+    particles.back().position.xyz.z = -0.5 * h;
+  }
+  const auto result = closed(particles);
+  EXPECT_DOUBLE_EQ(distanceAt(result[0], 0), 0.2);
+  EXPECT_GT(distanceAt(result[0], 1), 0.6);
+}
+
 /// Of two particles that could cover a corner, the one whose plane is nearest to it does.
 TEST(CreaseCorners, ThePlaneThatIsNearestGivesWay)
 {
