@@ -182,19 +182,22 @@ void NodalGradients::join()
   // cells around, for thin ones. As in cornerTolerances(), but nodes stand closer than corners.
   constexpr double ofCoordinates = 1e-5;
   constexpr double ofCells = 1e-3;
-  double bounds[6];
-  this->Grid->GetBounds(bounds);
-  const double largest = std::abs(*std::max_element(
-    bounds, bounds + 6, [](double a, double b) { return std::abs(a) < std::abs(b); }));
   Buffer<RoundedPoint> points(this->Counts.size());
+  double largest = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    glm::dvec3 x;
+    glm::dvec3& x = points[i].position;
     this->Grid->GetPoint(static_cast<vtkIdType>(i), &x.x);
-    const bool isFinite = std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z);
+    if (!(std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z)))
+    {
+      x = glm::dvec3(0.0); // no gradient was added there
+    }
+    largest = std::max({ largest, std::abs(x.x), std::abs(x.y), std::abs(x.z) });
+  }
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
     const double reach = std::min(ofCoordinates * largest, ofCells * this->Sizes[i]);
-    points[i] = { isFinite ? x : glm::dvec3(0.0),
-      std::max(reach, std::numeric_limits<double>::min()) };
+    points[i].reach = std::max(reach, std::numeric_limits<double>::min());
   }
   this->Places = coincidentPoints(points);
   for (std::size_t i = 0; i < this->Places.size(); ++i)
