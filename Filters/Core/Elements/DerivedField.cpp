@@ -404,7 +404,8 @@ DerivedElement Derivation::assemble(
   {
     for (int a = 0; a < 3; ++a)
     {
-      result.degrees[a] = std::max(result.degrees[a], part.degrees[a]);
+      // A flat cell may be constant along an axis, but elements are at least linear.
+      result.degrees[a] = std::max({ 1, result.degrees[a], part.degrees[a] });
     }
   }
   if (*std::max_element(result.degrees.begin(), result.degrees.end()) > MaximumDegree)
