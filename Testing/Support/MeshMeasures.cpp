@@ -15,12 +15,12 @@ namespace
 using Corners = std::array<int, 3>;
 constexpr double degreesPerRadian = 57.295779513082321;
 
-/// Whether the surface ends at a particle, as far as its boundary curve bulges beyond a chord (EdgeSplitting.h).
+/// Whether the surface ends at a particle, to a twentieth of its spacing.
 bool isAtBoundary(const Particle& particle)
 {
   return std::any_of(particle.clips.begin(), particle.clips.end(),
     [&](const ClipPlane& plane)
-    { return plane.isBoundary() && plane.distance <= 0.3 * particle.spacing; });
+    { return plane.isBoundary() && plane.distance <= 0.05 * particle.spacing; });
 }
 
 /// The triangles with coincident particles as one vertex.
