@@ -13,21 +13,6 @@ constexpr int MaximumLine = MaximumPolynomialDegree + 1;
 // The kernels write a jet as 40 doubles, a gradient as the first 16 of them.
 static_assert(sizeof(Jet) == 40 * sizeof(double));
 
-/// Values of the Bernstein polynomials of degree p on a line at t, by their recurrence over the degree.
-void lineBasis(int p, double t, double* basis)
-{
-  basis[0] = 1.0;
-  for (int n = 1; n <= p; ++n)
-  {
-    basis[n] = t * basis[n - 1];
-    for (int i = n - 1; i > 0; --i)
-    {
-      basis[i] = (1.0 - t) * basis[i] + t * basis[i - 1];
-    }
-    basis[0] *= 1.0 - t;
-  }
-}
-
 /// p! / (i! j! ... n!), where n is what the parts i, j, ... leave of p.
 double multinomial(int p, std::initializer_list<int> parts)
 {
@@ -54,6 +39,20 @@ double power(double base, int exponent)
 }
 
 } // namespace
+
+void lineBasis(int p, double t, double* basis)
+{
+  basis[0] = 1.0;
+  for (int n = 1; n <= p; ++n)
+  {
+    basis[n] = t * basis[n - 1];
+    for (int i = n - 1; i > 0; --i)
+    {
+      basis[i] = (1.0 - t) * basis[i] + t * basis[i - 1];
+    }
+    basis[0] *= 1.0 - t;
+  }
+}
 
 Jet evaluateGradient(const BernsteinForm& form, const ReferencePoint& u)
 {

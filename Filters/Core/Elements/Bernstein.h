@@ -87,4 +87,8 @@ struct Range
 /// too, because their weights are positive.
 Range fieldRange(const BernsteinForm& form);
 
+/// Values of the Bernstein polynomials of degree p on a line at t, by their recurrence over the degree.
+/// \param basis room for p + 1 values
+void lineBasis(int p, double t, double* basis);
+
 } // namespace hop

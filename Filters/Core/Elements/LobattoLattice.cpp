@@ -1,5 +1,6 @@
 #include "Elements/LobattoLattice.h"
 
+#include "Elements/Bernstein.h"
 #include "Elements/NodalBasis.h"
 #include "Kernel/InstructionSet.h"
 
@@ -77,22 +78,6 @@ LineMatrix fromLegendre(int n)
   return matrix;
 }
 
-/// Values of the Bernstein polynomials of a degree at t, by their recurrence over the degree.
-/// \param basis room for degree + 1 values
-void bernsteinAt(int degree, double t, double* basis)
-{
-  basis[0] = 1.0;
-  for (int n = 1; n <= degree; ++n)
-  {
-    basis[n] = t * basis[n - 1];
-    for (int i = n - 1; i > 0; --i)
-    {
-      basis[i] = (1.0 - t) * basis[i] + t * basis[i - 1];
-    }
-    basis[0] *= 1.0 - t;
-  }
-}
-
 } // namespace
 
 LineMatrix bernsteinValues(int degree, const std::vector<double>& points)
@@ -101,7 +86,7 @@ LineMatrix bernsteinValues(int degree, const std::vector<double>& points)
   double* row = matrix.entries.data();
   for (const double t : points)
   {
-    bernsteinAt(degree, t, row);
+    lineBasis(degree, t, row);
     row += matrix.columns;
   }
   return matrix;
@@ -114,7 +99,7 @@ LineMatrix bernsteinSlopes(int degree, const std::vector<double>& points)
   for (const double t : points)
   {
     // B'_i,p = p (B_i-1,p-1 - B_i,p-1), from the last one on, in place.
-    bernsteinAt(degree - 1, t, row);
+    lineBasis(degree - 1, t, row);
     row[degree] = degree * row[degree - 1];
     for (int i = degree - 1; i > 0; --i)
     {

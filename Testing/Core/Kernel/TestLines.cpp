@@ -29,7 +29,9 @@ std::vector<Coefficient> randomCoefficients(std::size_t count)
   return coefficients;
 }
 
-TEST_P(Lines, AreBisectedToTheBitsOfPlainCode)
+/// Calls use(lines, coefficients) for the lines along each edge of all elements.
+template <class Use>
+void forAllLines(const Use& use)
 {
   for (const ElementCase& which : allElementCases())
   {
@@ -37,8 +39,16 @@ TEST_P(Lines, AreBisectedToTheBitsOfPlainCode)
     for (const LatticePoint& direction : facts(which.domain).edgeDirections)
     {
       const LatticeLines lines(which.domain, which.degrees, direction);
-      std::vector<Coefficient> first =
-        randomCoefficients(coefficientCount(which.domain, which.degrees));
+      use(lines, randomCoefficients(coefficientCount(which.domain, which.degrees)));
+    }
+  }
+}
+
+TEST_P(Lines, AreBisectedToTheBitsOfPlainCode)
+{
+  forAllLines(
+    [](const LatticeLines& lines, std::vector<Coefficient> first)
+    {
       Buffer<Coefficient> firstOfKernel(first.begin(), first.end());
       std::vector<Coefficient> second;
       Buffer<Coefficient> secondOfKernel;
@@ -47,21 +57,15 @@ TEST_P(Lines, AreBisectedToTheBitsOfPlainCode)
       EXPECT_TRUE(std::equal(first.begin(), first.end(), firstOfKernel.begin()));
       ASSERT_EQ(secondOfKernel.size(), second.size());
       EXPECT_TRUE(std::equal(second.begin(), second.end(), secondOfKernel.begin()));
-    }
-  }
+    });
 }
 
 /// Several lines at a time, of which some have not all of the same length.
 TEST_P(Lines, OfNumbersAreBisectedToTheSameBits)
 {
-  for (const ElementCase& which : allElementCases())
-  {
-    SCOPED_TRACE(which);
-    for (const LatticePoint& direction : facts(which.domain).edgeDirections)
+  forAllLines(
+    [](const LatticeLines& lines, std::vector<Coefficient> first)
     {
-      const LatticeLines lines(which.domain, which.degrees, direction);
-      std::vector<Coefficient> first =
-        randomCoefficients(coefficientCount(which.domain, which.degrees));
       std::vector<double> numbers;
       for (const Coefficient& c : first)
       {
@@ -77,8 +81,7 @@ TEST_P(Lines, OfNumbersAreBisectedToTheSameBits)
         EXPECT_EQ(numbers[i], first[i].x);
         EXPECT_EQ(secondNumbers[i], second[i].x);
       }
-    }
-  }
+    });
 }
 
 TEST_P(Lines, BoundsAreThoseOfEachComponent)
