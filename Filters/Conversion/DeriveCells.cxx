@@ -324,7 +324,7 @@ Verdict Deriver::findBySamples(
 {
   const StandIn standIn = standInFor(this->Blocks.quantity(), source);
   SampledCell sampled{ source, standIn, rounding, std::move(cell),
-    FieldSampler(source, this->Function, rounding, standIn), found };
+    FieldSampler(source, this->Blocks.quantity(), this->Function, rounding, standIn), found };
   const int halvings = standIn == StandIn::Proof ? MostHalvingsOfParts : 0;
   return this->findInParts(this->Parts[static_cast<std::size_t>(source.domain)], halvings, sampled);
 }

@@ -78,6 +78,21 @@ LineMatrix fromLegendre(int n)
   return matrix;
 }
 
+/// Applies a matrix along one axis.
+/// \param row numbers of a point and of those beside it along the axes before this one
+std::vector<double> alongAxis(const LineMatrix& matrix, int row, const std::vector<double>& values)
+{
+  const std::size_t step = static_cast<std::size_t>(row) * matrix.columns;
+  const std::size_t blocks = values.size() / step;
+  std::vector<double> result(blocks * matrix.rows * row);
+  for (std::size_t block = 0; block < blocks; ++block)
+  {
+    kernel::current().matrix(matrix.entries.data(), matrix.rows, matrix.columns,
+      values.data() + block * step, row, result.data() + block * matrix.rows * row);
+  }
+  return result;
+}
+
 } // namespace
 
 LineMatrix bernsteinValues(int degree, const std::vector<double>& points)
@@ -114,25 +129,31 @@ LineMatrix bernsteinSlopes(int degree, const std::vector<double>& points)
 std::vector<double> alongAxes(
   const std::array<const LineMatrix*, 3>& matrices, const std::vector<double>& values)
 {
-  std::vector<double> from = values;
-  std::vector<double> to;
-  // Numbers of a point and of the points before it along the axes that are still to come are one row.
-  int blocks = 1;
-  for (int axis = 2; axis >= 0; --axis)
+  const int points = matrices[0]->columns * matrices[1]->columns * matrices[2]->columns;
+  int row = static_cast<int>(values.size()) / points;
+  const std::vector<double>* from = &values;
+  std::vector<double> result;
+  for (const LineMatrix* matrix : matrices)
   {
-    const LineMatrix& matrix = *matrices[axis];
-    const int row = static_cast<int>(from.size()) / (blocks * matrix.columns);
-    to.resize(static_cast<std::size_t>(blocks) * matrix.rows * row);
-    for (int block = 0; block < blocks; ++block)
-    {
-      kernel::current().matrix(matrix.entries.data(), matrix.rows, matrix.columns,
-        from.data() + static_cast<std::ptrdiff_t>(block) * matrix.columns * row, row,
-        to.data() + static_cast<std::ptrdiff_t>(block) * matrix.rows * row);
-    }
-    blocks *= matrix.rows;
-    from.swap(to);
+    result = alongAxis(*matrix, row, *from);
+    from = &result;
+    row *= matrix->rows;
   }
-  return from;
+  return result;
+}
+
+std::array<std::vector<double>, 4> gradientsAlongAxes(const std::array<LineMatrix, 3>& values,
+  const std::array<LineMatrix, 3>& slopes, const std::vector<double>& numbers)
+{
+  const int line = values[0].rows;
+  const int plane = line * values[1].rows;
+  const std::vector<double> value = alongAxis(values[0], 1, numbers);
+  const std::vector<double> slope = alongAxis(slopes[0], 1, numbers);
+  const std::vector<double> valueOfPlane = alongAxis(values[1], line, value);
+  return { alongAxis(values[2], plane, valueOfPlane),
+    alongAxis(values[2], plane, alongAxis(values[1], line, slope)),
+    alongAxis(values[2], plane, alongAxis(slopes[1], line, value)),
+    alongAxis(slopes[2], plane, valueOfPlane) };
 }
 
 LobattoLattice::LobattoLattice(int degree)

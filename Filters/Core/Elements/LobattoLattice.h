@@ -28,6 +28,11 @@ LineMatrix bernsteinSlopes(int degree, const std::vector<double>& points);
 std::vector<double> alongAxes(
   const std::array<const LineMatrix*, 3>& matrices, const std::vector<double>& values);
 
+/// Values and derivatives along the three axes, each as alongAxes() would give them.
+/// \param numbers of one component after the other, each in the order of coefficientIndex; so are the results
+std::array<std::vector<double>, 4> gradientsAlongAxes(const std::array<LineMatrix, 3>& values,
+  const std::array<LineMatrix, 3>& slopes, const std::vector<double>& numbers);
+
 /// The lattice of the Gauss-Lobatto-Legendre points of a cube, and the polynomial that has given values there.
 class LobattoLattice
 {

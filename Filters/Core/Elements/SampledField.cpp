@@ -4,7 +4,7 @@
 #include "Elements/LatticeRows.h"
 #include "Elements/LobattoLattice.h"
 #include "Elements/NodalBasis.h"
-#include "Elements/SymmetricEigenvalues.h"
+#include "Kernel/InstructionSet.h"
 
 #include <glm/glm.hpp>
 
@@ -193,12 +193,19 @@ double qCriterion(const std::vector<glm::dvec3>& g)
     g[1].z * g[2].y - g[2].x * g[0].z;
 }
 
-/// The middle eigenvalue of S^2 + W^2 = (G G + (G G)^T) / 2, with G = S + W.
 double lambda2(const std::vector<glm::dvec3>& g)
 {
-  const glm::dmat3 transposed(g[0], g[1], g[2]); // columns of GLM are rows of G
-  const glm::dmat3 square = transposed * transposed;
-  return middleEigenvalue(0.5 * (square + glm::transpose(square)));
+  // A map that is the identity.
+  const glm::dmat3 unit(1.0);
+  kernel::GradientRows rows{};
+  for (int n = 0; n < 9; ++n)
+  {
+    rows.x[n] = &unit[n / 3][n % 3];
+    rows.u[n] = &g[n / 3][n % 3];
+  }
+  double result = 0.0;
+  kernel::current().lambdaTwo(rows, 1, &result);
+  return result;
 }
 
 double sumOfSquares(const std::vector<glm::dvec3>& g)
@@ -235,8 +242,27 @@ std::vector<Coefficient> coefficientsOf(
   return coefficients;
 }
 
+/// Lambda 2 of the three components after x, y and z.
+/// \param rowOf as in FieldSampler::samplesOf()
+template <class RowOf>
+std::vector<double> lambda2At(std::size_t count, const RowOf& rowOf)
+{
+  kernel::GradientRows rows{};
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      rows.x[3 * i + axis] = rowOf(quantity::first + axis, i);
+      rows.u[3 * i + axis] = rowOf(quantity::first + axis, 3 + i);
+    }
+  }
+  std::vector<double> lambda(count);
+  kernel::current().lambdaTwo(rows, static_cast<std::ptrdiff_t>(count), lambda.data());
+  return lambda;
+}
+
 /// Values of an element's field at the nodes of a lattice.
-std::vector<double> fieldAt(const SamplingLattice& lattice, const BernsteinForm& form)
+std::vector<double> polynomialAt(const SamplingLattice& lattice, const BernsteinForm& form)
 {
   const int count = coefficientCount(form.domain, form.degrees);
   std::vector<double> field;
@@ -259,6 +285,12 @@ std::vector<double> fieldAt(const SamplingLattice& lattice, const BernsteinForm&
 bool isFinite(const glm::dvec3& v)
 {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+bool isFinite(const std::vector<double>& numbers)
+{
+  return std::all_of(
+    numbers.begin(), numbers.end(), [](double number) { return std::isfinite(number); });
 }
 
 bool isFinite(const std::vector<Coefficient>& samples)
@@ -403,9 +435,10 @@ FieldFunction functionOf(Quantity quantity)
   return {};
 }
 
-FieldSampler::FieldSampler(
-  const SourceElement& source, const FieldFunction& function, double noise, StandIn standIn)
+FieldSampler::FieldSampler(const SourceElement& source, Quantity quantity,
+  const FieldFunction& function, double noise, StandIn standIn)
   : Source(source)
+  , ItsQuantity(quantity)
   , Function(function)
   , Noise(noise)
   , ItsStandIn(standIn)
@@ -421,6 +454,13 @@ FieldSampler::FieldSampler(
       {
         group[i][c - first] = source.control[i * source.width + c];
       }
+    }
+  }
+  for (int c = 0; c < source.width; ++c)
+  {
+    for (std::size_t i = 0; i < rows; ++i)
+    {
+      this->Components.push_back(source.control[i * source.width + c]);
     }
   }
 }
@@ -442,8 +482,8 @@ FieldSampler::Samples FieldSampler::valuesAt(
                         this->Source.isRational ? this->Source.weights.data() : nullptr },
       inWhole.data(), static_cast<int>(inWhole.size()), jets[g]);
   }
-  return this->samplesOf(points.size(),
-    [&](int quantity, int c, std::size_t n) { return jets[c / 4].row(quantity, c % 4)[n]; });
+  return this->samplesOf(
+    points.size(), [&](int quantity, int c) { return jets[c / 4].row(quantity, c % 4); });
 }
 
 /// The same at the nodes of a lattice: axis by axis where it has the axes of the whole.
@@ -462,35 +502,54 @@ FieldSampler::Samples FieldSampler::valuesAt(
     values[axis] = bernsteinValues(this->Source.degrees[axis], line);
     slopes[axis] = bernsteinSlopes(this->Source.degrees[axis], line);
   }
-  std::array<std::vector<double>, quantity::countOfGradients> rows;
-  for (int q = 0; q < quantity::countOfGradients; ++q)
-  {
-    const auto matrix = [&](int axis)
-    { return q == quantity::first + axis ? &slopes[axis] : &values[axis]; };
-    rows[q] = alongAxes({ matrix(0), matrix(1), matrix(2) }, this->Source.control);
-  }
-  return this->samplesOf(lattice.nodes.size(),
-    [&](int quantity, int c, std::size_t n) { return rows[quantity][n * this->Source.width + c]; });
+  const std::array<std::vector<double>, quantity::countOfGradients> rows =
+    gradientsAlongAxes(values, slopes, this->Components);
+  const std::size_t count = lattice.nodes.size();
+  return this->samplesOf(count, [&](int quantity, int c) { return &rows[quantity][c * count]; });
 }
 
-/// \param number of a quantity of a jet, a component of the source and a point
-template <class Number>
-FieldSampler::Samples FieldSampler::samplesOf(std::size_t count, const Number& number)
+/// \param rowOf a quantity of a jet and a component of the source: a number a point
+template <class RowOf>
+FieldSampler::Samples FieldSampler::samplesOf(std::size_t count, const RowOf& rowOf)
+{
+  std::vector<double> field;
+  if (this->ItsQuantity == Quantity::Lambda2)
+  {
+    field = lambda2At(count, rowOf);
+  }
+  if (field.empty() || !isFinite(field))
+  {
+    field = this->fieldAt(count, rowOf);
+  }
+  Samples samples;
+  samples.reserve(count);
+  for (std::size_t n = 0; n < count; ++n)
+  {
+    const auto valueOf = [&](int c) { return rowOf(quantity::value, c)[n]; };
+    samples.emplace_back(valueOf(0), valueOf(1), valueOf(2), field[n]);
+  }
+  return samples;
+}
+
+/// Point by point.
+/// \param rowOf as in samplesOf()
+template <class RowOf>
+std::vector<double> FieldSampler::fieldAt(std::size_t count, const RowOf& rowOf)
 {
   const int components = this->Source.width - 3;
   FieldPoint at;
   at.values.resize(components);
   at.gradients.resize(components);
-  Samples samples;
-  samples.reserve(count);
+  std::vector<double> field;
+  field.reserve(count);
   for (std::size_t n = 0; n < count; ++n)
   {
     const auto threeOf = [&](int c)
     {
-      return glm::dvec3(number(quantity::first, c, n), number(quantity::first + 1, c, n),
-        number(quantity::first + 2, c, n));
+      return glm::dvec3(rowOf(quantity::first, c)[n], rowOf(quantity::first + 1, c)[n],
+        rowOf(quantity::first + 2, c)[n]);
     };
-    const auto valueOf = [&](int c) { return number(quantity::value, c, n); };
+    const auto valueOf = [&](int c) { return rowOf(quantity::value, c)[n]; };
     const glm::dmat3 inverse = glm::inverse(glm::dmat3(threeOf(0), threeOf(1), threeOf(2)));
     at.x = { valueOf(0), valueOf(1), valueOf(2) };
     for (int c = 0; c < components; ++c)
@@ -499,9 +558,9 @@ FieldSampler::Samples FieldSampler::samplesOf(std::size_t count, const Number& n
       at.gradients[c] = inverse * threeOf(3 + c); // J^-T, as columns here are rows of J
       this->AreDerivativesFinite = this->AreDerivativesFinite && isFinite(at.gradients[c]);
     }
-    samples.emplace_back(at.x, this->Function(at));
+    field.push_back(this->Function(at));
   }
-  return samples;
+  return field;
 }
 
 /// \param checks the field at spreadPoints()
@@ -592,7 +651,7 @@ bool FieldSampler::losesComponents(const SampledPart& sampled, int degree, doubl
 {
   const SamplingLattice& lattice = latticeOf(this->Source.domain, degree);
   const std::vector<double> polynomial =
-    fieldAt(lattice, formOf(this->Source.domain, sampled.element));
+    polynomialAt(lattice, formOf(this->Source.domain, sampled.element));
   std::vector<char> isAbove(lattice.nodes.size());
   std::vector<char> isKept(lattice.nodes.size());
   for (std::size_t n = 0; n < lattice.nodes.size(); ++n)

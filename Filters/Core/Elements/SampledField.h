@@ -50,10 +50,11 @@ struct SamplingLattice;
 class FieldSampler
 {
 public:
+  /// \param function of the quantity
   /// \param noise values of the field that differ less cannot be told apart
   /// \pre all arguments outlive the sampler
-  FieldSampler(const SourceElement& source, const FieldFunction& function, double noise,
-    StandIn standIn = StandIn::Surface);
+  FieldSampler(const SourceElement& source, Quantity quantity, const FieldFunction& function,
+    double noise, StandIn standIn = StandIn::Surface);
 
   /// Parts that cannot hold surface are left as they are at a low degree.
   /// \param canHoldSurface whether the field has an isovalue in a range
@@ -67,19 +68,24 @@ private:
 
   Samples valuesAt(const ReferencePart& part, const std::vector<ReferencePoint>& points);
   Samples valuesAt(const ReferencePart& part, const SamplingLattice& lattice);
-  template <class Number>
-  Samples samplesOf(std::size_t count, const Number& number);
+  template <class RowOf>
+  Samples samplesOf(std::size_t count, const RowOf& rowOf);
+  template <class RowOf>
+  std::vector<double> fieldAt(std::size_t count, const RowOf& rowOf);
   SampledPart interpolated(const ReferencePart& part, int degree, const Samples& checks);
   bool losesComponents(const SampledPart& sampled, int degree, double isovalue) const;
   void judge(SampledPart& sampled, const Samples& checks) const;
   double toleranceOf(const Samples& checks) const;
 
   const SourceElement& Source;
+  Quantity ItsQuantity;
   const FieldFunction& Function;
   double Noise;
   StandIn ItsStandIn;
   /// Four components of the source each: x, y, z, u_0; u_1, ...
   std::vector<std::vector<Coefficient>> Groups;
+  /// The control values of one component after the other.
+  std::vector<double> Components;
   /// Whether they are finite wherever valuesAt() has been asked.
   bool AreDerivativesFinite = true;
   /// Of the last call of interpolated(), at the nodes of its lattice.

@@ -202,6 +202,18 @@ using RowProductsFunction = void (*)(
 using MatrixFunction = void (*)(const double* matrix, int rows, int columns, const double* values,
   std::ptrdiff_t width, double* result);
 
+/// Derivatives of the map and of a vector within an element, of component i along axis a in row 3 i + a: a number a point.
+struct GradientRows
+{
+  const double* x[9];
+  const double* u[9];
+};
+
+/// Lambda 2 of the vector at each point: the middle eigenvalue of the symmetric part of G G, G its gradient in world
+/// space. Where two eigenvalues are equal its error is 1e-8 of the largest one, else a few roundings. Not finite where
+/// the map is singular.
+using LambdaTwoFunction = void (*)(const GradientRows& rows, std::ptrdiff_t count, double* result);
+
 struct Kernels
 {
   DomainKernels hexahedron;
@@ -216,6 +228,7 @@ struct Kernels
   HiddenFunction hidden;
   RowProductsFunction rowProducts;
   MatrixFunction matrix;
+  LambdaTwoFunction lambdaTwo;
 };
 
 Kernels baselineKernels();

@@ -2,6 +2,7 @@
 
 #include "Kernel/Hidden.h"
 #include "Kernel/Jets.h"
+#include "Kernel/LambdaTwo.h"
 #include "Kernel/Lines.h"
 #include "Kernel/MatrixRows.h"
 #include "Kernel/Near.h"
@@ -172,7 +173,7 @@ constexpr Kernels makeKernels()
     makeDomainKernels<Wedge, PointLanes, ComponentLanes>(), sweepBlocks, findNear<PointLanes>,
     measurePlaneCell<PointLanes>, bisectLines<ComponentLanes>, bisectNumbers<PointLanes>,
     boundComponents<ComponentLanes>, findHidden<PointLanes>, addRowProducts<PointLanes>,
-    multiplyMatrix<ComponentLanes> };
+    multiplyMatrix<PointLanes>, lambdaTwoOf<PointLanes> };
 }
 
 } // namespace

@@ -30,18 +30,19 @@ inline void multiplyColumns(
   }
 }
 
+/// \tparam Lanes columns of values at a time; of those that are left fewer
 template <int Lanes, int Rows>
-inline void multiplyRows(
-  const double* matrix, int columns, const double* values, std::ptrdiff_t width, double* result)
+inline void multiplyRows(const double* matrix, int columns, const double* values,
+  std::ptrdiff_t width, double* result, std::ptrdiff_t first = 0)
 {
-  std::ptrdiff_t c = 0;
-  for (; c + Lanes <= width; c += Lanes)
+  for (; first + Lanes <= width; first += Lanes)
   {
-    multiplyColumns<Vector<double, Lanes>, Rows>(matrix, columns, values + c, width, result + c);
+    multiplyColumns<Vector<double, Lanes>, Rows>(
+      matrix, columns, values + first, width, result + first);
   }
-  for (; c < width; ++c)
+  if constexpr (Lanes > 1)
   {
-    multiplyColumns<double, Rows>(matrix, columns, values + c, width, result + c);
+    multiplyRows<Lanes / 2, Rows>(matrix, columns, values, width, result, first);
   }
 }
 

@@ -10,6 +10,7 @@
 //   a >> n                    shift of integers
 //   least, greatest           the first or the second operand, as `<` or `>` says
 //   select(m, a, b)           a where m is -1, b where it is 0; m comes from a comparison
+//   squareRoot(a)             of doubles
 //   shuffle<i...>(a, b)       lanes of a followed by those of b, by number
 //
 // Whatever is made of vectors is local to the file that includes it (namespaces without a name), so that each
@@ -21,6 +22,7 @@
 #include "Kernel/SimdPortable.h"
 #endif
 
+#include <cmath>
 #include <cstring>
 
 namespace hop::kernel
@@ -82,6 +84,22 @@ template <class V, class Number>
 inline void store(V value, Number* to)
 {
   std::memcpy(to, &value, sizeof(value));
+}
+
+inline double squareRoot(double a)
+{
+  return std::sqrt(a);
+}
+
+template <class V>
+inline V squareRoot(V a)
+{
+  constexpr int count = sizeof(V) / sizeof(double);
+  for (int i = 0; i < count; ++i)
+  {
+    a[i] = std::sqrt(a[i]);
+  }
+  return a;
 }
 
 } // namespace

@@ -57,6 +57,44 @@ TEST(LobattoLattice, EvaluatesAxisByAxis)
   }
 }
 
+/// Gradients of several components, one after the other, are those of each axis by axis.
+TEST(LobattoLattice, SharesTheWayToGradients)
+{
+  Random random(3);
+  const Degrees degrees{ 2, 4, 3 };
+  const int count = coefficientCount(Domain::Hexahedron, degrees);
+  std::vector<double> numbers(5 * count);
+  for (double& number : numbers)
+  {
+    number = randomNumber(random);
+  }
+  const LobattoLattice lattice(6);
+  const int points = 7 * 7 * 7;
+  std::array<LineMatrix, 3> values;
+  std::array<LineMatrix, 3> slopes;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    values[axis] = bernsteinValues(degrees[axis], lattice.line());
+    slopes[axis] = bernsteinSlopes(degrees[axis], lattice.line());
+  }
+  const auto gradients = gradientsAlongAxes(values, slopes, numbers);
+  for (int quantity = 0; quantity < quantity::countOfGradients; ++quantity)
+  {
+    ASSERT_EQ(gradients[quantity].size(), 5u * points);
+    const auto matrix = [&](int axis)
+    { return quantity == quantity::first + axis ? &slopes[axis] : &values[axis]; };
+    for (int c = 0; c < 5; ++c)
+    {
+      const std::vector<double> expected = alongAxes({ matrix(0), matrix(1), matrix(2) },
+        { numbers.begin() + c * count, numbers.begin() + (c + 1) * count });
+      for (int n = 0; n < points; ++n)
+      {
+        EXPECT_NEAR(gradients[quantity][c * points + n], expected[n], 1e-13);
+      }
+    }
+  }
+}
+
 /// In doubles, as well as the other way does in extended precision.
 TEST(LobattoLattice, HoldsSmoothFieldsOfAllDegrees)
 {

@@ -55,7 +55,7 @@ void expectAgreement(const Bent& bent, Quantity quantity, int halvings, Random& 
 {
   const FieldFunction function = functionOf(quantity);
   const SourceElement source = bent.source();
-  FieldSampler sampler(source, function, 0.0);
+  FieldSampler sampler(source, quantity, function, 0.0);
   for (const ReferencePart& part : partsOf(bent.element.domain, halvings))
   {
     const SampledPart sampled = sampler.sample(part, everything);
@@ -106,11 +106,13 @@ TEST(SampledField, TellsOfWhatItCannotHold)
   const Bent bent({ Domain::Hexahedron, { 2, 2, 2 } }, true, random);
   const FieldFunction folded = [](const FieldPoint& at) { return std::abs(at.x.x - 0.3); };
   const SourceElement source = bent.source();
-  const SampledPart sampled = FieldSampler(source, folded, 0.0).sample({}, everything);
+  const SampledPart sampled =
+    FieldSampler(source, Quantity::Expression, folded, 0.0).sample({}, everything);
   EXPECT_FALSE(sampled.isResolved);
   EXPECT_GT(sampled.error, 1e-4);
   const FieldFunction infinite = [](const FieldPoint& at) { return std::log(at.x.x - 0.3); };
-  EXPECT_EQ(FieldSampler(source, infinite, 0.0).sample({}, everything).element.state,
+  EXPECT_EQ(
+    FieldSampler(source, Quantity::Expression, infinite, 0.0).sample({}, everything).element.state,
     DerivedElement::State::NotFinite);
 }
 
@@ -126,11 +128,12 @@ TEST(SampledField, GivesUpHigherDegreesOfProofsBesideACrease)
     ++points;
     return std::abs(at.x.x - 0.3);
   };
-  const SampledPart best = FieldSampler(source, folded, 0.0).sample({}, everything);
+  const SampledPart best =
+    FieldSampler(source, Quantity::Expression, folded, 0.0).sample({}, everything);
   const int ofBest = points;
   points = 0;
   const SampledPart proof =
-    FieldSampler(source, folded, 0.0, StandIn::Proof).sample({}, everything);
+    FieldSampler(source, Quantity::Expression, folded, 0.0, StandIn::Proof).sample({}, everything);
   EXPECT_FALSE(proof.isResolved);
   EXPECT_LT(6 * points, ofBest);
   EXPECT_LT(proof.error, 4.0 * best.error);
@@ -145,7 +148,7 @@ TEST(SampledField, HoldsSmoothFieldsOfProofs)
   const FieldFunction smooth = [](const FieldPoint& at)
   { return std::sin(2.0 * at.x.x) * std::exp(at.x.y * at.x.z); };
   const SampledPart sampled =
-    FieldSampler(source, smooth, 0.0, StandIn::Proof).sample({}, everything);
+    FieldSampler(source, Quantity::Expression, smooth, 0.0, StandIn::Proof).sample({}, everything);
   EXPECT_TRUE(sampled.isResolved);
 }
 
@@ -163,34 +166,13 @@ TEST(SampledField, TellsOfComponentsThatItLoses)
     const glm::dvec3 middle = bent.at({ node }).x;
     const FieldFunction ball = [&](const FieldPoint& at)
     { return std::max(0.02 - glm::distance(at.x, middle), -0.3 - std::abs(at.x.y - 0.3)); };
-    FieldSampler sampler(source, ball, 0.0, StandIn::Proof);
+    FieldSampler sampler(source, Quantity::Expression, ball, 0.0, StandIn::Proof);
     const SampledPart inBall = sampler.sample({}, everything, { 0.0 });
     EXPECT_FALSE(inBall.isResolved);
     EXPECT_TRUE(inBall.losesComponents);
     EXPECT_FALSE(sampler.sample({}, everything, { 0.1 }).losesComponents);
     EXPECT_FALSE(sampler.sample({}, everything).losesComponents);
   }
-}
-
-TEST(SymmetricEigenvalues, FindsTheMiddleOne)
-{
-  Random random(24);
-  for (int n = 0; n < 200; ++n)
-  {
-    glm::dvec3 values(randomNumber(random), randomNumber(random), randomNumber(random));
-    values.y = n % 3 == 0 ? values.x : values.y; // a double one
-    const glm::dvec3 a =
-      glm::normalize(glm::dvec3(randomNumber(random), randomNumber(random), randomNumber(random)));
-    const glm::dvec3 b = glm::normalize(glm::cross(a, glm::dvec3(0.3, 0.5, 0.8)));
-    const glm::dmat3 q(a, b, glm::cross(a, b));
-    const glm::dmat3 d(glm::dvec3(values.x, 0.0, 0.0), glm::dvec3(0.0, values.y, 0.0),
-      glm::dvec3(0.0, 0.0, values.z));
-    const double middle =
-      std::max(std::min(values.x, values.y), std::min(std::max(values.x, values.y), values.z));
-    EXPECT_NEAR(middleEigenvalue(q * d * glm::transpose(q)), middle, n % 3 == 0 ? 1e-7 : 1e-9);
-  }
-  EXPECT_EQ(middleEigenvalue(glm::dmat3(0.0)), 0.0);
-  EXPECT_EQ(middleEigenvalue(glm::dmat3(2.0)), 2.0);
 }
 
 /// In a vortex u = (-y, x, 0), S = 0 and W^2 = diag(-1, -1, 0): the middle eigenvalue is -1.
