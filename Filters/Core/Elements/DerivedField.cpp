@@ -1,6 +1,7 @@
 #include "Elements/DerivedField.h"
 
 #include "Elements/LatticeRows.h"
+#include "Elements/LowerDegrees.h"
 
 #include <glm/glm.hpp>
 

@@ -1,21 +1,13 @@
 #include "Elements/SampledField.h"
 
 #include "Elements/BatchEvaluator.h"
-#include "Elements/LatticeRows.h"
-#include "Elements/LobattoLattice.h"
-#include "Elements/NodalBasis.h"
+#include "Elements/SamplingLattice.h"
 #include "Kernel/InstructionSet.h"
 
 #include <glm/glm.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
-#include <memory>
-#include <mutex>
-#include <numeric>
-#include <optional>
 #include <utility>
 
 namespace hop
@@ -38,8 +30,6 @@ struct Sampling
   /// How much larger an error may be for a lower degree, where none holds the field. Larger: rounder surfaces that are
   /// farther off; smaller: ripples, and many particles on them.
   static constexpr double Ripples = 3.0;
-  /// Fewer see errors too small; each costs as much as a node.
-  static constexpr int CheckPoints = 60;
   /// Degrees from the lowest to the highest that is tried, in steps. Lower: parts of straight cells with a linear field
   /// take more coefficients than they need. Higher: coefficients are ever larger than the values (2^30 times at degree
   /// 10, by NodalBasis::conversionNorm), and an evaluation costs as much as one of several parts.
@@ -54,62 +44,6 @@ struct Sampling
 int highestDegree(Domain domain)
 {
   return domain == Domain::Hexahedron ? 14 : 10;
-}
-
-} // namespace
-
-/// Where a field is sampled for a polynomial, and how that follows.
-struct SamplingLattice
-{
-  SamplingLattice(Domain domain, int degree);
-
-  /// Gauss-Lobatto-Legendre points in cubes, else equispaced ones.
-  std::vector<ReferencePoint> nodes;
-  Degrees degrees;
-  /// In cubes.
-  std::optional<LobattoLattice> ofCube;
-  /// Else.
-  std::optional<NodalBasis> basis;
-};
-
-SamplingLattice::SamplingLattice(Domain domain, int degree)
-  : degrees{ degree, degree, degree }
-{
-  const std::vector<LatticePoint> points = latticePoints(domain, this->degrees);
-  if (domain == Domain::Hexahedron)
-  {
-    this->ofCube.emplace(degree);
-  }
-  else
-  {
-    this->basis = NodalBasis::lagrange(domain, this->degrees, points);
-  }
-  for (const LatticePoint& point : points)
-  {
-    this->nodes.push_back(latticePosition(this->degrees, point));
-    if (this->ofCube)
-    {
-      const std::vector<double>& line = this->ofCube->line();
-      this->nodes.back() = { { line[point.i], line[point.j], line[point.k] } };
-    }
-  }
-}
-
-namespace
-{
-
-/// Made at the first request and kept.
-const SamplingLattice& latticeOf(Domain domain, int degree)
-{
-  static std::mutex mutex;
-  static std::map<std::pair<Domain, int>, std::unique_ptr<const SamplingLattice>> known;
-  const std::lock_guard<std::mutex> lock(mutex);
-  std::unique_ptr<const SamplingLattice>& lattice = known[{ domain, degree }];
-  if (!lattice)
-  {
-    lattice = std::make_unique<const SamplingLattice>(domain, degree);
-  }
-  return *lattice;
 }
 
 /// Where a part of a cube whose axes are those of the cube has the points of a line along an axis.
@@ -130,55 +64,6 @@ bool hasAxesOfCube(const ReferencePart& part)
   const glm::dmat3& axes = part.axes;
   return axes[0][1] == 0.0 && axes[0][2] == 0.0 && axes[1][0] == 0.0 && axes[1][2] == 0.0 &&
     axes[2][0] == 0.0 && axes[2][1] == 0.0;
-}
-
-/// The n-th number of the van der Corput sequence, in [0, 1].
-double vanDerCorput(int n, int base)
-{
-  double result = 0.0;
-  double digit = 1.0;
-  for (; n > 0; n /= base)
-  {
-    digit /= base;
-    result += digit * (n % base);
-  }
-  return result;
-}
-
-/// Points spread evenly over a domain, some of them on its faces (Halton 1960; on simplices by differences of sorted
-/// numbers).
-std::vector<ReferencePoint> spreadPoints(Domain domain, int count)
-{
-  std::vector<ReferencePoint> points;
-  for (int n = 1; n <= count; ++n)
-  {
-    std::array<double, 3> u{};
-    for (int a = 0; a < 3; ++a)
-    {
-      constexpr std::array<int, 3> bases{ 2, 3, 5 };
-      u[a] = std::clamp(1.1 * vanDerCorput(n, bases[a]) - 0.05, 0.0, 1.0);
-    }
-    for (const SimplexFactor& factor : facts(domain).factors)
-    {
-      std::sort(u.begin() + factor.axis, u.begin() + factor.end());
-      for (int a = factor.end() - 1; a > factor.axis; --a)
-      {
-        u[a] -= u[a - 1];
-      }
-    }
-    points.push_back({ { u[0], u[1], u[2] } });
-  }
-  return points;
-}
-
-/// Where polynomials are compared with fields.
-const std::vector<ReferencePoint>& checkPointsOf(Domain domain)
-{
-  static const std::array<std::vector<ReferencePoint>, 3> points{ spreadPoints(Domain::Hexahedron,
-                                                                    Sampling::CheckPoints),
-    spreadPoints(Domain::Tetrahedron, Sampling::CheckPoints),
-    spreadPoints(Domain::Wedge, Sampling::CheckPoints) };
-  return points[static_cast<std::size_t>(domain)];
 }
 
 double lengthOfCurl2(const std::vector<glm::dvec3>& g)
@@ -223,25 +108,6 @@ BernsteinForm formOf(Domain domain, const DerivedElement& element)
   return { domain, element.degrees, element.coefficients.data(), nullptr };
 }
 
-std::vector<Coefficient> coefficientsOf(
-  const SamplingLattice& lattice, const std::vector<Coefficient>& nodal)
-{
-  static_assert(sizeof(Coefficient) == 4 * sizeof(double), "rows of numbers are converted");
-  std::vector<Coefficient> coefficients(nodal.size());
-  if (lattice.ofCube)
-  {
-    const double* numbers = &nodal[0].x;
-    const std::vector<double> converted =
-      lattice.ofCube->toBernstein({ numbers, numbers + 4 * nodal.size() });
-    std::copy(converted.begin(), converted.end(), &coefficients[0].x);
-  }
-  else
-  {
-    lattice.basis->toBernstein(&nodal[0].x, 4, &coefficients[0].x);
-  }
-  return coefficients;
-}
-
 /// Lambda 2 of the three components after x, y and z.
 /// \param rowOf as in FieldSampler::samplesOf()
 template <class RowOf>
@@ -259,27 +125,6 @@ std::vector<double> lambda2At(std::size_t count, const RowOf& rowOf)
   std::vector<double> lambda(count);
   kernel::current().lambdaTwo(rows, static_cast<std::ptrdiff_t>(count), lambda.data());
   return lambda;
-}
-
-/// Values of an element's field at the nodes of a lattice.
-std::vector<double> polynomialAt(const SamplingLattice& lattice, const BernsteinForm& form)
-{
-  const int count = coefficientCount(form.domain, form.degrees);
-  std::vector<double> field;
-  if (lattice.ofCube)
-  {
-    for (int i = 0; i < count; ++i)
-    {
-      field.push_back(form.coefficients[i].w);
-    }
-    const LineMatrix values = bernsteinValues(form.degrees[0], lattice.ofCube->line());
-    return alongAxes({ &values, &values, &values }, field);
-  }
-  JetBatch jets;
-  evaluateGradients(form, lattice.nodes.data(), static_cast<int>(lattice.nodes.size()), jets);
-  const double* row = jets.row(quantity::value, 3);
-  field.assign(row, row + lattice.nodes.size());
-  return field;
 }
 
 bool isFinite(const glm::dvec3& v)
@@ -351,64 +196,6 @@ bool isHopeless(const std::vector<SampledPart>& tried, int stepsLeft, double tol
     }
   }
   return true;
-}
-
-/// A lattice's domain and degrees.
-struct LatticeKind
-{
-  Domain domain;
-  Degrees degrees;
-};
-
-/// Whether among the sets of points that hang together along the lattice's edges and are of one side there is one without
-/// a mark.
-/// \param side, mark of each point, in storage order
-bool hasSetWithoutMark(
-  const LatticeKind& lattice, const std::vector<char>& side, const std::vector<char>& mark)
-{
-  std::vector<int> setOf(side.size());
-  std::iota(setOf.begin(), setOf.end(), 0);
-  const auto rootOf = [&](int n)
-  {
-    while (setOf[n] != n)
-    {
-      n = setOf[n] = setOf[setOf[n]];
-    }
-    return n;
-  };
-  int n = 0;
-  visitLatticePoints(lattice.domain, lattice.degrees,
-    [&](const LatticePoint& point)
-    {
-      for (const LatticePoint& edge : facts(lattice.domain).edgeDirections)
-      {
-        const LatticePoint next{ point.i + edge.i, point.j + edge.j, point.k + edge.k };
-        if (!inLattice(lattice.domain, lattice.degrees, next))
-        {
-          continue;
-        }
-        const int other = coefficientIndex(lattice.domain, lattice.degrees, next);
-        if (side[other] == side[n])
-        {
-          setOf[rootOf(other)] = rootOf(n);
-        }
-      }
-      ++n;
-    });
-  std::vector<char> isMarked(side.size(), 0);
-  for (n = 0; n < static_cast<int>(side.size()); ++n)
-  {
-    char& ofSet = isMarked[rootOf(n)];
-    ofSet = static_cast<char>(ofSet != 0 || mark[n] != 0);
-  }
-  for (n = 0; n < static_cast<int>(side.size()); ++n)
-  {
-    if (isMarked[rootOf(n)] == 0)
-    {
-      return true;
-    }
-  }
-  return false;
 }
 
 } // namespace
@@ -563,10 +350,10 @@ std::vector<double> FieldSampler::fieldAt(std::size_t count, const RowOf& rowOf)
   return field;
 }
 
-/// \param checks the field at spreadPoints()
+/// \param checks the field at checkPoints()
 SampledPart FieldSampler::interpolated(const ReferencePart& part, int degree, const Samples& checks)
 {
-  const SamplingLattice& lattice = latticeOf(this->Source.domain, degree);
+  const SamplingLattice& lattice = samplingLattice(this->Source.domain, degree);
   this->Nodal = this->valuesAt(part, lattice);
   const Samples& nodal = this->Nodal;
   SampledPart result;
@@ -579,16 +366,16 @@ SampledPart FieldSampler::interpolated(const ReferencePart& part, int degree, co
   DerivedElement& element = result.element;
   element.state = DerivedElement::State::Sound;
   element.degrees = lattice.degrees;
-  element.coefficients = coefficientsOf(lattice, nodal);
+  element.coefficients = coefficientsFrom(lattice, nodal);
   this->judge(result, checks);
   return result;
 }
 
-/// Compares the polynomial with the field at spreadPoints().
+/// Compares the polynomial with the field at checkPoints().
 void FieldSampler::judge(SampledPart& sampled, const Samples& checks) const
 {
   const BernsteinForm form = formOf(this->Source.domain, sampled.element);
-  const std::vector<ReferencePoint>& points = checkPointsOf(this->Source.domain);
+  const std::vector<ReferencePoint>& points = checkPoints(this->Source.domain);
   JetBatch jets;
   evaluateGradients(form, points.data(), static_cast<int>(points.size()), jets);
   double ofGeometry = 0.0;
@@ -613,7 +400,7 @@ double FieldSampler::toleranceOf(const Samples& checks) const
 SampledPart FieldSampler::sample(const ReferencePart& part,
   const std::function<bool(const Range&)>& canHoldSurface, const std::vector<double>& isovalues)
 {
-  const Samples checks = this->valuesAt(part, checkPointsOf(this->Source.domain));
+  const Samples checks = this->valuesAt(part, checkPoints(this->Source.domain));
   const int highest = highestDegree(this->Source.domain);
   std::vector<SampledPart> tried;
   for (int degree = this->FirstDegree;; degree += Sampling::DegreeStep)
@@ -649,9 +436,9 @@ SampledPart FieldSampler::sample(const ReferencePart& part,
 /// \param degree of the last lattice, whose nodes are compared
 bool FieldSampler::losesComponents(const SampledPart& sampled, int degree, double isovalue) const
 {
-  const SamplingLattice& lattice = latticeOf(this->Source.domain, degree);
+  const SamplingLattice& lattice = samplingLattice(this->Source.domain, degree);
   const std::vector<double> polynomial =
-    polynomialAt(lattice, formOf(this->Source.domain, sampled.element));
+    fieldAtNodes(lattice, formOf(this->Source.domain, sampled.element));
   std::vector<char> isAbove(lattice.nodes.size());
   std::vector<char> isKept(lattice.nodes.size());
   for (std::size_t n = 0; n < lattice.nodes.size(); ++n)
@@ -659,7 +446,7 @@ bool FieldSampler::losesComponents(const SampledPart& sampled, int degree, doubl
     isAbove[n] = this->Nodal[n].w > isovalue;
     isKept[n] = isAbove[n] == static_cast<char>(polynomial[n] > isovalue);
   }
-  return hasSetWithoutMark({ this->Source.domain, lattice.degrees }, isAbove, isKept);
+  return hasSetWithoutMark(lattice, this->Source.domain, isAbove, isKept);
 }
 
 } // namespace hop

@@ -1,5 +1,7 @@
 #include "Elements/SourceElement.h"
 
+#include "Elements/LowerDegrees.h"
+
 #include <utility>
 
 namespace hop
