@@ -244,8 +244,8 @@ void compareWithVtk(const FilterSession& session, vtkUnstructuredGrid& grid, vtk
     const glm::dvec3 place = vectorOf(data.GetArray("ParametricCoordinates")->GetTuple3(row));
     const double isovalue = data.GetArray("Isovalue")->GetTuple1(row);
     grid.GetCell(id, cell);
-    // A diagonal is 1.7 sides at most; coordinates far from the origin are rounded.
-    const double tolerance = 4.0 * recipe["Tolerance"] * side + 2e-15 * largest(point);
+    // A diagonal is 1.7 sides at most; coordinates far from the origin are rounded, and each step of an evaluation is.
+    const double tolerance = 4.0 * recipe["Tolerance"] * side + 5e-15 * largest(point);
     const NodalValues values = nodalValues(*cell, field, recipe.count("Component"));
     const Sample sample = sampleOf(*cell, &place.x, values, tolerance);
     if (!(largest(sample.position - point) / sample.roundingOfPosition <= share))

@@ -41,7 +41,7 @@ class NoExchange final : public Exchange
 public:
   int rank() const override { return 0; }
   int size() const override { return 1; }
-  std::vector<Bytes> allGather(const Bytes& mine) override { return { mine }; }
+  std::vector<Bytes> allGather(const Bytes& mine) override { return std::vector<Bytes>(1, mine); }
   void send(const void*, std::size_t, int) override {}
   void receive(void*, std::size_t, int) override {}
 };
