@@ -115,6 +115,38 @@ void connect(const std::vector<char>& kept, const std::vector<int>& standIns,
   renumber(edges.coincident, kept);
 }
 
+/// Where the next element of a curve begins within a small distance of a corner, the stretch in between is a crack, as
+/// between elements that are not curved alike: the surface does not end at it. Nor does it at a curve of one place.
+/// \return marks of particles that are a curve of their own
+std::vector<char> passCracks(const std::vector<CurvePlace>& places,
+  const std::vector<CurveRange>& ranges, Buffer<BoundaryParticle>& particles)
+{
+  std::vector<char> isAlone(particles.size(), 0);
+  for (const CurveRange& range : ranges)
+  {
+    for (std::size_t n = 0; n < range.count; ++n)
+    {
+      const int here = places[range.first + n].particle;
+      // An open curve may end beside its beginning.
+      const int next = places[range.first + (n + 1) % range.count].particle;
+      if (here < 0 || next < 0)
+      {
+        continue;
+      }
+      BoundaryParticle& a = particles[here];
+      BoundaryParticle& b = particles[next];
+      isAlone[here] = static_cast<char>(isAlone[here] || here == next);
+      if (a.particle.location.element != b.particle.location.element &&
+        glm::distance(a.patch.position, b.patch.position) < Nearness::OnTwoSides * a.patch.spacing)
+      {
+        a.otherSide = {};
+        b.otherSide = {};
+      }
+    }
+  }
+  return isAlone;
+}
+
 /// Corners tell of both curves that meet there.
 void addOtherSides(BoundaryCurves& curves)
 {
@@ -134,6 +166,7 @@ void thinOut(std::vector<CurvePlace> places, const std::vector<CurveRange>& rang
   SampledCurves sampled, BoundaryCurves& curves, const ParallelFor& parallelFor)
 {
   Buffer<BoundaryParticle>& particles = curves.particles;
+  const std::vector<char> isAlone = passCracks(places, ranges, particles);
   const SpacedPoints points(
     particles.size(), [&](std::size_t i) { return particles[i].patch.position; },
     [&](std::size_t i) { return particles[i].patch.spacing; }, parallelFor);
@@ -186,7 +219,7 @@ void thinOut(std::vector<CurvePlace> places, const std::vector<CurveRange>& rang
           const bool isNearest = standIns[i] < 0 || distanceTo(j) < distanceTo(standIns[i]);
           standIns[i] = kept[j] && isNearest ? static_cast<int>(j) : standIns[i];
         });
-      if ((particles[i].particle.jump == 0.0 || isOnStrip) && !closesSlit[i])
+      if ((particles[i].particle.jump == 0.0 || isOnStrip) && !closesSlit[i] && !isAlone[i])
       {
         curves.thinned.push_back(particles[i]);
       }
