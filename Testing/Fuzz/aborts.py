@@ -77,7 +77,7 @@ def middling_gradient(grid, name, component):
     """About what the field changes by over half of the grid's diagonal."""
     array = grid.GetPointData().GetArray(name)
     least, most = array.GetRange(component if component < array.GetNumberOfComponents() else -1)
-    return 2 * (most - least) / grid.GetLength()
+    return 2 * (most - least) / (grid.GetLength() or 1.0)  # of one point
 
 
 def filter_of(grid, name, component, isovalue, properties):
