@@ -215,6 +215,20 @@ void NodalGradients::join()
   }
 }
 
+bool isFiniteAt(vtkDataArray* field, vtkIdType point)
+{
+  for (int c = 0; c < field->GetNumberOfComponents(); ++c)
+  {
+    if (!std::isfinite(field->GetComponent(point, c)))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Not finite where the field is not, so that cells are left out as those of the field itself are: averages of the cells
+/// around may be finite there.
 vtkSmartPointer<vtkDataArray> quantityAtNodes(
   const InputBlock& block, Quantity quantity, int component, const CellTest& isSound)
 {
@@ -225,7 +239,8 @@ vtkSmartPointer<vtkDataArray> quantityAtNodes(
   values->SetNumberOfTuples(block.grid->GetNumberOfPoints());
   for (vtkIdType i = 0; i < block.grid->GetNumberOfPoints(); ++i)
   {
-    const double value = function({ {}, {}, gradients.at(i) });
+    const double value = isFiniteAt(block.scalars, i) ? function({ {}, {}, gradients.at(i) })
+                                                      : std::numeric_limits<double>::quiet_NaN();
     values->SetValue(i, isSquareRoot(quantity) ? std::sqrt(value) : value);
   }
   return values;
