@@ -111,15 +111,18 @@ public:
     this->join();
   }
 
-  /// The mean at a point; zero where there is no cell.
+  /// The mean at a point; zero where there is no cell. Not finite where the field is not, so that cells are left out as
+  /// those of the field itself are: means over the other cells may be finite there.
   std::vector<glm::dvec3> at(vtkIdType point) const
   {
     const std::size_t place = this->Places[point];
     std::vector<glm::dvec3> result(&this->Sums[place * this->Components],
       &this->Sums[place * this->Components] + this->Components);
-    for (glm::dvec3& row : result)
+    for (int c = 0; c < this->Components; ++c)
     {
-      row /= std::max(this->Counts[place], 1);
+      const bool isKnown = std::isfinite(this->Field->GetComponent(point, this->First + c));
+      result[c] = isKnown ? result[c] / double(std::max(this->Counts[place], 1))
+                          : glm::dvec3(std::numeric_limits<double>::quiet_NaN());
     }
     return result;
   }
@@ -215,20 +218,6 @@ void NodalGradients::join()
   }
 }
 
-bool isFiniteAt(vtkDataArray* field, vtkIdType point)
-{
-  for (int c = 0; c < field->GetNumberOfComponents(); ++c)
-  {
-    if (!std::isfinite(field->GetComponent(point, c)))
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
-/// Not finite where the field is not, so that cells are left out as those of the field itself are: averages of the cells
-/// around may be finite there.
 vtkSmartPointer<vtkDataArray> quantityAtNodes(
   const InputBlock& block, Quantity quantity, int component, const CellTest& isSound)
 {
@@ -239,8 +228,7 @@ vtkSmartPointer<vtkDataArray> quantityAtNodes(
   values->SetNumberOfTuples(block.grid->GetNumberOfPoints());
   for (vtkIdType i = 0; i < block.grid->GetNumberOfPoints(); ++i)
   {
-    const double value = isFiniteAt(block.scalars, i) ? function({ {}, {}, gradients.at(i) })
-                                                      : std::numeric_limits<double>::quiet_NaN();
+    const double value = function({ {}, {}, gradients.at(i) });
     values->SetValue(i, isSquareRoot(quantity) ? std::sqrt(value) : value);
   }
   return values;
