@@ -1,6 +1,6 @@
 #include "Edges/ClipPlanes.h"
 
-#include "Edges/CreaseCorners.h"
+#include "Edges/CreaseGaps.h"
 #include "Edges/FacePlanes.h"
 #include "Support/SpacingGrid.h"
 
@@ -308,7 +308,7 @@ void markClipPlanes(const Isosurface& surface, const ParticleGrid& all,
           corner.particle, { other.outward, 0.0, other.edgeCurvature, static_cast<float>(Pi) });
       }
     });
-  closeCreaseCorners(all, parallelFor);
+  closeCreaseGaps(all, parallelFor);
 }
 
 } // namespace hop

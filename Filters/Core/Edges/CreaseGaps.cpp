@@ -1,4 +1,4 @@
-#include "Edges/CreaseCorners.h"
+#include "Edges/CreaseGaps.h"
 
 #include "Common/SplatProfile.h"
 #include "Edges/FaceJumps.h"
@@ -37,16 +37,12 @@ struct Cover
 const double coverReach = Cover::SureShare * splatReach();
 
 /// Distance of the places looked at, along the crease and away from it, in units of the spacing. Chosen by experiment:
-/// smaller corners may be overlooked; a smaller one costs time.
+/// smaller gaps may be overlooked; a smaller one costs time.
 constexpr double placeStep = 0.1;
 
 /// Dihedral angle of the sharpest crease whose planes may be moved, radians: 80 degrees. Behind a sharper one a splat
 /// stands off at once.
 constexpr double sharpestCrease = 1.4;
-
-/// Largest cosine between the directions of two creases that count as different: 26 degrees. Chosen by experiment:
-/// nearer to 1 bent creases are taken for corners.
-constexpr double sameCrease = 0.9;
 
 /// Whether a plane is that of a crease, and may be moved.
 bool isCrease(const ClipPlane& plane)
@@ -61,21 +57,15 @@ bool cuts(const ClipPlane& plane)
   return plane.exists() && plane.dihedralAngle > CreaseAngle;
 }
 
-/// Unit vector along the edge that a plane touches, in one of its two directions: particles on both sides of the edge
-/// see the same line.
-glm::dvec3 alongEdge(const Particle& particle, const ClipPlane& plane)
-{
-  return glm::normalize(glm::cross(particle.normal.xyz, plane.normal.xyz));
-}
-
-/// Whether a splat, were it whole, would reach a place on the surface nearby.
-bool reaches(const Particle& particle, const glm::dvec3& place)
+/// How far around a place on the surface nearby a splat would reach everything, were it whole; world units. Negative if
+/// it does not reach the place.
+double reachAround(const Particle& particle, const glm::dvec3& place)
 {
   const glm::dvec3 offset = place - particle.position.xyz;
   const double height = glm::dot(offset, particle.normal.xyz);
-  const double h = particle.spacing;
-  return std::abs(height) < Cover::Height * h &&
-    glm::dot(offset, offset) - height * height < coverReach * coverReach * h * h;
+  const double aside = std::sqrt(std::max(glm::dot(offset, offset) - height * height, 0.0));
+  return std::min(
+    Cover::Height * particle.spacing - std::abs(height), coverReach * particle.spacing - aside);
 }
 
 /// Whether a place is above or below the surface around a particle: farther than splats may stand off.
@@ -118,10 +108,10 @@ bool isBehindBoundary(const Particle& particle, const glm::dvec3& place)
     });
 }
 
-class CreaseCorners
+class CreaseGaps
 {
 public:
-  CreaseCorners(const ParticleGrid& all, const ParallelFor& parallelFor)
+  CreaseGaps(const ParticleGrid& all, const ParallelFor& parallelFor)
     : All(all)
     , Parallel(parallelFor)
   {
@@ -143,19 +133,18 @@ private:
   };
 
   static Cut cutOf(const Particle& particle, const ClipPlane& plane);
-  bool isCornerOf(int i, int plane, const std::vector<int>& around) const;
   std::vector<int> findAround(int i) const;
-  bool isOpen(int i, const glm::dvec3& place, const std::vector<int>& around) const;
+  double coveredAround(int i, const glm::dvec3& place, std::vector<int>& around) const;
   bool isBehindAStep(const glm::dvec3& place, const std::vector<int>& around) const;
-  double openBehind(int i, int plane, const std::vector<int>& around) const;
+  double openBehind(int i, int plane, std::vector<int>& around) const;
   double openFrom(int i, int plane, const glm::dvec3& start, const glm::dvec3& away,
-    const std::vector<int>& around) const;
+    std::vector<int>& around) const;
 
   const ParticleGrid& All;
   const ParallelFor& Parallel;
 };
 
-CreaseCorners::Cut CreaseCorners::cutOf(const Particle& particle, const ClipPlane& plane)
+CreaseGaps::Cut CreaseGaps::cutOf(const Particle& particle, const ClipPlane& plane)
 {
   const glm::dvec3& normal = particle.normal.xyz;
   const glm::dvec3 aslant = plane.normal.xyz - glm::dot(plane.normal.xyz, normal) * normal;
@@ -165,7 +154,7 @@ CreaseCorners::Cut CreaseCorners::cutOf(const Particle& particle, const ClipPlan
 }
 
 /// Particles whose splats may overlap the splat of particle i.
-std::vector<int> CreaseCorners::findAround(int i) const
+std::vector<int> CreaseGaps::findAround(int i) const
 {
   const Particle& particle = this->All.at(i);
   std::vector<int> found;
@@ -183,43 +172,35 @@ std::vector<int> CreaseCorners::findAround(int i) const
   return found;
 }
 
-/// Whether a crease meets another one, or a boundary curve, near particle i.
-/// \param plane of the crease: its number
-bool CreaseCorners::isCornerOf(int i, int plane, const std::vector<int>& around) const
-{
-  const glm::dvec3 along = alongEdge(this->All.at(i), this->All.at(i).clips[plane]);
-  const auto hasAnother = [&](int j)
-  {
-    const Particle& other = this->All.at(j);
-    return std::any_of(other.clips.begin(), other.clips.end(),
-      [&](const ClipPlane& clip)
-      { return cuts(clip) && std::abs(glm::dot(alongEdge(other, clip), along)) < sameCrease; });
-  };
-  return hasAnother(i) || std::any_of(around.begin(), around.end(), hasAnother);
-}
-
-/// Whether particle i is to cover a place behind its plane: no other splat covers it, no other plane is nearer to it,
-/// and it does not lie beyond a boundary curve.
-bool CreaseCorners::isOpen(int i, const glm::dvec3& place, const std::vector<int>& around) const
+/// How far around a place behind its plane particle i has nothing to cover, world units: another splat covers it all.
+/// Zero if the place alone is none of its own: another plane is nearer to it, or it lies beyond a boundary curve.
+/// Negative if particle i is to cover it.
+/// \param around in any order; one that says no comes first afterwards, as it mostly says so of the next place, too
+double CreaseGaps::coveredAround(int i, const glm::dvec3& place, std::vector<int>& around) const
 {
   const double own = behindCreases(this->All.at(i), place);
-  return std::none_of(around.begin(), around.end(),
-    [&](int j)
+  for (int& j : around)
+  {
+    const Particle& other = this->All.at(j);
+    const double reach = reachAround(other, place);
+    if (reach <= 0.0)
     {
-      const Particle& other = this->All.at(j);
-      if (!reaches(other, place))
-      {
-        return false;
-      }
-      const double behind = behindCreases(other, place);
-      return behind < Cover::BehindPlane * other.spacing || behind < own ||
-        (behind == own && j < i) || isBehindBoundary(other, place);
-    });
+      continue;
+    }
+    const double behind = behindCreases(other, place);
+    const double within = Cover::BehindPlane * other.spacing - behind;
+    if (within > 0.0 || behind < own || (behind == own && j < i) || isBehindBoundary(other, place))
+    {
+      std::swap(j, around.front());
+      return std::max(0.0, std::min(reach, within));
+    }
+  }
+  return -1.0;
 }
 
 /// Whether the surface is a step higher or lower at a place behind a crease, as where the field jumps as well: a splat
 /// that went on to the place would hide it, or hide the gap.
-bool CreaseCorners::isBehindAStep(const glm::dvec3& place, const std::vector<int>& around) const
+bool CreaseGaps::isBehindAStep(const glm::dvec3& place, const std::vector<int>& around) const
 {
   return std::any_of(
     around.begin(), around.end(), [&](int j) { return isAStepOff(this->All.at(j), place); });
@@ -228,8 +209,8 @@ bool CreaseCorners::isBehindAStep(const glm::dvec3& place, const std::vector<int
 /// How far a plane leaves the surface open behind one place of its cut, world units. What lies right behind may be
 /// covered, and be open farther off.
 /// \param start from the particle to that place
-double CreaseCorners::openFrom(int i, int plane, const glm::dvec3& start, const glm::dvec3& away,
-  const std::vector<int>& around) const
+double CreaseGaps::openFrom(
+  int i, int plane, const glm::dvec3& start, const glm::dvec3& away, std::vector<int>& around) const
 {
   const Particle& particle = this->All.at(i);
   const auto isBeyondOther = [&](const glm::dvec3& offset)
@@ -243,28 +224,44 @@ double CreaseCorners::openFrom(int i, int plane, const glm::dvec3& start, const 
   };
   const double step = placeStep * particle.spacing;
   const double farthest = Cover::StandOff / std::sin(particle.clips[plane].dihedralAngle);
+  const auto hasStep = [&](int count)
+  { return this->isBehindAStep(particle.position.xyz + start + count * step * away, around); };
   double open = 0.0;
+  double covered = 0.0; // how far from the start on no place is open that was not found so
+  int without =
+    1; // places before this one have no step behind them; only open ones are worth a look
   for (int count = 1; count * placeStep <= farthest; ++count)
   {
     const glm::dvec3 offset = start + count * step * away;
-    const glm::dvec3 place = particle.position.xyz + offset;
-    if (!(glm::length(offset) <= coverReach * particle.spacing) || isBeyondOther(offset) ||
-      this->isBehindAStep(place, around))
+    if (!(glm::length(offset) <= coverReach * particle.spacing) || isBeyondOther(offset))
     {
       break;
     }
-    open = this->isOpen(i, place, around) ? (count + 0.5) * step : open;
+    if (count * step < covered)
+    {
+      continue;
+    }
+    const double free = this->coveredAround(i, particle.position.xyz + offset, around);
+    covered = count * step + free;
+    if (free < 0.0)
+    {
+      while (without <= count && !hasStep(without))
+      {
+        ++without;
+      }
+      if (without <= count)
+      {
+        break;
+      }
+      open = (count + 0.5) * step;
+    }
   }
   return open;
 }
 
 /// How far a plane of particle i is to be moved, world units: as far as it leaves the surface open anywhere.
-double CreaseCorners::openBehind(int i, int plane, const std::vector<int>& around) const
+double CreaseGaps::openBehind(int i, int plane, std::vector<int>& around) const
 {
-  if (!this->isCornerOf(i, plane, around))
-  {
-    return 0.0;
-  }
   const Particle& particle = this->All.at(i);
   const Cut cut = cutOf(particle, particle.clips[plane]);
   const double reach = coverReach * particle.spacing;
@@ -281,7 +278,7 @@ double CreaseCorners::openBehind(int i, int plane, const std::vector<int>& aroun
 }
 
 /// Moves all planes, each by what the planes were before.
-void CreaseCorners::close()
+void CreaseGaps::close()
 {
   const std::size_t count = this->All.size();
   constexpr std::size_t planes = std::tuple_size_v<decltype(Particle::clips)>;
@@ -297,7 +294,7 @@ void CreaseCorners::close()
       {
         return;
       }
-      const std::vector<int> around = this->findAround(i);
+      std::vector<int> around = this->findAround(i);
       for (std::size_t plane = 0; plane < planes; ++plane)
       {
         moves[n][plane] =
@@ -315,7 +312,7 @@ void CreaseCorners::close()
 
 } // namespace
 
-void closeCreaseCorners(const ParticleGrid& all, const ParallelFor& parallelFor)
+void closeCreaseGaps(const ParticleGrid& all, const ParallelFor& parallelFor)
 {
   std::atomic<bool> hasCreases{ false };
   forAll(parallelFor, all.size(),
@@ -329,7 +326,7 @@ void closeCreaseCorners(const ParticleGrid& all, const ParallelFor& parallelFor)
     });
   if (hasCreases)
   {
-    CreaseCorners(all, parallelFor).close();
+    CreaseGaps(all, parallelFor).close();
   }
 }
 
