@@ -104,8 +104,9 @@ TEST(EdgePictures, ShowNoCracksBetweenElements)
 }
 
 // A facet of 0.3 spacings and less has particles of its own at some places only. The splats of its sides cover the rest;
-// where they ended at their creases, two near views of these facets had 162 and 57 pixels of holes.
-TEST(EdgePictures, ShowNoHolesInSlivers)
+// where they ended at their creases, two near views of these facets had 162 and 57 pixels of holes;
+// with them 3 and 9.
+TEST(EdgePictures, CoverSliversBySplatsOfTheirSides)
 {
   for (const char* name : { "sliver:0.3", "ledge:0.2" })
   {
@@ -115,7 +116,7 @@ TEST(EdgePictures, ShowNoHolesInSlivers)
     {
       holes += ErrorsOf(surface, camera).Count(PixelError::Hole);
     }
-    EXPECT_LE(holes, 15) << name;
+    EXPECT_LE(holes, 12) << name;
   }
 }
 

@@ -104,6 +104,24 @@ double behindCreases(const Particle& particle, const glm::dvec3& place)
   return farthest;
 }
 
+/// How far around a place a splat is not cut off, world units; a little is filled behind creases. Negative if the place
+/// is cut off itself.
+double uncutAround(const Particle& particle, const glm::dvec3& place)
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (const ClipPlane& plane : particle.clips)
+  {
+    if (cuts(plane))
+    {
+      const double filled = isCrease(plane) ? Cover::BehindPlane * particle.spacing : 0.0;
+      const double behind =
+        glm::dot(place - particle.position.xyz, plane.normal.xyz) - plane.distance;
+      least = std::min(least, filled - behind);
+    }
+  }
+  return least;
+}
+
 /// Whether a place lies clearly behind a boundary curve.
 bool isBehindBoundary(const Particle& particle, const glm::dvec3& place)
 {
@@ -226,12 +244,12 @@ double CreaseGaps::coveredAround(int i, const glm::dvec3& place, std::vector<int
     {
       continue;
     }
+    const double uncut = uncutAround(other, place);
     const double behind = behindCreases(other, place);
-    const double within = Cover::BehindPlane * other.spacing - behind;
-    if (within > 0.0 || behind < own || (behind == own && j < i) || isBehindBoundary(other, place))
+    if (uncut >= 0.0 || behind < own || (behind == own && j < i) || isBehindBoundary(other, place))
     {
       std::swap(j, around.front());
-      return std::max(0.0, std::min(reach, within));
+      return std::max(0.0, std::min(reach, uncut));
     }
   }
   return -1.0;
@@ -263,37 +281,31 @@ double CreaseGaps::openFrom(
   };
   const double step = placeStep * particle.spacing;
   const double farthest = Cover::StandOff / std::sin(particle.clips[plane].dihedralAngle);
-  const auto hasStep = [&](int count)
-  { return this->isBehindAStep(particle.position.xyz + start + count * step * away, around); };
+  const auto offsetTo = [&](int count) { return start + count * step * away; };
   double open = 0.0;
-  double covered = 0.0; // how far from the start on no place is open that was not found so
-  int without =
-    1; // places before this one have no step behind them; only open ones are worth a look
+  int withoutStep =
+    0; // places up to this one have no step behind them; looked at where one is open
   for (int count = 1; count * placeStep <= farthest; ++count)
   {
-    const glm::dvec3 offset = start + count * step * away;
+    const glm::dvec3 offset = offsetTo(count);
     if (!(glm::length(offset) <= coverReach * particle.spacing) || isBeyondOther(offset))
     {
       break;
     }
-    if (count * step < covered)
+    const double covered = this->coveredAround(i, particle.position.xyz + offset, around);
+    if (covered >= 0.0)
     {
+      count += static_cast<int>(covered / step);
       continue;
     }
-    const double free = this->coveredAround(i, particle.position.xyz + offset, around);
-    covered = count * step + free;
-    if (free < 0.0)
+    for (; withoutStep < count; ++withoutStep)
     {
-      while (without <= count && !hasStep(without))
+      if (this->isBehindAStep(particle.position.xyz + offsetTo(withoutStep + 1), around))
       {
-        ++without;
+        return open;
       }
-      if (without <= count)
-      {
-        break;
-      }
-      open = (count + 0.5) * step;
     }
+    open = (count + 0.5) * step;
   }
   return open;
 }
