@@ -66,9 +66,9 @@ double processorTime()
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-FilterSession::FilterSession(const GridRecipe& recipe, int threads, double limit)
+FilterSession::FilterSession(const GridRecipe& recipe, int threads, RunTimes times)
   : Recipe(recipe)
-  , Limit(limit)
+  , Times(times)
 {
   vtkSMPTools::SetBackend("STDThread");
   vtkSMPTools::Initialize(threads);
@@ -168,8 +168,9 @@ void FilterSession::asked(vtkObject*, unsigned long, void*)
   {
     return; // the output is there
   }
-  const bool isLate = this->LastQuestion - this->Begin > this->Limit;
-  if (isLate || this->QuestionsLeft == 0)
+  this->IsGivenUp =
+    this->LastQuestion - this->Begin > std::min(this->Times.limit, this->Times.patience);
+  if (this->IsGivenUp || this->QuestionsLeft == 0)
   {
     this->Filter->SetAbortExecute(1);
   }
@@ -187,15 +188,17 @@ void FilterSession::told(vtkObject*, unsigned long, void* text)
 void FilterSession::run()
 {
   this->Complaints.clear();
+  this->IsGivenUp = false;
   this->Silence = this->Progress = 0.0;
   this->Begin = this->LastQuestion = processorTime();
   this->Filter->Update();
   this->noteTime();
-  if (this->LastQuestion - this->Begin > this->Limit)
+  if (this->LastQuestion - this->Begin > this->Times.limit)
   {
-    this->Complaints.push_back("a run takes longer than " + std::to_string(this->Limit) + " s");
+    this->Complaints.push_back(
+      "a run takes longer than " + std::to_string(this->Times.limit) + " s");
   }
-  if (this->Silence > LongestSilence * this->Limit)
+  if (this->Silence > LongestSilence * this->Times.limit)
   {
     this->Complaints.push_back("no question for " + std::to_string(this->Silence) +
       " s after progress " + std::to_string(this->ProgressOfSilence));

@@ -7,6 +7,7 @@
 #include <vtkSmartPointer.h>
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -20,13 +21,21 @@ namespace hop::testing
 /// Processor time of this process, seconds.
 double processorTime();
 
+/// Seconds of processor time that a run may take.
+struct RunTimes
+{
+  /// More is a complaint.
+  double limit = 10.0;
+  /// After these a run is aborted, without a complaint.
+  double patience = std::numeric_limits<double>::infinity();
+};
+
 /// A filter object and a recipe's grid.
 class FilterSession
 {
 public:
   /// \param threads that the filter takes, at least 1
-  /// \param limit seconds of processor time after which a run is aborted
-  FilterSession(const GridRecipe& recipe, int threads, double limit);
+  FilterSession(const GridRecipe& recipe, int threads, RunTimes times);
 
   /// Runs the filter.
   void run();
@@ -36,6 +45,8 @@ public:
 
   /// What went wrong in the last run as such: too long, too long without a question, an error of the filter's own.
   const std::vector<std::string>& complaints() const { return this->Complaints; }
+  /// Whether the last run took longer than there was patience, and was aborted.
+  bool isGivenUp() const { return this->IsGivenUp; }
   vtkDataObject& output() const;
   /// The parts of the input, one where it is no composite, and of the output.
   const std::vector<vtkSmartPointer<vtkUnstructuredGrid>>& inputs() const { return this->Pieces; }
@@ -57,7 +68,9 @@ private:
   std::vector<vtkSmartPointer<vtkUnstructuredGrid>> Pieces;
   vtkNew<vtkHighOrderParticleIsosurface> Filter;
   std::vector<std::string> Complaints;
-  double Limit, Begin = 0.0, LastQuestion = 0.0, Silence = 0.0;
+  RunTimes Times;
+  bool IsGivenUp = false;
+  double Begin = 0.0, LastQuestion = 0.0, Silence = 0.0;
   /// The filter's progress at the last question, and before the longest silence.
   double Progress = 0.0, ProgressOfSilence = 0.0;
   /// Questions after which the run is aborted; negative: never.

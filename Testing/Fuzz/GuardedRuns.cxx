@@ -158,6 +158,7 @@ std::vector<Failure> runGuarded(std::size_t count, double limit,
   tally.runs += shared.tally.runs;
   tally.runsWithPoints += shared.tally.runsWithPoints;
   tally.points += shared.tally.points;
+  tally.givenUp += shared.tally.givenUp;
   return failures;
 }
 

@@ -19,8 +19,8 @@ struct Failure
 /// What child processes have done.
 struct Tally
 {
-  /// Of the filter; those that gave particles or triangles; their points.
-  std::atomic<std::int64_t> runs{ 0 }, runsWithPoints{ 0 }, points{ 0 };
+  /// Of the filter; those that gave particles or triangles; their points; runs that took too long and were aborted.
+  std::atomic<std::int64_t> runs{ 0 }, runsWithPoints{ 0 }, points{ 0 }, givenUp{ 0 };
 };
 
 /// Calls work(i, tally) for i in [0, count) in child processes: none of them can end this process by a crash, nor hold it up.

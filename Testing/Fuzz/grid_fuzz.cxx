@@ -1,7 +1,8 @@
 // Feeds the filter with random grids, judges what comes out, and shrinks what fails. Without Python, so that sanitizers
 // see many grids in little time.
 //
-//   grid_fuzz [from=SEED] [to=SEED] [limit=SECONDS]      the recipes of these seeds: default 0 to 300, 10 s
+//   grid_fuzz [from=SEED] [to=SEED] [limit=SECONDS] [patience=SECONDS]
+//                                                        the recipes of these seeds: default 0 to 300, 10 s, no patience
 //   grid_fuzz [limit=SECONDS] FILE                       the recipes of a file, one a line; '#' begins a comment
 //   grid_fuzz from=SEED to=SEED list                     writes such a file
 //
@@ -10,7 +11,8 @@
 //
 // A recipe fails if its process ends, if a run of the filter takes more than `limit` seconds of processor time or is
 // silent for a tenth of that, or if OutputJudge.h complains; of every fourth seed, if another number of threads gives
-// another bit. Recipes that fail are printed at once as lines for such a file; at the end the first one of each kind of
+// another bit. A run that takes more than `patience` seconds is aborted, which is no failure: its output is judged, and
+// there are no further runs of the recipe. Recipes that fail are printed at once as lines for such a file; at the end the first one of each kind of
 // complaint is shrunk, for a minute at most. The exit status is 1 if one fails.
 
 #include "FilterSession.h"
@@ -35,6 +37,7 @@ namespace
 using hop::testing::Failure;
 using hop::testing::FilterSession;
 using hop::testing::GridRecipe;
+using hop::testing::RunTimes;
 using hop::testing::Tally;
 
 /// What recipes are bounded by.
@@ -48,7 +51,7 @@ enum class Size
 struct Options
 {
   std::uint64_t from = 0, to = 300;
-  double limit = 10.0;
+  RunTimes times;
   bool isList = false;
   Size size = Size::Any;
   std::string file;
@@ -88,47 +91,56 @@ void runAndJudge(FilterSession& session, Tally& tally, std::string& found, std::
   ++tally.runs;
   tally.runsWithPoints += points > 0 ? 1 : 0;
   tally.points += points;
+  tally.givenUp += session.isGivenUp() ? 1 : 0;
 }
+
+/// What the runs of a recipe have given.
+struct Outcome
+{
+  std::string complaint;
+  /// The bytes of all outputs.
+  std::string outputs;
+  bool isGivenUp = false;
+};
 
 /// All runs of a recipe on one number of threads.
-/// \param outputs the bytes of all outputs
-std::string runAll(
-  const GridRecipe& recipe, int threads, double limit, Tally& tally, std::string& outputs)
+Outcome runAll(const GridRecipe& recipe, int threads, RunTimes times, Tally& tally)
 {
-  std::string found;
-  FilterSession session(recipe, threads, limit);
-  runAndJudge(session, tally, found, outputs);
-  if (recipe.count("change") > 0)
+  Outcome outcome;
+  FilterSession session(recipe, threads, times);
+  runAndJudge(session, tally, outcome.complaint, outcome.outputs);
+  if (recipe.count("change") > 0 && !session.isGivenUp())
   {
     session.change();
-    append(session.complaints(), found);
-    runAndJudge(session, tally, found, outputs);
+    append(session.complaints(), outcome.complaint);
+    runAndJudge(session, tally, outcome.complaint, outcome.outputs);
   }
-  return found;
+  outcome.isGivenUp = session.isGivenUp();
+  return outcome;
 }
 
-std::string complaintOf(const GridRecipe& recipe, double limit, Tally& tally)
+std::string complaintOf(const GridRecipe& recipe, RunTimes times, Tally& tally)
 {
-  std::string outputs, others;
   const int threads = recipe.count("threads");
-  std::string found = runAll(recipe, threads, limit, tally, outputs);
-  if (found.empty() && recipe.seed() % 4 == 0)
+  const Outcome first = runAll(recipe, threads, times, tally);
+  if (!first.complaint.empty() || first.isGivenUp || recipe.seed() % 4 != 0)
   {
-    found = runAll(recipe, threads % 4 + 1, limit, tally, others);
-    if (found.empty() && outputs != others)
-    {
-      found = "another number of threads gives another output";
-    }
+    return first.complaint;
   }
-  return found;
+  const Outcome second = runAll(recipe, threads % 4 + 1, times, tally);
+  if (!second.complaint.empty() || second.isGivenUp || first.outputs == second.outputs)
+  {
+    return second.complaint;
+  }
+  return "another number of threads gives another output";
 }
 
 /// A recipe's runs are two, or four with other threads: an item may take the limits of all.
-std::vector<Failure> tryAll(const std::vector<GridRecipe>& recipes, double limit, Tally& tally)
+std::vector<Failure> tryAll(const std::vector<GridRecipe>& recipes, RunTimes times, Tally& tally)
 {
   return hop::testing::runGuarded(
-    recipes.size(), 5.0 * limit,
-    [&](std::size_t i, Tally& ofChild) { return complaintOf(recipes[i], limit, ofChild); }, tally);
+    recipes.size(), 5.0 * times.limit,
+    [&](std::size_t i, Tally& ofChild) { return complaintOf(recipes[i], times, ofChild); }, tally);
 }
 
 /// Letters up to the first number, by which complaints of one kind are known.
@@ -138,7 +150,7 @@ std::string kindOf(const std::string& complaint)
 }
 
 /// The simplest recipe found within a minute that gives a complaint of the same kind.
-GridRecipe shrunk(GridRecipe recipe, const std::string& complaint, double limit)
+GridRecipe shrunk(GridRecipe recipe, const std::string& complaint, RunTimes times)
 {
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
   Tally tally;
@@ -147,7 +159,7 @@ GridRecipe shrunk(GridRecipe recipe, const std::string& complaint, double limit)
     found = false;
     for (const GridRecipe& smaller : recipe.simpler())
     {
-      const std::vector<Failure> failures = tryAll({ smaller }, limit, tally);
+      const std::vector<Failure> failures = tryAll({ smaller }, times, tally);
       found = !failures.empty() && kindOf(failures.front().complaint) == kindOf(complaint);
       if (found)
       {
@@ -181,11 +193,11 @@ void report(
   std::fflush(stdout);
 }
 
-void shrinkAll(const Reports& kept, double limit)
+void shrinkAll(const Reports& kept, RunTimes times)
 {
   for (const auto& [kind, first] : kept)
   {
-    const GridRecipe simplest = shrunk(first.recipe, first.complaint, limit);
+    const GridRecipe simplest = shrunk(first.recipe, first.complaint, times);
     std::printf("# shrunk from seed %llu: %s\n%s\n",
       static_cast<unsigned long long>(first.recipe.seed()), first.complaint.c_str(),
       simplest.text().c_str());
@@ -225,7 +237,11 @@ Options parse(int count, char** words)
     }
     else if (word.rfind("limit=", 0) == 0)
     {
-      options.limit = std::stod(value);
+      options.times.limit = std::stod(value);
+    }
+    else if (word.rfind("patience=", 0) == 0)
+    {
+      options.times.patience = std::stod(value);
     }
     else if (word == "small")
     {
@@ -290,7 +306,7 @@ int main(int count, char** words)
   Reports kept;
   const auto run = [&](const std::vector<GridRecipe>& recipes)
   {
-    const std::vector<Failure> failures = tryAll(recipes, options.limit, tally);
+    const std::vector<Failure> failures = tryAll(recipes, options.times, tally);
     report(recipes, failures, kept);
     failed += failures.size();
     grids += recipes.size();
@@ -305,9 +321,10 @@ int main(int count, char** words)
     run(recipesOf(seed, std::min<std::uint64_t>(options.to, seed + batch), options.size));
     std::fprintf(stderr, "up to seed %llu\n", static_cast<unsigned long long>(seed + batch));
   }
-  shrinkAll(kept, options.limit);
-  std::printf("# %zu recipes, %lld runs, %lld of them with %lld points, %zu recipes failed\n",
+  shrinkAll(kept, options.times);
+  std::printf(
+    "# %zu recipes, %lld runs, %lld of them with %lld points, %lld given up, %zu recipes failed\n",
     grids, static_cast<long long>(tally.runs), static_cast<long long>(tally.runsWithPoints),
-    static_cast<long long>(tally.points), failed);
+    static_cast<long long>(tally.points), static_cast<long long>(tally.givenUp), failed);
   return failed > 0 || grids == 0 ? 1 : 0;
 }

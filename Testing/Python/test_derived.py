@@ -508,16 +508,63 @@ def test_gradients_in_pyramids_are_those_of_vtks_shape_functions(name):
     assert (max(errors_of_vtk) > 0.1) == (name == "QUADRATIC_PYRAMID")
 
 
-def test_pyramids_have_finite_derivatives_in_their_apex():
-    grid = cells.bend(cells.straight_grid("QUADRATIC_PYRAMID", blocks=2), 0.02)
-    support.add_point_array(grid, "u", vector_for("Gradient Magnitude", support.points_of(grid)))
-    values = in_cells(grid, "u", "Gradient Magnitude")
-    isovalue = np.quantile(values, 0.5)
-    particles, messages = support.run(grid, "u", isovalue, Quantity="Gradient Magnitude", Spacing=0.05)
+FORMULA = "q_criterion(u) + 0.5*mag(curl(u)) - u_X"
+
+
+def by_shape_functions(grid, name, quantity, id, place):
+    """The quantity of a vector by VTK's shape functions."""
+    cell = grid.GetCell(id)
+    nodes = cells.point_ids(cell)
+    slopes, field = slopes_of_shapes(cell, place), support.array_of(grid, name)[nodes]
+    gradient = np.linalg.solve(slopes @ support.points_of(grid)[nodes], slopes @ field).T[None]
+    if quantity != "Expression":
+        return derived(quantity, gradient)[0]
+    weights = [0.0] * len(nodes)
+    cell.InterpolateFunctions(place, weights)
+    both = derived("Q Criterion", gradient) + 0.5 * derived("Vorticity Magnitude", gradient)
+    return both[0] - np.dot(weights, field[:, 0])
+
+
+@pytest.mark.parametrize("quantity", [*QUANTITIES, "Lambda 2", "Expression"])
+@pytest.mark.parametrize("name", ["QUADRATIC_PYRAMID", "TRIQUADRATIC_PYRAMID"])
+def test_pyramids_have_all_quantities(name, quantity):
+    """The derivatives along their base vanish in the apex."""
+    grid = cells.bend(cells.straight_grid(name), 0.05)
+    x = support.points_of(grid)
+    support.add_point_array(grid, "u", np.sin(2.0 * x[:, [1, 2, 0]]) + 0.3 * x[:, [2, 0, 1]] ** 2)
+    dice = np.random.default_rng(2)
+    values = [
+        by_shape_functions(grid, "u", quantity, int(dice.integers(6)), dice.uniform(0.1, 0.9, 3)) for _ in range(60)
+    ]
+    isovalue, scale = np.quantile(values, 0.6), np.quantile(np.abs(values), 0.95)
+    particles, messages = support.run(grid, "u", isovalue, Quantity=quantity, Expression=FORMULA, Spacing=0.1)
     assert messages.errors == []
-    assert particles.GetNumberOfPoints() > 100
-    for name in ("Normals", "Mean_Curvature", "Residual"):
-        assert np.isfinite(support.array_of(particles, name)).all()
+    assert support.reported(particles, "CellsSkipped") == 0
+    assert particles.GetNumberOfPoints() > 50
+    for array in ("Normals", "Mean_Curvature", "Residual"):
+        assert np.isfinite(support.array_of(particles, array)).all()
+    ids = support.array_of(particles, "vtkOriginalCellIds")
+    places = support.array_of(particles, "ParametricCoordinates").astype(float)
+    inside = np.flatnonzero(places[:, 2] < 0.95)[::5]
+    error = [abs(by_shape_functions(grid, "u", quantity, ids[i], places[i]) - isovalue) for i in inside]
+    assert max(error) < 1e-6 * scale
+
+
+@pytest.mark.parametrize("name", ["PYRAMID", "QUADRATIC_PYRAMID", "TRIQUADRATIC_PYRAMID"])
+def test_interpolated_pyramids_meet(name):
+    """A formula that is the distance from the middle, squared, and the length of a constant gradient."""
+    grid = cells.straight_grid(name, blocks=2)
+    lower, upper = support.bounds_of(grid)
+    cells.set_points(grid, 2.0 * (support.points_of(grid) - lower) / (upper - lower) - 1.0)
+    support.add_point_array(grid, "f", support.points_of(grid) @ [0.6, 0.0, 0.8])
+    formula = "coordsX*coordsX + coordsY*coordsY + coordsZ*coordsZ + mag(gradient(f))"
+    mesh = support.run_quietly(
+        grid, "f", 1.49, Quantity="Expression", Expression=formula, Spacing=0.1, OutputType="Triangles"
+    )
+    assert np.abs(np.linalg.norm(support.points_of(mesh), axis=1) - 0.7).max() < 1e-8
+    assert support.reported(mesh, "MeshOpenLoops") == 0
+    area = support.array_of(mesh, "Area").sum()
+    assert abs(area / (4.0 * np.pi * 0.49) - 1.0) < 0.01
 
 
 # What cannot be done is said.

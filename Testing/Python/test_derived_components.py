@@ -13,12 +13,16 @@ QUANTITIES = [
     "Gradient Magnitude", "Divergence", "Vorticity Magnitude", "Q Criterion", "Lambda 2", "Expression",
 ]  # fmt: skip
 # Cells of one kind, and the cubes of their lattices along an axis.
-KINDS = {"LAGRANGE_HEXAHEDRON": 24, "LAGRANGE_TETRAHEDRON": 28, "LAGRANGE_WEDGE": 26}
+KINDS = {"LAGRANGE_HEXAHEDRON": 24, "LAGRANGE_TETRAHEDRON": 28, "LAGRANGE_WEDGE": 26, "TRIQUADRATIC_PYRAMID": 24}
+
+
+def straight(name):
+    return cells.straight_grid(name, order=3 if name.startswith("LAGRANGE") else None)
 
 
 def one_cell(name, bend, dice):
-    """A cell of order 3 with a random vector at its nodes."""
-    grid = cells.straight_grid(name, order=3)
+    """A cell of order 3, or a quadratic one, with a random vector at its nodes."""
+    grid = straight(name)
     ids = cells.ids_of(grid, 0)
     points = support.points_of(grid)[ids]
     points += bend * np.sin(2.0 * points[:, [1, 2, 0]] + dice.random(3))
@@ -28,9 +32,27 @@ def one_cell(name, bend, dice):
 
 
 def inside(name, u):
-    """Whether places are in the cell."""
+    """Whether places are in the cell, and not in a pyramid's apex."""
+    if "PYRAMID" in name:
+        return u[:, 2] < 1.0
     coordinates = {"LAGRANGE_HEXAHEDRON": 0, "LAGRANGE_TETRAHEDRON": 3, "LAGRANGE_WEDGE": 2}[name]
     return u[:, :coordinates].sum(axis=1) <= 1.0 + 1e-12
+
+
+def parametric(name, u):
+    """VTK's coordinates of places in a lattice: those of its 19-node pyramid are of a true one, of height 1/2."""
+    if "PYRAMID" not in name:
+        return u
+    across = (1.0 - u[:, 2:]) * u[:, :2] + 0.5 * u[:, 2:]
+    return np.concatenate([across, 0.5 + 0.5 * u[:, 2:]], axis=1)
+
+
+def in_lattice(name, places):
+    """The other way round."""
+    if "PYRAMID" not in name:
+        return places
+    w = 2.0 * places[:, 2:] - 1.0
+    return np.concatenate([(places[:, :2] - 0.5 * w) / np.maximum(1.0 - w, 1e-9), w], axis=1)
 
 
 @functools.cache
@@ -40,11 +62,11 @@ def shapes(name):
     line = np.linspace(0.0, 1.0, KINDS[name] + 1)
     u = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
     within = inside(name, u)
-    grid = cells.straight_grid(name, order=3)
+    grid = straight(name)
     cell, nodes = grid.GetCell(0), len(cells.ids_of(grid, 0))
     functions, derivatives = np.zeros((within.sum(), nodes)), np.zeros((within.sum(), 3, nodes))
     weights, slopes = [0.0] * nodes, [0.0] * (3 * nodes)
-    for i, place in enumerate(u[within]):
+    for i, place in enumerate(parametric(name, u[within])):
         cell.InterpolateFunctions(place, weights)
         cell.InterpolateDerivs(place, slopes)
         functions[i] = weights
@@ -141,7 +163,7 @@ def test_no_component_is_missed(quantity, name):
             )
             assert messages.errors == []
             whose = np.abs(support.array_of(particles, "Isovalue")[:, None] - isovalues).argmin(axis=1)
-            places = support.array_of(particles, "ParametricCoordinates")
+            places = in_lattice(name, support.array_of(particles, "ParametricCoordinates"))
             for n, isovalue in enumerate(isovalues):
                 labels = numbered(isovalue)
                 missed += len(unseen(labels, places[whose == n]))

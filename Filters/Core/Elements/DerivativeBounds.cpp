@@ -1,5 +1,6 @@
 #include "Elements/DerivativeBounds.h"
 
+#include "Elements/CollapsedFaces.h"
 #include "Elements/LatticeRows.h"
 #include "Elements/RangeArithmetic.h"
 #include "Elements/SymmetricEigenvalues.h"
@@ -76,7 +77,7 @@ DerivativeRows rowsOf(const std::vector<ScaledPolynomial>& columns)
 
 std::array<DerivativeRows, 3> derivativeRows(const SourceElement& source)
 {
-  if (!source.isRational)
+  if (!source.isRational && !hasCollapsedEdge(source))
   {
     return { differencesAlong(source, 0), differencesAlong(source, 1),
       differencesAlong(source, 2) };

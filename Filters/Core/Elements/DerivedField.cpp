@@ -22,9 +22,9 @@ struct RoundingShare
   /// Of the largest Jacobian entry, of a determinant: sums of some ten products each. Smaller: the degrees of straight
   /// cells stay as high as those of curved ones; larger: slightly curved cells count as straight.
   static constexpr double Map = 1e-13;
-  /// Of the largest coefficient: what the determinant leaves in a face where it vanishes. Chosen between rounding, some
-  /// 1e-15, and the least value that a determinant has in cells that are not collapsed.
-  static constexpr double CollapsedFace = 1e-11;
+  /// Of the largest weight: a smaller one is none. Chosen between rounding, some 1e-15, and the least value that a
+  /// determinant has in sound cells.
+  static constexpr double Weight = 1e-11;
   /// Of the largest coefficient of a gradient, a determinant, a numerator or a denominator: their degrees are lowered
   /// as far as this allows, in several steps. Smaller: bent elements of degree 4 cost up to ten times as much; larger:
   /// particles are off their isovalue by as much.
@@ -101,93 +101,6 @@ ScaledPolynomial trimmed(ScaledPolynomial polynomial, double share)
   return lowered(std::move(polynomial), share * largest);
 }
 
-/// A face of a hexahedron or wedge across a line of its domain, where the line's coordinate is 0 or 1.
-struct LineEnd
-{
-  int axis = 0;
-  bool isTop = false;
-
-  bool holds(const LatticePoint& point, const Degrees& degrees) const
-  {
-    const std::array<int, 3> index{ point.i, point.j, point.k };
-    return index[this->axis] == (this->isTop ? degrees[this->axis] : 0);
-  }
-};
-
-/// Whether a polynomial is zero in a face, to rounding.
-bool vanishesAt(const ScaledPolynomial& polynomial, const LineEnd& end)
-{
-  if (polynomial.degrees[end.axis] == 0)
-  {
-    return isZero(polynomial);
-  }
-  const std::vector<double> coefficients = unscaled(polynomial);
-  double largest = 0.0;
-  double there = 0.0;
-  std::size_t n = 0;
-  visitLatticePoints(polynomial.domain, polynomial.degrees,
-    [&](const LatticePoint& point)
-    {
-      const double size = std::abs(coefficients[n++]);
-      largest = std::max(largest, size);
-      there = std::max(there, end.holds(point, polynomial.degrees) ? size : 0.0);
-    });
-  return there <= RoundingShare::CollapsedFace * largest;
-}
-
-bool vanishesInSomeFace(const ScaledPolynomial& polynomial)
-{
-  const auto& factors = facts(polynomial.domain).factors;
-  return std::any_of(factors.begin(), factors.end(),
-    [&](const SimplexFactor& factor)
-    {
-      return factor.dimension == 1 &&
-        (vanishesAt(polynomial, { factor.axis, false }) ||
-          vanishesAt(polynomial, { factor.axis, true }));
-    });
-}
-
-/// The quotient of a polynomial that vanishes in a face and the line's coordinate, or 1 less it.
-ScaledPolynomial withoutFactor(const ScaledPolynomial& polynomial, const LineEnd& end)
-{
-  if (polynomial.degrees[end.axis] == 0)
-  {
-    return polynomial; // zero
-  }
-  ScaledPolynomial result{ polynomial.domain, polynomial.degrees, {} };
-  --result.degrees[end.axis];
-  std::size_t n = 0;
-  visitLatticePoints(polynomial.domain, polynomial.degrees,
-    [&](const LatticePoint& point)
-    {
-      if (!end.holds(point, polynomial.degrees))
-      {
-        result.values.push_back(polynomial.values[n]);
-      }
-      ++n;
-    });
-  return result;
-}
-
-/// Takes common factors out of a numerator and a denominator: where a face is collapsed, as in a pyramid's apex, both
-/// vanish although their quotient is finite.
-void cancelCollapsedFaces(ScaledPolynomial& numerator, ScaledPolynomial& denominator)
-{
-  for (const SimplexFactor& factor : facts(numerator.domain).factors)
-  {
-    for (int end = 0; end < 2 && factor.dimension == 1; ++end)
-    {
-      const LineEnd face{ factor.axis, end == 1 };
-      while (denominator.degrees[face.axis] > 0 && vanishesAt(denominator, face) &&
-        vanishesAt(numerator, face))
-      {
-        numerator = withoutFactor(numerator, face);
-        denominator = withoutFactor(denominator, face);
-      }
-    }
-  }
-}
-
 } // namespace
 
 Derivation::Derivation(const SourceElement& source, Quantity quantity, StandIn standIn)
@@ -243,7 +156,7 @@ Derivation::Columns Derivation::adjugate() const
 }
 
 /// The entries of G det(Y').
-/// \param share by which degrees are lowered; 0: they stay as they are
+/// \param share by which degrees are lowered
 std::vector<std::array<ScaledPolynomial, 3>> Derivation::gradientNumerators(
   const Columns& adjugate, double share) const
 {
@@ -259,7 +172,7 @@ std::vector<std::array<ScaledPolynomial, 3>> Derivation::gradientNumerators(
     {
       ScaledPolynomial entry = sumOfProducts({ { 1.0, &this->Field[0][i], &toWorld[0][0] },
         { 1.0, &this->Field[1][i], &toWorld[1][0] }, { 1.0, &this->Field[2][i], &toWorld[2][0] } });
-      gradient[i][j] = share > 0.0 ? trimmed(std::move(entry), share) : std::move(entry);
+      gradient[i][j] = trimmed(std::move(entry), share);
     }
   }
   return gradient;
@@ -360,25 +273,17 @@ DerivedElement Derivation::element() const
     return none;
   }
   const Columns adjugate = this->adjugate();
+  const bool isProof = this->ItsStandIn == StandIn::Proof && !this->isAffine();
+  const double share = isProof ? RoundingShare::DegreeOfProofs : RoundingShare::Degree;
   ScaledPolynomial determinant = lowered(
     sumOfProducts({ { 1.0, &this->Map[0][0], &adjugate[0][0] },
       { 1.0, &this->Map[0][1], &adjugate[0][1] }, { 1.0, &this->Map[0][2], &adjugate[0][2] } }),
     RoundingShare::Map);
-  // In a collapsed face numerator and denominator have to vanish alike.
-  const bool isCollapsed = vanishesInSomeFace(determinant);
-  const bool isProof = this->ItsStandIn == StandIn::Proof && !isCollapsed && !this->isAffine();
-  const double share = isProof ? RoundingShare::DegreeOfProofs : RoundingShare::Degree;
-  determinant = isCollapsed ? std::move(determinant) : trimmed(std::move(determinant), share);
-  ScaledPolynomial numerator =
-    this->numerator(this->gradientNumerators(adjugate, isCollapsed ? 0.0 : share));
-  ScaledPolynomial denominator =
-    orderOf(this->ItsQuantity) == 2 ? determinant * determinant : std::move(determinant);
-  if (isCollapsed)
-  {
-    cancelCollapsedFaces(numerator, denominator);
-  }
-  numerator = trimmed(std::move(numerator), share);
-  denominator = trimmed(std::move(denominator), share);
+  determinant = trimmed(std::move(determinant), share);
+  const ScaledPolynomial numerator =
+    trimmed(this->numerator(this->gradientNumerators(adjugate, share)), share);
+  const ScaledPolynomial denominator = trimmed(
+    orderOf(this->ItsQuantity) == 2 ? determinant * determinant : std::move(determinant), share);
   DerivedElement result = this->assemble(numerator, denominator);
   result.standIn = isProof ? StandIn::Proof : StandIn::Surface;
   return result;
@@ -421,7 +326,7 @@ DerivedElement Derivation::assemble(
   }
   // Control points are quotients by the weights: where one of these is no larger than rounding they mean nothing.
   const double leastWeight =
-    RoundingShare::CollapsedFace * *std::max_element(rows[4].begin(), rows[4].end());
+    RoundingShare::Weight * *std::max_element(rows[4].begin(), rows[4].end());
   if (!(*std::min_element(rows[4].begin(), rows[4].end()) > leastWeight) || !(divisor > 0.0))
   {
     return result;

@@ -62,7 +62,7 @@ public:
   bool isAffine() const;
 
   /// \return its field is the quantity, or its square. It is for the surface also where the map is affine, as it is a
-  /// polynomial then, and where a face is collapsed: there only a quotient without common factors is finite.
+  /// polynomial then.
   DerivedElement element() const;
 
 private:

@@ -1,6 +1,7 @@
 #include "Elements/SampledField.h"
 
 #include "Elements/BatchEvaluator.h"
+#include "Elements/CollapsedFaces.h"
 #include "Elements/SamplingLattice.h"
 #include "Kernel/InstructionSet.h"
 
@@ -250,6 +251,10 @@ FieldSampler::FieldSampler(const SourceElement& source, Quantity quantity,
       this->Components.push_back(source.control[i * source.width + c]);
     }
   }
+  if (hasCollapsedEdge(source))
+  {
+    this->Homogeneous = exactSource(source, quantity);
+  }
 }
 
 /// x, y, z and the field at points of a part.
@@ -262,22 +267,57 @@ FieldSampler::Samples FieldSampler::valuesAt(
   {
     inWhole.push_back(part.inWhole(point));
   }
+  const int count = static_cast<int>(points.size());
   std::vector<JetBatch> jets(this->Groups.size());
   for (std::size_t g = 0; g < jets.size(); ++g)
   {
     evaluateGradients({ this->Source.domain, this->Source.degrees, this->Groups[g].data(),
                         this->Source.isRational ? this->Source.weights.data() : nullptr },
-      inWhole.data(), static_cast<int>(inWhole.size()), jets[g]);
+      inWhole.data(), count, jets[g]);
   }
-  return this->samplesOf(
-    points.size(), [&](int quantity, int c) { return jets[c / 4].row(quantity, c % 4); });
+  if (!this->Homogeneous)
+  {
+    return this->samplesOf(
+      points.size(), [&](int quantity, int c) { return jets[c / 4].row(quantity, c % 4); });
+  }
+  const std::vector<JetBatch> derivatives = this->homogeneousAt(inWhole);
+  return this->samplesOf(points.size(),
+    [&](int quantity, int c)
+    {
+      if (quantity == quantity::value)
+      {
+        return jets[c / 4].row(quantity, c % 4);
+      }
+      const std::size_t k = quantity - quantity::first;
+      return derivatives[k * jets.size() + c / 4].row(quantity::value, c % 4);
+    });
+}
+
+/// Derivatives of the components along the cell's coordinates, group by group, but for factors that cancel in gradients.
+std::vector<JetBatch> FieldSampler::homogeneousAt(const std::vector<ReferencePoint>& points) const
+{
+  const ExactField& field = this->Homogeneous->field;
+  const Domain domain = this->Source.domain;
+  const Coefficient* coefficients =
+    this->Homogeneous->coefficients.data() + coefficientCount(domain, field.degrees);
+  std::vector<JetBatch> values;
+  for (const Degrees& degrees : field.ofDerivatives)
+  {
+    for (std::size_t g = 0; g < this->Groups.size(); ++g)
+    {
+      evaluateGradients({ domain, degrees, coefficients, nullptr }, points.data(),
+        static_cast<int>(points.size()), values.emplace_back());
+      coefficients += coefficientCount(domain, degrees);
+    }
+  }
+  return values;
 }
 
 /// The same at the nodes of a lattice: axis by axis where it has the axes of the whole.
 FieldSampler::Samples FieldSampler::valuesAt(
   const ReferencePart& part, const SamplingLattice& lattice)
 {
-  if (!lattice.ofCube || this->Source.isRational || !hasAxesOfCube(part))
+  if (!lattice.ofCube || this->Homogeneous || !hasAxesOfCube(part))
   {
     return this->valuesAt(part, lattice.nodes);
   }

@@ -1,9 +1,12 @@
 #pragma once
 
+#include "Elements/BatchEvaluator.h"
 #include "Elements/DerivedField.h"
+#include "Elements/ExactField.h"
 #include "Elements/ReferencePart.h"
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace hop
@@ -68,6 +71,7 @@ private:
 
   Samples valuesAt(const ReferencePart& part, const std::vector<ReferencePoint>& points);
   Samples valuesAt(const ReferencePart& part, const SamplingLattice& lattice);
+  std::vector<JetBatch> homogeneousAt(const std::vector<ReferencePoint>& points) const;
   template <class RowOf>
   Samples samplesOf(std::size_t count, const RowOf& rowOf);
   template <class RowOf>
@@ -86,7 +90,9 @@ private:
   std::vector<std::vector<Coefficient>> Groups;
   /// The control values of one component after the other.
   std::vector<double> Components;
-  /// Whether they are finite wherever valuesAt() has been asked.
+  /// Of a source with a collapsed edge: its derivatives as homogeneousDerivatives() gives them.
+  std::optional<ExactSource> Homogeneous;
+  /// Whether derivatives are finite wherever valuesAt() has been asked.
   bool AreDerivativesFinite = true;
   /// Of the last call of interpolated(), at the nodes of its lattice.
   Samples Nodal;

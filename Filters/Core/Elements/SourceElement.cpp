@@ -1,5 +1,6 @@
 #include "Elements/SourceElement.h"
 
+#include "Elements/CollapsedFaces.h"
 #include "Elements/LowerDegrees.h"
 
 #include <utility>
@@ -57,6 +58,10 @@ std::array<std::vector<ScaledPolynomial>, 3> homogeneousDerivatives(const Source
     {
       result[k].push_back(homogeneousDerivative(component, weight, k));
     }
+  }
+  if (hasCollapsedEdge(source))
+  {
+    divideByCommonFactors(source, result);
   }
   return result;
 }

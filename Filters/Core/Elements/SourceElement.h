@@ -32,7 +32,8 @@ std::vector<ScaledPolynomial> componentsOf(const SourceElement& source);
 ScaledPolynomial weightOf(const SourceElement& source);
 
 /// Of each component p along each coordinate w p' - p w', which is p' where w = 1: with X' and U' of coordinates and field
-/// du/dx = U' X'^-1, as the powers of w cancel.
+/// du/dx = U' X'^-1, as the powers of w cancel. So do factors that a collapsed face gives all components, which are
+/// taken out (see CollapsedFaces.h).
 std::array<std::vector<ScaledPolynomial>, 3> homogeneousDerivatives(const SourceElement& source);
 
 } // namespace hop
