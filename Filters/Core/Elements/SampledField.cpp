@@ -36,9 +36,11 @@ struct Sampling
   /// 10, by NodalBasis::conversionNorm), and an evaluation costs as much as one of several parts.
   static constexpr int LowestDegree = 4;
   static constexpr int DegreeStep = 2;
-  /// Steps in a row that promise too little before a proof does without higher degrees. Fewer: more components of lambda
-  /// 2 are missed (test_derived_components.py); more: creases cost more (derived_costs.py).
+  /// Steps in a row that promise too little before a proof does without higher degrees. Fewer: fields that bend much
+  /// count as creased; more: creases cost more (derived_costs.py).
   static constexpr int PoorSteps = 2;
+  /// The same of lambda 2, which has creases in most cells.
+  static constexpr int PoorStepsOfCreases = 1;
 };
 
 /// Of a hexahedron Gauss-Lobatto-Legendre nodes allow a higher degree than equispaced ones.
@@ -181,14 +183,15 @@ SampledPart simplestOf(std::vector<SampledPart> tried)
 
 /// Whether none of the last steps, if the ones that are left lower the error by the same factor, leads to the
 /// tolerance: errors of smooth fields fall geometrically, those beside creases hardly.
-bool isHopeless(const std::vector<SampledPart>& tried, int stepsLeft, double tolerance)
+/// \param steps that are looked at
+bool isHopeless(const std::vector<SampledPart>& tried, int steps, int stepsLeft, double tolerance)
 {
   const int last = static_cast<int>(tried.size()) - 1;
-  if (last < Sampling::PoorSteps)
+  if (last < steps)
   {
     return false;
   }
-  for (int i = last; i > last - Sampling::PoorSteps; --i)
+  for (int i = last; i > last - steps; --i)
   {
     const double ratio = tried[i].error / tried[i - 1].error;
     if (tried[i].error * std::pow(ratio, stepsLeft + last - i) <= tolerance)
@@ -394,8 +397,7 @@ std::vector<double> FieldSampler::fieldAt(std::size_t count, const RowOf& rowOf)
 SampledPart FieldSampler::interpolated(const ReferencePart& part, int degree, const Samples& checks)
 {
   const SamplingLattice& lattice = samplingLattice(this->Source.domain, degree);
-  this->Nodal = this->valuesAt(part, lattice);
-  const Samples& nodal = this->Nodal;
+  const Samples nodal = this->valuesAt(part, lattice);
   SampledPart result;
   if (!isFinite(nodal) || !isFinite(checks))
   {
@@ -442,6 +444,8 @@ SampledPart FieldSampler::sample(const ReferencePart& part,
 {
   const Samples checks = this->valuesAt(part, checkPoints(this->Source.domain));
   const int highest = highestDegree(this->Source.domain);
+  const bool isCreased = this->ItsQuantity == Quantity::Lambda2;
+  const int poorSteps = isCreased ? Sampling::PoorStepsOfCreases : Sampling::PoorSteps;
   std::vector<SampledPart> tried;
   for (int degree = this->FirstDegree;; degree += Sampling::DegreeStep)
   {
@@ -462,31 +466,41 @@ SampledPart FieldSampler::sample(const ReferencePart& part,
     const int stepsLeft = (highest - degree) / Sampling::DegreeStep;
     if (stepsLeft == 0 ||
       (this->ItsStandIn == StandIn::Proof &&
-        isHopeless(tried, stepsLeft, this->toleranceOf(checks))))
+        isHopeless(tried, poorSteps, stepsLeft, this->toleranceOf(checks))))
     {
       this->FirstDegree = Sampling::LowestDegree;
       SampledPart simplest = simplestOf(std::move(tried));
-      simplest.losesComponents = std::any_of(isovalues.begin(), isovalues.end(),
-        [&](double isovalue) { return this->losesComponents(simplest, degree, isovalue); });
+      const int finer = std::min(degree + Sampling::DegreeStep, highest);
+      simplest.losesComponents = this->losesComponents(
+        simplest, part, samplingLattice(this->Source.domain, finer), isovalues);
       return simplest;
     }
   }
 }
 
-/// \param degree of the last lattice, whose nodes are compared
-bool FieldSampler::losesComponents(const SampledPart& sampled, int degree, double isovalue) const
+/// \param lattice whose nodes are compared
+bool FieldSampler::losesComponents(const SampledPart& sampled, const ReferencePart& part,
+  const SamplingLattice& lattice, const std::vector<double>& isovalues)
 {
-  const SamplingLattice& lattice = samplingLattice(this->Source.domain, degree);
+  if (isovalues.empty())
+  {
+    return false;
+  }
+  const Samples field = this->valuesAt(part, lattice);
   const std::vector<double> polynomial =
     fieldAtNodes(lattice, formOf(this->Source.domain, sampled.element));
-  std::vector<char> isAbove(lattice.nodes.size());
-  std::vector<char> isKept(lattice.nodes.size());
-  for (std::size_t n = 0; n < lattice.nodes.size(); ++n)
-  {
-    isAbove[n] = this->Nodal[n].w > isovalue;
-    isKept[n] = isAbove[n] == static_cast<char>(polynomial[n] > isovalue);
-  }
-  return hasSetWithoutMark(lattice, this->Source.domain, isAbove, isKept);
+  std::vector<char> isAbove(field.size());
+  std::vector<char> isKept(field.size());
+  return std::any_of(isovalues.begin(), isovalues.end(),
+    [&](double isovalue)
+    {
+      for (std::size_t n = 0; n < field.size(); ++n)
+      {
+        isAbove[n] = field[n].w > isovalue;
+        isKept[n] = isAbove[n] == static_cast<char>(polynomial[n] > isovalue);
+      }
+      return hasSetWithoutMark(lattice, this->Source.domain, isAbove, isKept);
+    });
 }
 
 } // namespace hop

@@ -77,7 +77,8 @@ private:
   template <class RowOf>
   std::vector<double> fieldAt(std::size_t count, const RowOf& rowOf);
   SampledPart interpolated(const ReferencePart& part, int degree, const Samples& checks);
-  bool losesComponents(const SampledPart& sampled, int degree, double isovalue) const;
+  bool losesComponents(const SampledPart& sampled, const ReferencePart& part,
+    const SamplingLattice& lattice, const std::vector<double>& isovalues);
   void judge(SampledPart& sampled, const Samples& checks) const;
   double toleranceOf(const Samples& checks) const;
 
@@ -94,8 +95,6 @@ private:
   std::optional<ExactSource> Homogeneous;
   /// Whether derivatives are finite wherever valuesAt() has been asked.
   bool AreDerivativesFinite = true;
-  /// Of the last call of interpolated(), at the nodes of its lattice.
-  Samples Nodal;
   /// Where to begin: the next part is about as smooth as the last one.
   int FirstDegree = 0;
 };
