@@ -1,6 +1,7 @@
 #include "Run/RunMesh.h"
 
 #include "Mesh/CurvedTriangles.h"
+#include "Mesh/LiftedField.h"
 #include "Mesh/SurfaceMesh.h"
 #include "Support/Interruptible.h"
 #include "Topology/TopologyComparison.h"
@@ -153,8 +154,8 @@ void mergePlaces(const ParticleMesh& mesh, Buffer<Particle>& particles)
 
 } // namespace
 
-void addMesh(const Isosurface& surface, OutputType type, int order, bool isCut,
-  IsovalueParticles& some, const Monitor& monitor, const ParallelFor& parallelFor)
+bool addMesh(const Isosurface& surface, const Isosurface& own, OutputType type, int order,
+  bool isCut, IsovalueParticles& some, const Monitor& monitor, const ParallelFor& parallelFor)
 {
   Distribution& distribution = some.distribution;
   std::vector<std::array<int, 3>> triangles;
@@ -162,7 +163,7 @@ void addMesh(const Isosurface& surface, OutputType type, int order, bool isCut,
   const ConstrainedEdges edges(distribution);
   if (type != OutputType::Particles)
   {
-    SurfaceMesh mesh = meshSurface(surface, edges, distribution, monitor, parallelFor);
+    SurfaceMesh mesh = meshSurface(own, edges, distribution, monitor, parallelFor);
     triangles = std::move(mesh.triangles);
     copies = std::move(mesh.copies);
     some.mesh.openLoops = mesh.openLoops;
@@ -175,12 +176,13 @@ void addMesh(const Isosurface& surface, OutputType type, int order, bool isCut,
     some.mesh.vertices = firstInPlace(distribution.edges, distribution.particles.size());
     some.mesh.shared = sharedPlaces(some.mesh.vertices);
     Interruptible loops(monitor, parallelFor);
-    prove(surface, distribution.particles, triangles, isCut, some.mesh, std::ref(loops));
+    prove(own, distribution.particles, triangles, isCut, some.mesh, std::ref(loops));
   }
   std::vector<double> areas = particleAreas(distribution, edges, monitor, parallelFor);
   shareAreas(copies, areas);
   forAll(
     parallelFor, areas.size(), [&](std::size_t p) { distribution.particles[p].area = areas[p]; });
+  const bool areOn = own.mesh == surface.mesh || putBack(surface, distribution, parallelFor);
   if (type == OutputType::CurvedTriangles)
   {
     Interruptible loops(monitor, parallelFor);
@@ -195,6 +197,12 @@ void addMesh(const Isosurface& surface, OutputType type, int order, bool isCut,
     }
   }
   mergePlaces(some.mesh, distribution.particles);
+  return areOn;
+}
+
+std::int64_t lackOf(const ParticleMesh& mesh)
+{
+  return mesh.openLoops + mesh.unusedParticles + (mesh.isProven ? 0 : 1);
 }
 
 } // namespace hop

@@ -16,11 +16,17 @@ enum class OutputType
 
 /// The mesh that goes with the type of the output; none for particles. Particles may be added: where holes are filled,
 /// and as nodes of curved triangles.
+/// \param own of the mesh that the particles are on; the same as `surface`, or one whose field is lifted (LiftedField.h),
+/// from which particles are put back onto the surface once they are joined
 /// \param order of curved triangles
 /// \param isCut whether the particles cover a part of the surface only, of whose topology nothing is proven
 /// \param some whose mesh and areas are computed
+/// \return whether all particles are on the surface
 /// \throw Interrupted
-void addMesh(const Isosurface& surface, OutputType type, int order, bool isCut,
-  IsovalueParticles& some, const Monitor& monitor, const ParallelFor& parallelFor);
+bool addMesh(const Isosurface& surface, const Isosurface& own, OutputType type, int order,
+  bool isCut, IsovalueParticles& some, const Monitor& monitor, const ParallelFor& parallelFor);
+
+/// How much a mesh lacks: its holes, particles without a triangle, and one more where its topology is not proven.
+std::int64_t lackOf(const ParticleMesh& mesh);
 
 } // namespace hop

@@ -2,6 +2,7 @@
 
 #include "Classic/ClassicDistribution.h"
 #include "Fast/FastDistribution.h"
+#include "Mesh/LiftedField.h"
 #include "Run/ParticleLimit.h"
 #include "Run/RunMesh.h"
 #include "Run/RunMessages.h"
@@ -9,6 +10,8 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 namespace hop
 {
@@ -46,13 +49,53 @@ void SurfaceWorker::distribute(
   {
     this->Previous.remember(number, origin, this->Mesh, distribution, work.parallelFor);
   }
-  this->review(some.isovalue, fieldIsovalue, distribution, work.part(distributed, distributed));
   if (!distribution.report.aborted)
   {
-    const Work rest = work.part(distributed, 1.0);
-    addMesh(surface, this->Properties.outputType, this->Properties.order,
-      !parameters.polygon.isEverything(), some, rest.monitor, rest.parallelFor);
+    const bool isCut = !parameters.polygon.isEverything();
+    this->addMesh(surface, surface, isCut, work.part(distributed, 1.0), some);
+    const bool isMesh = this->Properties.outputType != OutputType::Particles;
+    if (isMesh && lackOf(some.mesh) > 0 && !this->Properties.isClassic && !isCut)
+    {
+      this->meshLifted(surface, parameters, work.part(1.0, 1.0), some);
+    }
+  }
+  this->review(some.isovalue, fieldIsovalue, distribution, work.part(1.0, 1.0));
+  if (!distribution.report.aborted)
+  {
     this->Caller.tell(reviewMesh(this->Blocks, this->Mesh, some, this->Scale.unit));
+  }
+}
+
+/// Joins the particles to the mesh that is asked for.
+/// \param own see hop::addMesh()
+/// \return whether all particles are on the surface
+bool SurfaceWorker::addMesh(const Isosurface& surface, const Isosurface& own, bool isCut,
+  const Work& work, IsovalueParticles& some) const
+{
+  return hop::addMesh(surface, own, this->Properties.outputType, this->Properties.order, isCut,
+    some, work.monitor, work.parallelFor);
+}
+
+/// Distributes and joins particles anew where nodes have the isovalue exactly, on a field that is lifted there.
+/// \param some whose mesh lacks something; replaced if the new one lacks less
+void SurfaceWorker::meshLifted(const Isosurface& surface, const DistributionParameters& parameters,
+  const Work& work, IsovalueParticles& some) const
+{
+  const std::optional<ElementMesh> mesh = liftedMesh(this->Mesh, surface.isovalue);
+  if (!mesh)
+  {
+    return;
+  }
+  Isosurface lifted = surface;
+  lifted.mesh = &*mesh;
+  IsovalueParticles other;
+  other.isovalue = some.isovalue;
+  other.distribution = distributeFast(lifted, parameters, work.monitor, work.parallelFor);
+  if (!other.distribution.report.aborted && !other.distribution.particles.empty() &&
+    this->addMesh(surface, lifted, !parameters.polygon.isEverything(), work, other) &&
+    lackOf(other.mesh) < lackOf(some.mesh))
+  {
+    some = std::move(other);
   }
 }
 

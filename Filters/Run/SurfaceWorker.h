@@ -41,6 +41,10 @@ public:
     const Work& work) const;
 
 private:
+  bool addMesh(const Isosurface& surface, const Isosurface& own, bool isCut, const Work& work,
+    IsovalueParticles& some) const;
+  void meshLifted(const Isosurface& surface, const DistributionParameters& parameters,
+    const Work& work, IsovalueParticles& some) const;
   SizingFunction sizingAt(double spacing) const;
   RunOrigin makeOrigin(double isovalue) const;
   PlanePolygon polygonOf(double isovalue) const;

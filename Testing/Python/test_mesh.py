@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 import support
-from cells import straight_grid
+from cells import set_points, straight_grid
 from paraview import simple
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 from pictures import background_share, read_png
@@ -246,6 +246,48 @@ def test_meshes_of_solvers_are_closed_well_shaped_and_of_the_right_area(data, pl
     assert array_of(mesh, "Area").sum() == pytest.approx(case.area, rel=case.error)
     angles = smallest_angles(mesh)[away_from_edges(mesh, case.crease)]
     assert np.median(angles) >= case.median and np.quantile(angles, 0.01) >= 30
+
+
+# Fields of the unit cube that are zero in nodes, and on whole edges of elements; whether the surface is closed.
+THROUGH_NODES = {
+    "a sphere": (lambda x: np.linalg.norm(x - 0.5, axis=1) - 0.25, True),
+    "a cylinder": (lambda x: np.hypot(x[:, 0] - 0.5, x[:, 1] - 0.5) - 0.25, False),
+    "an octahedron": (lambda x: np.abs(x - 0.5).sum(axis=1) - 0.5, True),
+    "a diagonal plane": (lambda x: x[:, 0] - x[:, 1], False),
+    "a plane through three edges": (lambda x: x[:, 0] + x[:, 1] - x[:, 2], False),
+    "a parabola": (lambda x: x[:, 0] ** 2 - x[:, 1], False),
+}
+
+
+@pytest.mark.parametrize("surface", THROUGH_NODES)
+@pytest.mark.parametrize("name, order, blocks", [
+    ("TETRA", None, 8), ("HEXAHEDRON", None, 8), ("LAGRANGE_TETRAHEDRON", 2, 4), ("LAGRANGE_WEDGE", 2, 4),
+])  # fmt: skip
+def test_surfaces_through_nodes_and_edges_are_closed(plugin, name, order, blocks, surface):
+    """Boundary curves and creases along edges of the mesh are undecided: the field is lifted there, and particles are put
+    back."""
+    field, is_closed = THROUGH_NODES[surface]
+    grid = straight_grid(name, order=order, blocks=blocks)
+    x = points_of(grid) / blocks
+    set_points(grid, x)
+    add_point_array(grid, "u", field(x))
+    mesh, messages = support.run(grid, "u", 0.0, OutputType="Triangles")
+    assert not any("holes" in text or "corners of no triangle" in text for text in messages.warnings)
+    assert (support.reported(mesh, "MeshOpenLoops"), support.reported(mesh, "MeshUnusedParticles")) == (0, 0)
+    assert array_of(mesh, "Residual").max() < 1e-9
+    points, ends = points_of(mesh), edges_with_one_triangle(mesh)
+    on_faces = (np.abs(points) < 1e-6) | (np.abs(points - 1.0) < 1e-6)
+    assert (on_faces[ends[:, 0]] & on_faces[ends[:, 1]]).any(axis=1).all()
+    assert (len(ends) == 0) == is_closed
+
+
+def edges_with_one_triangle(mesh):
+    """Pairs of points."""
+    triangles = corners_of(mesh)
+    edges = np.sort(np.concatenate([triangles[:, [i, (i + 1) % 3]] for i in range(3)]), axis=1)
+    unique, counts = np.unique(edges, axis=0, return_counts=True)
+    assert counts.max() <= 2
+    return unique[counts == 1]
 
 
 def test_topology_of_a_field_with_jumps_is_not_proven(data, plugin):

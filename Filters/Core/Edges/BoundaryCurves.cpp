@@ -149,7 +149,8 @@ std::vector<int> BoundaryParticles::mergeOnCurves(DisjointSets& places, std::vec
   DisjointSets same(particles.size());
   for (const CurveRange& range : this->Sampled.ranges)
   {
-    const std::size_t pairs = range.closed ? range.count : std::max<std::size_t>(range.count, 1) - 1;
+    const std::size_t pairs =
+      range.closed ? range.count : std::max<std::size_t>(range.count, 1) - 1;
     for (std::size_t n = 0; n < pairs; ++n)
     {
       const int here = static_cast<int>(range.first + n);
@@ -198,7 +199,8 @@ BoundaryCurves BoundaryParticles::make(SampledCurves wanted, const ParallelFor& 
   {
     const bool isMerged = merged[n] != static_cast<int>(n);
     const int particle = found[n] ? count++ : isMerged ? outcomes[merged[n]].particle : -1;
-    outcomes[n] = { particle, -1, kinds[n] == PlaceKind::Inside, this->Sampled.beginsCrease[n] != 0 };
+    outcomes[n] = { particle, -1, kinds[n] == PlaceKind::Inside,
+      this->Sampled.beginsCrease[n] != 0 };
   }
   keepMarked(particles, found);
   thinOut(std::move(outcomes), this->Sampled.ranges, wanted, this->Result, parallelFor);
