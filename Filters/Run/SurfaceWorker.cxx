@@ -81,7 +81,16 @@ bool SurfaceWorker::addMesh(const Isosurface& surface, const Isosurface& own, bo
 void SurfaceWorker::meshLifted(const Isosurface& surface, const DistributionParameters& parameters,
   const Work& work, IsovalueParticles& some) const
 {
-  const std::optional<ElementMesh> mesh = liftedMesh(this->Mesh, surface.isovalue);
+  // Where the field jumps, meshes lack something for other reasons.
+  const Buffer<Particle>& particles = some.distribution.particles;
+  if (std::any_of(particles.begin(), particles.end(),
+        [](const Particle& particle) { return particle.jump != 0.0; }))
+  {
+    return;
+  }
+  const bool isOpen = some.mesh.openLoops > 0 || some.mesh.unusedParticles > 0;
+  const std::optional<ElementMesh> mesh =
+    liftedMesh(this->Mesh, surface.isovalue, isOpen ? LiftedValues::Near : LiftedValues::Isovalue);
   if (!mesh)
   {
     return;

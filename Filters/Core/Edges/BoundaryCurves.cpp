@@ -7,7 +7,6 @@
 #include "Support/DisjointSets.h"
 #include "Support/KeepMarked.h"
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 
@@ -62,8 +61,7 @@ public:
 
 private:
   std::vector<PlaceKind> finish(const ParallelFor& parallelFor);
-  std::vector<int> meet(std::vector<char>& found);
-  std::vector<int> mergeOnCurves(DisjointSets& places, std::vector<char>& found);
+  void meet(std::vector<char>& found);
 
   const Isosurface& Surface;
   const FaceJumps& Jumps;
@@ -97,8 +95,7 @@ std::vector<PlaceKind> BoundaryParticles::finish(const ParallelFor& parallelFor)
 /// Puts the particles of all sides of a place on creases into the same place, to the last bit. Inside a crease there is
 /// one on each side or none.
 /// \param found marks the places with particles
-/// \return for each place the one whose particle stands there, too; see mergeOnCurves()
-std::vector<int> BoundaryParticles::meet(std::vector<char>& found)
+void BoundaryParticles::meet(std::vector<char>& found)
 {
   Buffer<BoundaryParticle>& particles = this->Result.particles;
   DisjointSets places(particles.size());
@@ -128,56 +125,7 @@ std::vector<int> BoundaryParticles::meet(std::vector<char>& found)
     }
     one = one < 0 ? static_cast<int>(n) : one;
   }
-  std::vector<int> merged = this->mergeOnCurves(places, found);
-  std::vector<std::array<int, 2>>& coincident = this->Result.edges.coincident;
-  coincident.erase(std::remove_if(coincident.begin(), coincident.end(),
-                     [&](const std::array<int, 2>& pair) { return !found[pair[1]]; }),
-    coincident.end());
-  renumber(coincident, found);
-  return merged;
-}
-
-/// Where places of one element follow each other on a curve and are one place, as where the curve leaves the element by an
-/// edge of the mesh and reaches the next face in no time, they have one particle: a mesh has no use for edges without
-/// length.
-/// \param places sets of places that are one
-/// \param found marks the places with particles; of those that are merged the first keeps its own
-/// \return the first of the places that each is merged with
-std::vector<int> BoundaryParticles::mergeOnCurves(DisjointSets& places, std::vector<char>& found)
-{
-  Buffer<BoundaryParticle>& particles = this->Result.particles;
-  DisjointSets same(particles.size());
-  for (const CurveRange& range : this->Sampled.ranges)
-  {
-    const std::size_t pairs =
-      range.closed ? range.count : std::max<std::size_t>(range.count, 1) - 1;
-    for (std::size_t n = 0; n < pairs; ++n)
-    {
-      const int here = static_cast<int>(range.first + n);
-      const int next = static_cast<int>(range.first + (n + 1) % range.count);
-      const bool isOneElement =
-        particles[here].particle.location.element == particles[next].particle.location.element;
-      if (found[here] && found[next] && isOneElement && places.root(here) == places.root(next))
-      {
-        same.unite(here, next);
-      }
-    }
-  }
-  std::vector<int> merged(particles.size());
-  for (std::size_t n = 0; n < particles.size(); ++n)
-  {
-    const int one = same.root(static_cast<int>(n));
-    merged[n] = one;
-    if (one == static_cast<int>(n))
-    {
-      continue;
-    }
-    found[n] = 0;
-    particles[one].isOnCrease = particles[one].isOnCrease || particles[n].isOnCrease;
-    particles[one].isCorner = particles[one].isCorner || particles[n].isCorner;
-    particles[one].isNeeded = particles[one].isNeeded || particles[n].isNeeded;
-  }
-  return merged;
+  renumber(this->Result.edges.coincident, found);
 }
 
 BoundaryCurves BoundaryParticles::make(SampledCurves wanted, const ParallelFor& parallelFor)
@@ -192,14 +140,12 @@ BoundaryCurves BoundaryParticles::make(SampledCurves wanted, const ParallelFor& 
     particles[n].isCorner = this->Sampled.isCorner[n] != 0;
     particles[n].isNeeded = this->Sampled.isNeeded[n] != 0;
   }
-  const std::vector<int> merged = this->meet(found);
+  this->meet(found);
   std::vector<CurvePlace> outcomes(particles.size());
   int count = 0;
   for (std::size_t n = 0; n < particles.size(); ++n)
   {
-    const bool isMerged = merged[n] != static_cast<int>(n);
-    const int particle = found[n] ? count++ : isMerged ? outcomes[merged[n]].particle : -1;
-    outcomes[n] = { particle, -1, kinds[n] == PlaceKind::Inside,
+    outcomes[n] = { found[n] ? count++ : -1, -1, kinds[n] == PlaceKind::Inside,
       this->Sampled.beginsCrease[n] != 0 };
   }
   keepMarked(particles, found);

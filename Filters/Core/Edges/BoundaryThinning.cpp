@@ -124,9 +124,6 @@ std::vector<char> passCracks(const std::vector<CurvePlace>& places,
   std::vector<char> isAlone(particles.size(), 0);
   for (const CurveRange& range : ranges)
   {
-    const auto first = places.begin() + static_cast<std::ptrdiff_t>(range.first);
-    const bool isOne = std::all_of(first, first + static_cast<std::ptrdiff_t>(range.count),
-      [&](const CurvePlace& place) { return place.particle == first->particle; });
     for (std::size_t n = 0; n < range.count; ++n)
     {
       const int here = places[range.first + n].particle;
@@ -138,7 +135,7 @@ std::vector<char> passCracks(const std::vector<CurvePlace>& places,
       }
       BoundaryParticle& a = particles[here];
       BoundaryParticle& b = particles[next];
-      isAlone[here] = static_cast<char>(isAlone[here] || isOne);
+      isAlone[here] = static_cast<char>(isAlone[here] || here == next);
       if (a.particle.location.element != b.particle.location.element &&
         glm::distance(a.patch.position, b.patch.position) < Nearness::OnTwoSides * a.patch.spacing)
       {

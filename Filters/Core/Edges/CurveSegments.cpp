@@ -28,7 +28,7 @@ public:
   {
     const int particle = place.particle >= 0 ? place.particle : place.standIn;
     const bool isOwn = place.particle >= 0;
-    if (this->Last >= 0 && this->Last != particle)
+    if (this->Last >= 0)
     {
       if (!this->IsCrease)
       {

@@ -104,12 +104,13 @@ bool putBack(const Isosurface& surface, SurfaceWalker& walker, Particle& particl
 
 } // namespace
 
-std::optional<ElementMesh> liftedMesh(const ElementMesh& mesh, double isovalue)
+std::optional<ElementMesh> liftedMesh(const ElementMesh& mesh, double isovalue, LiftedValues which)
 {
+  const double near = which == LiftedValues::Near ? Lift::Near : 0.0;
   const auto weightOf = [&mesh](std::size_t i)
   { return mesh.weights.empty() ? 1.0 : mesh.weights[i]; };
   const auto isNear = [&](std::size_t i)
-  { return std::abs(mesh.coefficients[i].w - isovalue * weightOf(i)) <= Lift::Near * weightOf(i); };
+  { return std::abs(mesh.coefficients[i].w - isovalue * weightOf(i)) <= near * weightOf(i); };
   std::size_t first = 0;
   while (first < mesh.coefficients.size() && !isNear(first))
   {

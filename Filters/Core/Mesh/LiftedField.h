@@ -7,13 +7,22 @@
 namespace hop
 {
 
+/// Values from which a field is taken away.
+enum class LiftedValues
+{
+  /// The isovalue.
+  Isovalue,
+  /// Values near it, too.
+  Near
+};
+
 /// A mesh with another field where nodes, edges or faces of elements have the isovalue, or nearly so: there the field is
 /// farther from it by a small number, on its own side, and above where it was the isovalue itself. So the surface passes
 /// beside them, and no piece of it is narrower than its curves can tell apart: what simulation of simplicity does with
 /// symbols (Edelsbrunner and Mücke 1990). Where the surface lies in edges of the mesh its boundary curves and creases are
 /// undecided otherwise.
-/// \return nothing where no coefficient is that near, or particles stand on other fields than those of coefficients
-std::optional<ElementMesh> liftedMesh(const ElementMesh& mesh, double isovalue);
+/// \return nothing where no coefficient is such a value, or particles stand on other fields than those of coefficients
+std::optional<ElementMesh> liftedMesh(const ElementMesh& mesh, double isovalue, LiftedValues which);
 
 /// Puts the particles on a lifted mesh's surface, and all that are on one place together, onto the surface itself: some
 /// thousandth of an element.

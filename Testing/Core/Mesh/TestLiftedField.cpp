@@ -29,10 +29,12 @@ ElementMesh ballThroughNodes()
 TEST(LiftedField, IsThereOnlyWhereCoefficientsAreNearTheIsovalue)
 {
   const ElementMesh mesh = ballThroughNodes();
-  EXPECT_FALSE(liftedMesh(mesh, 0.01));
+  EXPECT_FALSE(liftedMesh(mesh, 0.01, LiftedValues::Near));
+  EXPECT_FALSE(liftedMesh(mesh, 1e-6, LiftedValues::Isovalue));
+  EXPECT_TRUE(liftedMesh(mesh, 0.0, LiftedValues::Isovalue));
   for (const double isovalue : { 0.0, 1e-6, -1e-6 })
   {
-    const std::optional<ElementMesh> lifted = liftedMesh(mesh, isovalue);
+    const std::optional<ElementMesh> lifted = liftedMesh(mesh, isovalue, LiftedValues::Near);
     ASSERT_TRUE(lifted);
     int changed = 0;
     for (std::size_t i = 0; i < mesh.coefficients.size(); ++i)
@@ -57,7 +59,7 @@ TEST(LiftedField, IsLiftedByTheWeightOfRationalElements)
     coefficient *= 0.5;
     coefficient.w += 0.5; // of the field plus 1
   }
-  const std::optional<ElementMesh> lifted = liftedMesh(mesh, 1.0);
+  const std::optional<ElementMesh> lifted = liftedMesh(mesh, 1.0, LiftedValues::Near);
   ASSERT_TRUE(lifted);
   for (std::size_t i = 0; i < mesh.coefficients.size(); ++i)
   {
@@ -68,7 +70,7 @@ TEST(LiftedField, IsLiftedByTheWeightOfRationalElements)
 TEST(LiftedField, ClosesASurfaceThroughNodesAndPutsItBack)
 {
   const ElementMesh mesh = ballThroughNodes();
-  const std::optional<ElementMesh> lifted = liftedMesh(mesh, 0.0);
+  const std::optional<ElementMesh> lifted = liftedMesh(mesh, 0.0, LiftedValues::Near);
   ASSERT_TRUE(lifted);
   DistributionParameters parameters;
   parameters.sizing = { 0.04, 0.0 };
