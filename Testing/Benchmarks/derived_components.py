@@ -30,7 +30,8 @@ for name in components.KINDS:
             values[within] = components.values_of("Lambda 2", first, gradients)
             numbered = components.components_on(values.reshape((components.KINDS[name] + 1,) * 3))
             isovalues = np.quantile(values[within], np.random.default_rng(1000 + which).random(3))
-            particles, _ = support.run(grid, "u", list(isovalues), Quantity="Lambda 2", Spacing=0.1, AngularDensity=0)
+            spacing = components.SPACINGS.get(name, 0.1)
+            particles, _ = support.run(grid, "u", list(isovalues), Quantity="Lambda 2", Spacing=spacing, AngularDensity=0)
             whose = np.abs(support.array_of(particles, "Isovalue")[:, None] - isovalues).argmin(axis=1)
             places = components.in_lattice(name, support.array_of(particles, "ParametricCoordinates"))
             for n, isovalue in enumerate(isovalues):

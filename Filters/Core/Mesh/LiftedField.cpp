@@ -92,6 +92,11 @@ bool putBack(const Isosurface& surface, SurfaceWalker& walker, Particle& particl
     return false;
   }
   place = walker.evaluateCurved(place.location);
+  const double slope = length(place.point.gradient);
+  if (place.point.map.singular || !(slope > 0.0) || !std::isfinite(slope))
+  {
+    return false; // the surface is singular there
+  }
   const Particle there = particleAt(
     place.location, place.point, curvature(place.point.gradient, place.hessian), particle.spacing);
   particle.location = there.location;
