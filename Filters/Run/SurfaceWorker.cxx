@@ -16,6 +16,21 @@
 namespace hop
 {
 
+namespace
+{
+
+/// Whether a lifted field seems to have sheets that the field itself has not, by the numbers of particles: two instead of
+/// one where it touches the isovalue and does not cross it.
+bool hasMoreSheets(const Distribution& lifted, const Distribution& own)
+{
+  // Two sheets have twice as many; particles that holes lack are some tenths.
+  constexpr double more = 1.8;
+  return static_cast<double>(lifted.particles.size()) >
+    more * static_cast<double>(own.particles.size());
+}
+
+} // namespace
+
 SurfaceWorker::SurfaceWorker(const ElementMesh& mesh, const RankBlocks& blocks,
   const RunProperties& properties, const RunScale& scale, const RunCaller& caller,
   PreviousRun& previous)
@@ -51,10 +66,10 @@ void SurfaceWorker::distribute(
   }
   if (!distribution.report.aborted)
   {
-    const bool isCut = !parameters.polygon.isEverything();
-    this->addMesh(surface, surface, isCut, work.part(distributed, 1.0), some);
+    this->addMesh(surface, surface, parameters, work.part(distributed, 1.0), some);
     const bool isMesh = this->Properties.outputType != OutputType::Particles;
-    if (isMesh && lackOf(some.mesh) > 0 && !this->Properties.isClassic && !isCut)
+    if (isMesh && lackOf(some.mesh) > 0 && !this->Properties.isClassic &&
+      parameters.polygon.isEverything())
     {
       this->meshLifted(surface, parameters, work.part(1.0, 1.0), some);
     }
@@ -69,15 +84,15 @@ void SurfaceWorker::distribute(
 /// Joins the particles to the mesh that is asked for.
 /// \param own see hop::addMesh()
 /// \return whether all particles are on the surface
-bool SurfaceWorker::addMesh(const Isosurface& surface, const Isosurface& own, bool isCut,
-  const Work& work, IsovalueParticles& some) const
+bool SurfaceWorker::addMesh(const Isosurface& surface, const Isosurface& own,
+  const DistributionParameters& parameters, const Work& work, IsovalueParticles& some) const
 {
-  return hop::addMesh(surface, own, this->Properties.outputType, this->Properties.order, isCut,
-    some, work.monitor, work.parallelFor);
+  return hop::addMesh(surface, own, this->Properties.outputType, this->Properties.order,
+    !parameters.polygon.isEverything(), some, work.monitor, work.parallelFor);
 }
 
-/// Distributes and joins particles anew where nodes have the isovalue exactly, on a field that is lifted there.
-/// \param some whose mesh lacks something; replaced if the new one lacks less
+/// Distributes and joins particles anew where nodes have the isovalue, or nearly so, on a field that is lifted there.
+/// \param some whose mesh lacks something; replaced if the new one lacks less and is of the same surface
 void SurfaceWorker::meshLifted(const Isosurface& surface, const DistributionParameters& parameters,
   const Work& work, IsovalueParticles& some) const
 {
@@ -101,8 +116,8 @@ void SurfaceWorker::meshLifted(const Isosurface& surface, const DistributionPara
   other.isovalue = some.isovalue;
   other.distribution = distributeFast(lifted, parameters, work.monitor, work.parallelFor);
   if (!other.distribution.report.aborted && !other.distribution.particles.empty() &&
-    this->addMesh(surface, lifted, !parameters.polygon.isEverything(), work, other) &&
-    lackOf(other.mesh) < lackOf(some.mesh))
+    this->addMesh(surface, lifted, parameters, work, other) &&
+    lackOf(other.mesh) < lackOf(some.mesh) && !hasMoreSheets(other.distribution, some.distribution))
   {
     some = std::move(other);
   }

@@ -41,8 +41,8 @@ public:
     const Work& work) const;
 
 private:
-  bool addMesh(const Isosurface& surface, const Isosurface& own, bool isCut, const Work& work,
-    IsovalueParticles& some) const;
+  bool addMesh(const Isosurface& surface, const Isosurface& own,
+    const DistributionParameters& parameters, const Work& work, IsovalueParticles& some) const;
   void meshLifted(const Isosurface& surface, const DistributionParameters& parameters,
     const Work& work, IsovalueParticles& some) const;
   SizingFunction sizingAt(double spacing) const;

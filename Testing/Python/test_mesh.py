@@ -281,6 +281,15 @@ def test_surfaces_through_nodes_and_edges_are_closed(plugin, name, order, blocks
     assert (len(ends) == 0) == is_closed
 
 
+@pytest.mark.parametrize("place", [0.0, 0.5])
+def test_a_field_that_touches_the_isovalue_gets_no_second_sheet(plugin, place):
+    """In faces of elements, at the end of the domain and inside."""
+    grid = straight_grid("TETRA", blocks=8)
+    add_point_array(grid, "u", -((points_of(grid)[:, 2] / 8 - place) ** 2))
+    particles, mesh = (support.run(grid, "u", 0.0, OutputType=kind)[0] for kind in ("Particles", "Triangles"))
+    assert 0 < mesh.GetNumberOfPoints() < 1.5 * particles.GetNumberOfPoints()
+
+
 def edges_with_one_triangle(mesh):
     """Pairs of points."""
     triangles = corners_of(mesh)

@@ -12,8 +12,7 @@ namespace hop
 /// collapsed: powers of t or 1 - t, t the coordinate across the face, as of the derivatives along a pyramid's base, which
 /// vanish in its apex. A gradient U' X'^-1 stays the same, as columns of X' and U' are divided by one number, and its
 /// determinant does not vanish in the face any more.
-/// \param derivatives of the components (x, y, z, u...) along each coordinate
-/// \post the derivatives along one coordinate still have the same powers taken out, but each its own degrees
+/// \param derivatives of the components (x, y, z, u...) along each coordinate; those along one lose the same powers
 void divideByCommonFactors(
   const SourceElement& source, std::array<std::vector<ScaledPolynomial>, 3>& derivatives);
 
