@@ -9,6 +9,7 @@
 #include "Run/SpacingAdvice.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -96,10 +97,11 @@ bool SurfaceWorker::addMesh(const Isosurface& surface, const Isosurface& own,
 void SurfaceWorker::meshLifted(const Isosurface& surface, const DistributionParameters& parameters,
   const Work& work, IsovalueParticles& some) const
 {
-  // Where the field jumps, meshes lack something for other reasons.
+  // Where the field jumps by more than rounding, meshes lack something for other reasons.
+  constexpr double rounding = 1e-8;
   const Buffer<Particle>& particles = some.distribution.particles;
   if (std::any_of(particles.begin(), particles.end(),
-        [](const Particle& particle) { return particle.jump != 0.0; }))
+        [](const Particle& particle) { return std::abs(particle.jump) > rounding; }))
   {
     return;
   }
