@@ -4,6 +4,8 @@
 #include "Elements/SampledField.h"
 #include "Elements/SourceElement.h"
 
+#include <vector>
+
 namespace hop::testing
 {
 
@@ -30,5 +32,39 @@ inline FieldPoint vectorFieldAt(const SourceElement& source, const ReferencePoin
   }
   return result;
 }
+
+/// An element with a vector field.
+struct VectorElement
+{
+  /// \param place, field, weight functions of a reference point; the weight counts if the element is rational
+  template <class Place, class Field, class Weight>
+  VectorElement(const ElementCase& which, bool isRational, const Place& place, const Field& field,
+    const Weight& weight)
+    : element(which)
+    , rational(isRational)
+  {
+    for (const LatticePoint& point : latticePoints(which.domain, which.degrees))
+    {
+      const glm::dvec3 u = latticePosition(which.degrees, point).xyz;
+      const double w = isRational ? weight(u) : 1.0;
+      for (const glm::dvec3& row : { place(u), field(u) })
+      {
+        this->control.insert(this->control.end(), { w * row.x, w * row.y, w * row.z });
+      }
+      this->weights.push_back(w);
+    }
+  }
+
+  SourceElement source() const
+  {
+    return { this->element.domain, this->element.degrees, 6, this->control, this->weights,
+      this->rational, 0.0 };
+  }
+
+  ElementCase element;
+  bool rational;
+  std::vector<double> control;
+  std::vector<double> weights;
+};
 
 } // namespace hop::testing

@@ -39,55 +39,44 @@ const Collapse ofEdge{ "no face",
   [](const glm::dvec3& u) { return glm::dvec3(u.x, u.y * (1.0 - u.x * u.z), u.z); }, { 0, 0, 0 } };
 const Collapse none{ "nothing", [](const glm::dvec3& u) { return u; }, { 0, 0, 0 } };
 
-/// A bent element with a face that is collapsed, and a vector field. Its first component is constant.
-struct CollapsedElement
+/// A product: else the edge of an element that is collapsed to an edge would depend on u.
+double weightAt(const glm::dvec3& u)
 {
-  CollapsedElement(const ElementCase& which, const Collapse& collapse, bool isRational)
-    : element(which)
-    , rational(isRational)
-  {
-    for (const LatticePoint& point : latticePoints(which.domain, which.degrees))
-    {
-      const glm::dvec3 u = latticePosition(which.degrees, point).xyz;
-      const glm::dvec3 s = collapse.map(u);
-      // A product: else the edge of one that is collapsed to an edge would depend on u.
-      const double weight =
-        isRational ? (1.0 + 0.2 * std::sin(3.0 * u.x)) * (1.0 + 0.2 * u.y + 0.3 * u.z) : 1.0;
-      const glm::dvec3 x = s + 0.08 * glm::dvec3(s.y * s.y, std::sin(2.0 * s.z), s.x * s.y);
-      const glm::dvec3 field(1.0 / 3.0, std::cos(5.0 * s.x + s.z), std::sin(4.0 * s.y) + s.x * s.z);
-      for (const glm::dvec3& row : { x, field })
-      {
-        this->control.insert(
-          this->control.end(), { weight * row.x, weight * row.y, weight * row.z });
-      }
-      this->weights.push_back(weight);
-    }
-  }
+  return (1.0 + 0.2 * std::sin(3.0 * u.x)) * (1.0 + 0.2 * u.y + 0.3 * u.z);
+}
 
-  SourceElement source() const
-  {
-    return { this->element.domain, this->element.degrees, 6, this->control, this->weights,
-      this->rational, 0.0 };
-  }
-
-  ElementCase element;
-  bool rational;
-  std::vector<double> control;
-  std::vector<double> weights;
-};
-
-std::vector<CollapsedElement> elementsOf(const Collapse& collapse)
+glm::dvec3 bent(const glm::dvec3& s)
 {
-  std::vector<CollapsedElement> elements;
+  return s + 0.08 * glm::dvec3(s.y * s.y, std::sin(2.0 * s.z), s.x * s.y);
+}
+
+/// Its first component is constant.
+glm::dvec3 fieldAt(const glm::dvec3& s)
+{
+  return { 1.0 / 3.0, std::cos(5.0 * s.x + s.z), std::sin(4.0 * s.y) + s.x * s.z };
+}
+
+/// A bent element with a face that is collapsed, and a vector field.
+VectorElement collapsedElement(const ElementCase& which, const Collapse& collapse, bool isRational)
+{
+  return { which, isRational, [&](const glm::dvec3& u) { return bent(collapse.map(u)); },
+    [&](const glm::dvec3& u) { return fieldAt(collapse.map(u)); }, weightAt };
+}
+
+std::vector<VectorElement> elementsOf(const Collapse& collapse)
+{
+  std::vector<VectorElement> elements;
   for (const bool isRational : { false, true })
   {
     for (const int p : { 1, 2, 4 })
     {
-      elements.emplace_back(ElementCase{ Domain::Hexahedron, { p, p, p } }, collapse, isRational);
+      elements.push_back(
+        collapsedElement(ElementCase{ Domain::Hexahedron, { p, p, p } }, collapse, isRational));
     }
-    elements.emplace_back(ElementCase{ Domain::Hexahedron, { 2, 3, 4 } }, collapse, isRational);
+    elements.push_back(
+      collapsedElement(ElementCase{ Domain::Hexahedron, { 2, 3, 4 } }, collapse, isRational));
   }
-  elements.emplace_back(ElementCase{ Domain::Wedge, { 2, 2, 3 } }, collapse, false);
+  elements.push_back(collapsedElement(ElementCase{ Domain::Wedge, { 2, 2, 3 } }, collapse, false));
   return elements;
 }
 
@@ -143,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(CollapsedFaces, CollapsedFaces,
 
 TEST_P(CollapsedFaces, LoseTheirFactorsAndNothingElse)
 {
-  for (const CollapsedElement& some : elementsOf(GetParam()))
+  for (const VectorElement& some : elementsOf(GetParam()))
   {
     const SourceElement source = some.source();
     // A wedge lacks the corner of the edge without a collapsed face.
@@ -167,7 +156,7 @@ TEST_P(CollapsedFaces, LoseTheirFactorsAndNothingElse)
 TEST_P(CollapsedFaces, LeaveGradientsAsTheyAre)
 {
   Random random(51);
-  for (const CollapsedElement& some : elementsOf(GetParam()))
+  for (const VectorElement& some : elementsOf(GetParam()))
   {
     for (int n = 0; n < 20; ++n)
     {
@@ -186,7 +175,7 @@ TEST(CollapsedFacesToOne, HaveFiniteGradients)
 {
   for (const Collapse& collapse : { toPoint, toEdge })
   {
-    for (const CollapsedElement& some : elementsOf(collapse))
+    for (const VectorElement& some : elementsOf(collapse))
     {
       const ReferencePoint above = insidePoint(some.element.domain, { 0.4, 0.3, 1.0 });
       ReferencePoint below = above;
@@ -202,7 +191,7 @@ TEST(CollapsedFacesToOne, HaveFiniteGradients)
 TEST(CollapsedFacesToOne, HaveExactFields)
 {
   constexpr double step = 1e-4;
-  const CollapsedElement some({ Domain::Hexahedron, { 3, 3, 3 } }, toPoint, false);
+  const VectorElement some = collapsedElement({ Domain::Hexahedron, { 3, 3, 3 } }, toPoint, false);
   for (const Quantity quantity : { Quantity::QCriterion, Quantity::Lambda2 })
   {
     const ExactSource exact = exactSource(some.source(), quantity);

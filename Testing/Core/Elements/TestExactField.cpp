@@ -17,33 +17,25 @@ namespace hop::testing
 namespace
 {
 
-/// A bent element with a vector field.
-struct VectorElement
+glm::dvec3 bent(const glm::dvec3& u)
 {
-  template <class Field>
-  VectorElement(const ElementCase& which, bool isRational, const Field& field)
-    : element(which)
-    , rational(isRational)
-  {
-    for (const LatticePoint& point : latticePoints(which.domain, which.degrees))
-    {
-      const glm::dvec3 u = latticePosition(which.degrees, point).xyz;
-      const glm::dvec3 x = u + 0.08 * glm::dvec3(u.y * u.y, std::sin(2.0 * u.z), u.x * u.y);
-      const glm::dvec3 value = field(x);
-      const double weight = isRational ? 1.0 + 0.2 * std::sin(3.0 * u.x + u.y) : 1.0;
-      for (const glm::dvec3& row : { x, value })
-      {
-        this->control.insert(
-          this->control.end(), { weight * row.x, weight * row.y, weight * row.z });
-      }
-      this->weights.push_back(weight);
-    }
-  }
+  return u + 0.08 * glm::dvec3(u.y * u.y, std::sin(2.0 * u.z), u.x * u.y);
+}
 
-  SourceElement source() const
+double weightAt(const glm::dvec3& u)
+{
+  return 1.0 + 0.2 * std::sin(3.0 * u.x + u.y);
+}
+
+/// A bent element with a vector field.
+struct BentElement : VectorElement
+{
+  /// \param field of the place
+  template <class Field>
+  BentElement(const ElementCase& which, bool isRational, const Field& field)
+    : VectorElement(
+        which, isRational, bent, [&](const glm::dvec3& u) { return field(bent(u)); }, weightAt)
   {
-    return { this->element.domain, this->element.degrees, 6, this->control, this->weights,
-      this->rational, 0.0 };
   }
 
   /// The quantity from the gradients of one component after the other.
@@ -51,22 +43,17 @@ struct VectorElement
   {
     return functionOf(quantity)(vectorFieldAt(this->source(), u));
   }
-
-  ElementCase element;
-  bool rational;
-  std::vector<double> control;
-  std::vector<double> weights;
 };
 
 constexpr Quantity quantities[] = { Quantity::GradientMagnitude, Quantity::Divergence,
   Quantity::VorticityMagnitude, Quantity::QCriterion, Quantity::Lambda2 };
 
-Jet jetOf(const VectorElement& some, const ExactSource& exact, const ReferencePoint& u)
+Jet jetOf(const BentElement& some, const ExactSource& exact, const ReferencePoint& u)
 {
   return exactHessian(some.element.domain, exact.field, exact.coefficients.data(), u);
 }
 
-ExactSource exactPart(const VectorElement& some, Quantity quantity, const ReferencePart& part)
+ExactSource exactPart(const BentElement& some, Quantity quantity, const ReferencePart& part)
 {
   ExactSource exact = exactSource(some.source(), quantity);
   exact.field.part = part;
@@ -89,7 +76,7 @@ TEST(ExactField, AgreesWithTheGradientPointByPoint)
   {
     for (const bool isRational : { false, true })
     {
-      const VectorElement some(which, isRational,
+      const BentElement some(which, isRational,
         [&](const glm::dvec3&)
         { return glm::dvec3(randomNumber(random), randomNumber(random), randomNumber(random)); });
       for (const Quantity quantity : quantities)
@@ -116,7 +103,7 @@ TEST(ExactField, HasTheDerivativesOfDifferences)
   constexpr double step = 1e-4;
   for (const ElementCase& which : cases)
   {
-    const VectorElement some(which, which.domain == Domain::Wedge,
+    const BentElement some(which, which.domain == Domain::Wedge,
       [](const glm::dvec3& x) {
         return glm::dvec3(std::sin(3.0 * x.y), x.z * x.z + 2.0 * x.x, std::cos(2.0 * x.x) * x.y);
       });
@@ -159,7 +146,7 @@ TEST(ExactField, HasThePlaceOfTheCell)
   Random random(33);
   for (const ElementCase& which : cases)
   {
-    const VectorElement some(which, true, [](const glm::dvec3& x) { return x; });
+    const BentElement some(which, true, [](const glm::dvec3& x) { return x; });
     const ExactSource exact = exactPart(some, Quantity::Divergence, {});
     const ReferencePoint u =
       insidePoint(which.domain, { random.uniform(), random.uniform(), random.uniform() });
@@ -190,7 +177,7 @@ TEST(ExactField, IsFiniteWhereEigenvaluesAreEqual)
   const ElementCase which{ Domain::Hexahedron, { 3, 3, 3 } };
   for (const double bend : { 0.0, 1.0 })
   {
-    const VectorElement some(which, false,
+    const BentElement some(which, false,
       [bend](const glm::dvec3& x)
       { return glm::dvec3(-x.y + bend * x.x * x.x, x.x, bend * x.z * x.y); });
     const ExactSource exact = exactPart(some, Quantity::Lambda2, {});
