@@ -30,6 +30,12 @@ bool hasMoreSheets(const Distribution& lifted, const Distribution& own)
     more * static_cast<double>(own.particles.size());
 }
 
+/// Whether a mesh has holes, or particles without a triangle.
+bool isOpen(const ParticleMesh& mesh)
+{
+  return mesh.openLoops > 0 || mesh.unusedParticles > 0;
+}
+
 } // namespace
 
 SurfaceWorker::SurfaceWorker(const ElementMesh& mesh, const RankBlocks& blocks,
@@ -92,11 +98,15 @@ bool SurfaceWorker::addMesh(const Isosurface& surface, const Isosurface& own,
     !parameters.polygon.isEverything(), some, work.monitor, work.parallelFor);
 }
 
-/// Distributes and joins particles anew where nodes have the isovalue, or nearly so, on a field that is lifted there.
-/// \param some whose mesh lacks something; replaced if the new one lacks less and is of the same surface
+/// Distributes and joins particles anew where nodes have the isovalue, or nearly so, on a field that is lifted there: by
+/// little, and by more if holes are left.
+/// \param some whose mesh lacks something; replaced if a new one lacks less and is of the same surface
 void SurfaceWorker::meshLifted(const Isosurface& surface, const DistributionParameters& parameters,
   const Work& work, IsovalueParticles& some) const
 {
+  // Chosen by experiment, see liftedMesh(). In spacings of a fiftieth of an element particles do not find back from the
+  // larger height; in spacings of an element the smaller one leaves holes.
+  constexpr double heights[] = { 1e-3, 5e-3 };
   // Where the field jumps by more than rounding, meshes lack something for other reasons.
   constexpr double rounding = 1e-8;
   const Buffer<Particle>& particles = some.distribution.particles;
@@ -105,24 +115,41 @@ void SurfaceWorker::meshLifted(const Isosurface& surface, const DistributionPara
   {
     return;
   }
-  const bool isOpen = some.mesh.openLoops > 0 || some.mesh.unusedParticles > 0;
-  const std::optional<ElementMesh> mesh =
-    liftedMesh(this->Mesh, surface.isovalue, isOpen ? LiftedValues::Near : LiftedValues::Isovalue);
+  for (const double height : heights)
+  {
+    const bool isBetter = this->meshLifted(surface, height, parameters, work, some);
+    if (!isBetter || !isOpen(some.mesh))
+    {
+      return;
+    }
+  }
+}
+
+/// The same by one height.
+/// \return whether the mesh was replaced
+bool SurfaceWorker::meshLifted(const Isosurface& surface, double height,
+  const DistributionParameters& parameters, const Work& work, IsovalueParticles& some) const
+{
+  const std::optional<ElementMesh> mesh = liftedMesh(this->Mesh, surface.isovalue,
+    isOpen(some.mesh) ? LiftedValues::Near : LiftedValues::Isovalue, height);
   if (!mesh)
   {
-    return;
+    return false;
   }
   Isosurface lifted = surface;
   lifted.mesh = &*mesh;
   IsovalueParticles other;
   other.isovalue = some.isovalue;
   other.distribution = distributeFast(lifted, parameters, work.monitor, work.parallelFor);
-  if (!other.distribution.report.aborted && !other.distribution.particles.empty() &&
+  const bool isBetter = !other.distribution.report.aborted &&
+    !other.distribution.particles.empty() &&
     this->addMesh(surface, lifted, parameters, work, other) &&
-    lackOf(other.mesh) < lackOf(some.mesh) && !hasMoreSheets(other.distribution, some.distribution))
+    lackOf(other.mesh) < lackOf(some.mesh) && !hasMoreSheets(other.distribution, some.distribution);
+  if (isBetter)
   {
     some = std::move(other);
   }
+  return isBetter;
 }
 
 /// The sizing function with a spacing on flat surfaces, in units of the run. Nothing closer than the tolerance is told

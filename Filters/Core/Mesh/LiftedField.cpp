@@ -14,10 +14,6 @@ namespace
 /// Chosen by experiment.
 struct Lift
 {
-  /// By which the field is lifted, in its unit, about the change over an element. Larger: flat components of the surface
-  /// are lost, and particles come back to it less evenly; smaller: strips beside edges of the mesh are too narrow for
-  /// triangles.
-  static constexpr double Height = 1e-3;
   /// Largest distance of a value from the isovalue that counts as none. Larger: more of the field is changed; smaller:
   /// surfaces that run very near to edges of the mesh keep their holes.
   static constexpr double Near = 5e-4;
@@ -109,7 +105,8 @@ bool putBack(const Isosurface& surface, SurfaceWalker& walker, Particle& particl
 
 } // namespace
 
-std::optional<ElementMesh> liftedMesh(const ElementMesh& mesh, double isovalue, LiftedValues which)
+std::optional<ElementMesh> liftedMesh(
+  const ElementMesh& mesh, double isovalue, LiftedValues which, double height)
 {
   const double near = which == LiftedValues::Near ? Lift::Near : 0.0;
   const auto weightOf = [&mesh](std::size_t i)
@@ -131,8 +128,7 @@ std::optional<ElementMesh> liftedMesh(const ElementMesh& mesh, double isovalue, 
     if (isNear(i))
     {
       const bool isBelow = mesh.coefficients[i].w < isovalue * weightOf(i);
-      lifted.coefficients[i].w =
-        (isovalue + (isBelow ? -Lift::Height : Lift::Height)) * weightOf(i);
+      lifted.coefficients[i].w = (isovalue + (isBelow ? -height : height)) * weightOf(i);
     }
   }
   return lifted;

@@ -21,8 +21,12 @@ enum class LiftedValues
 /// beside them, and no piece of it is narrower than its curves can tell apart: what simulation of simplicity does with
 /// symbols (Edelsbrunner and Mücke 1990). Where the surface lies in edges of the mesh its boundary curves and creases are
 /// undecided otherwise.
+/// \param height by which the field is farther from the isovalue, in its unit, about the change over an element. Larger:
+/// flat components of the surface are lost, and particles do not find back to it where they stand close; smaller: strips
+/// beside edges of the mesh are too narrow for triangles where particles stand far apart.
 /// \return nothing where no coefficient is such a value, or particles stand on other fields than those of coefficients
-std::optional<ElementMesh> liftedMesh(const ElementMesh& mesh, double isovalue, LiftedValues which);
+std::optional<ElementMesh> liftedMesh(
+  const ElementMesh& mesh, double isovalue, LiftedValues which, double height);
 
 /// Puts the particles on a lifted mesh's surface, and all that are on one place together, onto the surface itself: some
 /// thousandth of an element.

@@ -15,6 +15,8 @@ namespace hop::testing
 namespace
 {
 
+constexpr double Height = 1e-3;
+
 /// Eight cells a side of a cube 2 wide, with the distance from its middle at their nodes less what some of them have.
 ElementMesh ballThroughNodes()
 {
@@ -29,12 +31,13 @@ ElementMesh ballThroughNodes()
 TEST(LiftedField, IsThereOnlyWhereCoefficientsAreNearTheIsovalue)
 {
   const ElementMesh mesh = ballThroughNodes();
-  EXPECT_FALSE(liftedMesh(mesh, 0.01, LiftedValues::Near));
-  EXPECT_FALSE(liftedMesh(mesh, 1e-6, LiftedValues::Isovalue));
-  EXPECT_TRUE(liftedMesh(mesh, 0.0, LiftedValues::Isovalue));
+  EXPECT_FALSE(liftedMesh(mesh, 0.01, LiftedValues::Near, Height));
+  EXPECT_FALSE(liftedMesh(mesh, 1e-6, LiftedValues::Isovalue, Height));
+  EXPECT_TRUE(liftedMesh(mesh, 0.0, LiftedValues::Isovalue, Height));
   for (const double isovalue : { 0.0, 1e-6, -1e-6 })
   {
-    const std::optional<ElementMesh> lifted = liftedMesh(mesh, isovalue, LiftedValues::Near);
+    const std::optional<ElementMesh> lifted =
+      liftedMesh(mesh, isovalue, LiftedValues::Near, Height);
     ASSERT_TRUE(lifted);
     int changed = 0;
     for (std::size_t i = 0; i < mesh.coefficients.size(); ++i)
@@ -59,7 +62,7 @@ TEST(LiftedField, IsLiftedByTheWeightOfRationalElements)
     coefficient *= 0.5;
     coefficient.w += 0.5; // of the field plus 1
   }
-  const std::optional<ElementMesh> lifted = liftedMesh(mesh, 1.0, LiftedValues::Near);
+  const std::optional<ElementMesh> lifted = liftedMesh(mesh, 1.0, LiftedValues::Near, Height);
   ASSERT_TRUE(lifted);
   for (std::size_t i = 0; i < mesh.coefficients.size(); ++i)
   {
@@ -70,7 +73,7 @@ TEST(LiftedField, IsLiftedByTheWeightOfRationalElements)
 TEST(LiftedField, ClosesASurfaceThroughNodesAndPutsItBack)
 {
   const ElementMesh mesh = ballThroughNodes();
-  const std::optional<ElementMesh> lifted = liftedMesh(mesh, 0.0, LiftedValues::Near);
+  const std::optional<ElementMesh> lifted = liftedMesh(mesh, 0.0, LiftedValues::Near, Height);
   ASSERT_TRUE(lifted);
   DistributionParameters parameters;
   parameters.sizing = { 0.04, 0.0 };
