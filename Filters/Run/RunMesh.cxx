@@ -2,6 +2,7 @@
 
 #include "Mesh/CurvedTriangles.h"
 #include "Mesh/LiftedField.h"
+#include "Mesh/Slivers.h"
 #include "Mesh/SurfaceMesh.h"
 #include "Support/Interruptible.h"
 #include "Topology/TopologyComparison.h"
@@ -76,6 +77,26 @@ void prove(const Isosurface& surface, const Buffer<Particle>& particles,
   mesh.isProven = comparison.proven;
 }
 
+/// Joins the particles to triangles, and says what is known of them.
+SurfaceMesh join(const Isosurface& surface, const ConstrainedEdges& edges, bool isCut,
+  IsovalueParticles& some, const Monitor& monitor, const ParallelFor& parallelFor)
+{
+  Distribution& distribution = some.distribution;
+  SurfaceMesh mesh = meshSurface(surface, edges, distribution, monitor, parallelFor);
+  some.mesh.openLoops = mesh.openLoops;
+  some.mesh.openLength = mesh.openLength;
+  some.mesh.longestLoop = mesh.longestLoop;
+  some.mesh.onLongestLoop = mesh.onLongestLoop;
+  some.mesh.unusedParticles = mesh.unusedParticles;
+  some.mesh.turnedTriangles = mesh.turnedTriangles;
+  some.mesh.nodesPerCell = 3;
+  some.mesh.vertices = firstInPlace(distribution.edges, distribution.particles.size());
+  some.mesh.shared = sharedPlaces(some.mesh.vertices);
+  Interruptible loops(monitor, parallelFor);
+  prove(surface, distribution.particles, mesh.triangles, isCut, some.mesh, std::ref(loops));
+  return mesh;
+}
+
 /// Bends the triangles of a mesh.
 void bend(const Isosurface& surface, const std::vector<std::array<int, 3>>& triangles, int order,
   IsovalueParticles& some, const ParallelFor& parallelFor)
@@ -114,6 +135,25 @@ void shareAreas(const std::vector<std::array<int, 2>>& copies, std::vector<doubl
       areas[copy] = areas[particle];
     }
   }
+}
+
+/// Shares the areas of triangles equally among their corners: of particles that were put back, whose neighbours are not
+/// where curves along edges of the mesh would look for them.
+std::vector<double> areasOf(
+  const std::vector<std::array<int, 3>>& triangles, const Buffer<Particle>& particles)
+{
+  std::vector<double> areas(particles.size(), 0.0);
+  for (const std::array<int, 3>& corners : triangles)
+  {
+    const glm::dvec3& from = particles[corners[0]].position.xyz;
+    const glm::dvec3 twice = glm::cross(
+      particles[corners[1]].position.xyz - from, particles[corners[2]].position.xyz - from);
+    for (const int corner : corners)
+    {
+      areas[corner] += glm::length(twice) / 6.0;
+    }
+  }
+  return areas;
 }
 
 /// Gives all particles in one place what those of them that cells use have together: the mean normal, and the area.
@@ -158,40 +198,37 @@ bool addMesh(const Isosurface& surface, const Isosurface& own, OutputType type, 
   bool isCut, IsovalueParticles& some, const Monitor& monitor, const ParallelFor& parallelFor)
 {
   Distribution& distribution = some.distribution;
-  std::vector<std::array<int, 3>> triangles;
-  std::vector<std::array<int, 2>> copies;
   const ConstrainedEdges edges(distribution);
+  SurfaceMesh mesh;
   if (type != OutputType::Particles)
   {
-    SurfaceMesh mesh = meshSurface(own, edges, distribution, monitor, parallelFor);
-    triangles = std::move(mesh.triangles);
-    copies = std::move(mesh.copies);
-    some.mesh.openLoops = mesh.openLoops;
-    some.mesh.openLength = mesh.openLength;
-    some.mesh.longestLoop = mesh.longestLoop;
-    some.mesh.onLongestLoop = mesh.onLongestLoop;
-    some.mesh.unusedParticles = mesh.unusedParticles;
-    some.mesh.turnedTriangles = mesh.turnedTriangles;
-    some.mesh.nodesPerCell = 3;
-    some.mesh.vertices = firstInPlace(distribution.edges, distribution.particles.size());
-    some.mesh.shared = sharedPlaces(some.mesh.vertices);
-    Interruptible loops(monitor, parallelFor);
-    prove(own, distribution.particles, triangles, isCut, some.mesh, std::ref(loops));
+    mesh = join(own, edges, isCut, some, monitor, parallelFor);
   }
-  std::vector<double> areas = particleAreas(distribution, edges, monitor, parallelFor);
-  shareAreas(copies, areas);
-  forAll(
-    parallelFor, areas.size(), [&](std::size_t p) { distribution.particles[p].area = areas[p]; });
-  const bool areOn = own.mesh == surface.mesh || putBack(surface, distribution, parallelFor);
-  if (type == OutputType::CurvedTriangles)
+  std::vector<double> areas;
+  bool areOn = true;
+  if (own.mesh == surface.mesh)
   {
-    Interruptible loops(monitor, parallelFor);
-    bend(surface, triangles, order, some, std::ref(loops));
+    areas = particleAreas(distribution, edges, monitor, parallelFor);
+    shareAreas(mesh.copies, areas);
   }
   else
   {
-    some.mesh.nodes.reserve(3 * triangles.size());
-    for (const std::array<int, 3>& corners : triangles)
+    areOn = putBack(surface, distribution, parallelFor);
+    removeSlivers(edges, distribution.particles, some.mesh.vertices, mesh.triangles);
+    some.mesh.shared = sharedPlaces(some.mesh.vertices);
+    areas = areasOf(mesh.triangles, distribution.particles);
+  }
+  forAll(
+    parallelFor, areas.size(), [&](std::size_t p) { distribution.particles[p].area = areas[p]; });
+  if (type == OutputType::CurvedTriangles)
+  {
+    Interruptible loops(monitor, parallelFor);
+    bend(surface, mesh.triangles, order, some, std::ref(loops));
+  }
+  else
+  {
+    some.mesh.nodes.reserve(3 * mesh.triangles.size());
+    for (const std::array<int, 3>& corners : mesh.triangles)
     {
       some.mesh.nodes.insert(some.mesh.nodes.end(), corners.begin(), corners.end());
     }

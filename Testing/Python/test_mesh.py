@@ -283,6 +283,10 @@ def test_surfaces_through_nodes_and_edges_are_closed(plugin, name, order, blocks
     on_faces = np.minimum(np.abs(points), np.abs(points - 1.0)) < 0.05 * spacing
     assert (on_faces[ends[:, 0]] & on_faces[ends[:, 1]]).any(axis=1).all()
     assert (len(ends) == 0) == is_closed
+    assert smallest_angles(mesh).min() > 1.0
+    assert open_edges_of(cleaned(mesh)) == len(ends)
+    a, b, c = np.moveaxis(points[corners_of(mesh)], 1, 0)
+    assert array_of(mesh, "Area").sum() == pytest.approx(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2, rel=0.02)
 
 
 @pytest.mark.parametrize("place", [0.0, 0.5])
