@@ -26,6 +26,9 @@ constexpr int pairBisections = 9;
 /// more elements are begun twice; more: the caller, who is asked between elements, waits. Chosen by Testing/Fuzz: seed
 /// 151 of grid_fuzz asks after 0.2 s of four threads, which is the period of all of them, instead of 0.5 s of one.
 constexpr std::size_t mostAlone = 4096;
+/// The same as mostFollowed where one thread decides an element: a level of manyPieces is no more than four times
+/// mostAlone.
+constexpr int mostFollowedAlone = 64;
 
 } // namespace
 
@@ -90,7 +93,9 @@ bool ElementSplitter::splitWithin(std::size_t mostPieces, int element,
     const StopRule rule = stopRuleOf(
       level, boxes.size() > before, this->Tests, this->Mesh.elements[element].partsOfCell);
     ofElement.beginLevel(level.size());
-    std::vector<Outcome> outcomes = this->decideAll(level, rule, parallelFor, ofElement);
+    const int mostOfPiece = mostPieces > mostAlone ? mostFollowed : mostFollowedAlone;
+    std::vector<Outcome> outcomes = this->decideAll(
+      level, rule, level.size() < manyPieces ? 0 : mostOfPiece, parallelFor, ofElement);
     level = sortOut(std::move(level), std::move(outcomes), boxes, undecided);
   }
   if (!undecided.boxes.empty())
@@ -111,14 +116,14 @@ void ElementSplitter::prepareFor(const Element& element)
 }
 
 std::vector<ElementSplitter::Outcome> ElementSplitter::decideAll(std::vector<Piece>& level,
-  const StopRule& rule, const ParallelFor& parallelFor, IsolationProgress& progress) const
+  const StopRule& rule, int follow, const ParallelFor& parallelFor,
+  IsolationProgress& progress) const
 {
-  const bool toTheEnd = level.size() >= manyPieces;
   std::vector<Outcome> outcomes(level.size());
   forAll(parallelFor, level.size(),
     [&](std::size_t n)
     {
-      outcomes[n] = this->decide(level[n], rule, toTheEnd);
+      outcomes[n] = this->decide(level[n], rule, follow);
       if (outcomes[n].next.empty())
       {
         progress.closePiece(outcomes[n].boxes.empty());
@@ -148,7 +153,7 @@ std::vector<Piece> ElementSplitter::sortOut(std::vector<Piece> level, std::vecto
 }
 
 ElementSplitter::Outcome ElementSplitter::decide(
-  Piece& piece, const StopRule& rule, bool toTheEnd) const
+  Piece& piece, const StopRule& rule, int follow) const
 {
   Outcome outcome;
   if (!this->Tests.mayHoldSurface(piece))
@@ -156,9 +161,9 @@ ElementSplitter::Outcome ElementSplitter::decide(
     return outcome;
   }
   piece.sheet = piece.certified() ? piece.sheet : this->Tests.sheetIn(piece);
-  if (piece.certified() && toTheEnd)
+  if (piece.certified() && follow > 0)
   {
-    outcome.next = this->followToBoxes(std::move(piece), outcome.boxes);
+    outcome.next = this->followToBoxes(std::move(piece), follow, outcome.boxes);
     return outcome;
   }
   if (!(piece.certified() ? this->finishCertified(piece, outcome.boxes)
@@ -220,13 +225,14 @@ std::optional<SheetPair> ElementSplitter::sheetPairIn(const Piece& piece, bool i
   return isReady ? this->Tests.sheetPairIn(piece) : std::nullopt;
 }
 
-/// Splits a certified piece until all of it has boxes that are small enough, or until that takes long.
+/// Splits a certified piece until all of it has boxes that are small enough, or until most pieces are looked at.
 /// \return what is left to be split
-std::vector<Piece> ElementSplitter::followToBoxes(Piece piece, std::vector<SurfaceBox>& boxes) const
+std::vector<Piece> ElementSplitter::followToBoxes(
+  Piece piece, int most, std::vector<SurfaceBox>& boxes) const
 {
   std::vector<Piece> left;
   left.push_back(std::move(piece));
-  for (int followed = 0; !left.empty() && followed < mostFollowed; ++followed)
+  for (int followed = 0; !left.empty() && followed < most; ++followed)
   {
     Piece last = std::move(left.back());
     left.pop_back();

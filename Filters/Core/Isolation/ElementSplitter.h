@@ -79,16 +79,16 @@ private:
   bool splitWithin(std::size_t mostPieces, int element, const ParallelFor& parallelFor,
     const ReportProgress& progress, std::vector<SurfaceBox>& boxes);
   void prepareFor(const Element& element);
-  std::vector<Outcome> decideAll(std::vector<Piece>& level, const StopRule& rule,
+  std::vector<Outcome> decideAll(std::vector<Piece>& level, const StopRule& rule, int follow,
     const ParallelFor& parallelFor, IsolationProgress& progress) const;
   static std::vector<Piece> sortOut(std::vector<Piece> level, std::vector<Outcome> outcomes,
     std::vector<SurfaceBox>& boxes, UndecidedPieces& undecided);
 
-  Outcome decide(Piece& piece, const StopRule& rule, bool toTheEnd) const;
+  Outcome decide(Piece& piece, const StopRule& rule, int follow) const;
   bool finishCertified(const Piece& piece, std::vector<SurfaceBox>& boxes) const;
   bool finishUndecided(const Piece& piece, const StopRule& rule, Outcome& outcome) const;
   std::optional<SheetPair> sheetPairIn(const Piece& piece, bool isLast) const;
-  std::vector<Piece> followToBoxes(Piece piece, std::vector<SurfaceBox>& boxes) const;
+  std::vector<Piece> followToBoxes(Piece piece, int most, std::vector<SurfaceBox>& boxes) const;
 
   const ElementMesh& Mesh;
   double Isovalue;
