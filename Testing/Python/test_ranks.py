@@ -32,6 +32,7 @@ shell, jumps, hanging, rational, flow, tetrahedra, pieces = files
 simple.LoadPlugin(plugin, remote=False, ns=globals())
 sys.path.append(tests)
 import support
+from cells import straight_grid
 
 process = servermanager.vtkProcessModule.GetProcessModule()
 rank, ranks = process.GetPartitionId(), process.GetNumberOfLocalPartitions()
@@ -70,6 +71,12 @@ def cells_of(grid, ids):
 def scattered(grid):
     # Each cell on a rank by chance; the same owners on all ranks.
     return cells_of(grid, np.flatnonzero(random.integers(0, ranks, grid.GetNumberOfCells()) == rank))
+
+
+def ball_through_nodes():
+    grid = straight_grid("TETRA", blocks=8)
+    support.add_point_array(grid, "u", 2 - np.linalg.norm(support.points_of(grid) - 4, axis=1))
+    return grid
 
 
 def in_pieces(grid):
@@ -278,6 +285,8 @@ cases = {
     "triangles": lambda: run(filter_of(scattered(grid), OutputType="Triangles")),
     "curved triangles": lambda: run(filter_of(scattered(grid), OutputType="Curved Triangles", Order=3)),
     "triangles of halves": lambda: run(filter_of(halves(grid), OutputType="Triangles")),
+    "triangles through nodes": lambda: run(filter_of(
+        scattered(ball_through_nodes()), values=[0.0], Spacing=0.3, OutputType="Triangles")),
     "aborted": lambda: run(filter_of(scattered(grid)), abort_on=ranks - 1),
     "too many": lambda: run(filter_of(scattered(grid), NumberOfParticles=2 * 10**9)),
     "too coarse": lambda: run(filter_of(scattered(grid), Spacing=2.0, AngularDensity=0)),
@@ -441,7 +450,7 @@ def test_it_does_not_matter_how_cells_lie(runs, case):
 
 
 @pytest.mark.parametrize("case", ["triangles", "curved triangles", "triangles of halves", "box slice of triangles",
-                                  "derived triangles"])
+                                  "derived triangles", "triangles through nodes"])
 @pytest.mark.parametrize("ranks", RANKS[1:])
 def test_meshes_are_closed_over_ranks(runs, case, ranks):
     # Each cell once, with the exact values of all arrays at corners in cells of other ranks, also on creases.
