@@ -499,7 +499,7 @@ bool FieldSampler::losesComponents(const SampledPart& sampled, const ReferencePa
         isAbove[n] = field[n].w > isovalue;
         isKept[n] = isAbove[n] == static_cast<char>(polynomial[n] > isovalue);
       }
-      return hasSetWithoutMark(lattice, this->Source.domain, isAbove, isKept);
+      return hasSetWithoutMark(lattice, isAbove, isKept);
     });
 }
 

@@ -2,13 +2,13 @@
 
 #include "Elements/BatchEvaluator.h"
 #include "Elements/LatticeRows.h"
+#include "Support/DisjointSets.h"
 
 #include <algorithm>
 #include <array>
 #include <map>
 #include <memory>
 #include <mutex>
-#include <numeric>
 #include <utility>
 
 namespace hop
@@ -30,6 +30,25 @@ double vanDerCorput(int n, int base)
     result += digit * (n % base);
   }
   return result;
+}
+
+/// Pairs of points of a lattice that a step takes from one to the other.
+std::vector<std::array<int, 2>> pairsAlong(
+  Domain domain, const Degrees& degrees, const LatticePoint& step)
+{
+  std::vector<std::array<int, 2>> pairs;
+  int n = 0;
+  visitLatticePoints(domain, degrees,
+    [&](const LatticePoint& point)
+    {
+      const LatticePoint next{ point.i + step.i, point.j + step.j, point.k + step.k };
+      if (inLattice(domain, degrees, next))
+      {
+        pairs.push_back({ n, coefficientIndex(domain, degrees, next) });
+      }
+      ++n;
+    });
+  return pairs;
 }
 
 /// Points spread evenly over a domain, some of them on its faces (Halton 1960; on simplices by differences of sorted
@@ -80,6 +99,10 @@ SamplingLattice::SamplingLattice(Domain domain, int degree)
       const std::vector<double>& line = this->ofCube->line();
       this->nodes.back() = { { line[point.i], line[point.j], line[point.k] } };
     }
+  }
+  for (const LatticePoint& direction : facts(domain).edgeDirections)
+  {
+    this->edges.push_back(pairsAlong(domain, this->degrees, direction));
   }
 }
 
@@ -144,47 +167,39 @@ std::vector<double> fieldAtNodes(const SamplingLattice& lattice, const Bernstein
   return field;
 }
 
-bool hasSetWithoutMark(const SamplingLattice& lattice, Domain domain, const std::vector<char>& side,
-  const std::vector<char>& mark)
+bool hasSetWithoutMark(
+  const SamplingLattice& lattice, const std::vector<char>& side, const std::vector<char>& mark)
 {
-  std::vector<int> setOf(side.size());
-  std::iota(setOf.begin(), setOf.end(), 0);
-  const auto rootOf = [&](int n)
+  // Only sets of nodes without a mark are looked at, which are few. What touches a marked node of its side has one.
+  std::vector<char> isMarked = mark;
+  if (std::find(mark.begin(), mark.end(), 0) == mark.end())
   {
-    while (setOf[n] != n)
+    return false;
+  }
+  DisjointSets sets(side.size());
+  for (const std::vector<std::array<int, 2>>& direction : lattice.edges)
+  {
+    for (const auto& [a, b] : direction)
     {
-      n = setOf[n] = setOf[setOf[n]];
-    }
-    return n;
-  };
-  int n = 0;
-  visitLatticePoints(domain, lattice.degrees,
-    [&](const LatticePoint& point)
-    {
-      for (const LatticePoint& edge : facts(domain).edgeDirections)
+      if (side[a] == side[b] && (mark[a] == 0 || mark[b] == 0))
       {
-        const LatticePoint next{ point.i + edge.i, point.j + edge.j, point.k + edge.k };
-        if (!inLattice(domain, lattice.degrees, next))
+        const bool isOfMarked = mark[a] != mark[b];
+        isMarked[mark[a] == 0 ? a : b] |= static_cast<char>(isOfMarked);
+        if (!isOfMarked)
         {
-          continue;
-        }
-        const int other = coefficientIndex(domain, lattice.degrees, next);
-        if (side[other] == side[n])
-        {
-          setOf[rootOf(other)] = rootOf(n);
+          sets.unite(a, b);
         }
       }
-      ++n;
-    });
-  std::vector<char> isMarked(side.size(), 0);
-  for (n = 0; n < static_cast<int>(side.size()); ++n)
-  {
-    char& ofSet = isMarked[rootOf(n)];
-    ofSet = static_cast<char>(ofSet != 0 || mark[n] != 0);
+    }
   }
-  for (n = 0; n < static_cast<int>(side.size()); ++n)
+  const int count = static_cast<int>(side.size());
+  for (int n = 0; n < count; ++n)
   {
-    if (isMarked[rootOf(n)] == 0)
+    isMarked[sets.root(n)] |= isMarked[n];
+  }
+  for (int n = 0; n < count; ++n)
+  {
+    if (isMarked[sets.root(n)] == 0)
     {
       return true;
     }

@@ -4,6 +4,7 @@
 #include "Elements/LobattoLattice.h"
 #include "Elements/NodalBasis.h"
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct SamplingLattice
   /// Gauss-Lobatto-Legendre points in cubes, else equispaced ones.
   std::vector<ReferencePoint> nodes;
   Degrees degrees;
+  /// Of each direction of the domain's edges the pairs of nodes beside each other, by their places in storage order.
+  std::vector<std::vector<std::array<int, 2>>> edges;
   /// In cubes.
   std::optional<LobattoLattice> ofCube;
   /// Else.
@@ -40,7 +43,7 @@ std::vector<double> fieldAtNodes(const SamplingLattice& lattice, const Bernstein
 /// Whether among the sets of nodes that hang together along the lattice's edges and are of one side there is one without a
 /// mark.
 /// \param side, mark of each node, in storage order
-bool hasSetWithoutMark(const SamplingLattice& lattice, Domain domain, const std::vector<char>& side,
-  const std::vector<char>& mark);
+bool hasSetWithoutMark(
+  const SamplingLattice& lattice, const std::vector<char>& side, const std::vector<char>& mark);
 
 } // namespace hop

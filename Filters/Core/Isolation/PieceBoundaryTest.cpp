@@ -149,21 +149,29 @@ std::optional<std::vector<char>> PieceBoundaryTest::crossedEdges(
 bool PieceBoundaryTest::uniteEdges(const FaceLattice& face, const std::vector<char>& crossed,
   const std::vector<double>& values, double slack, DisjointSets& curves)
 {
-  std::vector<int> ends;
-  std::copy_if(face.edges.begin(), face.edges.end(), std::back_inserter(ends),
-    [&](int edge) { return crossed[edge]; });
-  if (ends.empty() && areOneSided(values, face.points, values[face.points.front()] >= 0.0, slack))
+  std::array<int, 4> ends{};
+  int count = 0;
+  for (const int edge : face.edges)
+  {
+    ends[count] = edge;
+    count += crossed[edge];
+  }
+  if (count == 0 && areOneSided(values, face.points, values[face.points.front()] >= 0.0, slack))
   {
     return true;
   }
-  std::vector<double> onFace;
-  std::transform(face.points.begin(), face.points.end(), std::back_inserter(onFace),
-    [&](int point) { return values[point]; });
-  if (ends.size() > 2 || !face.monotone.rises(onFace))
+  if (count > 2)
   {
     return false;
   }
-  if (!ends.empty())
+  std::vector<double> onFace(face.points.size());
+  std::transform(face.points.begin(), face.points.end(), onFace.begin(),
+    [&](int point) { return values[point]; });
+  if (!face.monotone.rises(onFace))
+  {
+    return false;
+  }
+  if (count > 0)
   {
     curves.unite(ends[0], ends[1]);
   }

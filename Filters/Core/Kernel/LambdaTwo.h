@@ -98,6 +98,11 @@ inline void loadNumbers(const double* const (&rows)[9], std::ptrdiff_t first, st
 {
   for (int row = 0; row < 9; ++row)
   {
+    if (first + Lanes <= count)
+    {
+      numbers[row] = load<Vector<double, Lanes>>(rows[row] + first);
+      continue;
+    }
     double lanes[Lanes];
     for (int lane = 0; lane < Lanes; ++lane)
     {
