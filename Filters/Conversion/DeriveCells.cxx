@@ -29,7 +29,7 @@ constexpr int MostOfProducts = 16;
 /// How often parts are halved on, each alone, where the polynomials lose a component and particles stand on the field
 /// itself. Fewer: components beside creases of lambda 2 are missed (test_derived_components.py); more: parts of many small
 /// ones cost more.
-constexpr int MostHalvingsOfParts = 2;
+constexpr int MostHalvingsOfParts = 3;
 
 /// The eight parts that halving all edges of a part gives.
 std::vector<ReferencePart> halvesOf(Domain domain, const ReferencePart& part)

@@ -78,10 +78,32 @@ LineMatrix fromLegendre(int n)
   return matrix;
 }
 
+/// Applies a matrix along the first axis: the lines, one below the other, times the transposed matrix.
+std::vector<double> alongFirstAxis(const LineMatrix& matrix, const std::vector<double>& values)
+{
+  std::vector<double> transposed(matrix.entries.size());
+  for (int row = 0; row < matrix.rows; ++row)
+  {
+    for (int column = 0; column < matrix.columns; ++column)
+    {
+      transposed[column * matrix.rows + row] = matrix.entries[row * matrix.columns + column];
+    }
+  }
+  const int lines = static_cast<int>(values.size()) / matrix.columns;
+  std::vector<double> result(static_cast<std::size_t>(lines) * matrix.rows);
+  kernel::current().matrix(
+    values.data(), lines, matrix.columns, transposed.data(), matrix.rows, result.data());
+  return result;
+}
+
 /// Applies a matrix along one axis.
 /// \param row numbers of a point and of those beside it along the axes before this one
 std::vector<double> alongAxis(const LineMatrix& matrix, int row, const std::vector<double>& values)
 {
+  if (row == 1)
+  {
+    return alongFirstAxis(matrix, values);
+  }
   const std::size_t step = static_cast<std::size_t>(row) * matrix.columns;
   const std::size_t blocks = values.size() / step;
   std::vector<double> result(blocks * matrix.rows * row);

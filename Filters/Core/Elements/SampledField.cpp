@@ -2,6 +2,7 @@
 
 #include "Elements/BatchEvaluator.h"
 #include "Elements/CollapsedFaces.h"
+#include "Elements/LostComponents.h"
 #include "Elements/SamplingLattice.h"
 #include "Kernel/InstructionSet.h"
 
@@ -109,6 +110,17 @@ double sumOfSquares(const std::vector<glm::dvec3>& g)
 BernsteinForm formOf(Domain domain, const DerivedElement& element)
 {
   return { domain, element.degrees, element.coefficients.data(), nullptr };
+}
+
+std::vector<double> fieldOf(const std::vector<Coefficient>& samples)
+{
+  std::vector<double> field;
+  field.reserve(samples.size());
+  for (const Coefficient& sample : samples)
+  {
+    field.push_back(sample.w);
+  }
+  return field;
 }
 
 /// Lambda 2 of the three components after x, y and z.
@@ -486,21 +498,11 @@ bool FieldSampler::losesComponents(const SampledPart& sampled, const ReferencePa
   {
     return false;
   }
-  const Samples field = this->valuesAt(part, lattice);
-  const std::vector<double> polynomial =
-    fieldAtNodes(lattice, formOf(this->Source.domain, sampled.element));
-  std::vector<char> isAbove(field.size());
-  std::vector<char> isKept(field.size());
-  return std::any_of(isovalues.begin(), isovalues.end(),
-    [&](double isovalue)
-    {
-      for (std::size_t n = 0; n < field.size(); ++n)
-      {
-        isAbove[n] = field[n].w > isovalue;
-        isKept[n] = isAbove[n] == static_cast<char>(polynomial[n] > isovalue);
-      }
-      return hasSetWithoutMark(lattice, isAbove, isKept);
-    });
+  const std::vector<double> atNodes = fieldOf(this->valuesAt(part, lattice));
+  const BernsteinForm polynomial = formOf(this->Source.domain, sampled.element);
+  const auto at = [&](const std::vector<ReferencePoint>& points)
+  { return fieldOf(this->valuesAt(part, points)); };
+  return hop::losesComponents({ this->Source.domain, lattice, atNodes, polynomial, at }, isovalues);
 }
 
 } // namespace hop
