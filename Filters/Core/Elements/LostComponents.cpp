@@ -126,8 +126,8 @@ std::vector<int> nodesBelowPeaks(const SamplingLattice& lattice, const std::vect
   std::vector<char> isOnRidge(heights.size());
   for (std::size_t n = 0; n < heights.size(); ++n)
   {
-    isOnRidge[n] = static_cast<char>(
-      heights[n] <= 0.0 && heights[n] + rise[n] > 0.0 && highestIn[n] >= least);
+    isOnRidge[n] =
+      static_cast<char>(heights[n] <= 0.0 && heights[n] + rise[n] > 0.0 && highestIn[n] >= least);
   }
   if (std::find(isOnRidge.begin(), isOnRidge.end(), 1) == isOnRidge.end())
   {
@@ -208,8 +208,8 @@ bool losesPeaks(const ComparedField& field, const Slopes& slopes, double isovalu
   std::vector<Climber> climbers;
   for (const int node : nodesBelowPeaks(field.lattice, heights, highestIn, slopes.rise))
   {
-    climbers.push_back({ field.lattice.nodes[node], heights[node],
-      Climb::FirstStep / field.lattice.degrees[0] });
+    climbers.push_back(
+      { field.lattice.nodes[node], heights[node], Climb::FirstStep / field.lattice.degrees[0] });
   }
   for (int n = 0; n < Climb::Times && !climbers.empty(); ++n)
   {
@@ -226,8 +226,7 @@ bool losesPeaks(const ComparedField& field, const Slopes& slopes, double isovalu
 
 /// Whether nodes hang together on one side of an isovalue where the polynomial is at none of them.
 /// \param polynomial at the nodes
-bool losesNodes(
-  const ComparedField& field, const std::vector<double>& polynomial, double isovalue)
+bool losesNodes(const ComparedField& field, const std::vector<double>& polynomial, double isovalue)
 {
   std::vector<char> isAbove(polynomial.size());
   std::vector<char> isKept(polynomial.size());
@@ -248,8 +247,8 @@ bool losesComponents(const ComparedField& field, const std::vector<double>& isov
   return std::any_of(isovalues.begin(), isovalues.end(),
     [&](double isovalue)
     {
-      return losesNodes(field, polynomial, isovalue) ||
-        losesPeaks(field, slopes, isovalue, 1.0) || losesPeaks(field, slopes, isovalue, -1.0);
+      return losesNodes(field, polynomial, isovalue) || losesPeaks(field, slopes, isovalue, 1.0) ||
+        losesPeaks(field, slopes, isovalue, -1.0);
     });
 }
 

@@ -70,8 +70,8 @@ class LostComponents : public ::testing::TestWithParam<Domain>
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(
-  Domains, LostComponents, ::testing::Values(Domain::Hexahedron, Domain::Tetrahedron, Domain::Wedge));
+INSTANTIATE_TEST_SUITE_P(Domains, LostComponents,
+  ::testing::Values(Domain::Hexahedron, Domain::Tetrahedron, Domain::Wedge));
 
 /// Above the isovalue at no node.
 TEST_P(LostComponents, ArePeaksBetweenNodes)
