@@ -154,7 +154,7 @@ Jet evaluate(Domain domain, const ExactField& field, const Coefficient* coeffici
     jetOf(place, quantityJet(field.quantity, gradient), field.scale), field.part.axes);
 }
 
-/// One at least, as elements have.
+/// One at least, as elements have. The same along all axes of cubes: kernels know such degrees at compile time.
 Degrees highestOf(const std::vector<ScaledPolynomial>& polynomials)
 {
   Degrees degrees{ 1, 1, 1 };
@@ -164,6 +164,10 @@ Degrees highestOf(const std::vector<ScaledPolynomial>& polynomials)
     {
       degrees[a] = std::max(degrees[a], one.degrees[a]);
     }
+  }
+  if (polynomials[0].domain == Domain::Hexahedron)
+  {
+    degrees.fill(*std::max_element(degrees.begin(), degrees.end()));
   }
   return degrees;
 }
