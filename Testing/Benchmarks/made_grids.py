@@ -131,6 +131,25 @@ def vortices(x, p):
     return strength
 
 
+def coiled(x):
+    cosine, sine = np.cos(2 * x[:, 2]), np.sin(2 * x[:, 2])
+    return np.c_[cosine * (x[:, 0] + 0.4) - sine * x[:, 1], sine * (x[:, 0] + 0.4) + cosine * x[:, 1], 1.5 * x[:, 2]]
+
+
+def thin_tube(x, p):
+    u, v = x[:, 0] - 0.5 - 0.22 * np.cos(6 * x[:, 2]), x[:, 1] - 0.5 - 0.22 * np.sin(6 * x[:, 2])
+    return np.sqrt(u**2 + v**2 + 1e-4)
+
+
+def arch(x):
+    r, angle = 0.5 + x[:, 0], 2.2 * x[:, 1]
+    return np.c_[r * np.cos(angle), r * np.sin(angle), x[:, 2]]
+
+
+def tunnels(x, p):
+    return np.sin(7 * x[:, 0]) * np.sin(6 * x[:, 1]) + 0.6 * np.sin(5 * x[:, 2])
+
+
 HEXAHEDRON, TETRAHEDRON, WEDGE = (f"LAGRANGE_{shape}" for shape in ("HEXAHEDRON", "TETRAHEDRON", "WEDGE"))
 MADE = (
     Made("layer", HEXAHEDRON, 4, 6, layer, velocity, (0.5, 0.02, 0.95)),
@@ -146,6 +165,8 @@ MADE = (
     Made("front", HEXAHEDRON, 3, 8, np.array, front, (0.0, 0.001, 0.9, -0.9)),
     Made("gyroid", TETRAHEDRON, 2, 8, np.array, gyroid, (0.0, 0.001, 0.99, 1.0, 1.001, 1.35)),
     Made("wake", HEXAHEDRON, 4, 7, ring, vortices, (0.4, -0.3, 0.1)),
+    Made("coil", WEDGE, 4, 5, coiled, thin_tube, (0.1,)),
+    Made("arch", "BEZIER_HEXAHEDRON", 3, 5, arch, tunnels, (0.3,)),
 )
 
 
