@@ -24,6 +24,9 @@ struct Lift
   static constexpr double Farthest = 0.3;
   /// How near to a face a place on it is, see faceMargin(): what is in one place is on as many faces in all its elements.
   static constexpr double OnFace = 1e-8;
+  /// By how much a place may be outside of its element, in reference space: some roundings. Long steps at oblique corners
+  /// leave more.
+  static constexpr double Outside = 1e-12;
   /// Square of the sine of the angle between the surface and a face below which there is no curve to find.
   static constexpr double Tangent = 1e-6;
 };
@@ -45,7 +48,7 @@ ActiveFaces facesAt(const ElementMesh& mesh, const Location& place)
 
 /// Newton's method along faces of the element.
 /// \param reach longest way
-/// \return whether it has found the surface
+/// \return whether it has found the surface in the element
 bool projectAlong(const ActiveFaces& faces, const Isosurface& surface, SurfaceWalker& walker,
   double reach, Location& place)
 {
@@ -56,7 +59,7 @@ bool projectAlong(const ActiveFaces& faces, const Isosurface& surface, SurfaceWa
     const FieldPoint point = walker.evaluate(place).point;
     if (surface.holds(point, reach))
     {
-      return true;
+      return insideMargin(domain, place.u) >= -Lift::Outside;
     }
     const ReferenceVector along = pullAlong(domain, faces, point.map, point.gradient);
     const double rate = dot(point.map.push(along), point.gradient);
