@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace hop
@@ -212,6 +213,13 @@ bool isHopeless(const std::vector<SampledPart>& tried, int steps, int stepsLeft,
     }
   }
   return true;
+}
+
+/// Whether a field differs from an isovalue by more than its rounding anywhere. Components of rounding are none to lose.
+bool isBeyondNoise(const std::vector<double>& field, double isovalue, double noise)
+{
+  return std::any_of(
+    field.begin(), field.end(), [&](double value) { return std::abs(value - isovalue) > noise; });
 }
 
 } // namespace
@@ -499,10 +507,13 @@ bool FieldSampler::losesComponents(const SampledPart& sampled, const ReferencePa
     return false;
   }
   const std::vector<double> atNodes = fieldOf(this->valuesAt(part, lattice));
+  std::vector<double> reached;
+  std::copy_if(isovalues.begin(), isovalues.end(), std::back_inserter(reached),
+    [&](double isovalue) { return isBeyondNoise(atNodes, isovalue, this->Noise); });
   const BernsteinForm polynomial = formOf(this->Source.domain, sampled.element);
   const auto at = [&](const std::vector<ReferencePoint>& points)
   { return fieldOf(this->valuesAt(part, points)); };
-  return hop::losesComponents({ this->Source.domain, lattice, atNodes, polynomial, at }, isovalues);
+  return hop::losesComponents({ this->Source.domain, lattice, atNodes, polynomial, at }, reached);
 }
 
 } // namespace hop
