@@ -4,6 +4,7 @@
 #include "Mesh/LiftedField.h"
 #include "Mesh/Slivers.h"
 #include "Mesh/SurfaceMesh.h"
+#include "Mesh/TriangleNormal.h"
 #include "Support/Interruptible.h"
 #include "Topology/TopologyComparison.h"
 
@@ -145,12 +146,10 @@ std::vector<double> areasOf(
   std::vector<double> areas(particles.size(), 0.0);
   for (const std::array<int, 3>& corners : triangles)
   {
-    const glm::dvec3& from = particles[corners[0]].position.xyz;
-    const glm::dvec3 twice = glm::cross(
-      particles[corners[1]].position.xyz - from, particles[corners[2]].position.xyz - from);
+    const double third = glm::length(doubleAreaNormal(particles, corners)) / 6.0;
     for (const int corner : corners)
     {
-      areas[corner] += glm::length(twice) / 6.0;
+      areas[corner] += third;
     }
   }
   return areas;

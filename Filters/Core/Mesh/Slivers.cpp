@@ -1,5 +1,6 @@
 #include "Mesh/Slivers.h"
 
+#include "Mesh/TriangleNormal.h"
 #include "Surface/ParticleMesh.h"
 
 #include <algorithm>
@@ -15,8 +16,8 @@ namespace
 
 using Corners = std::array<int, 3>;
 
-/// In units of the spacing: length of edges, and height of triangles, that count as none. Chosen by experiment; particles
-/// of a distribution are 0.2 and more apart, so that the surface moves by less than where particles are chords.
+/// In units of the spacing: length of edges, and height of triangles, that count as none. Chosen by experiment. Smaller:
+/// triangles of less than a degree stay; larger: pairs of particles that a distribution leaves, 0.2 apart and more, count.
 constexpr double None = 0.05;
 /// Contractions make slivers that flips take away, and the other way round.
 constexpr int MostRounds = 10;
@@ -137,13 +138,6 @@ private:
       [&](int other) { return this->isBoundary(vertex, other); });
   }
 
-  /// Twice the area, along the normal.
-  glm::dvec3 normalOf(const Corners& corners) const
-  {
-    const glm::dvec3& from = this->position(corners[0]);
-    return glm::cross(this->position(corners[1]) - from, this->position(corners[2]) - from);
-  }
-
   /// Least height, in units of the corners' least spacing.
   double heightOf(const Corners& corners) const
   {
@@ -155,17 +149,14 @@ private:
         longest, glm::distance(this->position(corners[i]), this->position(corners[(i + 1) % 3])));
       spacing = std::min(spacing, this->Particles[corners[i]].spacing);
     }
-    return longest > 0.0 ? glm::length(this->normalOf(corners)) / (longest * spacing) : 0.0;
+    return longest > 0.0
+      ? glm::length(doubleAreaNormal(this->Particles, corners)) / (longest * spacing)
+      : 0.0;
   }
 
-  bool isTurned(const Corners& corners) const
-  {
-    const glm::dvec3 normal = this->normalOf(corners);
-    return std::any_of(corners.begin(), corners.end(),
-      [&](int corner) { return glm::dot(normal, this->Particles[corner].normal.xyz) <= 0.0; });
-  }
+  bool isTurned(const Corners& corners) const { return hop::isTurned(this->Particles, corners); }
 
-  /// Of the particles in the place of one that whose normal is nearest to that of a triangle, as on its side of a crease.
+  /// Of the particles in a vertex's place the one whose normal is nearest to that of a triangle, as on its side of a crease.
   int besideOf(int vertex, const Corners& triangle) const
   {
     const auto found = this->Shared.find(vertex);
@@ -173,7 +164,7 @@ private:
     {
       return vertex;
     }
-    const glm::dvec3 normal = this->normalOf(triangle);
+    const glm::dvec3 normal = doubleAreaNormal(this->Particles, triangle);
     return *std::max_element(found->second.begin(), found->second.end(),
       [&](int a, int b)
       {

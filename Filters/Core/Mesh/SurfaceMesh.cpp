@@ -4,6 +4,7 @@
 #include "Mesh/LooseParticles.h"
 #include "Mesh/ManifoldVertices.h"
 #include "Mesh/ParticleStars.h"
+#include "Mesh/TriangleNormal.h"
 #include "Support/Interruptible.h"
 
 #include <algorithm>
@@ -34,15 +35,8 @@ std::int64_t countUnused(const std::vector<int>& places, const TriangleFans& fan
 std::int64_t countTurned(
   const Buffer<Particle>& particles, const std::vector<std::array<int, 3>>& triangles)
 {
-  const auto isTurned = [&particles](const std::array<int, 3>& corners)
-  {
-    const glm::dvec3& from = particles[corners[0]].position.xyz;
-    const glm::dvec3 normal = glm::cross(
-      particles[corners[1]].position.xyz - from, particles[corners[2]].position.xyz - from);
-    return std::any_of(corners.begin(), corners.end(),
-      [&](int corner) { return glm::dot(normal, particles[corner].normal.xyz) <= 0.0; });
-  };
-  return std::count_if(triangles.begin(), triangles.end(), isTurned);
+  return std::count_if(triangles.begin(), triangles.end(),
+    [&particles](const std::array<int, 3>& corners) { return isTurned(particles, corners); });
 }
 
 /// What is open.

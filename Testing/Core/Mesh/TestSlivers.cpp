@@ -162,13 +162,7 @@ TEST(Slivers, RowsOfFlatTrianglesGo)
     x.y = std::abs(x.y) < 0.18 ? 0.0 : x.y;
   }
   ASSERT_LT(sheet.leastHeight(), 1e-9);
-  const MeshMeasures measures = sheet.remove();
-  EXPECT_EQ(measures.badEdges, 0);
-  EXPECT_EQ(measures.badVertices, 0);
-  EXPECT_EQ(measures.unusedParticles, 0);
-  EXPECT_EQ(measures.eulerCharacteristic, 1);
-  EXPECT_NEAR(measures.area, sheet.sheet.area(), 1e-9);
-  EXPECT_GT(sheet.leastHeight(), 0.05);
+  expectWhole(sheet, sheet.remove());
 }
 
 TEST(Slivers, TheTopologyStays)
