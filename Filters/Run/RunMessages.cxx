@@ -170,8 +170,15 @@ std::string describeMissing(const InputBlocks& blocks, const std::vector<std::st
     return text.str();
   }
   text << (blocks.isMagnitude() ? "The magnitude of " : "")
-       << (name ? "'" + std::string(name) + "'" : std::string("The array")) << " goes from "
-       << range[0] << " to " << range[1] << ".";
+       << (name ? "'" + std::string(name) + "'" : std::string("The array"));
+  if (range[0] <= range[1])
+  {
+    text << " goes from " << range[0] << " to " << range[1] << ".";
+  }
+  else
+  {
+    text << " has no finite value.";
+  }
   return text.str();
 }
 

@@ -238,6 +238,13 @@ def test_an_isovalue_outside_the_range_is_no_error(good, isovalue):
     assert support.reported(particles, "ElementsDropped") == CELLS**3
 
 
+def test_an_array_without_a_number_has_no_range(good):
+    support.add_point_array(good, "F", np.full(good.GetNumberOfPoints(), np.nan))
+    particles, messages = support.run(good, "F", 1.0)
+    assert_empty(particles)
+    assert any("Isovalue 1: no surface. 'F' has no finite value." in text for text in messages.warnings)
+
+
 def test_isovalues_outside_the_range_beside_one_inside(good):
     alone = support.run_quietly(good, **SPHERE)
     both = expect_no_surface(good, "F", [99.0, 1.0, -7.0], "Isovalues 99, -7: no", Spacing=SPHERE["Spacing"])
