@@ -115,6 +115,8 @@ double magnitude(const std::vector<double>& numbers)
 struct Interpolated
 {
   glm::dvec3 position{ 0.0 };
+  /// From the first node: sums of differences have no rounding of coordinates that are far from the origin.
+  glm::dvec3 offset{ 0.0 };
   std::vector<double> value, weights;
 };
 
@@ -128,8 +130,11 @@ Interpolated interpolate(vtkCell& cell, const double* place, const NodalValues& 
   double position[3];
   cell.EvaluateLocation(subId, place, position, result.weights.data());
   result.position = vectorOf(position);
+  const glm::dvec3 first = vectorOf(cell.GetPoints()->GetPoint(0));
   for (std::size_t n = 0; n < count; ++n)
   {
+    const auto node = static_cast<vtkIdType>(n);
+    result.offset += result.weights[n] * (vectorOf(cell.GetPoints()->GetPoint(node)) - first);
     for (std::size_t c = 0; c < result.value.size(); ++c)
     {
       result.value[c] += result.weights[n] * values.numbers[n * result.value.size() + c];
@@ -155,7 +160,7 @@ double riseOver(double distance, vtkCell& cell, const double* place, const Nodal
     behind[axis] -= step;
     const Interpolated there = interpolate(cell, &ahead.x, values);
     const Interpolated back = interpolate(cell, &behind.x, values);
-    positions[axis] = (there.position - back.position) / (2.0 * step * length);
+    positions[axis] = (there.offset - back.offset) / (2.0 * step * length);
     for (std::size_t c = 0; c < there.value.size(); ++c)
     {
       slopes[axis].push_back((there.value[c] - back.value[c]) / (2.0 * step * height));
