@@ -267,6 +267,16 @@ CheckedBlocks checkExpression(const GatheredBlocks& gathered, const std::string&
   {
     addPointArrays(block.grid, arrays);
   }
+  if (text.find_first_not_of(' ') == std::string::npos)
+  {
+    std::vector<std::string> names(arrays.size());
+    std::transform(arrays.begin(), arrays.end(), names.begin(),
+      [](const NamedArray& array) { return array.name; });
+    checked.messages.push_back({ UserMessage::Error,
+      "Quantity is Expression, but Expression is empty: write a formula of the point arrays (" +
+        listOf(names) + ") there." });
+    return checked;
+  }
   try
   {
     checked.expression = std::make_shared<const FieldExpression>(text, arrays);

@@ -395,10 +395,15 @@ def test_an_expression_of_coordinates_is_a_sphere():
 
 def test_says_what_is_wrong_with_an_expression(data):
     reader = support.read(data(FLOW))
-    for text in ("", "velocity", "pressure +", "curl(pressure)", "nothing", "gradient(pressure*2)"):
+    for text in ("velocity", "pressure +", "curl(pressure)", "nothing", "gradient(pressure*2)"):
         particles, messages = support.run(reader, "pressure", 1.0, Quantity="Expression", Expression=text)
         assert particles.GetNumberOfPoints() == 0
         assert any(f"The Expression '{text}' cannot be contoured: at character" in message for message in messages.errors)
+    for text in ("", " "):
+        particles, messages = support.run(reader, "pressure", 1.0, Quantity="Expression", Expression=text)
+        assert particles.GetNumberOfPoints() == 0
+        assert len(messages.errors) == 1
+        assert "Expression is empty: write a formula of the point arrays (velocity, pressure, vorticity) there" in messages.errors[0]
 
 
 def test_says_where_a_formula_is_not_finite():

@@ -143,7 +143,7 @@ def test_another_field_starts_anew(whole, change):
 
 WRONG = {
     "a scalar": ("p", {"Quantity": "Q Criterion"}, "three components"),
-    "no formula": ("u", {"Quantity": "Expression", "Expression": ""}, "cannot be contoured"),
+    "no formula": ("u", {"Quantity": "Expression", "Expression": ""}, "Expression is empty"),
     "half a formula": ("u", {"Quantity": "Expression", "Expression": "2 * (q_criterion(u)"}, "cannot be contoured"),
     "another array's name": ("u", {"Quantity": "Expression", "Expression": "curl(w)"}, "no point array 'w'"),
 }
