@@ -143,11 +143,11 @@ SEVERAL = {"Lambda 2": 3, "Expression": 3}
 # A sheet nearer to another than a tenth of the spacing counts as seen: towards an apex the lattice sees nearer ones.
 SPACINGS = {"TRIQUADRATIC_PYRAMID": 0.02}
 # Cells of derived_components.py with components of lambda 2 between the nodes on which polynomials are compared with the
-# field, or that take three halvings.
+# field, that take three halvings, or whose parts for one isovalue left too few pieces to those for another.
 HIDDEN = [
     ("LAGRANGE_HEXAHEDRON", 0.0, 105), ("LAGRANGE_HEXAHEDRON", 0.0, 106), ("LAGRANGE_HEXAHEDRON", 0.0, 110),
     ("LAGRANGE_HEXAHEDRON", 0.0, 111), ("LAGRANGE_HEXAHEDRON", 0.0, 300), ("LAGRANGE_WEDGE", 0.08, 106),
-    ("TRIQUADRATIC_PYRAMID", 0.08, 102), ("TRIQUADRATIC_PYRAMID", 0.08, 105),
+    ("TRIQUADRATIC_PYRAMID", 0.0, 300), ("TRIQUADRATIC_PYRAMID", 0.08, 102), ("TRIQUADRATIC_PYRAMID", 0.08, 105),
 ]  # fmt: skip
 
 

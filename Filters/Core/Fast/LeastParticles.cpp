@@ -92,21 +92,21 @@ public:
     const Buffer<Particle>& particles, const ParallelFor& parallelFor)
     : Proxy(proxy)
     , Particles(particles)
-    , Tracer(*surface.mesh, surface.isovalue)
+    , Tracer(*surface.mesh, surface.isovalue, parallelFor)
     , InElement(groupedBy(
         particles, surface.mesh->elements.size(),
         [](const Particle& particle) { return particle.location.element; }, parallelFor))
   {
   }
 
-  std::vector<SparseComponent> run(const std::vector<int>& boxes, const ParallelFor& parallelFor)
+  std::vector<SparseComponent> run(const std::vector<int>& boxes)
   {
     std::vector<int> elements(boxes.size());
     std::transform(boxes.begin(), boxes.end(), elements.begin(),
       [this](int b) { return this->placeOf(b).element; });
     std::sort(elements.begin(), elements.end());
     elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
-    this->Tracer.prepare(elements, parallelFor);
+    this->Tracer.prepare(elements);
     std::vector<SparseComponent> found;
     for (const int b : boxes)
     {
@@ -218,7 +218,7 @@ std::vector<SparseComponent> findSparseComponents(const Isosurface& surface,
   const std::vector<int> boxes = sparseBoxes(proxy, patches, parallelFor);
   return boxes.empty()
     ? std::vector<SparseComponent>{}
-    : ComponentSearch(surface, proxy, particles, parallelFor).run(boxes, parallelFor);
+    : ComponentSearch(surface, proxy, particles, parallelFor).run(boxes);
 }
 
 FinishedParticles distributeOnComponents(const Isosurface& surface, const SurfaceProxy& proxy,

@@ -26,6 +26,8 @@ constexpr int pairBisections = 9;
 /// more elements are begun twice; more: the caller, who is asked between elements, waits. Chosen by Testing/Fuzz: seed
 /// 151 of grid_fuzz asks after 0.2 s of four threads, which is the period of all of them, instead of 0.5 s of one.
 constexpr std::size_t mostAlone = 4096;
+/// The same in coefficients of these pieces, where an element has more than 512: of degree 9 some 0.05 s.
+constexpr std::size_t mostCoefficientsAlone = std::size_t{ 1 } << 21;
 /// The same as mostFollowed where one thread decides an element: a level of manyPieces is no more than four times
 /// mostAlone.
 constexpr int mostFollowedAlone = 64;
@@ -63,7 +65,10 @@ void ElementSplitter::split(int element, const ParallelFor& parallelFor,
 
 bool ElementSplitter::splitIfShort(int element, std::vector<SurfaceBox>& boxes)
 {
-  return this->splitWithin(mostAlone, element, {}, {}, boxes);
+  const Element& whole = this->Mesh.elements[element];
+  const std::size_t coefficients = coefficientCount(whole.domain, whole.degrees);
+  return this->splitWithin(
+    std::min(mostAlone, mostCoefficientsAlone / coefficients), element, {}, {}, boxes);
 }
 
 /// \return whether all pieces, of all levels together, are no more than so many; else nothing is appended

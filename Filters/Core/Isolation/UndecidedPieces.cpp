@@ -44,10 +44,13 @@ std::ptrdiff_t mostUndecided(const Piece& piece, int partsOfCell)
 {
   const std::size_t bytes =
     piece.coefficients.size() * sizeof(Coefficient) + piece.weights.size() * sizeof(double);
-  const std::ptrdiff_t ofCell = piece.bisections >= TooManyPieces::LongBisections
-    ? TooManyPieces::LongCount
-    : std::min<std::ptrdiff_t>(TooManyPieces::Count, TooManyPieces::Bytes / bytes);
-  return std::max<std::ptrdiff_t>(1, ofCell / partsOfCell);
+  if (piece.bisections >= TooManyPieces::LongBisections)
+  {
+    return std::max(1, TooManyPieces::LongCount / partsOfCell);
+  }
+  const auto ofCell = std::min<std::ptrdiff_t>(TooManyPieces::Count, TooManyPieces::Bytes / bytes);
+  const std::ptrdiff_t fewest = std::min<std::ptrdiff_t>(ofCell, TooManyPieces::FewestOfElement);
+  return std::max(ofCell / partsOfCell, fewest);
 }
 
 } // namespace

@@ -43,7 +43,7 @@ struct UndecidedPieces
 void appendUndecided(const UndecidedPieces& undecided, const Piece& whole, const PieceTests& tests,
   std::vector<SurfaceBox>& boxes);
 
-/// Undecided pieces of a cell at most, which its elements share evenly. Where the surface is singular along lines, two
+/// Undecided pieces of a cell at most, which its elements share. Where the surface is singular along lines, two
 /// sheets that cross for instance, undecided pieces along the lines double in number with each halving of their length.
 /// Larger limits take more time and memory there, smaller ones stop pieces that further bisections would decide. Chosen
 /// by experiment.
@@ -51,6 +51,10 @@ struct TooManyPieces
 {
   /// Pieces of any size.
   static constexpr int Count = 16384;
+  /// Pieces of any size that each element has where a cell's share is less: a cell with creases has hundreds of elements,
+  /// most of them for other isovalues or with little surface. Smaller: components are missed that are found where an
+  /// isovalue is contoured alone (test_derived_components.py); larger: noise of hundreds of elements takes longer.
+  static constexpr int FewestOfElement = 256;
   /// Bytes of coefficients and weights, 512 MiB: fewer pieces than `Count` from degree 10 of hexahedra on.
   static constexpr std::size_t Bytes = std::size_t{ 1 } << 29;
   /// Bisections, eight along each axis of a nearly cubic element, after which a lower limit holds, and this limit.

@@ -41,7 +41,9 @@ public:
     // experiment: larger chunks make the caller wait for an answer, smaller ones cost time to take.
     constexpr std::ptrdiff_t chunkCount = 64;
     constexpr std::ptrdiff_t largestChunk = 4096;
-    const std::ptrdiff_t chunk = std::clamp<std::ptrdiff_t>(count / chunkCount, 1, largestChunk);
+    // The first chunk of a thread is an eighth: how long an item takes is not known yet.
+    constexpr std::ptrdiff_t unknown = 8;
+    const std::ptrdiff_t largest = std::clamp<std::ptrdiff_t>(count / chunkCount, 1, largestChunk);
     std::atomic<std::ptrdiff_t> next{ 0 };
     this->askAtTimes();
     while (next < count)
@@ -49,13 +51,18 @@ public:
       const auto pause = Clock::now() + period;
       const auto work = [&](std::ptrdiff_t, std::ptrdiff_t)
       {
-        while (next < count && Clock::now() < pause)
+        std::ptrdiff_t chunk = std::max<std::ptrdiff_t>(1, largest / unknown);
+        for (auto now = Clock::now(); next < count && now < pause;)
         {
           const std::ptrdiff_t begin = next.fetch_add(chunk);
           if (begin < count)
           {
             body(begin, std::min(count, begin + chunk));
           }
+          const auto end = Clock::now();
+          chunk = end - now > shortTime ? std::max<std::ptrdiff_t>(1, chunk / 2)
+                                        : std::min(largest, 2 * chunk);
+          now = end;
         }
       };
       runInThreads(this->Parallel, std::min(count, chunkCount), work);
@@ -77,6 +84,9 @@ private:
   /// Between two questions: a user takes 0.05 s for at once. Threads start anew after each, which a shorter one would
   /// make noticeable.
   static constexpr std::chrono::milliseconds period{ 50 };
+  /// Chunks that take longer are halved: a tenth of the period, so that the last one before a question does not delay it.
+  /// Shorter: more chunks than the work needs.
+  static constexpr std::chrono::milliseconds shortTime{ 5 };
 
   void askAtTimes()
   {

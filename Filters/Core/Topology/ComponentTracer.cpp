@@ -5,10 +5,10 @@
 namespace hop
 {
 
-void ComponentTracer::prepare(const std::vector<int>& elements, const ParallelFor& parallelFor)
+void ComponentTracer::prepare(const std::vector<int>& elements)
 {
   std::vector<std::unique_ptr<ElementSurface>> surfaces(elements.size());
-  runParallel(parallelFor, static_cast<std::ptrdiff_t>(elements.size()),
+  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(elements.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
       std::optional<LeafTests> tests;
@@ -29,6 +29,7 @@ const ElementSurface& ComponentTracer::surfaceOf(int element)
   std::unique_ptr<ElementSurface>& surface = this->Surfaces[element];
   if (!surface)
   {
+    askCaller(this->Parallel);
     surface = std::make_unique<ElementSurface>(
       findElementSurface(this->Mesh, element, this->Isovalue, this->Tests));
   }

@@ -19,17 +19,18 @@ using PieceNumber = std::pair<int, int>;
 class ComponentTracer
 {
 public:
-  ComponentTracer(const ElementMesh& mesh, double isovalue)
+  ComponentTracer(const ElementMesh& mesh, double isovalue, ParallelFor parallelFor = {})
     : Mesh(mesh)
     , Isovalue(isovalue)
+    , Parallel(std::move(parallelFor))
   {
   }
 
   /// Finds the surfaces in elements that will be looked at, in threads.
   /// \param elements ascending
-  void prepare(const std::vector<int>& elements, const ParallelFor& parallelFor);
+  void prepare(const std::vector<int>& elements);
 
-  /// The surface in an element. Not to be called from several threads.
+  /// The surface in an element. Not to be called from several threads: the caller is asked whether to go on.
   const ElementSurface& surfaceOf(int element);
 
   /// The piece at a place, or in the nearest leaf of its element; its number is -1 if there is none.
@@ -45,6 +46,7 @@ public:
 private:
   const ElementMesh& Mesh;
   double Isovalue;
+  ParallelFor Parallel;
   std::unordered_map<int, std::unique_ptr<ElementSurface>> Surfaces;
   std::unordered_map<int, std::vector<CurveMatch>> Matches;
   std::optional<LeafTests> Tests;

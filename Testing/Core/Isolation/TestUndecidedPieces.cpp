@@ -99,13 +99,18 @@ TEST_P(StopRules, LimitTheNumberOfUndecidedPieces)
 TEST_P(StopRules, PartsOfACellShareItsLimit)
 {
   const WholeElement element(this->GetParam(), 2, planeField);
-  const Piece piece = element.piece();
+  Piece piece = element.piece();
   const PieceTests tests = testsOf(piece);
   const auto areTooMany = [&](int pieces, int parts)
   { return stopRuleOf(std::vector<Piece>(pieces, piece), false, tests, parts).all; };
-  EXPECT_FALSE(areTooMany(TooManyPieces::Count / 64, 64));
-  EXPECT_TRUE(areTooMany(TooManyPieces::Count / 64 + 1, 64));
-  EXPECT_FALSE(areTooMany(1, 10 * TooManyPieces::Count)) << "one piece is no more than it was";
+  EXPECT_FALSE(areTooMany(TooManyPieces::Count / 8, 8));
+  EXPECT_TRUE(areTooMany(TooManyPieces::Count / 8 + 1, 8));
+  // Parts for other isovalues leave enough for the surface in one part.
+  EXPECT_FALSE(areTooMany(TooManyPieces::FewestOfElement, TooManyPieces::Count));
+  EXPECT_TRUE(areTooMany(TooManyPieces::FewestOfElement + 1, TooManyPieces::Count));
+  piece.bisections = TooManyPieces::LongBisections;
+  EXPECT_TRUE(areTooMany(2, TooManyPieces::LongCount));
+  EXPECT_FALSE(areTooMany(1, 10 * TooManyPieces::LongCount)) << "one piece is no more than it was";
 }
 
 TEST_P(StopRules, DoNotLimitCertifiedPieces)

@@ -61,5 +61,23 @@ TEST(Interruptible, StopsWithinAFractionOfASecond)
     for (int n = 0; n < 1'000; ++n) { runParallel(std::ref(work), 1, waitForAll); }, Interrupted);
 }
 
+/// Of items that take long few are taken at a time, however many there are.
+TEST(Interruptible, AsksAfterFewItemsThatTakeLong)
+{
+  int questions = 0;
+  const Monitor monitor{ [&](double) { return ++questions < 2; } };
+  const ParallelFor parallelFor = inTwoThreads;
+  Interruptible work(monitor, parallelFor);
+  std::atomic<std::ptrdiff_t> items{ 0 };
+  EXPECT_THROW(work(2'560,
+                 [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+                 {
+                   items += end - begin;
+                   std::this_thread::sleep_for(std::chrono::milliseconds(10) * (end - begin));
+                 }),
+    Interrupted);
+  EXPECT_LT(items, 32); // two threads, of a 64th of the items each: 80
+}
+
 } // namespace
 } // namespace hop

@@ -111,7 +111,7 @@ TEST(ComponentTracer, PreparesWhatItWouldFind)
   {
     elements.push_back(e);
   }
-  prepared.prepare(elements, {});
+  prepared.prepare(elements);
   for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
   {
     EXPECT_EQ(prepared.surfaceOf(e).pieces.size(), plain.surfaceOf(e).pieces.size());
