@@ -208,9 +208,13 @@ def evaluate_by_vtk(grid, particles, names):
 
 
 def nearest_neighbors(particles, candidates=10):
-    """Distance of every particle to the nearest particle of its own sheet (normals less than 90 degrees apart), in
-    units of the harmonic mean of the spacings that both want; infinite where there is no such particle."""
+    """Distance of every particle to the nearest particle of its own sheet (normals less than 90 degrees apart, not at
+    the other side of a jump), in units of the harmonic mean of the spacings that both want; infinite where there is no
+    such particle."""
     points, normals, wanted = points_of(particles), array_of(particles, "Normals"), array_of(particles, "Radius")
+    has_jumps = "Jump" in array_names(particles.GetPointData())
+    ends = array_of(particles, "Jump") != 0 if has_jumps else np.zeros(len(points), bool)
+    cells = array_of(particles, "vtkOriginalCellIds" if has_jumps else "Radius")
     locator = vtkStaticPointLocator()
     locator.SetDataSet(particles)
     locator.BuildLocator()
@@ -219,7 +223,9 @@ def nearest_neighbors(particles, candidates=10):
     for i, point in enumerate(points):
         locator.FindClosestNPoints(candidates, point, found)
         others = [j for j in map(found.GetId, range(found.GetNumberOfIds())) if j != i]
-        same_sheet = [j for j in others if normals[i] @ normals[j] > 0]
+        same_sheet = [
+            j for j in others if normals[i] @ normals[j] > 0 and not (ends[i] and ends[j] and cells[i] != cells[j])
+        ]
         if same_sheet:
             means = 2.0 / (1.0 / wanted[i] + 1.0 / wanted[same_sheet])
             nearest[i] = (np.linalg.norm(points[same_sheet] - point, axis=1) / means).min()

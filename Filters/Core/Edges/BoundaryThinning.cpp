@@ -25,13 +25,22 @@ struct Nearness
   static constexpr double AtSharpEdge = 0.3;
   /// Largest distance of places of one corner, far above rounding and far below the distance of different corners.
   static constexpr double OnePlace = 1e-6;
-  /// On the two sides of a slit or a strip, for meshes, to which each side is a boundary of its own. Less may be one place
-  /// that files write twice in single precision; more leaves tips of strips without triangles.
+  /// On the two sides of a jump, each of which ends by itself; and on those of any slit or strip for meshes, to which each
+  /// side is a boundary of its own. Less may be one place that files write twice in single precision; more leaves ends of
+  /// sheets without particles, and tips of strips without triangles.
   static constexpr double OnTwoSides = 0.02;
   /// Smallest width of a strip of the surface: less may be a crack between elements, as files write them in single
   /// precision, at which the sides overlap. More draws narrower strips a splat wide.
   static constexpr double LeastStrip = 1e-3;
 };
+
+/// Whether two ends of the surface are the two sides of a jump between elements. Their sheets may reach over each other,
+/// so that places alone do not tell a jump from the two sides of a strip.
+bool areSidesOfJump(const BoundaryParticle& a, const BoundaryParticle& b)
+{
+  return a.particle.location.element != b.particle.location.element && a.particle.jump != 0.0 &&
+    b.particle.jump != 0.0 && lookAtEachOther(a.side, b.side);
+}
 
 bool areTooNear(const BoundaryParticle& a, const BoundaryParticle& b, SampledCurves sampled)
 {
@@ -43,7 +52,8 @@ bool areTooNear(const BoundaryParticle& a, const BoundaryParticle& b, SampledCur
   {
     return false;
   }
-  if (sampled == SampledCurves::BoundaryAndCreases && lookAtEachOther(a.side, b.side))
+  const bool isForMesh = sampled == SampledCurves::BoundaryAndCreases;
+  if (areSidesOfJump(a, b) || (isForMesh && lookAtEachOther(a.side, b.side)))
   {
     return glm::distance(a.patch.position, b.patch.position) <
       Nearness::OnTwoSides * a.patch.spacing;
@@ -68,8 +78,7 @@ std::vector<std::size_t> orderOf(const Buffer<BoundaryParticle>& particles, Samp
 }
 
 /// Whether two particles that look away from each other have the surface between them, as on a strip, or are the two
-/// sides of one sharp corner. Of two elements that jump they are the sides of a slit, whose sheets may reach over each
-/// other.
+/// sides of one sharp corner.
 bool areAcrossSurface(const BoundaryParticle& a, const BoundaryParticle& b)
 {
   const WorldVector step = b.particle.position - a.particle.position;
@@ -79,8 +88,7 @@ bool areAcrossSurface(const BoundaryParticle& a, const BoundaryParticle& b)
   {
     return true;
   }
-  const bool isJump = !inOneElement && a.particle.jump != 0.0 && b.particle.jump != 0.0;
-  return !isJump && dot(step, a.side.outward) < -Nearness::LeastStrip * h &&
+  return !areSidesOfJump(a, b) && dot(step, a.side.outward) < -Nearness::LeastStrip * h &&
     dot(step, b.side.outward) > Nearness::LeastStrip * h;
 }
 

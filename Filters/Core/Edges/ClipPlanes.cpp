@@ -65,13 +65,38 @@ ClipPlane boundarySeenFrom(const BoundaryParticle& onBoundary, const Particle& p
   return { { normal }, glm::dot(nearest - step, normal), bend, static_cast<float>(Pi) };
 }
 
+bool areJoined(const ElementMesh& mesh, int element, int other)
+{
+  for (int face = 0; face < MaximumFaces; ++face)
+  {
+    if (mesh.neighbor(element, face).element == other)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Whether a particle is behind the face at which the surface ends, in the element there or in one beside it. What these
+/// hold is another sheet, however small the jump.
+bool isBehind(const ElementMesh& mesh, const BoundaryParticle& end, const Particle& particle)
+{
+  const int before = end.particle.location.element;
+  const int face = end.side.face; // -1 at the edge of a polygon
+  const int behind = face >= 0 ? mesh.neighbor(before, face).element : -1;
+  const int element = particle.location.element;
+  return behind >= 0 && element != before &&
+    (element == behind || (areJoined(mesh, behind, element) && !areJoined(mesh, before, element)));
+}
+
 /// Whether a particle is on the sheet that ends at a place: turned as it is, not far beyond the end, and not over it.
 /// Where a field jumps, sheets may pass over each other's ends.
-bool isEndOfSheet(const BoundaryParticle& end, const Particle& particle)
+bool isEndOfSheet(const ElementMesh& mesh, const BoundaryParticle& end, const Particle& particle)
 {
   const WorldVector step = particle.position - end.particle.position;
   const WorldVector bothNormals = end.particle.normal + particle.normal;
-  return end.side.exists() && dot(end.particle.normal, particle.normal) > SheetCosine &&
+  return end.side.exists() && !isBehind(mesh, end, particle) &&
+    dot(end.particle.normal, particle.normal) > SheetCosine &&
     std::abs(dot(step, bothNormals)) <= 2.0 * BoundarySight::SameSheet * particle.spacing &&
     boundarySeenFrom(end, particle).distance >= -BoundarySight::SameSide * particle.spacing;
 }
@@ -118,7 +143,7 @@ private:
 
 /// Offers a particle the planes of the boundary curves around, each by the nearest place on the curve. The curve of
 /// another sheet would cut off whole splats on a curve that lies beside it, and is left out.
-void offerBoundaries(const SurfaceEnds& ends, Particle& particle)
+void offerBoundaries(const ElementMesh& mesh, const SurfaceEnds& ends, Particle& particle)
 {
   /// A boundary curve: the number of the nearest place on it, and how far off this one is.
   struct Curve
@@ -135,8 +160,9 @@ void offerBoundaries(const SurfaceEnds& ends, Particle& particle)
   ends.visit(particle,
     [&](int j)
     {
-      const Curve curve{ j, length(ends.at(j).particle.position - particle.position) };
-      if (curve.distance <= ClipReach * particle.spacing && isEndOfSheet(ends.at(j), particle))
+      const BoundaryParticle& end = ends.at(j);
+      const Curve curve{ j, length(end.particle.position - particle.position) };
+      if (curve.distance <= ClipReach * particle.spacing && isEndOfSheet(mesh, end, particle))
       {
         insertEdge(curves, curve, isNearer, isSame);
       }
@@ -295,7 +321,7 @@ void markClipPlanes(const Isosurface& surface, const ParticleGrid& all,
     [&](std::size_t i)
     {
       covers.markOpen(all.at(i));
-      offerBoundaries(ends, all.at(i));
+      offerBoundaries(*surface.mesh, ends, all.at(i));
     });
   forAll(parallelFor, onBoundary.size(),
     [&](std::size_t i)

@@ -1,5 +1,7 @@
 #include "Edges/CurveTracing.h"
 
+#include "Edges/FaceJumps.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -25,7 +27,7 @@ struct Tracing
   /// Largest jump, as far as samples tell, at which the two sides of a face are taken to meet: a crossing with less is
   /// no hint of a boundary curve. Curves that begin at such a place are found by their other hints. A smaller one costs
   /// evaluations; a larger one overlooks curves along small jumps.
-  static constexpr double MeetingJump = 0.25;
+  static constexpr double MeetingJump = 0.6 * LargestJumpPerSpacing;
   /// Largest distance on the way from a hint to the curve. A larger one may lead to another curve.
   static constexpr double LongestWay = 4.0;
   /// Largest distance of the ends of a crease as its two sides see it. Vertices on edges of the mesh are much nearer to

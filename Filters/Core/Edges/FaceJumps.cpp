@@ -204,7 +204,7 @@ std::optional<JumpFinder::Finding> JumpFinder::look(
   const double largest = LargestJumpPerSpacing * spacing;
   Finding finding{ faceSlot(element, crossing.face),
     faceSlot(behind->at.location.element, behind->face) };
-  const double jump = SurfaceWalker::jumpBetween(this->Mesh, here, crossing.face, *behind);
+  const double jump = SurfaceWalker::jumpBetween(this->Mesh, here, *behind);
   if (!(jump <= largest))
   {
     finding.jumpTolerance = static_cast<float>(largest);

@@ -21,9 +21,10 @@ struct FaceJumps
 };
 
 /// Largest jump, in units of the spacing, at which the two sides of the surface at a face count as one. Chosen by
-/// experiment. A larger one lets particles pass steps that are seen in the picture; with a smaller one the surface of a
-/// discontinuous field falls into pieces, each with boundary curves of its own.
-constexpr double LargestJumpPerSpacing = 0.4;
+/// experiment (splat_errors, files of discontinuous fields). A larger one lets splats bridge gaps that are seen in the
+/// picture; with a smaller one the surface of a discontinuous field falls into pieces, each with boundary curves of its
+/// own.
+constexpr double LargestJumpPerSpacing = 0.2;
 
 /// Smallest dihedral angle that makes a crease, radians: 10 degrees. Chosen by experiment. Splats are cut off at
 /// creases, and hand over gradually to the other side at smaller angles; a larger one blurs edges, with a smaller one

@@ -72,12 +72,10 @@ std::optional<LocatedPlace> SurfaceWalker::placeBehind(const Evaluated& here, in
 }
 
 double SurfaceWalker::jumpBetween(
-  const ElementMesh& mesh, const Evaluated& here, int face, const Behind& there)
+  const ElementMesh& mesh, const Evaluated& here, const Behind& there)
 {
-  const double slope =
-    std::min(slopeAlong(mesh, here, face), slopeAlong(mesh, there.at, there.face));
   const double jump = std::abs(there.at.point.value - here.point.value);
-  return jump > 0.0 ? jump / slope : 0.0;
+  return jump > 0.0 ? jump / slopeAlong(mesh, there.at, there.face) : 0.0;
 }
 
 std::optional<SurfaceWalker::Behind> SurfaceWalker::behind(const Evaluated& here, int face)
@@ -105,7 +103,7 @@ bool SurfaceWalker::continuesIn(
   const WorldVector& before = here.point.gradient;
   const WorldVector& after = there.at.point.gradient;
   return !std::isfinite(tolerance) ||
-    (jumpBetween(*surface.mesh, here, face, there) <= tolerance &&
+    (jumpBetween(*surface.mesh, here, there) <= tolerance &&
       dot(before, after) >= SheetCosine * length(after) * length(before));
 }
 

@@ -134,10 +134,10 @@ public:
   /// The same; the place is evaluated only where the surface may end at some places of the face.
   std::optional<Behind> behind(const Location& here, int face);
 
-  /// Distance along a face between the two curves in which the elements' surfaces meet it: the jump of the field over
-  /// its slope along the face, the smaller one of both elements. World units; infinite or NaN where the slope is zero.
-  static double jumpBetween(
-    const ElementMesh& mesh, const Evaluated& here, int face, const Behind& there);
+  /// Distance along a face between the two curves in which the elements' surfaces meet it, to first order: from a place
+  /// on the one, the jump of the field over the slope along the face of the other. So it is the same from both sides.
+  /// World units; infinite or NaN where the slope is zero.
+  static double jumpBetween(const ElementMesh& mesh, const Evaluated& here, const Behind& there);
 
   /// Whether the surface goes on from a place on a face to a place behind it: the jump is within the face's tolerance,
   /// and the normals are those of one sheet.

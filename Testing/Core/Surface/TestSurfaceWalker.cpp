@@ -413,6 +413,27 @@ TEST(SurfaceWalker, NeverReturnsAPointOffTheSurfaceWhateverTheElement)
   }
 }
 
+TEST(SurfaceWalker, MeasuresAJumpAlikeFromBothSides)
+{
+  // Along the face x = 0 the fields have slopes 0.8 and 1.6; both sides' curves are 0.05 apart.
+  MeshRecipe left, right;
+  left.field = [](const glm::dvec3& x) { return 0.6 * x.x + 0.8 * x.z; };
+  right.field = [](const glm::dvec3& x) { return 0.6 * x.x + 1.6 * (x.z - 0.05); };
+  ElementMesh mesh;
+  appendBox(mesh, left, { -1, -1, -1 }, { 0, 1, 1 });
+  appendBox(mesh, right, { 0, -1, -1 }, { 1, 1, 1 });
+  findFaceNeighbors(mesh, 1e-9);
+  SurfaceWalker walker({ &mesh, 0.0, 1e-9 });
+  const auto jumpFrom = [&](const Location& place, int face)
+  {
+    const Evaluated here = walker.evaluate(place);
+    const auto there = walker.behind(here, face);
+    return there ? SurfaceWalker::jumpBetween(mesh, here, *there) : -1.0;
+  };
+  EXPECT_NEAR(jumpFrom({ 0, { { 1, 0.3, 0.5 } } }, 1), 0.05, 1e-12);
+  EXPECT_NEAR(jumpFrom({ 1, { { 0, 0.3, 0.525 } } }, 0), 0.05, 1e-12);
+}
+
 TEST(SurfaceWalker, PassesAFaceWhoseJumpIsWithinTheTolerance)
 {
   // Along the face x = 0 the field has slope 0.8, and jumps by 0.04: both sides' curves are 0.05 apart.
@@ -428,7 +449,7 @@ TEST(SurfaceWalker, PassesAFaceWhoseJumpIsWithinTheTolerance)
   const Evaluated here = seamless.evaluate(place);
   const auto there = seamless.behind(here, 1);
   ASSERT_TRUE(there.has_value());
-  EXPECT_NEAR(SurfaceWalker::jumpBetween(mesh, here, 1, *there), 0.05, 1e-12);
+  EXPECT_NEAR(SurfaceWalker::jumpBetween(mesh, here, *there), 0.05, 1e-12);
   for (const float tolerance : { 0.049f, 0.051f })
   {
     const std::vector<float> jumpTolerances(2 * MaximumFaces, tolerance);
