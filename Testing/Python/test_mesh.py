@@ -358,7 +358,7 @@ def test_particles_have_no_list_of_components(grid):
 def test_triangles_that_close_holes_turned_away_are_told(data, plugin):
     # The two sides of a jump reach over each other.
     mesh, messages = support.run(
-        support.read(data("mfem_dg_advection_2.vtu")), "rho", 0.0563662, OutputType="Triangles")
+        support.read(data("mfem_dg_advection_4.vtu")), "rho", 0.0563662, OutputType="Triangles")
     turned = support.reported(mesh, "MeshTurnedTriangles")
     assert turned > 0
     assert f"{turned} triangles are turned away from the surface at a corner" in messages.warnings[0]

@@ -11,12 +11,12 @@ namespace hop
 namespace
 {
 
-/// Slope of the field along a face: length of its gradient's part in the face's plane.
-double slopeAlong(const ElementMesh& mesh, const Evaluated& at, int face)
+/// Slope of a field along a face on which a place lies: length of the part of its gradient in the face's plane.
+double slopeAlong(
+  const ElementMesh& mesh, const Evaluated& at, int face, const WorldVector& gradient)
 {
   const Face& which = mesh.face(at.location.element, face);
   const WorldVector inward{ glm::transpose(at.point.map.inverse) * which.inward.xyz };
-  const WorldVector& gradient = at.point.gradient;
   return length(gradient - (dot(gradient, inward) / dot(inward, inward)) * inward);
 }
 
@@ -74,8 +74,15 @@ std::optional<LocatedPlace> SurfaceWalker::placeBehind(const Evaluated& here, in
 double SurfaceWalker::jumpBetween(
   const ElementMesh& mesh, const Evaluated& here, const Behind& there)
 {
+  const WorldVector& before = here.point.gradient;
+  const double slope = slopeAlong(mesh, there.at, there.face, there.at.point.gradient);
+  const double other = slopeAlong(mesh, there.at, there.face, before);
+  // Where a surface lies in the face, its slope along the face is rounding, and the smaller slope says the same from
+  // both sides.
+  constexpr double inFace = 1e-6; // of the gradient
+  const bool isInFace = std::min(slope, other) < inFace * length(before);
   const double jump = std::abs(there.at.point.value - here.point.value);
-  return jump > 0.0 ? jump / slopeAlong(mesh, there.at, there.face) : 0.0;
+  return jump > 0.0 ? jump / (isInFace ? std::min(slope, other) : slope) : 0.0;
 }
 
 std::optional<SurfaceWalker::Behind> SurfaceWalker::behind(const Evaluated& here, int face)
