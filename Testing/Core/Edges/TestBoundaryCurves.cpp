@@ -323,7 +323,7 @@ TEST(BoundaryCurves, RunAlongBothSidesOfAJumpAndKnowIt)
 TEST(BoundaryCurves, AreNoneAlongJumpsThatTheSurfacePasses)
 {
   int inMiddle = 0;
-  for (const BoundaryParticle& p : curvesOf(halvesWithStep(0.3)).particles)
+  for (const BoundaryParticle& p : curvesOf(halvesWithStep(0.15)).particles)
   {
     const glm::dvec3& x = p.particle.position.xyz;
     inMiddle += std::abs(x.x) < 1e-9 && std::abs(x.y) < 1.0 - 1e-9;

@@ -254,12 +254,12 @@ ElementMesh twoFields(const Field& left, const Field& right)
 
 TEST(FadingJump, HasBoundaryCurvesOnlyWhereItIsLarge)
 {
-  // z = 0 on the left and z = (y - 0.2)^2/4 on the right: 0.4 spacings apart at a distance of 0.28 from y = 0.2 to
+  // z = 0 on the left and z = (y - 0.2)^2/8 on the right: 0.2 spacings apart at a distance of 0.28 from y = 0.2 to
   // either side, so that one face holds all of the place where both agree, and another face a part.
   constexpr double spacing = 0.05;
   const ElementMesh mesh = twoFields([](const glm::dvec3& x) { return x.z; },
-    [](const glm::dvec3& x) { return x.z - 0.25 * (x.y - 0.2) * (x.y - 0.2); });
-  const double agree = std::sqrt(4.0 * 0.4 * spacing);
+    [](const glm::dvec3& x) { return x.z - 0.125 * (x.y - 0.2) * (x.y - 0.2); });
+  const double agree = std::sqrt(8.0 * 0.2 * spacing);
   const Distribution result = distribute(mesh, spacing);
   int onCurves[2] = {};
   for (const Particle& p : result.particles)
@@ -269,16 +269,14 @@ TEST(FadingJump, HasBoundaryCurvesOnlyWhereItIsLarge)
     {
       EXPECT_GT(std::abs(x.y - 0.2), agree - 0.5 * spacing);
       // The particle may be off by the tolerance, 1e-9, itself.
-      EXPECT_NEAR(std::abs(p.jump), 0.25 * (x.y - 0.2) * (x.y - 0.2), 2e-9);
+      EXPECT_NEAR(std::abs(p.jump), 0.125 * (x.y - 0.2) * (x.y - 0.2), 2e-9);
       ++onCurves[std::abs(x.z) < 1e-9];
     }
   }
-  // Where the curves are farther apart than 0.6 spacings both sides have particles, else both sides share them.
-  const double both = 2.0 - 2.0 * std::sqrt(4.0 * 0.6 * spacing);
-  const double one = 2.0 - 2.0 * agree;
-  EXPECT_NEAR(onCurves[0] + onCurves[1], (both + one) / spacing, 5);
-  EXPECT_GE(std::min(onCurves[0], onCurves[1]) * spacing, both - 3.0 * spacing);
-  EXPECT_GE(leastSpacing(result.particles), 0.58);
+  const double length = 2.0 - 2.0 * agree;
+  EXPECT_NEAR(onCurves[0], length / spacing, 3);
+  EXPECT_NEAR(onCurves[1], length / spacing, 3);
+  EXPECT_GE(leastSpacing(result.particles), 0.19); // of the two sides of the jump
   // Where both sides agree, particles stand as on a continuous surface.
   Buffer<Particle> seam;
   std::copy_if(result.particles.begin(), result.particles.end(), std::back_inserter(seam),
