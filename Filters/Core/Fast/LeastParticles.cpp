@@ -216,9 +216,8 @@ std::vector<SparseComponent> findSparseComponents(const Isosurface& surface,
   const ParallelFor& parallelFor)
 {
   const std::vector<int> boxes = sparseBoxes(proxy, patches, parallelFor);
-  return boxes.empty()
-    ? std::vector<SparseComponent>{}
-    : ComponentSearch(surface, proxy, particles, parallelFor).run(boxes);
+  return boxes.empty() ? std::vector<SparseComponent>{}
+                       : ComponentSearch(surface, proxy, particles, parallelFor).run(boxes);
 }
 
 FinishedParticles distributeOnComponents(const Isosurface& surface, const SurfaceProxy& proxy,

@@ -22,6 +22,10 @@ constexpr int mostFollowed = 2048;
 /// nearly cubic element, chosen by experiment. After fewer bisections the sheets are rarely flat enough; more only
 /// halve pieces in vain.
 constexpr int pairBisections = 9;
+/// Size of an undecided piece, of its element's, below which it is not halved any more: a quarter of what
+/// MaximumBisections leave of a nearly cubic element. Larger: components are lost that these would find; smaller: where
+/// surfaces meet in an apex, pieces are halved down to 1e-10 of a pyramid, most of which has none of them.
+constexpr double smallestPiece = 0x1p-14;
 /// Pieces of all levels that one thread decides in an element before all threads take it over, from its beginning. Fewer:
 /// more elements are begun twice; more: the caller, who is asked between elements, waits. Chosen by Testing/Fuzz: seed
 /// 151 of grid_fuzz asks after 0.2 s of four threads, which is the period of all of them, instead of 0.5 s of one.
@@ -85,6 +89,7 @@ bool ElementSplitter::splitWithin(std::size_t mostPieces, int element,
     return true;
   }
   this->Tests.beginElement(level.front());
+  this->ElementSize = level.front().worldSize();
   IsolationProgress ofElement(progress);
   const std::size_t before = boxes.size();
   UndecidedPieces undecided;
@@ -198,36 +203,40 @@ bool ElementSplitter::finishCertified(const Piece& piece, std::vector<SurfaceBox
 bool ElementSplitter::finishUndecided(
   const Piece& piece, const StopRule& rule, Outcome& outcome) const
 {
-  const bool isDeep = piece.bisections == MaximumBisections;
+  std::optional<SurfaceBox> box;
+  if (piece.bisections >= pairBisections)
+  {
+    box = boxOf(piece, this->Tests);
+  }
+  const bool isDeep =
+    piece.bisections == MaximumBisections || (box && box->size < smallestPiece * this->ElementSize);
   const bool isLast = isDeep || rule.all;
   const bool mayBeTangent = staysUndecided(piece, rule, this->Tests);
-  const auto pair = this->sheetPairIn(piece, isLast || mayBeTangent);
-  if (pair)
+  if (isLast || mayBeTangent || (box && this->IsSmall(*box)))
   {
-    if (isLast || pair->isFlat())
+    const std::optional<SheetPair> pair = this->Tests.sheetPairIn(piece);
+    if (pair && (isLast || pair->isFlat()))
     {
       appendBoxesOfPair(piece, *pair, outcome.boxes);
       return true;
     }
-    return false;
+    if (pair)
+    {
+      return false;
+    }
   }
   if (!isLast && !mayBeTangent)
   {
     return false;
   }
-  SurfaceBox box = boxOf(piece, this->Tests);
-  box.certified = !mayBeTangent && this->Tests.rises(piece);
-  outcome.isUndecided = mayBeTangent || (!box.certified && !box.straddles && !isDeep);
-  outcome.boxes.push_back(box);
+  if (!box)
+  {
+    box = boxOf(piece, this->Tests);
+  }
+  box->certified = !mayBeTangent && this->Tests.rises(piece);
+  outcome.isUndecided = mayBeTangent || (!box->certified && !box->straddles && !isDeep);
+  outcome.boxes.push_back(*box);
   return true;
-}
-
-/// Two sheets close to each other in a piece that is small or will not be halved any more.
-std::optional<SheetPair> ElementSplitter::sheetPairIn(const Piece& piece, bool isLast) const
-{
-  const bool isReady =
-    isLast || (piece.bisections >= pairBisections && this->IsSmall(boxOf(piece, this->Tests)));
-  return isReady ? this->Tests.sheetPairIn(piece) : std::nullopt;
 }
 
 /// Splits a certified piece until all of it has boxes that are small enough, or until most pieces are looked at.

@@ -87,7 +87,6 @@ private:
   Outcome decide(Piece& piece, const StopRule& rule, int follow) const;
   bool finishCertified(const Piece& piece, std::vector<SurfaceBox>& boxes) const;
   bool finishUndecided(const Piece& piece, const StopRule& rule, Outcome& outcome) const;
-  std::optional<SheetPair> sheetPairIn(const Piece& piece, bool isLast) const;
   std::vector<Piece> followToBoxes(Piece piece, int most, std::vector<SurfaceBox>& boxes) const;
 
   const ElementMesh& Mesh;
@@ -97,6 +96,8 @@ private:
   /// Of the element that is being split.
   const PieceKind* Kind = nullptr;
   PieceTests Tests;
+  /// In world space.
+  double ElementSize = 0.0;
 };
 
 /// Bisections of a piece at most: twelve along each axis of a nearly cubic element, so that components larger than

@@ -74,6 +74,28 @@ TEST(SurfaceBoxes, HoldAllOfTheSurface)
   }
 }
 
+/// Two sheets that cross along a line to the apex of a pyramid are undecided there, however often pieces are halved.
+TEST(SurfaceBoxes, AreNotHalvedToNothingInAnApex)
+{
+  ElementMesh mesh;
+  mesh.elements.emplace_back();
+  for (const LatticePoint& point : latticePoints(Domain::Hexahedron, { 1, 1, 1 }))
+  {
+    const glm::dvec3 u = latticePosition({ 1, 1, 1 }, point).xyz;
+    mesh.coefficients.emplace_back(
+      (1.0 - u.z) * u.x, (1.0 - u.z) * u.y, u.z, (u.x - 0.4) * (u.y - 0.4));
+  }
+  findFaceNeighbors(mesh, 1e-9);
+  const std::vector<SurfaceBox> boxes = findSurfaceBoxes(mesh, 0.0, 0.3, {});
+  double smallest = 1.0;
+  for (const SurfaceBox& box : boxes)
+  {
+    smallest = std::min(smallest, box.certified ? 1.0 : box.size);
+  }
+  EXPECT_LT(smallest, 0x1p-10);
+  EXPECT_GT(smallest, 0x1p-15);
+}
+
 TEST(SurfaceBoxes, LieNearTheSurface)
 {
   // Boxes that hold all of the surface are no proof: all of the mesh would do.
