@@ -164,7 +164,7 @@ TEST_P(FaceJumpsIn, AreNotPassedWhereTheyAreLarger)
 /// A jump that the surface passes counts as an angle below that of a crease.
 TEST_P(FaceJumpsIn, ThatAreSmallerArePassed)
 {
-  const ElementMesh mesh = Halves{ 0.0, 0.0, LargestJumpPerSpacing - 0.05 }.mesh(this->GetParam());
+  const ElementMesh mesh = Halves{ 0.0, 0.0, LargestJumpPerSpacing - 0.03 }.mesh(this->GetParam());
   const Found found = foundIn(mesh, jumpsOf(mesh));
   EXPECT_GE(found.faces, 2);
   EXPECT_EQ(found.tolerances.least, infinity);
