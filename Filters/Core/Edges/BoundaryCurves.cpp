@@ -15,32 +15,50 @@ namespace hop
 namespace
 {
 
-/// Sets jump tolerances with which the surface is cut along creases, unless the field is discontinuous: pieces of surface
-/// that end at creases here and at jumps there would not close.
-/// \return whether there are creases to cut along
+/// Calls use(slot) for each face that the mesh joins.
+template <class Use>
+void visitJoined(const ElementMesh& mesh, std::size_t slots, const Use& use)
+{
+  for (std::size_t slot = 0; slot < slots; ++slot)
+  {
+    if (mesh.neighbor(static_cast<int>(slot / MaximumFaces), slot % MaximumFaces).element >= 0)
+    {
+      use(slot);
+    }
+  }
+}
+
+/// Sets jump tolerances with which the surface is cut along creases.
+/// \return whether there are any
 bool cutAlongCreases(
   const ElementMesh& mesh, const FaceJumps& jumps, std::vector<float>& tolerances)
 {
-  const auto isJoined = [&mesh](std::size_t slot) {
-    return mesh.neighbor(static_cast<int>(slot / MaximumFaces), slot % MaximumFaces).element >= 0;
-  };
-  for (std::size_t slot = 0; slot < tolerances.size(); ++slot)
-  {
-    if (std::isfinite(tolerances[slot]) && isJoined(slot))
-    {
-      return false;
-    }
-  }
   bool isCut = false;
-  for (std::size_t slot = 0; slot < tolerances.size(); ++slot)
-  {
-    if (jumps.dihedralAngles[slot] > CreaseAngle && isJoined(slot))
+  visitJoined(mesh, tolerances.size(),
+    [&](std::size_t slot)
     {
-      tolerances[slot] = -1.0f;
-      isCut = true;
-    }
-  }
+      if (jumps.dihedralAngles[slot] > CreaseAngle)
+      {
+        tolerances[slot] = -1.0f;
+        isCut = true;
+      }
+    });
   return isCut;
+}
+
+/// Lets the surface of a discontinuous field end along all of each face at which it ends anywhere, be it at a jump or
+/// because it turns by more than one sheet does: its curves then end where a jump fades no more, but go around an edge of
+/// the mesh to the face's other side.
+void endAlongFaces(const ElementMesh& mesh, FaceJumps& jumps)
+{
+  const double mostTurned = std::acos(SheetCosine);
+  visitJoined(mesh, jumps.jumpTolerances.size(),
+    [&](std::size_t slot)
+    {
+      float& tolerance = jumps.jumpTolerances[slot];
+      const bool ends = std::isfinite(tolerance) || jumps.dihedralAngles[slot] > mostTurned;
+      tolerance = ends ? 0.0f : tolerance;
+    });
 }
 
 /// Makes particles of the places on curves.
@@ -57,7 +75,7 @@ public:
   {
   }
 
-  BoundaryCurves make(SampledCurves wanted, const ParallelFor& parallelFor);
+  BoundaryCurves make(ThinnedCurves wanted, const ParallelFor& parallelFor);
 
 private:
   std::vector<PlaceKind> finish(const ParallelFor& parallelFor);
@@ -128,7 +146,7 @@ void BoundaryParticles::meet(std::vector<char>& found)
   renumber(this->Result.edges.coincident, found);
 }
 
-BoundaryCurves BoundaryParticles::make(SampledCurves wanted, const ParallelFor& parallelFor)
+BoundaryCurves BoundaryParticles::make(ThinnedCurves wanted, const ParallelFor& parallelFor)
 {
   const std::vector<PlaceKind> kinds = this->finish(parallelFor);
   Buffer<BoundaryParticle>& particles = this->Result.particles;
@@ -155,19 +173,24 @@ BoundaryCurves BoundaryParticles::make(SampledCurves wanted, const ParallelFor& 
 
 } // namespace
 
-BoundaryCurves findBoundaryCurves(const Isosurface& surface, const FaceJumps& jumps,
+BoundaryCurves findBoundaryCurves(const Isosurface& surface, FaceJumps& jumps,
   const SurfaceProxy& proxy, const SizingFunction& sizing, SampledCurves sampled,
   const ParallelFor& parallelFor, const Slab& slab, const Slab& reach)
 {
+  const bool isForMesh = sampled == SampledCurves::ForMeshes;
+  const bool endsAtFaces = isForMesh && jumps.isDiscontinuous;
+  if (endsAtFaces)
+  {
+    endAlongFaces(*surface.mesh, jumps);
+  }
   Isosurface cut = surface;
-  std::vector<float> tolerances = jumps.jumpTolerances;
-  const bool isCut = sampled == SampledCurves::BoundaryAndCreases &&
-    cutAlongCreases(*surface.mesh, jumps, tolerances);
+  std::vector<float> creases = jumps.jumpTolerances;
+  const bool isCut = isForMesh && !endsAtFaces && cutAlongCreases(*surface.mesh, jumps, creases);
   if (isCut)
   {
-    cut.jumpTolerances = &tolerances;
+    cut.jumpTolerances = &creases;
   }
-  // Each time creases may show further ones beside them, where the surface passes corners of faces.
+  // Each time curves may show further faces beside them, where the surface passes corners of faces.
   constexpr int mostTimes = 8;
   std::int64_t evaluations = 0;
   for (int n = 1;; ++n)
@@ -177,20 +200,27 @@ BoundaryCurves findBoundaryCurves(const Isosurface& surface, const FaceJumps& ju
     {
       tracing.followCreases(n < mostTimes);
     }
+    else if (endsAtFaces)
+    {
+      tracing.followEnds(n < mostTimes);
+    }
     const std::vector<std::size_t> overlooked = tracing.trace(parallelFor);
     if (overlooked.empty())
     {
-      const SampledPlaces places =
-        samplePlaces(cut, isCut, tracing.takeCurves(), tracing.interpolation(), parallelFor);
+      const SampledPlaces places = samplePlaces(
+        cut, isCut || endsAtFaces, tracing.takeCurves(), tracing.interpolation(), parallelFor);
+      const ThinnedCurves thinned = !isForMesh ? ThinnedCurves::OfSplats
+        : endsAtFaces                          ? ThinnedCurves::OfPieces
+                                               : ThinnedCurves::OfMesh;
       BoundaryCurves curves =
-        BoundaryParticles(cut, jumps, proxy, sizing, places).make(sampled, parallelFor);
+        BoundaryParticles(cut, jumps, proxy, sizing, places).make(thinned, parallelFor);
       curves.evaluations += evaluations + tracing.evaluations();
       return curves;
     }
     evaluations += tracing.evaluations();
     for (const std::size_t slot : overlooked)
     {
-      tolerances[slot] = -1.0f;
+      (isCut ? creases : jumps.jumpTolerances)[slot] = isCut ? -1.0f : 0.0f;
     }
   }
 }

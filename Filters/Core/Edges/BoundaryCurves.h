@@ -50,8 +50,9 @@ struct BoundaryParticle
 enum class SampledCurves
 {
   Boundary,
-  /// Creases, too (CreaseAngle), on both sides.
-  BoundaryAndCreases
+  /// For meshes: of a continuous field creases, too (CreaseAngle), on both sides; of a discontinuous one the ends of
+  /// each piece of surface as if it were alone.
+  ForMeshes
 };
 
 /// Particles on the boundary curves {F = c} of the surface, which run on the faces at which it ends. The curves pass
@@ -72,13 +73,15 @@ struct BoundaryCurves
 /// Follows every boundary curve that the boxes of the proxy show, and places particles on it: one on each of its
 /// corners, and between corners evenly at the spacing that the surface wants. Where two curves run side by side (on the
 /// two sides of a jump hardly wider than the largest that the surface passes), only one keeps its particles.
-/// Where creases are asked for, too, the surface is cut along them: each side has a curve of its own. The particles of
-/// both sides, and of all sides where creases meet, stand in the same places.
+/// For meshes the surface of a continuous field is cut along creases: each side has a curve of its own. The particles of
+/// both sides, and of all sides where creases meet, stand in the same places. The surface of a discontinuous field ends
+/// along all of a face at which it ends anywhere, so that its curves are closed.
 /// \param surface with the jump tolerances of `jumps`
+/// \param jumps for meshes of a discontinuous field, receives the faces along which the surface ends
 /// \param slab where a curve passes one of its planes a particle stands, unless a corner is near: the worker on the
 ///   other side of the plane has one there, too
 /// \param reach where curves are sought: the mesh may end outside of it where the surface does not
-BoundaryCurves findBoundaryCurves(const Isosurface& surface, const FaceJumps& jumps,
+BoundaryCurves findBoundaryCurves(const Isosurface& surface, FaceJumps& jumps,
   const SurfaceProxy& proxy, const SizingFunction& sizing, SampledCurves sampled,
   const ParallelFor& parallelFor, const Slab& slab = {}, const Slab& reach = {});
 

@@ -42,7 +42,13 @@ bool areSidesOfJump(const BoundaryParticle& a, const BoundaryParticle& b)
     b.particle.jump != 0.0 && lookAtEachOther(a.side, b.side);
 }
 
-bool areTooNear(const BoundaryParticle& a, const BoundaryParticle& b, SampledCurves sampled)
+/// Whether two particles bound pieces of surface in two elements, at a jump.
+bool areOfTwoPieces(const Particle& a, const Particle& b)
+{
+  return a.location.element != b.location.element && (a.jump != 0.0 || b.jump != 0.0);
+}
+
+bool areTooNear(const BoundaryParticle& a, const BoundaryParticle& b, ThinnedCurves wanted)
 {
   if (a.isOnCrease || b.isOnCrease)
   {
@@ -52,7 +58,11 @@ bool areTooNear(const BoundaryParticle& a, const BoundaryParticle& b, SampledCur
   {
     return false;
   }
-  const bool isForMesh = sampled == SampledCurves::BoundaryAndCreases;
+  if (wanted == ThinnedCurves::OfPieces && areOfTwoPieces(a.particle, b.particle))
+  {
+    return false;
+  }
+  const bool isForMesh = wanted != ThinnedCurves::OfSplats;
   if (areSidesOfJump(a, b) || (isForMesh && lookAtEachOther(a.side, b.side)))
   {
     return glm::distance(a.patch.position, b.patch.position) <
@@ -65,11 +75,11 @@ bool areTooNear(const BoundaryParticle& a, const BoundaryParticle& b, SampledCur
 
 /// The order in which particles stay. Meshes keep corners before all others, lest edges cut them off.
 /// \return indices of particles
-std::vector<std::size_t> orderOf(const Buffer<BoundaryParticle>& particles, SampledCurves sampled)
+std::vector<std::size_t> orderOf(const Buffer<BoundaryParticle>& particles, ThinnedCurves wanted)
 {
   std::vector<std::size_t> order(particles.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
-  if (sampled == SampledCurves::BoundaryAndCreases)
+  if (wanted != ThinnedCurves::OfSplats)
   {
     std::stable_partition(
       order.begin(), order.end(), [&](std::size_t i) { return particles[i].isCorner; });
@@ -97,7 +107,7 @@ bool areAcrossSurface(const BoundaryParticle& a, const BoundaryParticle& b)
 /// \param kept marks the particles that stay
 /// \param standIns for each of the others the particle that is too near to it
 void connect(const std::vector<char>& kept, const std::vector<int>& standIns,
-  std::vector<CurvePlace> places, const std::vector<CurveRange>& ranges, SampledCurves sampled,
+  std::vector<CurvePlace> places, const std::vector<CurveRange>& ranges, ThinnedCurves wanted,
   BoundaryCurves& curves)
 {
   const Buffer<BoundaryParticle>& particles = curves.particles;
@@ -118,7 +128,7 @@ void connect(const std::vector<char>& kept, const std::vector<int>& standIns,
                    { return hasNoEnd(particles[pair[0]]) && hasNoEnd(particles[pair[1]]); }),
     segments.end());
   edges.segments = withoutDropped(segments, kept);
-  edges.directed = directedEdgesOf(places, ranges, sampled == SampledCurves::BoundaryAndCreases);
+  edges.directed = directedEdgesOf(places, ranges, wanted != ThinnedCurves::OfSplats);
   renumber(edges.directed, kept);
   renumber(edges.coincident, kept);
 }
@@ -171,7 +181,7 @@ void addOtherSides(BoundaryCurves& curves)
 } // namespace
 
 void thinOut(std::vector<CurvePlace> places, const std::vector<CurveRange>& ranges,
-  SampledCurves sampled, BoundaryCurves& curves, const ParallelFor& parallelFor)
+  ThinnedCurves wanted, BoundaryCurves& curves, const ParallelFor& parallelFor)
 {
   Buffer<BoundaryParticle>& particles = curves.particles;
   const std::vector<char> isAlone = passCracks(places, ranges, particles);
@@ -181,7 +191,7 @@ void thinOut(std::vector<CurvePlace> places, const std::vector<CurveRange>& rang
   const SpacingGrid grid(
     points.positions, points.spacings, Nearness::OnOneSheet, CellsPerReach, parallelFor);
   const std::size_t count = particles.size();
-  const std::vector<std::size_t> order = orderOf(particles, sampled);
+  const std::vector<std::size_t> order = orderOf(particles, wanted);
   std::vector<std::size_t> ranks(count);
   for (std::size_t rank = 0; rank < count; ++rank)
   {
@@ -192,7 +202,7 @@ void thinOut(std::vector<CurvePlace> places, const std::vector<CurveRange>& rang
     grid.visit(points.positions[i], points.spacings[i],
       [&](std::size_t j)
       {
-        if (ranks[j] < ranks[i] && areTooNear(particles[i], particles[j], sampled))
+        if (ranks[j] < ranks[i] && areTooNear(particles[i], particles[j], wanted))
         {
           use(j);
         }
@@ -241,7 +251,7 @@ void thinOut(std::vector<CurvePlace> places, const std::vector<CurveRange>& rang
       particles[i].side = std::exchange(particles[i].otherSide, {});
     }
   }
-  connect(kept, standIns, std::move(places), ranges, sampled, curves);
+  connect(kept, standIns, std::move(places), ranges, wanted, curves);
   keepMarked(particles, kept);
   addOtherSides(curves);
 }

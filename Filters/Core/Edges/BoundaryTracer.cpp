@@ -48,6 +48,8 @@ struct ChordLengths
   /// After so many chords in a row that do not move, a trace ends: it would go round for ever. Fewer than the elements
   /// around a corner could end a trace that gets on.
   static constexpr int MostStandstills = 8;
+  /// Largest jump that the surface passes: LargestJumpPerSpacing, as a step is three quarters of a spacing.
+  static constexpr double PassedJump = LargestJumpPerSpacing / 0.75;
   /// Largest distance between the curve and the cubic of a chord, in units of the chord's length. Larger: where two parts
   /// of a curve turn back close to each other, a chord leads across; smaller: more evaluations.
   static constexpr double Unevenness = 0.01;
@@ -242,9 +244,9 @@ std::optional<BoundaryPoint> BoundaryTracer::crossAtEdge(EdgeWalk& walk)
   {
     walk.here.reset();
     const Location next = crossFace(*this->Surface.mesh, walk.location, walk.face);
-    if (this->LooksForCreases)
+    if (this->LooksForCreases || this->LooksForEnds)
     {
-      this->lookAtCrease(walk.location, walk.face, next);
+      this->lookBehind(walk.location, walk.face, next);
     }
     walk.location = next;
   }
@@ -263,17 +265,22 @@ std::optional<BoundaryPoint> BoundaryTracer::crossAtEdge(EdgeWalk& walk)
   return std::nullopt;
 }
 
-/// Remembers a face at which the surface turns: where it passes a corner of the face, no box need show that.
+/// Remembers a face at which the surface turns, or ought to end: where it passes a corner of the face, no box need show
+/// that.
 /// \param there the place behind the face
-void BoundaryTracer::lookAtCrease(const Location& here, int face, const Location& there)
+void BoundaryTracer::lookBehind(const Location& here, int face, const Location& there)
 {
-  const WorldVector before = this->Walker.evaluate(here).point.gradient;
-  const WorldVector after = this->Walker.evaluate(there).point.gradient;
-  if (angleBetween(before, after) > CreaseAngle)
+  const Evaluated before = this->Walker.evaluate(here);
+  const FaceNeighbor& neighbor = this->Surface.mesh->neighbor(here.element, face);
+  const SurfaceWalker::Behind behind{ this->Walker.evaluate(there), neighbor.face };
+  const double largestTurn = this->LooksForCreases ? CreaseAngle : std::acos(SheetCosine);
+  const bool turns = angleBetween(before.point.gradient, behind.at.point.gradient) > largestTurn;
+  const bool jumps = this->LooksForEnds &&
+    !(SurfaceWalker::jumpBetween(*this->Surface.mesh, before, behind) <= this->PassedJump);
+  if (turns || jumps)
   {
-    const FaceNeighbor& behind = this->Surface.mesh->neighbor(here.element, face);
-    this->OverlookedCreases.push_back(faceSlot(here.element, face));
-    this->OverlookedCreases.push_back(faceSlot(behind.element, behind.face));
+    this->OverlookedFaces.push_back(faceSlot(here.element, face));
+    this->OverlookedFaces.push_back(faceSlot(neighbor.element, neighbor.face));
   }
 }
 
@@ -561,8 +568,9 @@ bool BoundaryTracer::follow(const BoundaryPoint& start, double step, double dire
       // A trace that meets another boundary curve, not its own start, is open.
       const glm::dvec3& begin = start.at.point.map.position.xyz;
       const bool isClosed = distanceToSegment(begin, position.xyz, next->position()) <
-        (this->HasCuts ? std::max(0.5 * moved, BoundaryChords::PassShare * firstChord)
-                       : 0.5 * moved);
+        (this->HasCuts || this->HasEnds
+            ? std::max(0.5 * moved, BoundaryChords::PassShare * firstChord)
+            : 0.5 * moved);
       if (isClosed && direction > 0.0 && this->replacesStart(*next, vertices.front()))
       {
         vertices.front() = *next;
@@ -582,6 +590,7 @@ BoundaryTrace BoundaryTracer::trace(
   const BoundaryPoint& start, double step, const ParallelFor& parallelFor)
 {
   BoundaryTrace result;
+  this->PassedJump = ChordLengths::PassedJump * step;
   // On an edge of an element the boundary curve may have a corner: how it comes there is not known yet.
   const bool isOnEdge =
     otherFaceAt(*this->Surface.mesh, start.at.location, start.face, OnFace) >= 0;

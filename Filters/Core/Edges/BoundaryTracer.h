@@ -38,8 +38,15 @@ public:
     this->HasCuts = true;
     this->LooksForCreases = looksForMore;
   }
-  /// The slots of their faces, both sides.
-  const std::vector<std::size_t>& overlookedCreases() const { return this->OverlookedCreases; }
+  /// For a surface that ends along whole faces where the field jumps: curves are closed.
+  /// \param looksForMore whether walks around edges of the mesh look for faces at which it ought to end
+  void followEnds(bool looksForMore)
+  {
+    this->HasEnds = true;
+    this->LooksForEnds = looksForMore;
+  }
+  /// The slots of the faces found on such walks, both sides.
+  const std::vector<std::size_t>& overlookedFaces() const { return this->OverlookedFaces; }
 
   /// Whether the surface goes on at a crossing. Costs two evaluations at most.
   /// \param farthest distance from the surface, world units, within which the crossing tells
@@ -149,7 +156,7 @@ private:
     const Location& start, int faceA, int faceB, double maximumTravel);
   std::optional<BoundaryPoint> walkAroundEdge(const Evaluated& at, int boundaryFace, int face);
   std::optional<BoundaryPoint> crossAtEdge(EdgeWalk& walk);
-  void lookAtCrease(const Location& here, int face, const Location& there);
+  void lookBehind(const Location& here, int face, const Location& there);
   Evaluated polished(Evaluated at, const ActiveFaces& held, double farthest);
   int boundaryFaceOf(const Location& location, int preferred) const;
   WorldVector tangent(const BoundaryPoint& point) const;
@@ -163,7 +170,11 @@ private:
   BoundaryChords Chords;
   bool HasCuts = false;
   bool LooksForCreases = false;
-  std::vector<std::size_t> OverlookedCreases;
+  bool HasEnds = false;
+  bool LooksForEnds = false;
+  /// Largest jump that the surface passes beside the curve at hand, world units.
+  double PassedJump = 0.0;
+  std::vector<std::size_t> OverlookedFaces;
 };
 
 } // namespace hop

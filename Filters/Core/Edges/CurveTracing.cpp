@@ -327,7 +327,7 @@ std::vector<std::size_t> CurveTracing::trace(const ParallelFor& parallelFor)
     askCaller(parallelFor);
     this->followOtherSide(s, parallelFor);
   }
-  return this->Tracer.overlookedCreases();
+  return this->Tracer.overlookedFaces();
 }
 
 TracedCurves CurveTracing::takeCurves()

@@ -34,9 +34,12 @@ public:
   /// For a surface that is cut along creases.
   /// \param looksForMore whether trace() is to find further ones
   void followCreases(bool looksForMore) { this->Tracer.followCuts(looksForMore); }
+  /// For a surface that ends along whole faces where the field jumps.
+  /// \param looksForMore as above
+  void followEnds(bool looksForMore) { this->Tracer.followEnds(looksForMore); }
 
   /// Traces all curves.
-  /// \return slots of faces along which the surface ought to be cut
+  /// \return slots of faces along which the surface ought to be cut, or to end
   std::vector<std::size_t> trace(const ParallelFor& parallelFor);
 
   /// The curves that were traced.

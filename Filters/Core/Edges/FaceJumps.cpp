@@ -139,6 +139,8 @@ private:
     /// Infinite where the sides agree.
     float jumpTolerance = std::numeric_limits<float>::infinity();
     float dihedralAngle = 0.0f;
+    /// Whether the sides are apart, at a face that the mesh joins.
+    bool isApart = false;
   };
 
   /// Two walkers: one stays on the face as if the surface ended there, the other passes it.
@@ -205,6 +207,8 @@ std::optional<JumpFinder::Finding> JumpFinder::look(
   Finding finding{ faceSlot(element, crossing.face),
     faceSlot(behind->at.location.element, behind->face) };
   const double jump = SurfaceWalker::jumpBetween(this->Mesh, here, *behind);
+  finding.isApart = this->Mesh.neighbor(element, crossing.face).element >= 0 &&
+    !(jump <= LeastJumpPerSpacing * spacing);
   if (!(jump <= largest))
   {
     finding.jumpTolerance = static_cast<float>(largest);
@@ -339,6 +343,7 @@ FaceJumps JumpFinder::gathered() const
   {
     for (const Finding& finding : findings)
     {
+      result.isDiscontinuous = result.isDiscontinuous || finding.isApart;
       for (const std::size_t slot : { finding.here, finding.there })
       {
         result.jumpTolerances[slot] = std::min(result.jumpTolerances[slot], finding.jumpTolerance);

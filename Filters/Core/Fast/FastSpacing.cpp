@@ -75,6 +75,7 @@ void FastSystem::matchSpacing(std::int64_t count)
   if (this->placesOnCurves() > count)
   {
     this->CreasesFit = false;
+    this->findJumps();
     this->traceBoundaryCurves();
   }
   this->keepOnBoundary(static_cast<std::size_t>(count));

@@ -180,27 +180,35 @@ void FastSystem::prepareSurface()
   this->Proxy =
     std::make_unique<SurfaceProxy>(this->proxyOfBoxesAt(this->Sizing, ProgressAt::Isolated));
   this->Work.ask();
-  this->Jumps = findFaceJumps(this->Surface, *this->Proxy, this->Parallel);
-  std::int64_t cost = this->Jumps.evaluations;
+  this->findJumps();
+  std::int64_t cost = 0;
   if (this->Parameters.quality != Quality::Draft)
   {
     this->Proxy->limitSpacings(
       findCreaseSpacings(this->Surface, *this->Proxy, this->Jumps, this->Parallel, cost),
       this->Parallel);
   }
-  this->Surface.jumpTolerances = &this->Jumps.jumpTolerances;
   this->Work.ask();
   this->traceBoundaryCurves();
   this->Evaluations += cost + this->Curves.evaluations;
 }
 
+/// Until the boundary curves are traced the surface passes all jumps.
+void FastSystem::findJumps()
+{
+  this->Surface.jumpTolerances = nullptr;
+  this->Jumps = findFaceJumps(this->Surface, *this->Proxy, this->Parallel);
+  this->Evaluations += this->Jumps.evaluations;
+}
+
 void FastSystem::traceBoundaryCurves()
 {
+  this->Surface.jumpTolerances = &this->Jumps.jumpTolerances;
   const Slab inReach = this->Part.widened(this->overlap(SlabOverlap::Reach));
   const bool withCreases = this->Parameters.onCreases && this->CreasesFit;
   this->Curves = findBoundaryCurves(this->Surface, this->Jumps, *this->Proxy, this->Sizing,
-    withCreases ? SampledCurves::BoundaryAndCreases : SampledCurves::Boundary, this->Parallel,
-    this->Part, inReach);
+    withCreases ? SampledCurves::ForMeshes : SampledCurves::Boundary, this->Parallel, this->Part,
+    inReach);
   this->keepCurvesIn(inReach);
   this->BoundaryPatches.clear();
   this->BoundaryCount = 0.0;

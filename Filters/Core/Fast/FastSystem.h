@@ -94,6 +94,7 @@ protected:
   static double countAlongStrips(const SurfaceProxy& proxy);
   bool estimateCount();
   void prepareSurface();
+  void findJumps();
   void traceBoundaryCurves();
   void keepCurvesIn(const Slab& slab);
   std::vector<SurfaceBox> undecidedBoxes();

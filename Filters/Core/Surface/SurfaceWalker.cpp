@@ -110,7 +110,7 @@ bool SurfaceWalker::continuesIn(
   const WorldVector& before = here.point.gradient;
   const WorldVector& after = there.at.point.gradient;
   return !std::isfinite(tolerance) ||
-    (jumpBetween(*surface.mesh, here, there) <= tolerance &&
+    (tolerance > 0.0 && jumpBetween(*surface.mesh, here, there) <= tolerance &&
       dot(before, after) >= SheetCosine * length(after) * length(before));
 }
 

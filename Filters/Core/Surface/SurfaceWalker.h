@@ -20,7 +20,8 @@ struct Isosurface
   const FaceLocator* locator = nullptr;
   /// MaximumFaces entries an element: largest distance along the face between the curves in which the two elements'
   /// surfaces meet it, up to which the surface goes on there (SurfaceWalker::jumpBetween), world units. Infinite where
-  /// the field is known to be continuous; negative where the surface is cut. nullptr: infinite everywhere.
+  /// the field is known to be continuous; zero where the surface ends in all places of the face; negative where it is
+  /// cut. nullptr: infinite everywhere.
   const std::vector<float>* jumpTolerances = nullptr;
   /// Whether every face at which the surface may end counts as a boundary face.
   bool endsWhereItMay = false;
@@ -62,7 +63,8 @@ struct Isosurface
   {
     const bool joined = this->mesh->neighbor(element, face).element >= 0;
     const bool open = joined || (this->locator && this->locator->mayContinue(element, face));
-    return open && !this->endsWhereItMay && this->mayEnd(element, face);
+    return open && !this->endsWhereItMay && this->mayEnd(element, face) &&
+      this->jumpTolerance(element, face) > 0.0;
   }
 
   /// Whether the surface may meet a face, as far as that is known without a look at places on it.

@@ -195,7 +195,7 @@ TEST(BoundaryThinning, LeavesTheEndOfTheDomainAtCornersOfClosedSlits)
     corner.otherSide = { 1, { { 0, 1, 0 } }, 0.0 };
     curves.particles.push_back(corner);
   }
-  thinOut({}, {}, SampledCurves::Boundary, curves, {});
+  thinOut({}, {}, ThinnedCurves::OfSplats, curves, {});
   ASSERT_EQ(curves.particles.size(), 1u);
   EXPECT_EQ(curves.particles[0].side.outward.xyz, glm::dvec3(0, 1, 0));
   EXPECT_FALSE(curves.particles[0].otherSide.exists());

@@ -26,7 +26,7 @@ BoundaryCurves curvesOf(const ElementMesh& mesh, const ParallelFor& parallelFor 
   Isosurface surface{ &mesh, 0.0, tolerance };
   const SurfaceProxy proxy(
     surface, sizing, findSurfaceBoxes(mesh, 0.0, 6.0 * spacing, parallelFor), parallelFor);
-  const FaceJumps jumps = findFaceJumps(surface, proxy, parallelFor);
+  FaceJumps jumps = findFaceJumps(surface, proxy, parallelFor);
   surface.jumpTolerances = &jumps.jumpTolerances;
   return findBoundaryCurves(surface, jumps, proxy, sizing, sampled, parallelFor);
 }
@@ -373,7 +373,7 @@ TEST(BoundaryCurves, LeaveCreasesOutUnlessAskedFor)
 
 TEST(BoundaryCurves, OfBothSidesOfACreaseMeetInTheSamePlaces)
 {
-  const BoundaryCurves curves = curvesOf(ridge(), {}, SampledCurves::BoundaryAndCreases);
+  const BoundaryCurves curves = curvesOf(ridge(), {}, SampledCurves::ForMeshes);
   // The ridge is 2 long, and has particles at both ends.
   EXPECT_EQ(
     curves.edges.coincident.size(), static_cast<std::size_t>(std::ceil(2.0 / (1.1 * spacing))) + 1);
@@ -390,7 +390,7 @@ TEST(BoundaryCurves, OfBothSidesOfACreaseMeetInTheSamePlaces)
 
 TEST(BoundaryCurves, OfOneSideOfACreaseHaveItsSurfaceToTheirLeft)
 {
-  const BoundaryCurves curves = curvesOf(ridge(), {}, SampledCurves::BoundaryAndCreases);
+  const BoundaryCurves curves = curvesOf(ridge(), {}, SampledCurves::ForMeshes);
   // Both halves are rectangles, so that their middles are to the left of all edges.
   EXPECT_GT(curves.edges.directed.size(), curves.particles.size() - 1);
   for (const auto& [a, b] : curves.edges.directed)
