@@ -28,13 +28,17 @@ void visitJoined(const ElementMesh& mesh, std::size_t slots, const Use& use)
   }
 }
 
-/// Sets jump tolerances with which the surface is cut along creases.
-/// \return whether there are any
+/// Sets jump tolerances with which the surface is cut along creases, unless it ends at faces where it is tangent to them:
+/// pieces of surface that end at creases here and there would not close.
+/// \return whether there are creases to cut along
 bool cutAlongCreases(
   const ElementMesh& mesh, const FaceJumps& jumps, std::vector<float>& tolerances)
 {
   bool isCut = false;
+  bool ends = false;
   visitJoined(mesh, tolerances.size(),
+    [&](std::size_t slot) { ends = ends || std::isfinite(tolerances[slot]); });
+  visitJoined(mesh, ends ? 0 : tolerances.size(),
     [&](std::size_t slot)
     {
       if (jumps.dihedralAngles[slot] > CreaseAngle)

@@ -208,7 +208,7 @@ std::optional<JumpFinder::Finding> JumpFinder::look(
     faceSlot(behind->at.location.element, behind->face) };
   const double jump = SurfaceWalker::jumpBetween(this->Mesh, here, *behind);
   finding.isApart = this->Mesh.neighbor(element, crossing.face).element >= 0 &&
-    !(jump <= LeastJumpPerSpacing * spacing);
+    std::abs(behind->at.point.value - here.point.value) > largest * length(here.point.gradient);
   if (!(jump <= largest))
   {
     finding.jumpTolerance = static_cast<float>(largest);

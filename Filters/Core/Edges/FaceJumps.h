@@ -17,8 +17,8 @@ struct FaceJumps
   /// smooth. A jump that the surface passes counts as an angle, too: jump / spacing, below CreaseAngle; where the sides
   /// are parallel, a small one may be overlooked.
   std::vector<float> dihedralAngles;
-  /// Whether the two sides of a face that the mesh joins were seen to meet it in curves that are apart
-  /// (LeastJumpPerSpacing).
+  /// Whether the surfaces on the two sides of a face that the mesh joins were seen to be more than LargestJumpPerSpacing
+  /// apart: along their normals, as a surface may be tangent to a face.
   bool isDiscontinuous = false;
   std::int64_t evaluations = 0;
 };
@@ -28,11 +28,6 @@ struct FaceJumps
 /// picture; with a smaller one the surface of a discontinuous field falls into pieces, each with boundary curves of its
 /// own.
 constexpr double LargestJumpPerSpacing = 0.2;
-
-/// Smallest jump, in units of the spacing, that makes a field discontinuous. Smaller: what single precision leaves of a
-/// continuous field counts as well; larger: the two sides of creases are to have particles in the same places, and have
-/// not.
-constexpr double LeastJumpPerSpacing = 0.02;
 
 /// Smallest dihedral angle that makes a crease, radians: 10 degrees. Chosen by experiment. Splats are cut off at
 /// creases, and hand over gradually to the other side at smaller angles; a larger one blurs edges, with a smaller one

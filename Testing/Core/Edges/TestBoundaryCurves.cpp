@@ -331,6 +331,55 @@ TEST(BoundaryCurves, AreNoneAlongJumpsThatTheSurfacePasses)
   EXPECT_EQ(inMiddle, 0);
 }
 
+/// Two halves of a cube whose step grows from one end of the face between them to the other: the surface passes it up to
+/// 0.4 spacings.
+ElementMesh halvesWithFadingStep()
+{
+  ElementMesh mesh;
+  MeshRecipe left, right;
+  left.field = [](const glm::dvec3& x) { return x.z - 0.03; };
+  right.field = [](const glm::dvec3& x) { return x.z - 0.03 - 0.4 * spacing * (1.0 + x.y); };
+  appendBox(mesh, left, { -1, -1, -1 }, { 0, 1, 1 });
+  appendBox(mesh, right, { 0, -1, -1 }, { 1, 1, 1 });
+  findFaceNeighbors(mesh, 1e-9);
+  return mesh;
+}
+
+/// \param below which they have y
+int particlesAtStep(const BoundaryCurves& curves, double below)
+{
+  return static_cast<int>(std::count_if(curves.particles.begin(), curves.particles.end(),
+    [below](const BoundaryParticle& p)
+    {
+      const glm::dvec3& x = p.particle.position.xyz;
+      return std::abs(x.x) < 1e-9 && x.y > -1.0 + 1e-9 && x.y < below;
+    }));
+}
+
+TEST(BoundaryCurves, OfMeshesDoNotEndWhereAJumpFades)
+{
+  const BoundaryCurves curves = curvesOf(halvesWithFadingStep(), {}, SampledCurves::ForMeshes);
+  // Both sides along all of the face, though at one end they meet.
+  EXPECT_NEAR(particlesAtStep(curves, 1.0 - 1e-9), 2.0 * (2.0 / spacing - 1.0), 2.0);
+  std::vector<int> begins(curves.particles.size(), 0);
+  std::vector<int> ends(curves.particles.size(), 0);
+  for (const auto& [a, b] : curves.edges.directed)
+  {
+    ++begins[a];
+    ++ends[b];
+  }
+  EXPECT_EQ(begins, std::vector<int>(curves.particles.size(), 1));
+  EXPECT_EQ(ends, begins);
+}
+
+TEST(BoundaryCurves, OfSplatsEndWhereAJumpFades)
+{
+  // Half of the face has a step that the surface does not pass.
+  const BoundaryCurves curves = curvesOf(halvesWithFadingStep());
+  EXPECT_EQ(particlesAtStep(curves, -spacing), 0);
+  EXPECT_GT(particlesAtStep(curves, 1.0 - 1e-9), 1.0 / spacing);
+}
+
 TEST(BoundaryCurves, DoNotDependOnThreads)
 {
   MeshRecipe recipe;

@@ -235,6 +235,18 @@ TEST(FaceJumps, KnowTheDihedralAngleWhereFacesDoNotMatch)
   EXPECT_EQ(found.otherAngles.most, 0.0f);
 }
 
+TEST(FaceJumps, TellWhetherTheFieldIsDiscontinuous)
+{
+  const auto jumps = [](double slope, double step) {
+    return jumpsOf(Halves{ 0.0, slope, step }.mesh(Domain::Hexahedron)).isDiscontinuous;
+  };
+  EXPECT_TRUE(jumps(0.0, 2.0));
+  EXPECT_FALSE(jumps(0.0, 0.0));
+  // A crease alone, and one beside a step that the surface passes.
+  EXPECT_FALSE(jumps(0.5, 0.0));
+  EXPECT_FALSE(jumps(0.5, 0.1));
+}
+
 TEST(FaceJumps, CountWhereTheSurfaceEnds)
 {
   const auto passages = [](double step)
