@@ -331,8 +331,7 @@ TEST(BoundaryCurves, AreNoneAlongJumpsThatTheSurfacePasses)
   EXPECT_EQ(inMiddle, 0);
 }
 
-/// Two halves of a cube whose step grows from one end of the face between them to the other: the surface passes it up to
-/// 0.4 spacings.
+/// Two halves of a cube whose step grows from nothing at one end of the face between them to 0.8 spacings at the other.
 ElementMesh halvesWithFadingStep()
 {
   ElementMesh mesh;
@@ -374,9 +373,9 @@ TEST(BoundaryCurves, OfMeshesDoNotEndWhereAJumpFades)
 
 TEST(BoundaryCurves, OfSplatsEndWhereAJumpFades)
 {
-  // Half of the face has a step that the surface does not pass.
   const BoundaryCurves curves = curvesOf(halvesWithFadingStep());
-  EXPECT_EQ(particlesAtStep(curves, -spacing), 0);
+  const double passed = -1.0 + LargestJumpPerSpacing / 0.4;
+  EXPECT_EQ(particlesAtStep(curves, passed - spacing), 0);
   EXPECT_GT(particlesAtStep(curves, 1.0 - 1e-9), 1.0 / spacing);
 }
 
