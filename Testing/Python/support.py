@@ -2,6 +2,7 @@
 own cells, contour and locator for a second opinion."""
 
 import os
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,7 @@ from highorderparticles import vtkHighOrderParticleIsosurface
 from paraview import simple
 from paraview.vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.util.misc import calldata_type
-from vtkmodules.vtkCommonCore import VTK_STRING, reference, vtkIdList, vtkPoints
+from vtkmodules.vtkCommonCore import VTK_STRING, reference, vtkIdList, vtkPoints, vtkSMPTools
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkStaticPointLocator, vtkUnstructuredGrid
 from vtkmodules.vtkFiltersCore import (vtkCleanPolyData, vtkContourFilter, vtkExtractCells, vtkFeatureEdges,
                                        vtkMassProperties, vtkTriangleFilter)
@@ -36,6 +37,19 @@ class Messages:
         for speaker in (algorithm, algorithm.GetExecutive()):
             speaker.AddObserver("ErrorEvent", listen)
             speaker.AddObserver("WarningEvent", listen)
+
+
+@contextmanager
+def threads(count):
+    """Within, the filter runs in so many threads: left alone, it takes all cores."""
+    backend = vtkSMPTools.GetBackend()
+    vtkSMPTools.SetBackend("STDThread")
+    vtkSMPTools.Initialize(count)
+    try:
+        yield
+    finally:
+        vtkSMPTools.SetBackend(backend)
+        vtkSMPTools.Initialize(0)
 
 
 def environment_of_ranks():

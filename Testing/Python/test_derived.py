@@ -6,7 +6,6 @@ import pytest
 import support
 from paraview import simple
 from vtkmodules.vtkCommonCore import reference as vtkReference
-from vtkmodules.vtkCommonCore import vtkSMPTools
 
 FLOW = "ngsolve_cylinder_ns_tet_p3.vtu"
 QUANTITIES = ["Gradient Magnitude", "Divergence", "Vorticity Magnitude", "Q Criterion"]
@@ -710,8 +709,8 @@ def test_threads_do_not_matter(quantity):
     support.add_point_array(grid, "u", np.sin(3.0 * support.points_of(grid)[:, [1, 2, 0]]))
     outputs = []
     for threads in (1, 2):
-        vtkSMPTools.Initialize(threads)
-        outputs.append(support.contents(support.run(grid, "u", 0.2, Quantity=quantity, Seed=1)[0]))
+        with support.threads(threads):
+            outputs.append(support.contents(support.run(grid, "u", 0.2, Quantity=quantity, Seed=1)[0]))
     assert outputs[0] == outputs[1] and len(outputs[0]) > 0
 
 

@@ -469,15 +469,12 @@ def test_flux_converges_at_the_order_of_the_mesh(grid, order, rate):
 
 
 def test_the_same_for_any_number_of_threads(grid):
-    from vtkmodules.vtkCommonCore import vtkSMPTools
-
     for kind in ("Triangles", "Curved Triangles"):
         results = []
         for threads in (1, 2):
-            vtkSMPTools.Initialize(threads)
-            mesh = mesh_of(grid, kind)
+            with support.threads(threads):
+                mesh = mesh_of(grid, kind)
             results.append((support.contents(mesh), corners_of(mesh).tobytes()))
-        vtkSMPTools.Initialize(0)
         assert results[0] == results[1]
 
 

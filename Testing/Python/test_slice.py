@@ -6,7 +6,6 @@ import pytest
 import support
 from highorderparticles import vtkHighOrderParticleSlice
 from paraview import simple
-from vtkmodules.vtkCommonCore import vtkSMPTools
 from vtkmodules.vtkCommonDataModel import (
     VTK_HEXAHEDRON,
     vtkBox,
@@ -263,8 +262,8 @@ def test_boxes_do_not_depend_on_threads_and_keep_blocks():
         blocks.SetBlock(b, grid)
     outputs = []
     for threads in (1, 2):
-        vtkSMPTools.Initialize(threads)
-        output = slice_of(blocks, turned_box((2, 1, 1), [0.7, 0.4, 0.5]), Spacing=0.05)
+        with support.threads(threads):
+            output = slice_of(blocks, turned_box((2, 1, 1), [0.7, 0.4, 0.5]), Spacing=0.05)
         outputs.append([support.contents(leaf) for _, _, leaf in support.leaves_of(output)])
         assert min(leaf.GetNumberOfPoints() for _, _, leaf in support.leaves_of(output)) > 300
     assert outputs[0] == outputs[1] and len(outputs[0]) == 2

@@ -1,5 +1,6 @@
 #include "Elements/ExactField.h"
 
+#include "Elements/KernelAccess.h"
 #include "Elements/QuantityJet.h"
 
 #include <glm/glm.hpp>
@@ -25,120 +26,158 @@ enum class Order
   Second
 };
 
-Jet evaluate(const BernsteinForm& form, const ReferencePoint& u, Order order)
+/// Writes into a jet: copies of jets would cost a third of the whole.
+void evaluate(const BernsteinForm& form, const ReferencePoint& u, Order order, Jet& jet)
 {
-  return order == Order::First ? evaluateGradient(form, u) : evaluateHessian(form, u);
+  const kernel::DomainKernels& kernels = kernelsOf(form.domain);
+  const kernel::PointFunction function =
+    order == Order::First ? kernels.gradient : kernels.hessian;
+  function(plainElement(form), &u.xyz.x, &jet.value.x);
 }
 
-/// A matrix, a column a coordinate of the cell, with its derivatives.
-using ColumnsJet = GradientJet;
+/// The derivatives of (x, y, z, u_0) and of (u_1, u_2, 0, 0) along each coordinate of the cell, with their own derivatives.
+using DerivativeJets = std::array<std::array<Jet, 2>, 3>;
 
-/// Takes a component of the derivatives along coordinate k into row c of the columns.
-void takeComponent(const Jet& jet, int component, int k, int c, ColumnsJet& columns)
+DerivativeJets derivativesAt(Domain domain, const ExactField& field,
+  const Coefficient* coefficients, const ReferencePoint& v, Order order)
 {
-  columns.value[k][c] = jet.value[component];
-  for (int a = 0; a < 3; ++a)
-  {
-    columns.first[a][k][c] = jet.first[a][component];
-  }
-  for (int i = 0; i < 6; ++i)
-  {
-    columns.second[i][k][c] = jet.second[i][component];
-  }
-}
-
-/// X' and U'; of components that there are not the rows are zero.
-struct CellJets
-{
-  ColumnsJet map;
-  ColumnsJet field;
-};
-
-CellJets jetsAt(Domain domain, const ExactField& field, const Coefficient* coefficients,
-  const ReferencePoint& v, Order order)
-{
-  CellJets jets;
+  DerivativeJets jets;
   coefficients += coefficientCount(domain, field.degrees);
   for (int k = 0; k < 3; ++k)
   {
     const Degrees& degrees = field.ofDerivatives[k];
     for (int group = 0; group < groupCount(field); ++group)
     {
-      const Jet jet = evaluate({ domain, degrees, coefficients, nullptr }, v, order);
+      evaluate({ domain, degrees, coefficients, nullptr }, v, order, jets[k][group]);
       coefficients += coefficientCount(domain, degrees);
-      for (int c = 4 * group; c < std::min(4 * group + 4, 3 + field.components); ++c)
-      {
-        takeComponent(jet, c % 4, k, c % 3, c < 3 ? jets.map : jets.field);
-      }
     }
   }
   return jets;
 }
 
-/// G = U' X'^-1. As U' = G X', G_k = (U'_k - G X'_k) X'^-1 and so on.
-GradientJet gradientJet(const ColumnsJet& map, const ColumnsJet& field, Order order)
+/// X' and U', or the derivatives of these along a coordinate: a column a coordinate of the cell.
+struct Columns
 {
-  const glm::dmat3 inverse = glm::inverse(map.value);
-  GradientJet g;
-  g.value = field.value * inverse;
+  glm::dmat3 map;
+  glm::dmat3 field;
+};
+
+/// \param numberOf the value of a jet, or one of its derivatives
+template <class NumberOf>
+Columns columnsOf(const DerivativeJets& jets, const NumberOf& numberOf)
+{
+  Columns result;
   for (int k = 0; k < 3; ++k)
   {
-    g.first[k] = (field.first[k] - g.value * map.first[k]) * inverse;
+    const Coefficient& first = numberOf(jets[k][0]);
+    const Coefficient& second = numberOf(jets[k][1]);
+    result.map[k] = glm::dvec3(first);
+    result.field[k] = { first.w, second.x, second.y };
+  }
+  return result;
+}
+
+double sumOfProducts(const glm::dmat3& a, const glm::dmat3& b)
+{
+  return glm::dot(a[0], b[0]) + glm::dot(a[1], b[1]) + glm::dot(a[2], b[2]);
+}
+
+/// The quantity along the coordinates of the cell. With G = U' X'^-1 and T = q' X'^-T, a change of the cell's columns
+/// changes q by T : (dU' - G dX'). Along two coordinates k and l that is T : (U'_kl - G X'_kl - G_k X'_l - G_l X'_k) and
+/// the bend of q, so that no second derivative of G is needed.
+ScalarJet quantityAt(Quantity quantity, const DerivativeJets& jets, Order order)
+{
+  const Columns columns = columnsOf(jets, [](const Jet& jet) { return jet.value; });
+  const glm::dmat3 inverse = glm::inverse(columns.map);
+  const glm::dmat3 gradient = columns.field * inverse;
+  std::array<Columns, 3> changes;
+  std::array<glm::dmat3, 3> ofGradient{ glm::dmat3(0.0), glm::dmat3(0.0), glm::dmat3(0.0) };
+  for (int k = 0; k < 3 && order == Order::Second; ++k)
+  {
+    changes[k] = columnsOf(jets, [k](const Jet& jet) { return jet.first[k]; });
+    ofGradient[k] = (changes[k].field - gradient * changes[k].map) * inverse;
+  }
+  const QuantityJet q = quantityJet(quantity, gradient, ofGradient);
+  const glm::dmat3 slope = q.slope * glm::transpose(inverse);
+  const glm::dmat3 ofMap = glm::transpose(gradient) * slope;
+  const auto changeBy = [&](const auto& numberOf)
+  {
+    double sum = 0.0;
+    for (int m = 0; m < 3; ++m)
+    {
+      sum += glm::dot(Coefficient(-ofMap[m], slope[m].x), numberOf(jets[m][0])) +
+        glm::dot(Coefficient(slope[m].y, slope[m].z, 0.0, 0.0), numberOf(jets[m][1]));
+    }
+    return sum;
+  };
+  ScalarJet result;
+  result.value = q.value;
+  std::array<glm::dmat3, 3> pulls;
+  for (int k = 0; k < 3; ++k)
+  {
+    result.gradient[k] = changeBy([k](const Jet& jet) { return jet.first[k]; });
+    pulls[k] = glm::transpose(ofGradient[k]) * slope;
   }
   for (int i = 0; i < 6 && order == Order::Second; ++i)
   {
     const auto [k, l] = SecondDerivatives[i];
-    g.second[i] = (field.second[i] - g.value * map.second[i] - g.first[k] * map.first[l] -
-                    g.first[l] * map.first[k]) *
-      inverse;
+    result.hessian[k][l] = changeBy([i](const Jet& jet) { return jet.second[i]; }) -
+      sumOfProducts(pulls[k], changes[l].map) - sumOfProducts(pulls[l], changes[k].map) +
+      q.bend[k][l];
+    result.hessian[l][k] = result.hessian[k][l];
   }
-  return g;
+  return result;
 }
 
-/// The place in the cell, by the quotient rule where the cell is rational, with a quantity in the place of the field.
-Jet jetOf(const Jet& homogeneous, const ScalarJet& quantity, double scale)
+/// A homogeneous place becomes that in the cell, by the quotient rule.
+void divideByWeight(Jet& place)
 {
-  const double inverse = 1.0 / homogeneous.value.w;
-  Jet result;
-  result.value = inverse * homogeneous.value;
+  const double inverse = 1.0 / place.value.w;
+  const glm::dvec3 weight = gradientOf(place);
+  place.value *= inverse;
   for (int a = 0; a < 3; ++a)
   {
-    result.first[a] = inverse * (homogeneous.first[a] - homogeneous.first[a].w * result.value);
+    place.first[a] = inverse * (place.first[a] - weight[a] * place.value);
   }
   for (int i = 0; i < 6; ++i)
   {
     const auto [a, b] = SecondDerivatives[i];
-    result.second[i] = inverse *
-      (homogeneous.second[i] - homogeneous.first[a].w * result.first[b] -
-        homogeneous.first[b].w * result.first[a] - homogeneous.second[i].w * result.value);
-    result.second[i].w = scale * quantity.hessian[a][b];
+    place.second[i] = inverse *
+      (place.second[i] - weight[a] * place.first[b] - weight[b] * place.first[a] -
+        place.second[i].w * place.value);
   }
-  result.value.w = scale * quantity.value;
+}
+
+void setField(const ScalarJet& field, double scale, Jet& jet)
+{
+  jet.value.w = scale * field.value;
   for (int a = 0; a < 3; ++a)
   {
-    result.first[a].w = scale * quantity.gradient[a];
+    jet.first[a].w = scale * field.gradient[a];
   }
-  return result;
+  for (int i = 0; i < 6; ++i)
+  {
+    const auto [a, b] = SecondDerivatives[i];
+    jet.second[i].w = scale * field.hessian[a][b];
+  }
 }
 
 /// A jet along the coordinates of the cell becomes one along those of a part.
 Jet alongAxes(const Jet& inCell, const glm::dmat3& axes)
 {
+  const auto along = [&](int a, const Coefficient& u, const Coefficient& v, const Coefficient& w)
+  { return u * axes[a][0] + v * axes[a][1] + w * axes[a][2]; };
+  const auto& [uu, uv, uw, vv, vw, ww] = inCell.second;
   Jet result;
   result.value = inCell.value;
-  for (int c = 0; c < 4; ++c)
+  for (int a = 0; a < 3; ++a)
   {
-    const glm::dvec3 first =
-      glm::dvec3(inCell.first[0][c], inCell.first[1][c], inCell.first[2][c]) * axes;
-    const glm::dmat3 second = glm::transpose(axes) * hessianOf(inCell.second, c) * axes;
-    for (int a = 0; a < 3; ++a)
-    {
-      result.first[a][c] = first[a];
-    }
-    for (int i = 0; i < 6; ++i)
-    {
-      result.second[i][c] = second[SecondDerivatives[i][0]][SecondDerivatives[i][1]];
-    }
+    result.first[a] = along(a, inCell.first[0], inCell.first[1], inCell.first[2]);
+  }
+  for (int i = 0; i < 6; ++i)
+  {
+    const auto [a, b] = SecondDerivatives[i];
+    result.second[i] = along(b, along(a, uu, uv, uw), along(a, uv, vv, vw), along(a, uw, vw, ww));
   }
   return result;
 }
@@ -147,11 +186,12 @@ Jet evaluate(Domain domain, const ExactField& field, const Coefficient* coeffici
   const ReferencePoint& u, Order order)
 {
   const ReferencePoint v = field.part.inWhole(u);
-  const Jet place = evaluate({ domain, field.degrees, coefficients, nullptr }, v, order);
-  const CellJets jets = jetsAt(domain, field, coefficients, v, order);
-  const GradientJet gradient = gradientJet(jets.map, jets.field, order);
-  return alongAxes(
-    jetOf(place, quantityJet(field.quantity, gradient), field.scale), field.part.axes);
+  Jet jet;
+  evaluate({ domain, field.degrees, coefficients, nullptr }, v, order, jet);
+  divideByWeight(jet);
+  const DerivativeJets derivatives = derivativesAt(domain, field, coefficients, v, order);
+  setField(quantityAt(field.quantity, derivatives, order), field.scale, jet);
+  return alongAxes(jet, field.part.axes);
 }
 
 /// One at least, as elements have. The same along all axes of cubes: kernels know such degrees at compile time.

@@ -9,15 +9,6 @@
 namespace hop
 {
 
-/// The gradient of a field of three components, columns du/dx_j, with its derivatives along three coordinates.
-struct GradientJet
-{
-  glm::dmat3 value{ 0.0 };
-  std::array<glm::dmat3, 3> first{};
-  /// uu, uv, uw, vv, vw, ww
-  std::array<glm::dmat3, 6> second{};
-};
-
 /// A number that depends on the place: its value and derivatives to second order.
 struct ScalarJet
 {
@@ -30,10 +21,22 @@ struct ScalarJet
 constexpr std::array<std::array<int, 2>, 6> SecondDerivatives{ { { 0, 0 }, { 0, 1 }, { 0, 2 },
   { 1, 1 }, { 1, 2 }, { 2, 2 } } };
 
-/// A quantity, or its square where that is derived, with its derivatives by the chain rule; where the second ones of the
-/// gradient are left zero those of the quantity mean nothing. All are finite for every finite gradient: where two
-/// eigenvalues are equal, derivatives of lambda 2 are those of one of the two sides of the crease.
+/// A quantity q of the gradient G of a field of three components, columns du/dx_j, or the quantity's square where that is
+/// derived.
+struct QuantityJet
+{
+  double value = 0.0;
+  /// dq/dG_ij: q changes by the sum of slope_ij dG_ij.
+  glm::dmat3 slope{ 0.0 };
+  /// d2q/dG2 of the changes of G along two of three coordinates.
+  glm::dmat3 bend{ 0.0 };
+};
+
+/// All is finite for every finite gradient: where two eigenvalues are equal, derivatives of lambda 2 are those of one of
+/// the two sides of the crease.
 /// \param quantity neither Value nor Expression
-ScalarJet quantityJet(Quantity quantity, const GradientJet& gradient);
+/// \param changes of the gradient along three coordinates; where they are zero, so is `bend`
+QuantityJet quantityJet(
+  Quantity quantity, const glm::dmat3& gradient, const std::array<glm::dmat3, 3>& changes);
 
 } // namespace hop
