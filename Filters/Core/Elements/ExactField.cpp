@@ -30,8 +30,7 @@ enum class Order
 void evaluate(const BernsteinForm& form, const ReferencePoint& u, Order order, Jet& jet)
 {
   const kernel::DomainKernels& kernels = kernelsOf(form.domain);
-  const kernel::PointFunction function =
-    order == Order::First ? kernels.gradient : kernels.hessian;
+  const kernel::PointFunction function = order == Order::First ? kernels.gradient : kernels.hessian;
   function(plainElement(form), &u.xyz.x, &jet.value.x);
 }
 
