@@ -2,6 +2,7 @@
 
 #include "Mesh/CurvedTriangles.h"
 #include "Mesh/LiftedField.h"
+#include "Mesh/SharedEdges.h"
 #include "Mesh/Slivers.h"
 #include "Mesh/SurfaceMesh.h"
 #include "Mesh/TriangleNormal.h"
@@ -197,6 +198,10 @@ bool addMesh(const Isosurface& surface, const Isosurface& own, OutputType type, 
   bool isCut, IsovalueParticles& some, const Monitor& monitor, const ParallelFor& parallelFor)
 {
   Distribution& distribution = some.distribution;
+  if (type != OutputType::Particles)
+  {
+    uniteEnds(distribution);
+  }
   const ConstrainedEdges edges(distribution);
   SurfaceMesh mesh;
   if (type != OutputType::Particles)

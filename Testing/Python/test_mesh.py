@@ -355,6 +355,48 @@ def test_particles_have_no_list_of_components(grid):
     assert components_of(mesh_of(grid, "Particles")) == {}
 
 
+def small_facets(place, blocks, field):
+    """Linear tetrahedra of a field that bends within them: facets smaller than a spacing between sharp creases."""
+    grid = straight_grid("TETRA", blocks=blocks)
+    lower, upper = support.bounds_of(grid)
+    set_points(grid, place((points_of(grid) - lower) / (upper - lower)))
+    x = points_of(grid)
+    x = (x - x.min(0)) / np.ptp(x, axis=0).max()
+    add_point_array(grid, "u", field(x))
+    return grid
+
+
+def front(x):
+    return np.tanh(8.0 * (x[:, 0] - 0.5 + 0.2 * np.sin(4.0 * x[:, 1]) * np.cos(4.0 * x[:, 2]))) + 0.2 * x[:, 2]
+
+
+def crossing_waves(x):
+    sines = np.sin(5.0 * x)
+    return sines[:, 0] * sines[:, 1] + sines[:, 1] * sines[:, 2] + np.cos(4.0 * x[:, 0]) * x[:, 2]
+
+
+SMALL_FACETS = {
+    "edges shared by sheets":
+        (lambda x: x * [1.0, 0.14826285, 0.46106801] + 0.2 * np.sin(3.0 * x[:, [0]]) * [0, 1, 0], 4, front, 0.703009),
+    "edges without length":
+        (lambda x: x + 0.06 * np.sin(2.0 * np.pi * x[:, [1, 2, 0]] * [0.81173921, 0.89183585, 0.47769017] +
+                                     [1.5430688, 4.29223756, 3.67198381]), 3, crossing_waves, -0.521295),
+}
+
+
+@pytest.mark.parametrize("case, factor", [("edges shared by sheets", 1.0), ("edges without length", 1.0),
+                                          ("edges without length", 2.0)])
+def test_meshes_of_facets_smaller_than_a_spacing_are_closed(case, factor):
+    place, blocks, field, isovalue = SMALL_FACETS[case]
+    grid = small_facets(place, blocks, field)
+    proxy, messages = support.make_filter(grid, "u", isovalue, OutputType="Triangles", PassDiagnostics=1)
+    proxy.Spacing *= factor
+    proxy.UpdatePipeline()
+    mesh = support.output_of(proxy)
+    assert support.reported(mesh, "MeshOpenLoops") == support.reported(mesh, "MeshUnusedParticles") == 0
+    assert not messages.warnings
+
+
 def test_triangles_that_close_holes_turned_away_are_told(data, plugin):
     # The surface bends by more than a right angle within such a spacing.
     mesh, messages = support.run(

@@ -1,7 +1,7 @@
 #include "Mesh/HoleFilling.h"
 
 #include "Mesh/PolygonTriangulation.h"
-#include "Surface/SurfaceWalker.h"
+#include "Mesh/SurfaceBelow.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,10 +26,6 @@ struct Hole
   /// Least distance of a further particle from others. Larger: triangles stay large; smaller: narrow strips are filled
   /// with particles that stand too close.
   static constexpr double Room = 0.5;
-  /// Largest distance between the middle of a triangle and the surface, and between that middle and where a walk along
-  /// the surface towards it ends. Larger: the surface's end is covered where it has no particles; smaller: strongly bent
-  /// surface stays open.
-  static constexpr double Beside = 0.5;
   /// Cosine between normals up to which a border does not belong to the sheet of a particle. Larger: particles in holes
   /// at sharp rims stay alone; smaller: borders on the other side of a thin body count.
   static constexpr double OtherSheet = -0.5;
@@ -101,7 +97,10 @@ public:
     cutAtPinches(this->Particles, this->Loops);
     this->sortLoops();
     this->findLoose();
-    this->prepareWalks();
+    if (!this->Holes.empty())
+    {
+      this->Below.emplace(this->Surface, this->Parallel);
+    }
     std::vector<std::size_t> open = this->Holes;
     for (const Turned turned : { Turned::Never, Turned::FromCorners, Turned::FromAll })
     {
@@ -122,20 +121,6 @@ public:
   }
 
 private:
-  /// Walks pass faces that the mesh does not join.
-  void prepareWalks()
-  {
-    if (!this->Holes.empty())
-    {
-      if (!this->Surface.locator)
-      {
-        this->Locator.emplace(*this->Surface.mesh, this->Surface.isovalue, this->Parallel);
-        this->Surface.locator = &*this->Locator;
-      }
-      this->Walker.emplace(this->Surface);
-    }
-  }
-
   const glm::dvec3& at(int particle) const { return this->Particles[particle].position.xyz; }
   glm::dvec3 normalOf(int particle) const { return this->Particles[particle].normal.xyz; }
 
@@ -377,26 +362,11 @@ private:
     return triangle;
   }
 
-  /// The place on the surface below a point near a particle, if the surface goes on there.
-  std::optional<Evaluated> placeBelow(const glm::dvec3& point, int particle, double spacing)
-  {
-    const Evaluated start = this->Walker->evaluate(this->Particles[particle].location);
-    const Evaluated there = this->Walker->evaluate(
-      this->Walker->move(start, WorldVector{ point - start.point.map.position.xyz }));
-    const double slope = length(there.point.gradient);
-    const double aside = glm::distance(there.point.map.position.xyz, point);
-    if (!(aside <= Hole::Beside * spacing) ||
-      !(std::abs(there.point.value) <= Hole::Beside * spacing * slope))
-    {
-      return std::nullopt;
-    }
-    return there;
-  }
-
   bool isOnSurface(const Triangle& triangle)
   {
     const Shape shape = this->shapeOf(triangle);
-    const auto there = this->placeBelow(shape.middle, triangle[0], this->spacingOf(triangle));
+    const auto there = this->Below->placeBelow(
+      shape.middle, this->Particles[triangle[0]], this->spacingOf(triangle));
     return there &&
       (this->Allowed == Turned::FromAll ||
         glm::dot(surfaceNormal(there->point.gradient).xyz, shape.normal) > 0.0);
@@ -472,16 +442,13 @@ private:
     {
       return std::nullopt;
     }
-    const double spacing = this->spacingOf(*largest);
-    const auto below = this->placeBelow(this->shapeOf(*largest).middle, (*largest)[0], spacing);
-    Evaluated place;
-    if (!below || !this->Walker->project(below->location, spacing, place))
+    const auto particle = this->Below->particleBelow(
+      this->shapeOf(*largest).middle, this->Particles[(*largest)[0]], this->spacingOf(*largest));
+    if (!particle)
     {
       return std::nullopt;
     }
-    place = this->Walker->evaluateCurved(place.location);
-    this->Particles.push_back(particleAt(
-      place.location, place.point, curvature(place.point.gradient, place.hessian), spacing));
+    this->Particles.push_back(Particle(*particle));
     this->Fans.appendVertex();
     return static_cast<int>(this->Particles.size()) - 1;
   }
@@ -531,9 +498,8 @@ private:
   Buffer<Particle>& Particles;
   TriangleFans& Fans;
   const ParallelFor& Parallel;
-  Isosurface Surface;
-  std::optional<FaceLocator> Locator;
-  std::optional<SurfaceWalker> Walker;
+  const Isosurface& Surface;
+  std::optional<SurfaceBelow> Below;
   std::vector<OpenLoop> Loops;
   /// Indices of loops around holes, and around pieces of the mesh.
   std::vector<std::size_t> Holes, Islands;

@@ -4,6 +4,7 @@
 #include "Mesh/LooseParticles.h"
 #include "Mesh/ManifoldVertices.h"
 #include "Mesh/ParticleStars.h"
+#include "Mesh/SharedEdges.h"
 #include "Mesh/TriangleNormal.h"
 #include "Support/Interruptible.h"
 
@@ -83,6 +84,8 @@ SurfaceMesh meshSurface(const Isosurface& surface, ConstrainedEdges edges,
     isOpen = keepOneFan(fans, parallel);
   }
   joinLooseParticles(neighbors, edges, fans);
+  splitSharedEdges(surface, firstInPlace(distribution.edges, distribution.particles.size()),
+    distribution, fans, parallel);
   const std::vector<int> places = firstInPlace(distribution.edges, distribution.particles.size());
   mesh.triangles = distribution.edges.coincident.empty() ? fans.triangles(parallel)
                                                          : keepManifold(places, fans, parallel);

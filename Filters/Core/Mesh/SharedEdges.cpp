@@ -1,0 +1,176 @@
+#include "Mesh/SharedEdges.h"
+
+#include "Mesh/SurfaceBelow.h"
+#include "Support/DisjointSets.h"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <tuple>
+
+namespace hop
+{
+namespace
+{
+
+/// An edge that has a triangle to its left, between two places with several particles.
+struct Joint
+{
+  int lowerPlace = 0, upperPlace = 0;
+  int from = 0, to = 0;
+
+  std::pair<int, int> places() const { return { this->lowerPlace, this->upperPlace }; }
+};
+
+std::vector<char> sharedPlaces(const std::vector<int>& places)
+{
+  std::vector<char> isShared(places.size(), 0);
+  for (std::size_t p = 0; p < places.size(); ++p)
+  {
+    if (places[p] != static_cast<int>(p))
+    {
+      isShared[p] = isShared[places[p]] = 1;
+    }
+  }
+  return isShared;
+}
+
+/// In the order of their places, those between the same two places side by side.
+std::vector<Joint> jointsOf(const std::vector<int>& places, const TriangleFans& fans)
+{
+  const std::vector<char> isShared = sharedPlaces(places);
+  std::vector<Joint> joints;
+  for (std::size_t p = 0; p < places.size(); ++p)
+  {
+    const int from = static_cast<int>(p);
+    const auto take = [&](const LinkEdge& edge)
+    {
+      if (isShared[edge.from])
+      {
+        const auto [lower, upper] = std::minmax(places[from], places[edge.from]);
+        joints.push_back({ lower, upper, from, edge.from });
+      }
+    };
+    if (isShared[p])
+    {
+      fans.visit(from, take);
+    }
+  }
+  std::sort(joints.begin(), joints.end(),
+    [](const Joint& a, const Joint& b)
+    {
+      return std::tie(a.lowerPlace, a.upperPlace, a.from, a.to) <
+        std::tie(b.lowerPlace, b.upperPlace, b.from, b.to);
+    });
+  return joints;
+}
+
+/// The edges inside of a sheet that are to be split, of all between the same two places.
+void findShared(const Joint* begin, const Joint* end, const TriangleFans& fans,
+  std::vector<std::array<int, 2>>& shared)
+{
+  constexpr std::ptrdiff_t sides = 2;
+  if (end - begin <= sides)
+  {
+    return;
+  }
+  const auto isInside = [&](const Joint& joint) { return fans.apexOf(joint.to, joint.from) >= 0; };
+  bool mayKeep = std::all_of(begin, end, isInside);
+  for (const Joint* joint = begin; joint != end; ++joint)
+  {
+    if (joint->from < joint->to && isInside(*joint))
+    {
+      if (!mayKeep)
+      {
+        shared.push_back({ joint->from, joint->to });
+      }
+      mayKeep = false;
+    }
+  }
+}
+
+/// Puts the last vertex between the two ends of an edge.
+void split(const std::array<int, 2>& edge, TriangleFans& fans)
+{
+  const auto [a, b] = edge;
+  const int middle = static_cast<int>(fans.vertexCount()) - 1;
+  const int left = fans.apexOf(a, b);
+  const int right = fans.apexOf(b, a);
+  fans.remove({ a, b, left });
+  fans.remove({ b, a, right });
+  fans.add({ a, middle, left });
+  fans.add({ middle, b, left });
+  fans.add({ b, middle, right });
+  fans.add({ middle, a, right });
+}
+
+} // namespace
+
+void uniteEnds(Distribution& distribution)
+{
+  // Distance that is none, in units of the spacing.
+  constexpr double none = 1e-9;
+  SurfaceEdges& edges = distribution.edges;
+  std::vector<std::array<int, 2>> pairs;
+  for (const auto* list : { &edges.segments, &edges.directed })
+  {
+    std::copy_if(list->begin(), list->end(), std::back_inserter(pairs),
+      [&](const std::array<int, 2>& edge)
+      {
+        const Particle& a = distribution.particles[edge[0]];
+        const Particle& b = distribution.particles[edge[1]];
+        return edge[0] != edge[1] && length(b.position - a.position) <= none * a.spacing;
+      });
+  }
+  if (pairs.empty())
+  {
+    return;
+  }
+  DisjointSets places(distribution.particles.size());
+  for (const auto& [a, b] : pairs)
+  {
+    places.unite(a, b);
+  }
+  for (auto* list : { &edges.segments, &edges.directed })
+  {
+    for (std::array<int, 2>& edge : *list)
+    {
+      edge = { places.root(edge[0]), places.root(edge[1]) };
+    }
+  }
+  edges.coincident.insert(edges.coincident.end(), pairs.begin(), pairs.end());
+}
+
+void splitSharedEdges(const Isosurface& surface, const std::vector<int>& places,
+  Distribution& distribution, TriangleFans& fans, const ParallelFor& parallelFor)
+{
+  const std::vector<Joint> joints = jointsOf(places, fans);
+  std::vector<std::array<int, 2>> shared;
+  for (auto begin = joints.begin(); begin != joints.end();)
+  {
+    const auto end = std::find_if(
+      begin, joints.end(), [&](const Joint& joint) { return joint.places() != begin->places(); });
+    findShared(&*begin, &*begin + (end - begin), fans, shared);
+    begin = end;
+  }
+  if (shared.empty())
+  {
+    return;
+  }
+  SurfaceBelow below(surface, parallelFor);
+  for (const std::array<int, 2>& edge : shared)
+  {
+    const Particle& a = distribution.particles[edge[0]];
+    const Particle& b = distribution.particles[edge[1]];
+    const auto particle = below.particleBelow(
+      0.5 * (a.position.xyz + b.position.xyz), a, 0.5 * (a.spacing + b.spacing));
+    if (particle)
+    {
+      distribution.particles.push_back(Particle(*particle));
+      fans.appendVertex();
+      split(edge, fans);
+    }
+  }
+}
+
+} // namespace hop
