@@ -123,7 +123,7 @@ std::string CellCensus::describe() const
     "the changes of the field in other cells");
   describeCells(text, this->badWeights, "skipped: RationalWeights that are not positive");
   describeCells(
-    text, this->level, "skipped: the field is the isovalue throughout, which is no surface");
+    text, this->level, "skipped: the field is the isovalue throughout, to rounding, which is no surface");
   describeCells(text, this->singular,
     "skipped: so distorted that derivatives may be infinite in them: the Jacobian determinant is "
     "not proven to keep its sign");

@@ -51,6 +51,23 @@ double largestOf(const std::vector<double>& values)
   return std::accumulate(values.begin(), values.end(), 0.0, larger);
 }
 
+/// Whether all nodes have the same values up to the rounding of doubles: what such a field is beside them is noise.
+bool isConstantToRounding(const CellValues& values)
+{
+  // Roundings of the largest value. Larger: fields that change by little beside their values lose surface; smaller: noise
+  // of a solver's last digits is surface.
+  constexpr double roundings = 16.0 * std::numeric_limits<double>::epsilon();
+  const double slack = roundings * largestOf(values.field);
+  for (std::size_t i = values.components; i < values.field.size(); ++i)
+  {
+    if (!(std::abs(values.field[i] - values.field[i % values.components]) <= slack))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 /// The magnitude of the longest of some vectors. Their squares neither overflow nor underflow.
 /// \param components of each vector; `vectors` lists them vector by vector
 double longestOf(const std::vector<double>& vectors, int components)
@@ -147,7 +164,8 @@ Verdict Judge::judge(const BlockCell& where, const CellBasis* cell, CellValues& 
   {
     return Verdict::Drop;
   }
-  const bool isLevel = isConstant(values) && this->Blocks.quantity() != Quantity::Expression;
+  const bool isLevel = this->Blocks.quantity() != Quantity::Expression &&
+    (this->Blocks.isDerived() ? isConstant(values) : isConstantToRounding(values));
   return isLevel ? Verdict::Level : Verdict::Keep;
 }
 
@@ -184,7 +202,7 @@ bool Judge::canHoldSurface(const CellBasis& cell, const CellValues& values) cons
   }
   const double longest = longestOf(control, values.components);
   const double margin = values.components * slack;
-  return this->straddles(isConstant(values) ? longest - margin : 0.0, longest + margin);
+  return this->straddles(isConstantToRounding(values) ? longest - margin : 0.0, longest + margin);
 }
 
 /// Whether an isovalue lies between the bounds.

@@ -504,6 +504,17 @@ def test_a_constant_field_equal_to_the_isovalue():
     assert_empty(particles)
 
 
+def test_a_field_that_is_the_isovalue_but_for_rounding():
+    """What rounding leaves of a constant field is no surface, also where the field changes elsewhere."""
+    noise = 4 * np.finfo(float).eps * np.random.default_rng(1).normal(size=1000)
+    for wall in (0.0, 1.0):
+        grid = block(field=lambda x: np.where(x[:, 0] < 0.01, 2.0 + wall, 2.0 + noise[: len(x)]))
+        particles, messages = support.run(grid, "F", 2.0)
+        skipped = CELLS**3 if wall == 0.0 else (CELLS - 1) * CELLS**2
+        assert_one_warning(messages, f"{skipped} cells skipped: the field is the isovalue throughout, to rounding")
+        assert support.reported(particles, "CellsSkipped") == skipped
+
+
 def test_a_constant_vector_is_no_reason_to_complain(good):
     """A free stream: for smaller magnitudes there is no surface, for its own magnitude the surface is everywhere."""
     support.add_point_array(good, "V", np.tile([3.0, 0.0, 4.0], (good.GetNumberOfPoints(), 1)))

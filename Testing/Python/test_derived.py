@@ -633,6 +633,18 @@ def test_constant_gradients_are_no_surface():
     assert any("the field is the isovalue throughout" in text for text in messages.warnings)
 
 
+def test_gradients_that_are_constant_but_for_rounding_are_no_surface():
+    """Where values or coordinates are large beside their changes, differences of them have few digits."""
+    for far, high in ((0.0, 1e6), (1e6, 0.0)):
+        grid = cells.straight_grid("LAGRANGE_HEXAHEDRON", order=2, blocks=2)
+        x = support.points_of(grid) @ [2.0 / 3.0, 1.0 / 3.0, 2.0 / 3.0]
+        cells.set_points(grid, support.points_of(grid) + far)
+        support.add_point_array(grid, "u", x + high)
+        particles, messages = support.run(grid, "u", 1.0, Quantity="Gradient Magnitude")
+        assert particles.GetNumberOfPoints() == 0
+        assert any("8 cells skipped: the field is the isovalue throughout" in text for text in messages.warnings)
+
+
 # The default isovalue shows something, and follows the quantity.
 
 

@@ -150,6 +150,32 @@ DerivativeBounds::DerivativeBounds(const SourceElement& source)
   }
   const double size = std::sqrt(size2);
   this->Deviation = size < 1.0 ? size / (1.0 - size) : infinity;
+  this->findRounding(source);
+}
+
+/// A derivative is the degree times the difference of two coefficients, each of which is off by roundings of its own.
+void DerivativeBounds::findRounding(const SourceElement& source)
+{
+  // Roundings of a number that count: its own, and some of the conversion. Larger: shallow surfaces of fields that hardly
+  // change count as noise; smaller: noise as surfaces.
+  constexpr double roundings = 4.0 * std::numeric_limits<double>::epsilon();
+  std::array<double, 2> largest{};
+  for (std::size_t n = 0; n < source.control.size(); ++n)
+  {
+    double& ofKind = largest[n % source.width < 3 ? 0 : 1];
+    ofKind = std::max(ofKind, std::abs(source.control[n]));
+  }
+  double inverse = 0.0;
+  for (int k = 0; k < 3; ++k)
+  {
+    const glm::dvec3 column(this->Inverse[0][k], this->Inverse[1][k], this->Inverse[2][k]);
+    inverse += 2.0 * source.degrees[k] * (std::abs(column.x) + std::abs(column.y) + std::abs(column.z));
+  }
+  // Of homogeneous numbers derivatives are w p' - p w'.
+  const double weight =
+    source.isRational ? 2.0 * *std::max_element(source.weights.begin(), source.weights.end()) : 1.0;
+  this->GeometryRounding = roundings * weight * largest[0] * inverse;
+  this->FieldRounding = roundings * weight * largest[1] * inverse;
 }
 
 bool DerivativeBounds::isRegular() const
@@ -206,7 +232,8 @@ double DerivativeBounds::rounding(Quantity quantity) const
       }
     }
   }
-  return share * (orderOf(quantity) == 1 ? largest : largest * largest);
+  const double error = (share + this->GeometryRounding) * largest + this->FieldRounding;
+  return orderOf(quantity) == 1 ? error : error * std::max(error, largest);
 }
 
 namespace

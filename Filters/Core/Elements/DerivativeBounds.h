@@ -32,16 +32,23 @@ public:
   Range of(Quantity quantity) const;
 
   /// Values of the quantity that differ less cannot be told apart: a small multiple of what rounding makes of sums and
-  /// products of the largest derivatives. 0 of Expression: it is not known.
+  /// products of the largest derivatives, and of differences of coordinates and values that are rounded to doubles
+  /// themselves. 0 of Expression: it is not known.
   double rounding(Quantity quantity) const;
 
 private:
+  void findRounding(const SourceElement& source);
+
   /// The inverse of the mean Jacobian M.
   glm::dmat3 Inverse{ 1.0 };
   /// Largest |J^-1 M - 1|; infinite where J may be singular.
   double Deviation = 0.0;
   /// Derivatives of each component along the three coordinates.
   std::vector<std::array<Range, 3>> Field;
+  /// Of derivatives with respect to the coordinates: what the rounding of coordinates makes of them, relative to the
+  /// largest of them, and what the rounding of the field makes of them.
+  double GeometryRounding = 0.0;
+  double FieldRounding = 0.0;
 };
 
 } // namespace hop

@@ -13,6 +13,24 @@ namespace
 
 constexpr Degrees cornerDegrees{ 1, 1, 1 };
 
+/// Directions of a domain's edges at most: those of a tetrahedron.
+constexpr std::size_t mostDirections = 6;
+
+/// When a piece that is not certified is halved across its longest direction in reference space, although another one is
+/// longer in world space. In a cell a thousandth as thick as it is wide, pieces halved by their world sizes alone hold
+/// columns through all of the thickness: where the surface stands upright in a column, no column is ever so narrow that it
+/// is certified (noise_costs.py). Chosen by experiment.
+struct FlatPiece
+{
+  /// Ratio of lengths in world space. Beside the apex of a pyramid, where directions across it are short in world space
+  /// as well, they are never that much shorter. Larger: cells less flat have columns; smaller: boxes are other ones in
+  /// boundary layers.
+  static constexpr double Flat = 16.0;
+  /// Ratio of lengths in reference space. Larger: columns are halved to narrower ones first; smaller: pieces in which
+  /// halving the thickness decides nothing.
+  static constexpr double Tall = 4.0;
+};
+
 kernel::ComponentBounds boundsOf(const Buffer<Coefficient>& points)
 {
   return kernel::current().bounds(&points.front().x, static_cast<std::ptrdiff_t>(points.size()));
@@ -60,26 +78,47 @@ double squaredLength(const BernsteinForm& form, const std::vector<int>& edge)
   return sum * static_cast<double>(edge.size() - 1);
 }
 
-/// The direction of the longest edge in world space. Edges are measured along their control points, as the two ends of
-/// an edge that closes on itself are in one place.
-const PieceKind::Direction& longestDirection(const Piece& piece)
+/// Squares of the lengths of a piece along a direction: of its longest edges in world space and in reference space.
+struct SquaredLengths
+{
+  double inWorld = 0.0;
+  double inReference = 0.0;
+};
+
+/// Edges in world space are measured along their control points, as the two ends of an edge that closes on itself are in
+/// one place.
+SquaredLengths lengthsAlong(const PieceKind::Direction& direction, const Piece& piece)
 {
   const BernsteinForm form = piece.form();
-  const PieceKind::Direction* longest = &piece.kind->directions.front();
-  double longestSquared = -1.0;
-  for (const PieceKind::Direction& direction : piece.kind->directions)
+  SquaredLengths lengths;
+  for (const std::vector<int>& edge : direction.edges)
   {
-    for (const std::vector<int>& edge : direction.edges)
-    {
-      const double squared = squaredLength(form, edge);
-      if (squared > longestSquared)
-      {
-        longest = &direction;
-        longestSquared = squared;
-      }
-    }
+    lengths.inWorld = std::max(lengths.inWorld, squaredLength(form, edge));
   }
-  return *longest;
+  for (const std::array<int, 2>& edge : direction.cornerEdges)
+  {
+    const glm::dvec3 along = piece.corners[edge[1]] - piece.corners[edge[0]];
+    lengths.inReference = std::max(lengths.inReference, glm::dot(along, along));
+  }
+  return lengths;
+}
+
+/// The direction of the longest edge in world space; in a flat piece that is not certified, see FlatPiece.
+const PieceKind::Direction& longestDirection(const Piece& piece)
+{
+  const std::vector<PieceKind::Direction>& directions = piece.kind->directions;
+  std::array<SquaredLengths, mostDirections> lengths;
+  std::transform(directions.begin(), directions.end(), lengths.begin(),
+    [&](const PieceKind::Direction& direction) { return lengthsAlong(direction, piece); });
+  const auto end = lengths.begin() + static_cast<std::ptrdiff_t>(directions.size());
+  const auto inWorld = std::max_element(lengths.begin(), end,
+    [](const auto& a, const auto& b) { return a.inWorld < b.inWorld; });
+  const auto inReference = std::max_element(lengths.begin(), end,
+    [](const auto& a, const auto& b) { return a.inReference < b.inReference; });
+  const bool isTall = !piece.certified() &&
+    inReference->inReference > FlatPiece::Tall * FlatPiece::Tall * inWorld->inReference &&
+    inWorld->inWorld > FlatPiece::Flat * FlatPiece::Flat * inReference->inWorld;
+  return directions[(isTall ? inReference : inWorld) - lengths.begin()];
 }
 
 } // namespace
@@ -94,7 +133,11 @@ PieceKind::PieceKind(Domain itsDomain, const Degrees& itsDegrees)
   {
     this->directions.push_back(
       { { this->domain, this->degrees, direction }, { this->domain, cornerDegrees, direction },
-        edgeLines(this->domain, this->degrees, direction) });
+        edgeLines(this->domain, this->degrees, direction), {} });
+    for (const std::vector<int>& edge : edgeLines(this->domain, cornerDegrees, direction))
+    {
+      this->directions.back().cornerEdges.push_back({ edge.front(), edge.back() });
+    }
   }
 }
 

@@ -21,6 +21,8 @@ struct PieceKind
     LatticeLines corners;
     /// For each edge of the domain along the direction, the storage indices of the coefficients on the edge.
     std::vector<std::vector<int>> edges;
+    /// For each of these edges, the indices of its two ends among Piece::corners.
+    std::vector<std::array<int, 2>> cornerEdges;
   };
 
   Domain domain;
@@ -82,7 +84,8 @@ struct Piece
 /// \param kind of the element's domain and degrees; outlives the piece
 Piece wholeElement(const ElementMesh& mesh, int element, double isovalue, const PieceKind& kind);
 
-/// Bisects a piece across the direction of its longest edge.
+/// Bisects a piece across the direction of its longest edge in world space; a flat piece that is not certified, across
+/// that of its longest edge in reference space where this is much longer.
 /// \param piece becomes the first half
 /// \return the second half
 Piece halve(Piece& piece);

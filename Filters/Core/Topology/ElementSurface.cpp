@@ -3,6 +3,8 @@
 #include "Topology/LeafComplex.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 
 namespace hop
 {
@@ -247,14 +249,100 @@ private:
   std::vector<CurveEnd> EndOfPoint;
 };
 
-/// Square of the distance of a place from a leaf, in units of the smallest leaf.
-double squaredDistance(const Leaf& leaf, const glm::dvec3& place)
+/// Square of the distance of a place from a box of the octree, in units of the smallest leaf.
+double squaredDistance(const glm::ivec3& lower, int size, const glm::dvec3& place)
 {
-  const glm::dvec3 lower(leaf.lower);
-  const glm::dvec3 beyond = glm::max(
-    glm::max(lower - place, place - lower - static_cast<double>(leaf.size)), glm::dvec3(0.0));
+  const glm::dvec3 beyond =
+    glm::max(glm::max(glm::dvec3(lower) - place, place - glm::dvec3(lower + size)), glm::dvec3(0.0));
   return glm::dot(beyond, beyond);
 }
+
+/// Searches the leaf that is nearest to a place: the leaves of an octant follow one another in the order of leafOrder().
+/// Of leaves equally near it is the first.
+class NearestLeaf
+{
+public:
+  /// \param leaves in the order of leafOrder(), not empty; outlive it
+  NearestLeaf(const std::vector<Leaf>& leaves, const glm::dvec3& place)
+    : Leaves(leaves)
+    , Place(place)
+  {
+    this->search({ glm::ivec3(0), LeafGrid::Size, 0, static_cast<int>(leaves.size()) });
+  }
+
+  int index() const { return this->Best; }
+
+private:
+  /// A box of the octree, and the leaves first to last - 1 in it.
+  struct Octant
+  {
+    glm::ivec3 lower;
+    int size;
+    int first;
+    int last;
+  };
+
+  void search(const Octant& octant)
+  {
+    // Fewer leaves are looked at one by one. It changes the time alone.
+    constexpr int few = 16;
+    if (octant.first == octant.last ||
+      squaredDistance(octant.lower, octant.size, this->Place) > this->Least)
+    {
+      return;
+    }
+    if (octant.last - octant.first > few)
+    {
+      this->searchOctants(octant);
+      return;
+    }
+    for (int n = octant.first; n < octant.last; ++n)
+    {
+      const double distance =
+        squaredDistance(this->Leaves[n].lower, this->Leaves[n].size, this->Place);
+      if (distance < this->Least || (distance == this->Least && n < this->Best))
+      {
+        this->Least = distance;
+        this->Best = n;
+      }
+    }
+  }
+
+  /// The octant on the side of the place first: what is found there leaves most of the others out.
+  void searchOctants(const Octant& octant)
+  {
+    const int half = octant.size / 2;
+    const auto octantOf = [half](const Leaf& leaf)
+    {
+      const glm::ivec3 upper = glm::min(leaf.lower & half, 1);
+      return 4 * upper.x + 2 * upper.y + upper.z;
+    };
+    std::array<int, 9> begin{};
+    begin.front() = octant.first;
+    begin.back() = octant.last;
+    for (int o = 1; o < 8; ++o)
+    {
+      begin[o] = static_cast<int>(std::partition_point(this->Leaves.begin() + begin[o - 1],
+                                    this->Leaves.begin() + octant.last,
+                                    [&](const Leaf& leaf) { return octantOf(leaf) < o; }) -
+        this->Leaves.begin());
+    }
+    const glm::dvec3 middle(octant.lower + half);
+    const int nearest = 4 * (this->Place.x > middle.x) + 2 * (this->Place.y > middle.y) +
+      (this->Place.z > middle.z);
+    for (int n = 0; n < 8; ++n)
+    {
+      const int o = n ^ nearest;
+      const glm::ivec3 upper(o >> 2, o >> 1 & 1, o & 1);
+      this->search({ octant.lower + half * upper, half, begin[o], begin[o + 1] });
+    }
+  }
+
+  const std::vector<Leaf>& Leaves;
+  glm::dvec3 Place;
+  double Least = std::numeric_limits<double>::infinity();
+  int Best = 0;
+};
 
 } // namespace
 
@@ -269,14 +357,10 @@ int ElementSurface::leafAt(const glm::dvec3& t) const
   const std::uint64_t order = leafOrder(cell);
   const auto next = std::upper_bound(this->leaves.begin(), this->leaves.end(), order,
     [](std::uint64_t wanted, const Leaf& leaf) { return wanted < leafOrder(leaf.lower); });
-  const auto nearer = [&](const Leaf& a, const Leaf& b)
-  { return squaredDistance(a, place) < squaredDistance(b, place); };
-  auto best = next == this->leaves.begin() ? next : next - 1;
-  if (squaredDistance(*best, place) > 0.0)
-  {
-    best = std::min_element(this->leaves.begin(), this->leaves.end(), nearer);
-  }
-  return static_cast<int>(best - this->leaves.begin());
+  const auto last = next == this->leaves.begin() ? next : next - 1;
+  return squaredDistance(last->lower, last->size, place) > 0.0
+    ? NearestLeaf(this->leaves, place).index()
+    : static_cast<int>(last - this->leaves.begin());
 }
 
 int ElementSurface::pieceAt(const glm::dvec3& t) const

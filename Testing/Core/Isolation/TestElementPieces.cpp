@@ -211,6 +211,35 @@ TEST(ElementPieces, AreHalvedAcrossTheLongestDirection)
   }
 }
 
+/// Else their columns are never so narrow that an upright surface in them is proven to be one sheet.
+TEST(ElementPieces, FlatOnesAreHalvedAcrossTheirThicknessToo)
+{
+  // Tetrahedra have long edges from one side to the other.
+  for (const Domain domain : { Domain::Hexahedron, Domain::Wedge })
+  {
+    WholeElement element(domain, 2, [](const glm::dvec3& x) { return x.x; });
+    for (Coefficient& c : element.mesh.coefficients)
+    {
+      c.z *= 1e-9;
+    }
+    for (const bool isCertified : { false, true })
+    {
+      Piece piece = element.piece();
+      piece.sheet = isCertified ? Monotony::Strict : Monotony::None;
+      for (int n = 0; n < 18; ++n)
+      {
+        halve(piece);
+      }
+      double thickness = 0.0;
+      for (const glm::dvec3& corner : piece.corners)
+      {
+        thickness = std::max(thickness, corner.z - piece.corners.front().z);
+      }
+      EXPECT_EQ(thickness < 0.1, !isCertified) << domain << ", thickness " << thickness;
+    }
+  }
+}
+
 TEST(ElementPieces, AnEdgeThatClosesOnItselfIsLong)
 {
   // A ring around the z axis, as thick as high: its ends meet where x = 0.
