@@ -12,6 +12,8 @@ struct Monitor
 {
   /// Receives the fraction done, 0 to 1; returns false to ask for an early end.
   std::function<bool(double)> report;
+  /// Receives the number of particles that there will be, about, before they take their time.
+  std::function<void(double)> expect = {};
 
   bool proceed(double fraction) const { return !this->report || this->report(fraction); }
 };

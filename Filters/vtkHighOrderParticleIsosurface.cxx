@@ -264,6 +264,7 @@ void vtkHighOrderParticleIsosurface::Run(vtkDataObject* input, vtkDataObject* ou
   this->Tell(checked.messages);
   this->Tell(hop::reviewArrays(checked.sound, properties.passed));
   bool hasTold = !checked.messages.empty();
+  this->SetProgressText("Finding the surface");
   hop::RunCaller caller = this->CallerOfRun();
   caller.tell = [&](const hop::UserMessages& messages)
   {
@@ -395,8 +396,10 @@ hop::RunCaller vtkHighOrderParticleIsosurface::CallerOfRun()
     this->UpdateProgress(fraction);
     return !hop::isAborted(this);
   };
+  const auto expect = [this](double particles)
+  { this->SetProgressText(hop::describeExpected(particles).c_str()); };
   return { report, [this]() { return hop::isAborted(this); },
-    [this](const hop::UserMessages& messages) { this->Tell(messages); } };
+    [this](const hop::UserMessages& messages) { this->Tell(messages); }, expect };
 }
 
 /// Whether a run is possible at all, whatever arrays there are.

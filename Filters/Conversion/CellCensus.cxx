@@ -122,8 +122,8 @@ std::string CellCensus::describe() const
     "skipped: coordinates or values that are NaN or infinite, or values 1e75 times as large as "
     "the changes of the field in other cells");
   describeCells(text, this->badWeights, "skipped: RationalWeights that are not positive");
-  describeCells(
-    text, this->level, "skipped: the field is the isovalue throughout, to rounding, which is no surface");
+  describeCells(text, this->level,
+    "skipped: the field is the isovalue throughout, to rounding, which is no surface");
   describeCells(text, this->singular,
     "skipped: so distorted that derivatives may be infinite in them: the Jacobian determinant is "
     "not proven to keep its sign");

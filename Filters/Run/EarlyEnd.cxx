@@ -119,6 +119,7 @@ EarlyEnd::EarlyEnd(const RunCaller& caller)
   { return goesOn(!caller.report(fraction)); };
   this->Caller.isAborted = [goesOn, &caller]() { return !goesOn(caller.isAborted()); };
   this->Caller.tell = caller.tell;
+  this->Caller.expect = caller.expect;
 }
 
 EarlyEnd::~EarlyEnd() = default;

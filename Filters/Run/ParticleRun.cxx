@@ -531,7 +531,7 @@ RunResult ParticleRun::run(const InputBlocks& mine) const
     withThreads(
       [&](const ParallelFor& parallelFor)
       {
-        const Work whole{ { caller.report }, parallelFor };
+        const Work whole{ { caller.report, caller.expect }, parallelFor };
         GroupRun group(
           *exchange, members, g, this->Properties, this->Scale, caller, this->Previous);
         if (!group.run(whole.part(begin, begin + share), result.counts))

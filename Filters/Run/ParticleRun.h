@@ -55,6 +55,8 @@ struct RunCaller
   std::function<bool()> isAborted;
   /// Passes messages on to the user.
   std::function<void(const UserMessages&)> tell;
+  /// Receives the number of particles that an isosurface will have, about, before they take their time.
+  std::function<void(double)> expect;
 };
 
 /// What a run gives besides the particles.

@@ -184,6 +184,23 @@ std::string describeMissing(const InputBlocks& blocks, const std::vector<std::st
 
 } // namespace
 
+std::string describeExpected(double particles)
+{
+  // Three digits: the number is an estimate.
+  constexpr double digits = 1e3;
+  std::int64_t unit = 1;
+  while (particles >= digits * static_cast<double>(unit))
+  {
+    unit *= 10;
+  }
+  std::string count = std::to_string(unit * std::llround(particles / static_cast<double>(unit)));
+  for (std::ptrdiff_t place = static_cast<std::ptrdiff_t>(count.size()) - 3; place > 0; place -= 3)
+  {
+    count.insert(static_cast<std::size_t>(place), ",");
+  }
+  return "Distributing about " + count + " particles";
+}
+
 UserMessage describeFailure(const std::exception& failure, std::int64_t numberOfParticles)
 {
   return { UserMessage::Error,

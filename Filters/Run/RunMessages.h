@@ -20,6 +20,9 @@ namespace hop
 // `numberOfParticles` is the filter's NumberOfParticles. The advice depends on it: where it is positive, Spacing is
 // ignored.
 
+/// What goes on while an isosurface gets its particles, of which noise makes many: the text beside the progress.
+std::string describeExpected(double particles);
+
 /// Tells of a run that ended in an exception.
 UserMessage describeFailure(const std::exception& failure, std::int64_t numberOfParticles);
 

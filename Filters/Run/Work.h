@@ -15,7 +15,8 @@ struct Work
   Work part(double begin, double end) const
   {
     return { { [this, begin, end](double fraction)
-               { return this->monitor.proceed(begin + (end - begin) * fraction); } },
+               { return this->monitor.proceed(begin + (end - begin) * fraction); },
+               this->monitor.expect },
       this->parallelFor };
   }
 };

@@ -408,6 +408,20 @@ def test_progress_rises_to_one(channel):
     assert 0 <= seen[0] and seen[-1] == 1
 
 
+def test_the_number_of_particles_is_told_early(channel):
+    """Noise makes many: while they are distributed, the text beside the progress says how many."""
+    proxy, _ = support.make_filter(channel, "pressure", 0.2, Spacing=0.01)
+    algorithm = proxy.GetClientSideObject()
+    seen = []
+    algorithm.AddObserver("ProgressEvent", lambda *_: seen.append((algorithm.GetProgress(), algorithm.GetProgressText())))
+    particles = support.output_of(proxy)
+    told = [(progress, text) for progress, text in seen if text and "particles" in text]
+    assert told[0][0] < 0.5
+    number = int(re.sub("[^0-9]", "", told[0][1]))
+    assert told[0][1] == f"Distributing about {number:,} particles"
+    assert abs(number / particles.GetNumberOfPoints() - 1) < 0.2
+
+
 # While cells are converted, particles are relaxed, and arrays are written.
 @pytest.mark.parametrize("share", [0.01, 0.2, 0.94])
 @pytest.mark.parametrize("as_multiblock", [False, True])

@@ -169,7 +169,8 @@ void DerivativeBounds::findRounding(const SourceElement& source)
   for (int k = 0; k < 3; ++k)
   {
     const glm::dvec3 column(this->Inverse[0][k], this->Inverse[1][k], this->Inverse[2][k]);
-    inverse += 2.0 * source.degrees[k] * (std::abs(column.x) + std::abs(column.y) + std::abs(column.z));
+    inverse +=
+      2.0 * source.degrees[k] * (std::abs(column.x) + std::abs(column.y) + std::abs(column.z));
   }
   // Of homogeneous numbers derivatives are w p' - p w'.
   const double weight =

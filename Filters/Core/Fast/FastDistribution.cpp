@@ -35,6 +35,8 @@ bool FastSystem::relax()
   {
     return false;
   }
+  this->Work.expect(this->countIsGiven() ? static_cast<double>(this->Parameters.particleCount)
+                                         : this->targetCount());
   this->makeSeeds(std::llround(count));
   this->relaxInRounds();
   return true;

@@ -111,8 +111,8 @@ const PieceKind::Direction& longestDirection(const Piece& piece)
   std::transform(directions.begin(), directions.end(), lengths.begin(),
     [&](const PieceKind::Direction& direction) { return lengthsAlong(direction, piece); });
   const auto end = lengths.begin() + static_cast<std::ptrdiff_t>(directions.size());
-  const auto inWorld = std::max_element(lengths.begin(), end,
-    [](const auto& a, const auto& b) { return a.inWorld < b.inWorld; });
+  const auto inWorld = std::max_element(
+    lengths.begin(), end, [](const auto& a, const auto& b) { return a.inWorld < b.inWorld; });
   const auto inReference = std::max_element(lengths.begin(), end,
     [](const auto& a, const auto& b) { return a.inReference < b.inReference; });
   const bool isTall = !piece.certified() &&

@@ -79,6 +79,15 @@ public:
     }
   }
 
+  /// See Monitor::expect.
+  void expect(double particles) const
+  {
+    if (this->Progress.expect)
+    {
+      this->Progress.expect(particles);
+    }
+  }
+
 private:
   using Clock = std::chrono::steady_clock;
   /// Between two questions: a user takes 0.05 s for at once. Threads start anew after each, which a shorter one would

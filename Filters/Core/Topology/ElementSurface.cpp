@@ -252,8 +252,8 @@ private:
 /// Square of the distance of a place from a box of the octree, in units of the smallest leaf.
 double squaredDistance(const glm::ivec3& lower, int size, const glm::dvec3& place)
 {
-  const glm::dvec3 beyond =
-    glm::max(glm::max(glm::dvec3(lower) - place, place - glm::dvec3(lower + size)), glm::dvec3(0.0));
+  const glm::dvec3 beyond = glm::max(
+    glm::max(glm::dvec3(lower) - place, place - glm::dvec3(lower + size)), glm::dvec3(0.0));
   return glm::dot(beyond, beyond);
 }
 
@@ -328,8 +328,8 @@ private:
         this->Leaves.begin());
     }
     const glm::dvec3 middle(octant.lower + half);
-    const int nearest = 4 * (this->Place.x > middle.x) + 2 * (this->Place.y > middle.y) +
-      (this->Place.z > middle.z);
+    const int nearest =
+      4 * (this->Place.x > middle.x) + 2 * (this->Place.y > middle.y) + (this->Place.z > middle.z);
     for (int n = 0; n < 8; ++n)
     {
       const int o = n ^ nearest;

@@ -38,7 +38,8 @@ ElementSurface surfaceOf(std::uint64_t seed, int smallest, int oneIn)
 
 double distanceFrom(const Leaf& leaf, const glm::dvec3& place)
 {
-  const glm::dvec3 nearest = glm::clamp(place, glm::dvec3(leaf.lower), glm::dvec3(leaf.lower + leaf.size));
+  const glm::dvec3 nearest =
+    glm::clamp(place, glm::dvec3(leaf.lower), glm::dvec3(leaf.lower + leaf.size));
   return glm::distance(nearest, place);
 }
 
@@ -59,7 +60,8 @@ TEST(ElementSurface, FindsTheNearestLeaf)
       const glm::dvec3 t = randomPlace(random);
       const glm::dvec3 place = LeafGrid::fromCube(t);
       const auto nearest = std::min_element(surface.leaves.begin(), surface.leaves.end(),
-        [&](const Leaf& a, const Leaf& b) { return distanceFrom(a, place) < distanceFrom(b, place); });
+        [&](const Leaf& a, const Leaf& b)
+        { return distanceFrom(a, place) < distanceFrom(b, place); });
       EXPECT_EQ(surface.leafAt(t), nearest - surface.leaves.begin());
     }
   }
