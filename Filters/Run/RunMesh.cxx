@@ -210,7 +210,7 @@ bool addMesh(const Isosurface& surface, const Isosurface& own, OutputType type, 
   }
   std::vector<double> areas;
   bool areOn = true;
-  if (own.mesh == surface.mesh)
+  if (own.mesh == surface.mesh && own.isovalue == surface.isovalue)
   {
     areas = particleAreas(distribution, edges, monitor, parallelFor);
     shareAreas(mesh.copies, areas);
@@ -220,6 +220,8 @@ bool addMesh(const Isosurface& surface, const Isosurface& own, OutputType type, 
     areOn = putBack(surface, distribution, parallelFor);
     removeSlivers(edges, distribution.particles, some.mesh.vertices, mesh.triangles);
     some.mesh.shared = sharedPlaces(some.mesh.vertices);
+    some.mesh.turnedTriangles = std::count_if(mesh.triangles.begin(), mesh.triangles.end(),
+      [&](const std::array<int, 3>& corners) { return isTurned(distribution.particles, corners); });
     areas = areasOf(mesh.triangles, distribution.particles);
   }
   forAll(

@@ -16,8 +16,8 @@ enum class OutputType
 
 /// The mesh that goes with the type of the output; none for particles. Particles may be added: where holes are filled,
 /// and as nodes of curved triangles.
-/// \param own of the mesh that the particles are on; the same as `surface`, or one whose field is lifted (LiftedField.h),
-/// from which particles are put back onto the surface once they are joined
+/// \param own of the mesh that the particles are on; the same as `surface`, or one whose field or isovalue is lifted
+/// (LiftedField.h), from which particles are put back onto the surface once they are joined
 /// \param order of curved triangles
 /// \param isCut whether the particles cover a part of the surface only, of whose topology nothing is proven
 /// \param some whose mesh and areas are computed

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -34,6 +35,24 @@ bool hasMoreSheets(const Distribution& lifted, const Distribution& own)
 bool isOpen(const ParticleMesh& mesh)
 {
   return mesh.openLoops > 0 || mesh.unusedParticles > 0;
+}
+
+/// Whether a mesh of a lifted surface lacks less than the surface's own, and is of all of it.
+bool isInPlaceOf(const IsovalueParticles& own, const IsovalueParticles& lifted)
+{
+  return lackOf(lifted.mesh) < lackOf(own.mesh) &&
+    lifted.mesh.turnedTriangles <= own.mesh.turnedTriangles &&
+    !hasMoreSheets(lifted.distribution, own.distribution) &&
+    isCoveredBy(own.distribution.particles, own.mesh.nodes, lifted.distribution.particles,
+      lifted.mesh.nodes);
+}
+
+/// What was found of singular places is said of the surface itself, not of the lifted one.
+void keepFindings(const DistributionReport& own, DistributionReport& lifted)
+{
+  lifted.boxesUndecided = own.boxesUndecided;
+  lifted.undecidedCells = own.undecidedCells;
+  lifted.singularPoints = own.singularPoints;
 }
 
 } // namespace
@@ -98,15 +117,18 @@ bool SurfaceWorker::addMesh(const Isosurface& surface, const Isosurface& own,
     !parameters.polygon.isEverything(), some, work.monitor, work.parallelFor);
 }
 
-/// Distributes and joins particles anew where nodes have the isovalue, or nearly so, on a field that is lifted there: by
-/// little, and by more if holes are left.
-/// \param some whose mesh lacks something; replaced if a new one lacks less and is of the same surface
+/// Distributes and joins particles anew on a lifted surface: where nodes have the isovalue, or nearly so, by little, and by
+/// more if holes are left; and if they are left still, all of the surface at values beside the isovalue.
+/// \param some whose mesh lacks something; replaced where a new one lacks less and is of the same surface
 void SurfaceWorker::meshLifted(const Isosurface& surface, const DistributionParameters& parameters,
   const Work& work, IsovalueParticles& some) const
 {
   // Chosen by experiment, see liftedMesh(). In spacings of a fiftieth of an element particles do not find back from the
   // larger height; in spacings of an element the smaller one leaves holes.
   constexpr double heights[] = { 1e-3, 5e-3 };
+  // The same for all of the surface, the smaller ones first. Larger: parts of the surface are lost, and triangles turn
+  // over as particles are put back; smaller: sheets are nearer to each other than particles can tell apart.
+  constexpr double beside[] = { 1e-4, -1e-4, 1e-3, -1e-3 };
   // Where the field jumps by more than rounding, meshes lack something for other reasons.
   constexpr double rounding = 1e-8;
   const Buffer<Particle>& particles = some.distribution.particles;
@@ -115,19 +137,22 @@ void SurfaceWorker::meshLifted(const Isosurface& surface, const DistributionPara
   {
     return;
   }
-  for (const double height : heights)
+  bool isBetter = true;
+  for (std::size_t i = 0; i < std::size(heights) && isBetter && (i == 0 || isOpen(some.mesh)); ++i)
   {
-    const bool isBetter = this->meshLifted(surface, height, parameters, work, some);
-    if (!isBetter || !isOpen(some.mesh))
-    {
-      return;
-    }
+    isBetter = this->meshBesideNodes(surface, heights[i], parameters, work, some);
+  }
+  Isosurface lifted = surface;
+  for (std::size_t i = 0; i < std::size(beside) && isOpen(some.mesh); ++i)
+  {
+    lifted.isovalue = surface.isovalue + beside[i];
+    this->meshAnew(surface, lifted, parameters, work, some);
   }
 }
 
-/// The same by one height.
+/// The same by one height where nodes have the isovalue.
 /// \return whether the mesh was replaced
-bool SurfaceWorker::meshLifted(const Isosurface& surface, double height,
+bool SurfaceWorker::meshBesideNodes(const Isosurface& surface, double height,
   const DistributionParameters& parameters, const Work& work, IsovalueParticles& some) const
 {
   const std::optional<ElementMesh> mesh = liftedMesh(this->Mesh, surface.isovalue,
@@ -138,15 +163,24 @@ bool SurfaceWorker::meshLifted(const Isosurface& surface, double height,
   }
   Isosurface lifted = surface;
   lifted.mesh = &*mesh;
+  return this->meshAnew(surface, lifted, parameters, work, some);
+}
+
+/// The same on one lifted surface.
+/// \return whether the mesh was replaced
+bool SurfaceWorker::meshAnew(const Isosurface& surface, const Isosurface& lifted,
+  const DistributionParameters& parameters, const Work& work, IsovalueParticles& some) const
+{
   IsovalueParticles other;
   other.isovalue = some.isovalue;
   other.distribution = distributeFast(lifted, parameters, work.monitor, work.parallelFor);
   const bool isBetter = !other.distribution.report.aborted &&
     !other.distribution.particles.empty() &&
     this->addMesh(surface, lifted, parameters, work, other) &&
-    lackOf(other.mesh) < lackOf(some.mesh) && !hasMoreSheets(other.distribution, some.distribution);
+    isInPlaceOf(some, other);
   if (isBetter)
   {
+    keepFindings(some.distribution.report, other.distribution.report);
     some = std::move(other);
   }
   return isBetter;

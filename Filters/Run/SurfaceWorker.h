@@ -45,7 +45,9 @@ private:
     const DistributionParameters& parameters, const Work& work, IsovalueParticles& some) const;
   void meshLifted(const Isosurface& surface, const DistributionParameters& parameters,
     const Work& work, IsovalueParticles& some) const;
-  bool meshLifted(const Isosurface& surface, double height,
+  bool meshBesideNodes(const Isosurface& surface, double height,
+    const DistributionParameters& parameters, const Work& work, IsovalueParticles& some) const;
+  bool meshAnew(const Isosurface& surface, const Isosurface& lifted,
     const DistributionParameters& parameters, const Work& work, IsovalueParticles& some) const;
   SizingFunction sizingAt(double spacing) const;
   RunOrigin makeOrigin(double isovalue) const;

@@ -1,7 +1,9 @@
 #include "Mesh/LiftedField.h"
 
+#include "Support/PointBins.h"
 #include "Surface/ActiveFaces.h"
 #include "Surface/FaceLocator.h"
+#include "Surface/Patch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,9 +29,31 @@ struct Lift
   /// By how much a place may be outside of its element, in reference space: some roundings. Long steps at oblique corners
   /// leave more.
   static constexpr double Outside = 1e-12;
-  /// Square of the sine of the angle between the surface and a face below which there is no curve to find.
-  static constexpr double Tangent = 1e-6;
+  /// Square of the sine of the angle between the surface and a face below which there is no curve to find. Larger: where a
+  /// surface is tangent to an edge, particles on it do not reach the point; smaller: rounding decides.
+  static constexpr double Tangent = 1e-12;
+  /// How far beside a particle places are tried from which Newton's method may find the surface where it does not from the
+  /// particle, in spacings, nearest first; and how many there are around it.
+  static constexpr double Beside[] = { 0.05, 0.1, 0.2, 0.3 };
+  static constexpr int Around = 8;
+  /// In spacings: the longest way from there, and how far from the particle the surface may be found. Larger: triangles at
+  /// singular points lose their shape; smaller: fewer meshes are closed there.
+  static constexpr double FromBeside = 0.5;
+  static constexpr double FarBeside = 0.6;
+  /// Least cosine between the normals there and before: the other side of a cone is not taken.
+  static constexpr double SameSide = 0.3;
 };
+
+/// The spacing on flat surfaces, or the largest that there is.
+double flatSpacing(const Buffer<Particle>& particles)
+{
+  double most = 0.0;
+  for (const Particle& particle : particles)
+  {
+    most = std::max(most, particle.spacing);
+  }
+  return most;
+}
 
 /// The faces of its element that a place is on, two at most.
 ActiveFaces facesAt(const ElementMesh& mesh, const Location& place)
@@ -77,20 +101,102 @@ bool projectAlong(const ActiveFaces& faces, const Isosurface& surface, SurfaceWa
   return false;
 }
 
-/// Puts a particle onto the surface: along faces on which it stands, as both sides of them do.
-/// \return whether it is there
-bool putBack(const Isosurface& surface, SurfaceWalker& walker, Particle& particle)
+/// Puts the particles of a lifted surface onto the surface itself. Each thread needs one of its own.
+class WayBack
 {
-  Evaluated place;
-  place.location = particle.location;
-  const ActiveFaces faces = facesAt(*surface.mesh, particle.location);
-  const bool isFound =
-    faces.count > 0 && projectAlong(faces, surface, walker, particle.spacing, place.location);
-  if (!isFound && !walker.project(particle.location, particle.spacing, place))
+public:
+  /// \param reach longest way that is gone, but for spacings longer than it
+  WayBack(const Isosurface& surface, double reach)
+    : Surface(surface)
+    , Walker(surface)
+    , Reach(reach)
+  {
+  }
+
+  /// \return whether the particle is there
+  bool putBack(Particle& particle);
+
+private:
+  bool find(const ActiveFaces& faces, double reach, Evaluated& place);
+  bool findBeside(const ActiveFaces& faces, const Particle& particle, Evaluated& place);
+  Location moved(const ActiveFaces& faces, const Evaluated& start, const WorldVector& step);
+
+  const Isosurface& Surface;
+  SurfaceWalker Walker;
+  double Reach;
+};
+
+/// Newton's method from a place, along faces if there are any.
+bool WayBack::find(const ActiveFaces& faces, double reach, Evaluated& place)
+{
+  return faces.count > 0 ? projectAlong(faces, this->Surface, this->Walker, reach, place.location)
+                         : this->Walker.project(place.location, reach, place);
+}
+
+Location WayBack::moved(const ActiveFaces& faces, const Evaluated& start, const WorldVector& step)
+{
+  if (faces.count == 0)
+  {
+    return this->Walker.move(start, step);
+  }
+  const Domain domain = this->Surface.mesh->elements[start.location.element].domain;
+  const ReferenceVector du = pullAlong(domain, faces, start.point.map, step);
+  return { start.location.element, broughtInside(domain, start.location.u + du) };
+}
+
+/// The same from places beside a particle, in its tangent plane: it may be the one particle that comes to a singular point.
+bool WayBack::findBeside(const ActiveFaces& faces, const Particle& particle, Evaluated& place)
+{
+  const Evaluated start = this->Walker.evaluate(particle.location);
+  if (start.point.map.singular)
   {
     return false;
   }
-  place = walker.evaluateCurved(place.location);
+  const std::array<glm::vec3, 2> tangents = tangentsOf(particle.normal.xyz);
+  for (const double distance : Lift::Beside)
+  {
+    for (int k = 0; k < Lift::Around; ++k)
+    {
+      const double angle = 2.0 * Pi * k / Lift::Around;
+      const WorldVector step{ distance * particle.spacing *
+        (std::cos(angle) * glm::dvec3(tangents[0]) + std::sin(angle) * glm::dvec3(tangents[1])) };
+      Evaluated found;
+      found.location = this->moved(faces, start, step);
+      if (!this->find(faces, Lift::FromBeside * particle.spacing, found))
+      {
+        continue;
+      }
+      found = this->Walker.evaluate(found.location);
+      if (dot(surfaceNormal(found.point.gradient), particle.normal) > Lift::SameSide &&
+        length(found.point.map.position - particle.position) <= Lift::FarBeside * particle.spacing)
+      {
+        place = found;
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+bool WayBack::putBack(Particle& particle)
+{
+  const double reach = std::max(particle.spacing, this->Reach);
+  const ActiveFaces faces = facesAt(*this->Surface.mesh, particle.location);
+  Evaluated place;
+  place.location = particle.location;
+  Evaluated free = place;
+  if (!this->find(faces, reach, place))
+  {
+    if (this->find({}, reach, free))
+    {
+      place = free;
+    }
+    else if (!this->findBeside(faces, particle, place))
+    {
+      return false;
+    }
+  }
+  place = this->Walker.evaluateCurved(place.location);
   const double slope = length(place.point.gradient);
   if (place.point.map.singular || !(slope > 0.0) || !std::isfinite(slope))
   {
@@ -143,14 +249,15 @@ bool putBack(const Isosurface& surface, Distribution& distribution, const Parall
   Isosurface located = surface;
   located.locator = &locator;
   Buffer<Particle>& particles = distribution.particles;
+  const double reach = flatSpacing(particles);
   std::vector<char> isBack(particles.size());
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(particles.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
     {
-      SurfaceWalker walker(located);
+      WayBack way(located, reach);
       for (std::ptrdiff_t i = begin; i < end; ++i)
       {
-        isBack[i] = static_cast<char>(putBack(located, walker, particles[i]));
+        isBack[i] = static_cast<char>(way.putBack(particles[i]));
       }
     });
   bool areAllBack = std::find(isBack.begin(), isBack.end(), 0) == isBack.end();
@@ -168,6 +275,27 @@ bool putBack(const Isosurface& surface, Distribution& distribution, const Parall
     other.position = one.position;
   }
   return areAllBack;
+}
+
+bool isCoveredBy(const Buffer<Particle>& particles, const std::vector<int>& corners,
+  const Buffer<Particle>& others, const std::vector<int>& otherCorners)
+{
+  std::vector<glm::dvec3> there;
+  for (const int other : otherCorners)
+  {
+    there.push_back(others[other].position.xyz);
+  }
+  const double reach = flatSpacing(particles);
+  const PointBins bins(there, reach);
+  return std::all_of(corners.begin(), corners.end(),
+    [&](int corner)
+    {
+      const glm::dvec3& here = particles[corner].position.xyz;
+      bool isNear = false;
+      bins.visit(here, reach,
+        [&](int other) { isNear = isNear || glm::distance(here, there[other]) <= reach; });
+      return isNear;
+    });
 }
 
 } // namespace hop

@@ -28,9 +28,16 @@ enum class LiftedValues
 std::optional<ElementMesh> liftedMesh(
   const ElementMesh& mesh, double isovalue, LiftedValues which, double height);
 
-/// Puts the particles on a lifted mesh's surface, and all that are on one place together, onto the surface itself: some
-/// thousandth of an element.
+/// Puts the particles on a lifted surface, and all that are on one place together, onto the surface itself: some
+/// thousandth of an element, and by singular points up to a spacing on flat surfaces. At most one particle a sheet has no
+/// place of its own there, as the tip of a hyperboloid on the cone; it goes beside the point.
 /// \return whether all of them are on it
 bool putBack(const Isosurface& surface, Distribution& distribution, const ParallelFor& parallelFor);
+
+/// Whether near every corner of a mesh a corner of another one stands, a spacing on flat surfaces away at most: so that no
+/// part of the surface is lost.
+/// \param corners,otherCorners indices of particles, repeated at will
+bool isCoveredBy(const Buffer<Particle>& particles, const std::vector<int>& corners,
+  const Buffer<Particle>& others, const std::vector<int>& otherCorners);
 
 } // namespace hop
