@@ -156,6 +156,27 @@ std::vector<double> areasOf(
   return areas;
 }
 
+/// Triangles that are turned away from the normal of a corner once their corners were put back. Those without height may
+/// be turned anyhow.
+std::int64_t countTurnedOver(
+  const std::vector<std::array<int, 3>>& triangles, const Buffer<Particle>& particles)
+{
+  // Height over the longest edge below which there is none: half a degree.
+  constexpr double none = 0.01;
+  return std::count_if(triangles.begin(), triangles.end(),
+    [&](const std::array<int, 3>& corners)
+    {
+      double longest = 0.0;
+      for (int i = 0; i < 3; ++i)
+      {
+        longest = std::max(longest,
+          length(particles[corners[i]].position - particles[corners[(i + 1) % 3]].position));
+      }
+      return glm::length(doubleAreaNormal(particles, corners)) > none * longest * longest &&
+        isTurned(particles, corners);
+    });
+}
+
 /// Gives all particles in one place what those of them that cells use have together: the mean normal, and the area.
 void mergePlaces(const ParticleMesh& mesh, Buffer<Particle>& particles)
 {
@@ -220,8 +241,7 @@ bool addMesh(const Isosurface& surface, const Isosurface& own, OutputType type, 
     areOn = putBack(surface, distribution, parallelFor);
     removeSlivers(edges, distribution.particles, some.mesh.vertices, mesh.triangles);
     some.mesh.shared = sharedPlaces(some.mesh.vertices);
-    some.mesh.turnedTriangles = std::count_if(mesh.triangles.begin(), mesh.triangles.end(),
-      [&](const std::array<int, 3>& corners) { return isTurned(distribution.particles, corners); });
+    some.mesh.turnedTriangles = countTurnedOver(mesh.triangles, distribution.particles);
     areas = areasOf(mesh.triangles, distribution.particles);
   }
   forAll(

@@ -37,11 +37,19 @@ bool isOpen(const ParticleMesh& mesh)
   return mesh.openLoops > 0 || mesh.unusedParticles > 0;
 }
 
-/// Whether a mesh of a lifted surface lacks less than the surface's own, and is of all of it.
+/// How bad a mesh is: what it lacks, and triangles that are turned away.
+std::int64_t faultsOf(const ParticleMesh& mesh)
+{
+  // Turned triangles that are as bad as a hole; chosen by experiment. Larger: sheets that nearly cross come back through
+  // each other; smaller: holes stay for the sake of few slivers.
+  constexpr std::int64_t turnedPerHole = 10;
+  return turnedPerHole * lackOf(mesh) + mesh.turnedTriangles;
+}
+
+/// Whether a mesh of a lifted surface is better than the surface's own, and of all of it.
 bool isInPlaceOf(const IsovalueParticles& own, const IsovalueParticles& lifted)
 {
-  return lackOf(lifted.mesh) < lackOf(own.mesh) &&
-    lifted.mesh.turnedTriangles <= own.mesh.turnedTriangles &&
+  return faultsOf(lifted.mesh) < faultsOf(own.mesh) &&
     !hasMoreSheets(lifted.distribution, own.distribution) &&
     isCoveredBy(own.distribution.particles, own.mesh.nodes, lifted.distribution.particles,
       lifted.mesh.nodes);
@@ -137,13 +145,15 @@ void SurfaceWorker::meshLifted(const Isosurface& surface, const DistributionPara
   {
     return;
   }
+  const bool wasOpen = isOpen(some.mesh);
   bool isBetter = true;
   for (std::size_t i = 0; i < std::size(heights) && isBetter && (i == 0 || isOpen(some.mesh)); ++i)
   {
     isBetter = this->meshBesideNodes(surface, heights[i], parameters, work, some);
   }
   Isosurface lifted = surface;
-  for (std::size_t i = 0; i < std::size(beside) && isOpen(some.mesh); ++i)
+  const auto isLacking = [&some] { return isOpen(some.mesh) || some.mesh.turnedTriangles > 0; };
+  for (std::size_t i = 0; i < std::size(beside) && wasOpen && isLacking(); ++i)
   {
     lifted.isovalue = surface.isovalue + beside[i];
     this->meshAnew(surface, lifted, parameters, work, some);

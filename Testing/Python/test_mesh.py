@@ -289,6 +289,43 @@ def test_surfaces_through_nodes_and_edges_are_closed(plugin, name, order, blocks
     assert array_of(mesh, "Area").sum() == pytest.approx(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2, rel=0.02)
 
 
+@pytest.mark.parametrize("file, array, component, value, spacing", [
+    ("vtkdata_pyramid_quadratic.vtu", "Polynomial", 0, 4.0, 0.02),
+    ("vtkdata_pyramid_quadratic.vtu", "DistanceToCenter", 0, 0.75**0.5, 0.02),
+    ("vtkdata_notch_quadratic_hex20_wedge15.vtu", "Nodal Displacement", 1, 0.0, None),
+    ("mfem_torus_wedge_p4.vtu", "radius", 0, 0.8, None),
+])  # fmt: skip
+def test_meshes_at_critical_values_are_closed(data, plugin, file, array, component, value, spacing):
+    """Where the topology of the surface changes, the mesh is that of a value beside it, put back."""
+    chosen = {"Spacing": spacing} if spacing else {}
+    mesh, _ = support.run(
+        support.read(data(file)), array, value, Component=component, OutputType="Triangles", **chosen)
+    assert (support.reported(mesh, "MeshOpenLoops"), support.reported(mesh, "MeshUnusedParticles")) == (0, 0)
+    assert support.reported(mesh, "MeshTurnedTriangles") == 0
+    assert array_of(mesh, "Residual").max() < 1e-9 * support.diagonal(mesh)
+    edges_with_one_triangle(mesh)
+
+
+CROSSING = {
+    "planes": lambda x: (x[:, 0] - 0.5) * (x[:, 1] - 0.5),
+    "the tips of a cone": lambda x: (x[:, 0] - 0.5) ** 2 + (x[:, 1] - 0.5) ** 2 - (x[:, 2] - 0.5) ** 2,
+    "a cube": lambda x: np.abs(x - 0.5).max(axis=1) - 0.25,
+}
+
+
+@pytest.mark.parametrize("surface", CROSSING)
+@pytest.mark.parametrize("name", ["LAGRANGE_TETRAHEDRON", "LAGRANGE_WEDGE"])
+def test_sheets_that_cross_are_closed_apart(plugin, name, surface):
+    grid = straight_grid(name, order=2, blocks=4)
+    x = points_of(grid) / 4
+    set_points(grid, x)
+    add_point_array(grid, "u", CROSSING[surface](x))
+    mesh, _ = support.run(grid, "u", 0.0, OutputType="Triangles", Spacing=0.02)
+    assert (support.reported(mesh, "MeshOpenLoops"), support.reported(mesh, "MeshUnusedParticles")) == (0, 0)
+    assert np.abs(CROSSING[surface](points_of(mesh))).max() < 1e-6
+    edges_with_one_triangle(mesh)
+
+
 @pytest.mark.parametrize("place", [0.0, 0.5])
 def test_a_field_that_touches_the_isovalue_gets_no_second_sheet(plugin, place):
     """In faces of elements, at the end of the domain and inside."""
@@ -407,9 +444,9 @@ def test_triangles_that_close_holes_turned_away_are_told(data, plugin):
 
 
 def test_a_warning_says_where_the_mesh_has_a_hole(data, plugin):
-    """The field touches this value in faces of elements."""
-    grid = output_of(support.read(data("vtkdata_pyramid_quadratic.vtu")))
-    mesh, messages = support.run(grid, "DistanceToCenter", 0.75**0.5, OutputType="Triangles")
+    """Far too few particles for such a surface."""
+    grid = output_of(support.read(data("dolfinx_tet_p3.vtu")))
+    mesh, messages = support.run(grid, "u", 0.1, OutputType="Triangles", NumberOfParticles=2000)
     assert support.reported(mesh, "MeshOpenLoops") > 0
     text = next(text for text in messages.warnings if "the longest" in text)
     cell, *place = re.search(r"the longest, \S+, in cell (\d+), at \((\S+), (\S+), (\S+)\)", text).groups()

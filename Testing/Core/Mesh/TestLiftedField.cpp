@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace hop::testing
 {
@@ -106,6 +107,62 @@ TEST(LiftedField, ClosesASurfaceThroughNodesAndPutsItBack)
   {
     EXPECT_EQ(distribution.particles[a].position.xyz, distribution.particles[b].position.xyz);
   }
+}
+
+/// The surface of a saddle of revolution x^2 + y^2 - z^2 at a value, which is a cone at 0: in one element a side of 2.
+Distribution onHyperboloid(ElementMesh& mesh, double value)
+{
+  MeshRecipe recipe;
+  recipe.domain = Domain::Cube;
+  recipe.degrees = { 2, 2, 2 };
+  recipe.cells = 1;
+  recipe.field = [](const glm::dvec3& x) { return x.x * x.x + x.y * x.y - x.z * x.z; };
+  mesh = makeMesh(recipe);
+  DistributionParameters parameters;
+  parameters.sizing = { 0.04, 1.0 };
+  return distributeFast({ &mesh, value, 1e-10 }, parameters, {}, {});
+}
+
+TEST(LiftedField, PutsTheTipsOfAHyperboloidBesideTheTipOfTheCone)
+{
+  ElementMesh mesh;
+  Distribution distribution = onHyperboloid(mesh, -1e-4);
+  const Isosurface surface{ &mesh, 0.0, 1e-10 };
+  ASSERT_TRUE(putBack(surface, distribution, {}));
+  int above = 0;
+  int below = 0;
+  for (const Particle& particle : distribution.particles)
+  {
+    const glm::dvec3& x = particle.position.xyz;
+    EXPECT_NEAR(std::hypot(x.x, x.y), std::abs(x.z), 1e-9);
+    EXPECT_GT(std::abs(x.z), 1e-6);
+    // Each on the side on which it was: normals point to low values, into the cone.
+    EXPECT_GT(particle.normal.xyz.z * x.z, 0.0);
+    above += x.z > 0.0 ? 1 : 0;
+    below += x.z < 0.0 ? 1 : 0;
+  }
+  EXPECT_GT(above, 100);
+  EXPECT_GT(below, 100);
+}
+
+TEST(LiftedField, CoversNothingBeyondASpacing)
+{
+  ElementMesh mesh;
+  const Distribution distribution = onHyperboloid(mesh, -1e-4);
+  const Buffer<Particle>& particles = distribution.particles;
+  std::vector<int> all;
+  std::vector<int> above;
+  for (std::size_t i = 0; i < particles.size(); ++i)
+  {
+    all.push_back(static_cast<int>(i));
+    if (particles[i].position.xyz.z > 0.0)
+    {
+      above.push_back(static_cast<int>(i));
+    }
+  }
+  EXPECT_TRUE(isCoveredBy(particles, all, particles, all));
+  EXPECT_TRUE(isCoveredBy(particles, above, particles, all));
+  EXPECT_FALSE(isCoveredBy(particles, all, particles, above));
 }
 
 } // namespace
