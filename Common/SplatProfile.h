@@ -46,6 +46,14 @@ struct SplatThreshold
   static constexpr double Weight = 0.05;
 };
 
+/// How far, in radii, a splat fills gaps behind its planes. Chosen by experiment.
+struct SplatOverlap
+{
+  /// Where the surface is almost smooth, along the splat. A smaller one leaves gaps where a discontinuous field makes a
+  /// step; with a larger one splats stand out at outlines.
+  static constexpr double Smooth = 0.35;
+};
+
 /// Distance from its particle, in radii, up to which a splat makes a surface: 0.928. From there to the rim it only
 /// has a part in the averages.
 inline double splatReach()

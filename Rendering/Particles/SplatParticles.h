@@ -13,6 +13,7 @@
 
 #pragma once
 
+#include "Common/SplatProfile.h"
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
@@ -154,11 +155,8 @@ struct SplatParticles
    */
   static double EstimateDistance(const double bounds[6], vtkIdType count);
 
-  /**
-   * OverlapAt() a plane at which the surface is almost smooth, in radii. Chosen by experiment: a smaller overlap leaves
-   * gaps where a discontinuous field makes a step; with a larger one splats stand out at outlines.
-   */
-  static constexpr float SmoothOverlap = 0.35f;
+  /** OverlapAt() a plane at which the surface is almost smooth, in radii. */
+  static constexpr float SmoothOverlap = static_cast<float>(SplatOverlap::Smooth);
 
   /**
    * A plane with at least this overlap (radii) is one at which the surface is almost smooth, for shaders too. Any value

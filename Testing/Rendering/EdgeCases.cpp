@@ -299,6 +299,12 @@ const std::map<std::string, AddCells>& Kinds()
         const double end = size * Spacing;
         AddPlanes(grid, { { 0., 0.1, 0.4 }, { end, 0.1, -0.6 }, { 1., 0.1 - 0.4 * end, -0.2 } });
       } },
+    { "bevel",
+      [](GridBuilder& grid, double size)
+      {
+        const double end = size * Spacing;
+        AddPlanes(grid, { { 0., 0.1, 0.4 }, { end, 0.1, -0.1 }, { 1., 0.1 + 0.1 * end, -0.2 } });
+      } },
     { "sliver", [](GridBuilder& grid, double size) { AddSliver(grid, size * Spacing); } },
     { "fan", [](GridBuilder& grid, double size) { AddFan(grid, static_cast<int>(size), 0.); } },
     { "pleats", [](GridBuilder& grid, double size) { AddFan(grid, static_cast<int>(size), 0.5); } },

@@ -15,7 +15,8 @@
 //   cone      a double cone; the size moves its tip from a corner of the mesh
 //   step      a plane that jumps by that height
 //   ledge     a roof whose ridge is cut off by a facet that wide
-//   sliver    the same, whose facet tapers from that width to a twentieth of it
+//   bevel     the same, but almost smooth on one side of the facet: 27 and 6 degrees
+//   sliver    a ledge, whose facet tapers from that width to a twentieth of it
 //   fan       the tip of a pyramid with SIZE sides, each an element: as many creases meet
 //   pleats    the same with every second edge folded in
 //   facets    a sphere in linear tetrahedra with edges of that length: creases everywhere

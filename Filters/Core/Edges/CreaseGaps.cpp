@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 namespace hop
 {
@@ -23,6 +24,9 @@ struct Cover
   static constexpr double SureShare = 0.98;
   /// Distance behind the plane of a crease up to which a splat still fills gaps.
   static constexpr double BehindPlane = 0.05;
+  /// The same behind a plane at which the surface is almost smooth, along the splat: what the renderer fills, less a
+  /// margin, as splats may be bent. A larger one leaves holes, a smaller one moves planes in vain.
+  static constexpr double BehindSmoothPlane = SplatOverlap::Smooth - 0.1;
   /// Largest distance of a place that a splat covers from the plane of the splat.
   static constexpr double Height = 0.4;
   /// Largest distance from what it covers behind a crease at which a splat stands off: more is seen beside the crease.
@@ -52,17 +56,46 @@ constexpr double sameCrease = 0.9;
 /// is covered by the overlaps of its sides; with a smaller distance one crease is taken for two where it bends.
 constexpr double leastSliver = 0.1;
 
-/// Whether a plane is that of a crease, and may be moved.
-bool isCrease(const ClipPlane& plane)
-{
-  return plane.exists() && plane.dihedralAngle > CreaseAngle &&
-    plane.dihedralAngle < sharpestCrease;
-}
-
-/// Whether splats are cut off at a plane.
+/// Whether splats are cut off at a plane, or a little behind it.
 bool cuts(const ClipPlane& plane)
 {
-  return plane.exists() && plane.dihedralAngle > CreaseAngle;
+  return plane.exists() && !plane.isOpen();
+}
+
+/// Whether a plane is that of a crease, or of a face at which the surface is almost smooth, and may be moved.
+bool mayMove(const ClipPlane& plane)
+{
+  return cuts(plane) && plane.dihedralAngle < sharpestCrease;
+}
+
+bool isAlmostSmooth(const ClipPlane& plane)
+{
+  return cuts(plane) && plane.dihedralAngle <= CreaseAngle;
+}
+
+/// Cosine of the angle between a plane's normal and the disk of its particle.
+double aslantOf(const Particle& particle, const ClipPlane& plane)
+{
+  const double cosine = dot(plane.normal, particle.normal);
+  return std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+}
+
+/// How far behind a plane at which the surface is almost smooth a splat fills gaps, along the splat; 0 at other planes.
+/// World units.
+double filledAlong(const Particle& particle, const ClipPlane& plane)
+{
+  return isAlmostSmooth(plane) ? Cover::BehindSmoothPlane * particle.spacing : 0.0;
+}
+
+/// How far a place lies behind what a splat fills behind a plane, across the plane, world units; negative before it.
+/// \param filledAtCreases how far it fills gaps behind creases
+double beyondFilled(
+  const Particle& particle, const ClipPlane& plane, const glm::dvec3& place, double filledAtCreases)
+{
+  const double filled = isAlmostSmooth(plane)
+    ? filledAlong(particle, plane) * aslantOf(particle, plane)
+    : (mayMove(plane) ? filledAtCreases : 0.0);
+  return glm::dot(place - particle.position.xyz, plane.normal.xyz) - plane.distance - filled;
 }
 
 /// How far around a place on the surface nearby a splat would reach everything, were it whole; world units. Negative if
@@ -86,25 +119,27 @@ bool isAStepOff(const Particle& particle, const glm::dvec3& place)
     square - height * height < Cover::Beside * Cover::Beside;
 }
 
-/// How far a place lies behind the farthest of a particle's planes, world units; infinite if it lies behind a plane
-/// that may not be moved.
-double behindCreases(const Particle& particle, const glm::dvec3& place)
+/// How readily a particle's splat goes on to a place, the smaller the better: whether the place lies behind a crease, and
+/// how far it lies behind the farthest plane, or behind what is filled there where the surface is almost smooth, world
+/// units; infinite if it lies behind a plane that may not be moved.
+std::pair<bool, double> behindPlanes(const Particle& particle, const glm::dvec3& place)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  double farthest = -infinity;
+  std::pair<bool, double> result{ false, -infinity };
   for (const ClipPlane& plane : particle.clips)
   {
     if (cuts(plane))
     {
-      const double behind =
-        glm::dot(place - particle.position.xyz, plane.normal.xyz) - plane.distance;
-      farthest = std::max(farthest, behind > 0.0 && !isCrease(plane) ? infinity : behind);
+      const double behind = beyondFilled(particle, plane, place, 0.0);
+      const bool isBehind = behind > 0.0;
+      result.first = result.first || (isBehind && !isAlmostSmooth(plane));
+      result.second = std::max(result.second, isBehind && !mayMove(plane) ? infinity : behind);
     }
   }
-  return farthest;
+  return result;
 }
 
-/// How far around a place a splat is not cut off, world units; a little is filled behind creases. Negative if the place
+/// How far around a place a splat is not cut off, world units; a little is filled behind planes. Negative if the place
 /// is cut off itself.
 double uncutAround(const Particle& particle, const glm::dvec3& place)
 {
@@ -113,10 +148,8 @@ double uncutAround(const Particle& particle, const glm::dvec3& place)
   {
     if (cuts(plane))
     {
-      const double filled = isCrease(plane) ? Cover::BehindPlane * particle.spacing : 0.0;
-      const double behind =
-        glm::dot(place - particle.position.xyz, plane.normal.xyz) - plane.distance;
-      least = std::min(least, filled - behind);
+      const double filled = Cover::BehindPlane * particle.spacing;
+      least = std::min(least, -beyondFilled(particle, plane, place, filled));
     }
   }
   return least;
@@ -199,8 +232,8 @@ std::vector<int> CreaseGaps::findAround(int i) const
   return found;
 }
 
-/// Whether a crease is beside another one, or a boundary curve, or meets it, near particle i. Along a single
-/// crease gaps are smaller than what a plane that is moved over it draws with the wrong brightness.
+/// Whether a crease, or a face at which the surface is almost smooth, is beside another one, or a boundary curve, or meets
+/// it, near particle i. Along a single one gaps are smaller than what a plane that is moved over it draws with the wrong brightness.
 /// \param plane of the crease: its number
 bool CreaseGaps::hasAnotherNear(int i, int plane, const std::vector<int>& around) const
 {
@@ -235,7 +268,7 @@ bool CreaseGaps::hasAnotherNear(int i, int plane, const std::vector<int>& around
 /// \param around in any order; one that says no comes first afterwards, as it mostly says so of the next place, too
 double CreaseGaps::coveredAround(int i, const glm::dvec3& place, std::vector<int>& around) const
 {
-  const double own = behindCreases(this->All.at(i), place);
+  const auto own = behindPlanes(this->All.at(i), place);
   for (int& j : around)
   {
     const Particle& other = this->All.at(j);
@@ -245,7 +278,7 @@ double CreaseGaps::coveredAround(int i, const glm::dvec3& place, std::vector<int
       continue;
     }
     const double uncut = uncutAround(other, place);
-    const double behind = behindCreases(other, place);
+    const auto behind = behindPlanes(other, place);
     if (uncut >= 0.0 || behind < own || (behind == own && j < i) || isBehindBoundary(other, place))
     {
       std::swap(j, around.front());
@@ -276,7 +309,7 @@ double CreaseGaps::openFrom(
       [&](const ClipPlane& other)
       {
         return &other != &particle.clips[plane] && cuts(other) &&
-          glm::dot(offset, other.normal.xyz) > other.distance;
+          beyondFilled(particle, other, particle.position.xyz + offset, 0.0) > 0.0;
       });
   };
   const double step = placeStep * particle.spacing;
@@ -323,11 +356,12 @@ double CreaseGaps::openBehind(int i, int plane, std::vector<int>& around) const
   const double half = std::sqrt(std::max(0.0, reach * reach - glm::dot(cut.foot, cut.foot)));
   const double step = placeStep * particle.spacing;
   const auto most = static_cast<int>(half / step);
+  const glm::dvec3 first = cut.foot + filledAlong(particle, particle.clips[plane]) * cut.away;
   double farthest = 0.0;
   for (int n = -most; n <= most; ++n)
   {
-    farthest = std::max(
-      farthest, this->openFrom(i, plane, cut.foot + n * step * cut.along, cut.away, around));
+    farthest =
+      std::max(farthest, this->openFrom(i, plane, first + n * step * cut.along, cut.away, around));
   }
   return farthest * cut.cosine;
 }
@@ -343,7 +377,7 @@ void CreaseGaps::close()
     {
       const auto i = static_cast<int>(n);
       const auto isCut = [&](const ClipPlane& plane)
-      { return isCrease(plane) && plane.distance < coverReach * this->All.at(i).spacing; };
+      { return mayMove(plane) && plane.distance < coverReach * this->All.at(i).spacing; };
       const auto& clips = this->All.at(i).clips;
       if (std::none_of(clips.begin(), clips.end(), isCut))
       {
@@ -374,7 +408,7 @@ void closeCreaseGaps(const ParticleGrid& all, const ParallelFor& parallelFor)
     [&](std::size_t i)
     {
       const auto& clips = all.at(i).clips;
-      if (std::any_of(clips.begin(), clips.end(), isCrease))
+      if (std::any_of(clips.begin(), clips.end(), mayMove))
       {
         hasCreases = true;
       }

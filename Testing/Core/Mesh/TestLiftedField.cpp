@@ -113,7 +113,7 @@ TEST(LiftedField, ClosesASurfaceThroughNodesAndPutsItBack)
 Distribution onHyperboloid(ElementMesh& mesh, double value)
 {
   MeshRecipe recipe;
-  recipe.domain = Domain::Cube;
+  recipe.domain = Domain::Hexahedron;
   recipe.degrees = { 2, 2, 2 };
   recipe.cells = 1;
   recipe.field = [](const glm::dvec3& x) { return x.x * x.x + x.y * x.y - x.z * x.z; };
