@@ -51,8 +51,8 @@ bool isInPlaceOf(const IsovalueParticles& own, const IsovalueParticles& lifted)
 {
   return faultsOf(lifted.mesh) < faultsOf(own.mesh) &&
     !hasMoreSheets(lifted.distribution, own.distribution) &&
-    isCoveredBy(own.distribution.particles, own.mesh.nodes, lifted.distribution.particles,
-      lifted.mesh.nodes);
+    isCoveredBy(
+      own.distribution.particles, own.mesh.nodes, lifted.distribution.particles, lifted.mesh.nodes);
 }
 
 /// What was found of singular places is said of the surface itself, not of the lifted one.
@@ -186,8 +186,7 @@ bool SurfaceWorker::meshAnew(const Isosurface& surface, const Isosurface& lifted
   other.distribution = distributeFast(lifted, parameters, work.monitor, work.parallelFor);
   const bool isBetter = !other.distribution.report.aborted &&
     !other.distribution.particles.empty() &&
-    this->addMesh(surface, lifted, parameters, work, other) &&
-    isInPlaceOf(some, other);
+    this->addMesh(surface, lifted, parameters, work, other) && isInPlaceOf(some, other);
   if (isBetter)
   {
     keepFindings(some.distribution.report, other.distribution.report);
