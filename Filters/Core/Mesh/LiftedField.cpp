@@ -281,6 +281,7 @@ bool isCoveredBy(const Buffer<Particle>& particles, const std::vector<int>& corn
   const Buffer<Particle>& others, const std::vector<int>& otherCorners)
 {
   std::vector<glm::dvec3> there;
+  there.reserve(otherCorners.size());
   for (const int other : otherCorners)
   {
     there.push_back(others[other].position.xyz);
