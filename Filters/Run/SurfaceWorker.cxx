@@ -49,7 +49,12 @@ std::int64_t faultsOf(const ParticleMesh& mesh)
 /// Whether a mesh of a lifted surface is better than the surface's own, and of all of it.
 bool isInPlaceOf(const IsovalueParticles& own, const IsovalueParticles& lifted)
 {
+  // Of the triangles, turned ones that look like noise rather than like a few slivers.
+  constexpr std::int64_t onePercent = 100;
+  const auto triangles =
+    static_cast<std::int64_t>(lifted.mesh.nodes.size()) / lifted.mesh.nodesPerCell;
   return faultsOf(lifted.mesh) < faultsOf(own.mesh) &&
+    lifted.mesh.turnedTriangles <= std::max(own.mesh.turnedTriangles, triangles / onePercent) &&
     !hasMoreSheets(lifted.distribution, own.distribution) &&
     isCoveredBy(
       own.distribution.particles, own.mesh.nodes, lifted.distribution.particles, lifted.mesh.nodes);
