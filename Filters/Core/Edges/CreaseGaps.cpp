@@ -233,7 +233,8 @@ std::vector<int> CreaseGaps::findAround(int i) const
 }
 
 /// Whether a crease, or a face at which the surface is almost smooth, is beside another one, or a boundary curve, or meets
-/// it, near particle i. Along a single one gaps are smaller than what a plane that is moved over it draws with the wrong brightness.
+/// it, near particle i. Along a single one gaps are smaller than what a plane that is moved over it draws with the wrong
+/// brightness.
 /// \param plane of the crease: its number
 bool CreaseGaps::hasAnotherNear(int i, int plane, const std::vector<int>& around) const
 {
