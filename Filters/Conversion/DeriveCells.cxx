@@ -13,8 +13,12 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <memory>
+#include <optional>
 
 namespace hop
 {
@@ -30,6 +34,10 @@ constexpr int MostOfProducts = 16;
 /// itself. Fewer: components beside creases of lambda 2 are missed (test_derived_components.py); more: parts of many small
 /// ones cost more.
 constexpr int MostHalvingsOfParts = 3;
+
+/// How long a thread derives cells of one range before the others have their turn. Longer: the caller is asked less often
+/// whether to go on; shorter: threads start anew more often.
+constexpr std::chrono::milliseconds TimeOfTurn{ 20 };
 
 /// The eight parts that halving all edges of a part gives.
 std::vector<ReferencePart> halvesOf(Domain domain, const ReferencePart& part)
@@ -119,6 +127,75 @@ FieldFunction functionIn(const InputBlocks& blocks, double unitOfLength)
   };
 }
 
+/// The elements of one cell, and how much its field changes.
+struct Found
+{
+  std::vector<DerivedCell> cells;
+  double change = 0.0;
+};
+
+/// A part of a cell that is still to be derived.
+struct OpenPart
+{
+  ReferencePart place;
+  /// How often it may be halved.
+  int halvings = 0;
+};
+
+/// A cell that is derived part by part, in several turns if it takes long.
+struct SampledCell
+{
+  /// \param common what its parts have in common
+  /// \param function outlives the cell
+  SampledCell(const SourceElement& of, ControlNet ofCell, DerivedCell common, Quantity quantity,
+    const FieldFunction& function, double noise)
+    : net(std::move(ofCell))
+    , source{ of.domain, of.degrees, of.width, net.control, net.weights, of.isRational,
+      of.coordinateError }
+    , standIn(standInFor(quantity, source))
+    , rounding(noise)
+    , whole(std::move(common))
+    , sampler(source, quantity, function, noise, standIn)
+  {
+  }
+  SampledCell(const SampledCell&) = delete;
+  SampledCell& operator=(const SampledCell&) = delete;
+
+  /// \param halvings that each part may take
+  void open(const std::vector<ReferencePart>& parts, int halvings)
+  {
+    std::transform(parts.rbegin(), parts.rend(), std::back_inserter(this->openParts),
+      [halvings](const ReferencePart& part) {
+        return OpenPart{ part, halvings };
+      });
+  }
+
+  ControlNet net;
+  SourceElement source;
+  StandIn standIn;
+  double rounding;
+  DerivedCell whole;
+  FieldSampler sampler;
+  /// The next one last.
+  std::vector<OpenPart> openParts;
+  Found found;
+  Verdict verdict = Verdict::Drop;
+};
+
+/// A range whose cells are derived in turns.
+struct RangeInTurns
+{
+  JudgedCells& range;
+  /// The next of its kept cells.
+  std::size_t next = 0;
+  /// The cell that a turn has ended in, if any.
+  std::unique_ptr<SampledCell> open;
+  /// The cells that are kept in the end.
+  std::vector<KeptCell> kept;
+
+  bool isDone() const { return this->next == this->range.kept.size(); }
+};
+
 /// Derives cells. All threads share one Deriver.
 class Deriver
 {
@@ -135,36 +212,18 @@ public:
   {
   }
 
-  void derive(JudgedCells& range, CellValues& values) const;
+  /// Derives cells of a range, or parts of them, for a while. Where a turn ends, changes nothing of what is found.
+  void takeTurn(RangeInTurns& turns, CellValues& values) const;
 
 private:
-  /// The elements of one cell, and how much its field changes.
-  struct Found
-  {
-    std::vector<DerivedCell> cells;
-    double change = 0.0;
-  };
-
-  /// A cell that is derived part by part.
-  struct SampledCell
-  {
-    const SourceElement& source;
-    StandIn standIn = StandIn::Surface;
-    double rounding = 0.0;
-    /// What its parts have in common.
-    DerivedCell whole;
-    FieldSampler sampler;
-    Found& found;
-  };
-
-  Verdict derive(std::size_t block, const KeptCell& kept, CellValues& values, Found& found) const;
+  void begin(RangeInTurns& turns, CellValues& values) const;
+  void finish(RangeInTurns& turns, Verdict verdict, Found& found) const;
+  Verdict derive(std::size_t block, const KeptCell& kept, CellValues& values, Found& found,
+    std::unique_ptr<SampledCell>& sampled) const;
   Verdict findByProducts(
     const SourceElement& source, double rounding, DerivedCell cell, Found& found) const;
-  Verdict findBySamples(
-    const SourceElement& source, double rounding, DerivedCell cell, Found& found) const;
-  Verdict findInParts(
-    const std::vector<ReferencePart>& parts, int halvings, SampledCell& cell) const;
-  Verdict findInPart(const ReferencePart& place, int halvings, SampledCell& cell) const;
+  void findInNextPart(SampledCell& cell) const;
+  std::optional<Verdict> findInPart(const OpenPart& part, SampledCell& cell) const;
   Verdict judge(const Range& range, double slack, int exponent, double& change) const;
   std::vector<double> levelsOf(int exponent) const;
   bool straddles(const Range& range, int exponent) const;
@@ -179,37 +238,69 @@ private:
   std::array<std::vector<ReferencePart>, 3> Parts;
 };
 
-void Deriver::derive(JudgedCells& range, CellValues& values) const
+void Deriver::takeTurn(RangeInTurns& turns, CellValues& values) const
 {
-  std::vector<KeptCell> kept;
-  range.derived.clear();
-  for (std::size_t i = 0; i < range.kept.size(); ++i)
+  const auto end = std::chrono::steady_clock::now() + TimeOfTurn;
+  while (!turns.isDone() && std::chrono::steady_clock::now() < end)
   {
-    const KeptCell& cell = range.kept[i];
-    if (i > 0 && range.kept[i - 1].cell == cell.cell)
+    if (!turns.open)
     {
-      continue; // another part of it
+      this->begin(turns, values);
     }
-    Found found;
-    const Verdict verdict = this->derive(range.block, cell, values, found);
-    if (verdict != Verdict::Keep)
+    else if (!turns.open->openParts.empty())
     {
-      range.census.count(
-        verdict, cell.cell, this->Blocks[range.block].grid->GetCellType(cell.cell));
-      continue;
+      this->findInNextPart(*turns.open);
     }
+    else
+    {
+      const std::unique_ptr<SampledCell> done = std::move(turns.open);
+      this->finish(turns, done->verdict, done->found);
+    }
+  }
+}
+
+/// Derives the next cell, or opens it.
+void Deriver::begin(RangeInTurns& turns, CellValues& values) const
+{
+  const std::vector<KeptCell>& cells = turns.range.kept;
+  const KeptCell& cell = cells[turns.next];
+  if (turns.next > 0 && cells[turns.next - 1].cell == cell.cell)
+  {
+    ++turns.next; // another part of it
+    return;
+  }
+  Found found;
+  const Verdict verdict = this->derive(turns.range.block, cell, values, found, turns.open);
+  if (!turns.open)
+  {
+    this->finish(turns, verdict, found);
+  }
+}
+
+/// Ends the next cell, and the range if it is its last one.
+void Deriver::finish(RangeInTurns& turns, Verdict verdict, Found& found) const
+{
+  JudgedCells& range = turns.range;
+  const KeptCell& cell = range.kept[turns.next];
+  if (verdict == Verdict::Keep)
+  {
     for (DerivedCell& derived : found.cells)
     {
       derived.partsOfCell = found.cells.size();
-      kept.push_back({ cell.cell, cell.basis, found.change });
+      turns.kept.push_back({ cell.cell, cell.basis, found.change });
       range.derived.push_back(std::move(derived));
     }
   }
-  range.kept = std::move(kept);
+  else
+  {
+    range.census.count(verdict, cell.cell, this->Blocks[range.block].grid->GetCellType(cell.cell));
+  }
+  ++turns.next;
 }
 
-Verdict Deriver::derive(
-  std::size_t block, const KeptCell& kept, CellValues& values, Found& found) const
+/// \param sampled receives the cell, and the verdict is not final, if it is derived part by part
+Verdict Deriver::derive(std::size_t block, const KeptCell& kept, CellValues& values, Found& found,
+  std::unique_ptr<SampledCell>& sampled) const
 {
   const CellBasis& cell = *kept.basis;
   const BlockCell where{ block, kept.cell };
@@ -219,7 +310,7 @@ Verdict Deriver::derive(
     return verdict;
   }
   const int unit = this->Blocks.quantity() == Quantity::Expression ? 0 : scaleField(values);
-  const ControlNet net = controlNet(this->Blocks, where, cell, values, this->UnitOfLength);
+  ControlNet net = controlNet(this->Blocks, where, cell, values, this->UnitOfLength);
   const SourceElement source{ cell.basis.domain(), cell.basis.degrees(), net.width, net.control,
     net.weights, net.isRational, coordinateError(this->Blocks[block].grid, net) };
   const DerivativeBounds bounds(source);
@@ -242,9 +333,15 @@ Verdict Deriver::derive(
     return Verdict::Drop;
   }
   const double rounding = bounds.rounding(this->Blocks.quantity());
-  return this->Way == DerivingBy::Products
-    ? this->findByProducts(source, rounding, std::move(derived), found)
-    : this->findBySamples(source, rounding, std::move(derived), found);
+  if (this->Way == DerivingBy::Products)
+  {
+    return this->findByProducts(source, rounding, std::move(derived), found);
+  }
+  sampled = std::make_unique<SampledCell>(
+    source, std::move(net), std::move(derived), this->Blocks.quantity(), this->Function, rounding);
+  sampled->open(this->Parts[static_cast<std::size_t>(sampled->source.domain)],
+    sampled->standIn == StandIn::Proof ? MostHalvingsOfParts : 0);
+  return Verdict::Keep;
 }
 
 /// Bounds of the quantity, or of its square where that is derived. A formula is told of world units.
@@ -318,38 +415,28 @@ Verdict Deriver::findByProducts(
   return Verdict::Keep;
 }
 
-/// Derives the parts of the cell that can hold surface.
-Verdict Deriver::findBySamples(
-  const SourceElement& source, double rounding, DerivedCell cell, Found& found) const
+/// Derives the next part of a cell. A part in which the field is undefined or singular ends the cell.
+void Deriver::findInNextPart(SampledCell& cell) const
 {
-  const StandIn standIn = standInFor(this->Blocks.quantity(), source);
-  SampledCell sampled{ source, standIn, rounding, std::move(cell),
-    FieldSampler(source, this->Blocks.quantity(), this->Function, rounding, standIn), found };
-  const int halvings = standIn == StandIn::Proof ? MostHalvingsOfParts : 0;
-  return this->findInParts(this->Parts[static_cast<std::size_t>(source.domain)], halvings, sampled);
-}
-
-/// \param halvings that parts may take, see findInPart()
-Verdict Deriver::findInParts(
-  const std::vector<ReferencePart>& parts, int halvings, SampledCell& cell) const
-{
-  Verdict verdict = Verdict::Drop;
-  for (const ReferencePart& part : parts)
+  const OpenPart part = cell.openParts.back();
+  cell.openParts.pop_back();
+  const std::optional<Verdict> verdict = this->findInPart(part, cell);
+  if (verdict == Verdict::Undefined || verdict == Verdict::Singular)
   {
-    const Verdict ofPart = this->findInPart(part, halvings, cell);
-    if (ofPart == Verdict::Undefined || ofPart == Verdict::Singular)
-    {
-      return ofPart;
-    }
-    verdict = verdict == Verdict::Keep ? verdict : ofPart;
+    cell.openParts.clear();
+    cell.verdict = *verdict;
   }
-  return verdict;
+  else if (verdict && cell.verdict != Verdict::Keep)
+  {
+    cell.verdict = *verdict;
+  }
 }
 
-/// Derives a part of a cell, or its halves where the part's polynomial loses a component.
-/// \param halvings that may follow
-Verdict Deriver::findInPart(const ReferencePart& place, int halvings, SampledCell& cell) const
+/// Derives a part of a cell.
+/// \return nothing where the part's polynomial loses a component, so that its halves are opened instead
+std::optional<Verdict> Deriver::findInPart(const OpenPart& open, SampledCell& cell) const
 {
+  const auto& [place, halvings] = open;
   SampledPart sampled = cell.sampler.sample(
     place, [&](const Range& range) { return this->straddles(range, cell.whole.exponent); },
     halvings > 0 ? this->levelsOf(cell.whole.exponent) : std::vector<double>());
@@ -364,7 +451,8 @@ Verdict Deriver::findInPart(const ReferencePart& place, int halvings, SampledCel
   }
   if (sampled.losesComponents)
   {
-    return this->findInParts(halvesOf(cell.source.domain, place), halvings - 1, cell);
+    cell.open(halvesOf(cell.source.domain, place), halvings - 1);
+    return std::nullopt;
   }
   Range range{ std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity() };
   for (const Coefficient& coefficient : sampled.element.coefficients)
@@ -388,6 +476,7 @@ Verdict Deriver::findInPart(const ReferencePart& place, int halvings, SampledCel
   }
   return verdict;
 }
+
 /// Whether a field with that range can hold surface, or is the same throughout.
 /// \param change receives how much the quantity changes
 Verdict Deriver::judge(const Range& range, double slack, int exponent, double& change) const
@@ -433,15 +522,34 @@ void deriveCells(const InputBlocks& blocks, const std::vector<double>& isovalues
   const ParallelFor& parallelFor)
 {
   const Deriver deriver(blocks, isovalues, way, halvings, unitOfLength);
-  runParallel(parallelFor, static_cast<std::ptrdiff_t>(ranges.size()),
-    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-    {
-      CellValues values;
-      for (std::ptrdiff_t r = begin; r < end; ++r)
+  std::vector<RangeInTurns> all;
+  for (JudgedCells& range : ranges)
+  {
+    range.derived.clear();
+    all.push_back({ range, 0, nullptr, {} });
+  }
+  std::vector<RangeInTurns*> open;
+  std::transform(
+    all.begin(), all.end(), std::back_inserter(open), [](RangeInTurns& turns) { return &turns; });
+  while (!open.empty())
+  {
+    runParallel(parallelFor, static_cast<std::ptrdiff_t>(open.size()),
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end)
       {
-        deriver.derive(ranges[r], values);
-      }
-    });
+        CellValues values;
+        for (std::ptrdiff_t r = begin; r < end; ++r)
+        {
+          deriver.takeTurn(*open[r], values);
+        }
+      });
+    open.erase(std::remove_if(open.begin(), open.end(),
+                 [](const RangeInTurns* turns) { return turns->isDone(); }),
+      open.end());
+  }
+  for (RangeInTurns& turns : all)
+  {
+    turns.range.kept = std::move(turns.kept);
+  }
 }
 
 JacobianSign writeDerived(const DerivedCell& cell, Quantity quantity, double unitOfValue,

@@ -89,6 +89,7 @@ SurfaceMesh join(const Isosurface& surface, const ConstrainedEdges& edges, bool 
   some.mesh.openLength = mesh.openLength;
   some.mesh.longestLoop = mesh.longestLoop;
   some.mesh.onLongestLoop = mesh.onLongestLoop;
+  some.mesh.atFaults = std::move(mesh.atFaults);
   some.mesh.unusedParticles = mesh.unusedParticles;
   some.mesh.turnedTriangles = mesh.turnedTriangles;
   some.mesh.nodesPerCell = 3;
@@ -219,6 +220,7 @@ bool addMesh(const Isosurface& surface, const Isosurface& own, OutputType type, 
   bool isCut, IsovalueParticles& some, const Monitor& monitor, const ParallelFor& parallelFor)
 {
   Distribution& distribution = some.distribution;
+  Interruptible loops(monitor, parallelFor);
   if (type != OutputType::Particles)
   {
     uniteEnds(distribution);
@@ -238,8 +240,10 @@ bool addMesh(const Isosurface& surface, const Isosurface& own, OutputType type, 
   }
   else
   {
-    areOn = putBack(surface, distribution, parallelFor);
+    areOn = putBack(surface, distribution, std::ref(loops));
+    loops.ask();
     removeSlivers(edges, distribution.particles, some.mesh.vertices, mesh.triangles);
+    loops.ask();
     some.mesh.shared = sharedPlaces(some.mesh.vertices);
     some.mesh.turnedTriangles = countTurnedOver(mesh.triangles, distribution.particles);
     areas = areasOf(mesh.triangles, distribution.particles);
@@ -248,7 +252,6 @@ bool addMesh(const Isosurface& surface, const Isosurface& own, OutputType type, 
     parallelFor, areas.size(), [&](std::size_t p) { distribution.particles[p].area = areas[p]; });
   if (type == OutputType::CurvedTriangles)
   {
-    Interruptible loops(monitor, parallelFor);
     bend(surface, mesh.triangles, order, some, std::ref(loops));
   }
   else

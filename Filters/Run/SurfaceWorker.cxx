@@ -2,7 +2,7 @@
 
 #include "Classic/ClassicDistribution.h"
 #include "Fast/FastDistribution.h"
-#include "Mesh/LiftedField.h"
+#include "Run/MeshRepair.h"
 #include "Run/ParticleLimit.h"
 #include "Run/RunMesh.h"
 #include "Run/RunMessages.h"
@@ -10,65 +10,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <functional>
 #include <numeric>
-#include <optional>
-#include <utility>
 
 namespace hop
 {
-
-namespace
-{
-
-/// Whether a lifted field seems to have sheets that the field itself has not, by the numbers of particles: two instead of
-/// one where it touches the isovalue and does not cross it.
-bool hasMoreSheets(const Distribution& lifted, const Distribution& own)
-{
-  // Two sheets have twice as many; particles that holes lack are some tenths.
-  constexpr double more = 1.8;
-  return static_cast<double>(lifted.particles.size()) >
-    more * static_cast<double>(own.particles.size());
-}
-
-/// Whether a mesh has holes, or particles without a triangle.
-bool isOpen(const ParticleMesh& mesh)
-{
-  return mesh.openLoops > 0 || mesh.unusedParticles > 0;
-}
-
-/// How bad a mesh is: what it lacks, and triangles that are turned away.
-std::int64_t faultsOf(const ParticleMesh& mesh)
-{
-  // Turned triangles that are as bad as a hole; chosen by experiment. Larger: sheets that nearly cross come back through
-  // each other; smaller: holes stay for the sake of few slivers.
-  constexpr std::int64_t turnedPerHole = 10;
-  return turnedPerHole * lackOf(mesh) + mesh.turnedTriangles;
-}
-
-/// Whether a mesh of a lifted surface is better than the surface's own, and of all of it.
-bool isInPlaceOf(const IsovalueParticles& own, const IsovalueParticles& lifted)
-{
-  // Of the triangles, turned ones that look like noise rather than like a few slivers.
-  constexpr std::int64_t onePercent = 100;
-  const auto triangles =
-    static_cast<std::int64_t>(lifted.mesh.nodes.size()) / lifted.mesh.nodesPerCell;
-  return faultsOf(lifted.mesh) < faultsOf(own.mesh) &&
-    lifted.mesh.turnedTriangles <= std::max(own.mesh.turnedTriangles, triangles / onePercent) &&
-    !hasMoreSheets(lifted.distribution, own.distribution) &&
-    isCoveredBy(
-      own.distribution.particles, own.mesh.nodes, lifted.distribution.particles, lifted.mesh.nodes);
-}
-
-/// What was found of singular places is said of the surface itself, not of the lifted one.
-void keepFindings(const DistributionReport& own, DistributionReport& lifted)
-{
-  lifted.boxesUndecided = own.boxesUndecided;
-  lifted.undecidedCells = own.undecidedCells;
-  lifted.singularPoints = own.singularPoints;
-}
-
-} // namespace
 
 SurfaceWorker::SurfaceWorker(const ElementMesh& mesh, const RankBlocks& blocks,
   const RunProperties& properties, const RunScale& scale, const RunCaller& caller,
@@ -105,12 +51,14 @@ void SurfaceWorker::distribute(
   }
   if (!distribution.report.aborted)
   {
-    this->addMesh(surface, surface, parameters, work.part(distributed, 1.0), some);
-    const bool isMesh = this->Properties.outputType != OutputType::Particles;
-    if (isMesh && lackOf(some.mesh) > 0 && !this->Properties.isClassic &&
-      parameters.polygon.isEverything())
+    const bool isCut = !parameters.polygon.isEverything();
+    const Work second = work.part(distributed, 1.0);
+    addMesh(surface, surface, this->Properties.outputType, this->Properties.order, isCut, some,
+      second.monitor, second.parallelFor);
+    if (!this->Properties.isClassic && !isCut)
     {
-      this->meshLifted(surface, parameters, work.part(1.0, 1.0), some);
+      const Work last = work.part(1.0, 1.0);
+      MeshRepair(surface, parameters, this->Properties, last).run(some);
     }
   }
   this->review(some.isovalue, fieldIsovalue, distribution, work.part(1.0, 1.0));
@@ -118,86 +66,6 @@ void SurfaceWorker::distribute(
   {
     this->Caller.tell(reviewMesh(this->Blocks, this->Mesh, some, this->Scale.unit));
   }
-}
-
-/// Joins the particles to the mesh that is asked for.
-/// \param own see hop::addMesh()
-/// \return whether all particles are on the surface
-bool SurfaceWorker::addMesh(const Isosurface& surface, const Isosurface& own,
-  const DistributionParameters& parameters, const Work& work, IsovalueParticles& some) const
-{
-  return hop::addMesh(surface, own, this->Properties.outputType, this->Properties.order,
-    !parameters.polygon.isEverything(), some, work.monitor, work.parallelFor);
-}
-
-/// Distributes and joins particles anew on a lifted surface: where nodes have the isovalue, or nearly so, by little, and by
-/// more if holes are left; and if they are left still, all of the surface at values beside the isovalue.
-/// \param some whose mesh lacks something; replaced where a new one lacks less and is of the same surface
-void SurfaceWorker::meshLifted(const Isosurface& surface, const DistributionParameters& parameters,
-  const Work& work, IsovalueParticles& some) const
-{
-  // Chosen by experiment, see liftedMesh(). In spacings of a fiftieth of an element particles do not find back from the
-  // larger height; in spacings of an element the smaller one leaves holes.
-  constexpr double heights[] = { 1e-3, 5e-3 };
-  // The same for all of the surface, the smaller ones first. Larger: parts of the surface are lost, and triangles turn
-  // over as particles are put back; smaller: sheets are nearer to each other than particles can tell apart.
-  constexpr double beside[] = { 1e-4, -1e-4, 1e-3, -1e-3 };
-  // Where the field jumps by more than rounding, meshes lack something for other reasons.
-  constexpr double rounding = 1e-8;
-  const Buffer<Particle>& particles = some.distribution.particles;
-  if (std::any_of(particles.begin(), particles.end(),
-        [](const Particle& particle) { return std::abs(particle.jump) > rounding; }))
-  {
-    return;
-  }
-  const bool wasOpen = isOpen(some.mesh);
-  bool isBetter = true;
-  for (std::size_t i = 0; i < std::size(heights) && isBetter && (i == 0 || isOpen(some.mesh)); ++i)
-  {
-    isBetter = this->meshBesideNodes(surface, heights[i], parameters, work, some);
-  }
-  Isosurface lifted = surface;
-  const auto isLacking = [&some] { return isOpen(some.mesh) || some.mesh.turnedTriangles > 0; };
-  for (std::size_t i = 0; i < std::size(beside) && wasOpen && isLacking(); ++i)
-  {
-    lifted.isovalue = surface.isovalue + beside[i];
-    this->meshAnew(surface, lifted, parameters, work, some);
-  }
-}
-
-/// The same by one height where nodes have the isovalue.
-/// \return whether the mesh was replaced
-bool SurfaceWorker::meshBesideNodes(const Isosurface& surface, double height,
-  const DistributionParameters& parameters, const Work& work, IsovalueParticles& some) const
-{
-  const std::optional<ElementMesh> mesh = liftedMesh(this->Mesh, surface.isovalue,
-    isOpen(some.mesh) ? LiftedValues::Near : LiftedValues::Isovalue, height);
-  if (!mesh)
-  {
-    return false;
-  }
-  Isosurface lifted = surface;
-  lifted.mesh = &*mesh;
-  return this->meshAnew(surface, lifted, parameters, work, some);
-}
-
-/// The same on one lifted surface.
-/// \return whether the mesh was replaced
-bool SurfaceWorker::meshAnew(const Isosurface& surface, const Isosurface& lifted,
-  const DistributionParameters& parameters, const Work& work, IsovalueParticles& some) const
-{
-  IsovalueParticles other;
-  other.isovalue = some.isovalue;
-  other.distribution = distributeFast(lifted, parameters, work.monitor, work.parallelFor);
-  const bool isBetter = !other.distribution.report.aborted &&
-    !other.distribution.particles.empty() &&
-    this->addMesh(surface, lifted, parameters, work, other) && isInPlaceOf(some, other);
-  if (isBetter)
-  {
-    keepFindings(some.distribution.report, other.distribution.report);
-    some = std::move(other);
-  }
-  return isBetter;
 }
 
 /// The sizing function with a spacing on flat surfaces, in units of the run. Nothing closer than the tolerance is told

@@ -41,14 +41,6 @@ public:
     const Work& work) const;
 
 private:
-  bool addMesh(const Isosurface& surface, const Isosurface& own,
-    const DistributionParameters& parameters, const Work& work, IsovalueParticles& some) const;
-  void meshLifted(const Isosurface& surface, const DistributionParameters& parameters,
-    const Work& work, IsovalueParticles& some) const;
-  bool meshBesideNodes(const Isosurface& surface, double height,
-    const DistributionParameters& parameters, const Work& work, IsovalueParticles& some) const;
-  bool meshAnew(const Isosurface& surface, const Isosurface& lifted,
-    const DistributionParameters& parameters, const Work& work, IsovalueParticles& some) const;
   SizingFunction sizingAt(double spacing) const;
   RunOrigin makeOrigin(double isovalue) const;
   PlanePolygon polygonOf(double isovalue) const;

@@ -190,6 +190,22 @@ def test_a_run_that_is_stopped_ends_while_cells_are_derived():
     assert ended < 0.5 * (time.monotonic() - begin)
 
 
+def test_one_cell_that_takes_long_can_be_stopped():
+    """The parts of a noisy cell take hundreds of times as long as a smooth cell."""
+    grid = cells.straight_grid("LAGRANGE_HEXAHEDRON", order=5, blocks=1)
+    noise = np.random.default_rng(3).normal(size=(grid.GetNumberOfPoints(), 3))
+    support.add_point_array(grid, "u", noise)
+    surface, _ = support.make_filter(grid, **{**Q, "Quantity": "Lambda 2", "isovalues": -0.5, "Spacing": 10.0})
+    algorithm = surface.GetClientSideObject()
+    heard = []
+    algorithm.AddObserver("ProgressEvent", lambda *_: heard.append((algorithm.GetProgress(), time.monotonic())))
+    support.output_of(surface)
+    times = [at for progress, at in heard if progress < 0.03]
+    times += [next(at for progress, at in heard if progress >= 0.03)]
+    assert times[-1] - times[0] > 0.2, "cells are derived for a time that can be measured"
+    assert np.diff(times).max() < 0.4 * (times[-1] - times[0])
+
+
 @pytest.mark.parametrize("output_type", ["Particles", "Triangles", "Curved Triangles"])
 @pytest.mark.parametrize("quantity, isovalue", [("Q Criterion", 0.3), ("Lambda 2", -0.3)])
 def test_derivatives_are_passed_in_every_type_of_output(whole, halves, quantity, isovalue, output_type):

@@ -8,7 +8,7 @@ namespace
 {
 
 /// Whether two lines in a plane cross or touch, to what single precision leaves.
-bool meet(const std::array<glm::dvec3, 2>& a, const std::array<glm::dvec3, 2>& b)
+bool linesMeet(const std::array<glm::dvec3, 2>& a, const std::array<glm::dvec3, 2>& b)
 {
   constexpr double rounding = 1e-6; // of places in reference space, which are of order one
   const auto lieApart =
@@ -60,7 +60,9 @@ BoundaryChords::Chord::Chord(const BoundaryPoint& from, const BoundaryPoint& to)
   this->places = { first.u.xyz, (last.element == first.element ? last : first).u.xyz };
 }
 
-bool BoundaryChords::pass(const BoundaryPoint& point) const
+/// Whether a chord passes a point of which test(chord, its length) is true.
+template <class Test>
+bool BoundaryChords::anyPasses(const BoundaryPoint& point, const Test& test) const
 {
   const auto found = this->Chords.find(faceSlot(point.at.location.element, point.face));
   const glm::dvec3& x = point.at.point.map.position.xyz;
@@ -69,9 +71,27 @@ bool BoundaryChords::pass(const BoundaryPoint& point) const
       [&](const Chord& chord)
       {
         const auto& [a, b] = chord.positions;
-        return distanceToSegment(x, a, b) <= PassShare * glm::distance(a, b) &&
-          dot(chord.gradient, point.at.point.gradient) > 0.0;
+        const double length = glm::distance(a, b);
+        return distanceToSegment(x, a, b) <= PassShare * length &&
+          dot(chord.gradient, point.at.point.gradient) > 0.0 && test(chord, length);
       });
+}
+
+bool BoundaryChords::pass(const BoundaryPoint& point) const
+{
+  return this->anyPasses(point, [](const Chord&, double) { return true; });
+}
+
+bool BoundaryChords::meet(const Tip& tip) const
+{
+  return this->anyPasses(tip.point,
+    [&](const Chord& chord, double length)
+    {
+      const auto [first, last] = std::minmax(chord.way[0], chord.way[1]);
+      const double left = std::max(tip.way - last, first - tip.way);
+      const bool isLeft = chord.trace == tip.trace && left <= LeftBehind * PassShare * length;
+      return !isLeft;
+    });
 }
 
 bool BoundaryChords::cross(int element, int face, const std::array<glm::dvec3, 2>& ends) const
@@ -79,7 +99,7 @@ bool BoundaryChords::cross(int element, int face, const std::array<glm::dvec3, 2
   const auto found = this->Chords.find(faceSlot(element, face));
   return found != this->Chords.end() &&
     std::any_of(found->second.begin(), found->second.end(),
-      [&ends](const Chord& chord) { return meet(chord.places, ends); });
+      [&ends](const Chord& chord) { return linesMeet(chord.places, ends); });
 }
 
 } // namespace hop

@@ -30,6 +30,18 @@ public:
     std::array<glm::dvec3, 2> places;
     /// Gradient of the field at the first end: on two sheets close to each other the gradients are opposite.
     WorldVector gradient;
+    /// Of its ends along the trace, world units: from the start, negative against the curve's direction.
+    std::array<double, 2> way{};
+    /// Number of the trace.
+    int trace = -1;
+  };
+
+  /// Where a trace is.
+  struct Tip
+  {
+    const BoundaryPoint& point;
+    double way = 0.0;
+    int trace = -1;
   };
 
   void add(const Chord& chord) { this->Chords[chord.face].push_back(chord); }
@@ -37,10 +49,21 @@ public:
   /// Whether a chord of the same sheet on the same face passes a point, to a fifth of the chord's length.
   bool pass(const BoundaryPoint& point) const;
 
+  /// Whether a trace meets a chord of the same sheet on the same face. It does not meet what it has just left: where chords
+  /// become much shorter at a tip of the curve, they are all near the last long one.
+  bool meet(const Tip& tip) const;
+
   /// Whether a chord on a face crosses the line between two places on that face.
   bool cross(int element, int face, const std::array<glm::dvec3, 2>& ends) const;
 
 private:
+  /// How far a trace leaves a chord behind before it may meet it, in units of PassShare of its length: up to a quarter of
+  /// a circle away the straight distance is nine tenths of the way.
+  static constexpr double LeftBehind = 1.2;
+
+  template <class Test>
+  bool anyPasses(const BoundaryPoint& point, const Test& test) const;
+
   /// By the slots of the faces.
   std::unordered_map<std::size_t, std::vector<Chord>> Chords;
 };

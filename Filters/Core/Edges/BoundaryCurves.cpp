@@ -219,6 +219,10 @@ BoundaryCurves findBoundaryCurves(const Isosurface& surface, FaceJumps& jumps,
       BoundaryCurves curves =
         BoundaryParticles(cut, jumps, proxy, sizing, places).make(thinned, parallelFor);
       curves.evaluations += evaluations + tracing.evaluations();
+      if (endsAtFaces)
+      {
+        curves.pieces = SurfacePieces(*surface.mesh, jumps.jumpTolerances);
+      }
       return curves;
     }
     evaluations += tracing.evaluations();

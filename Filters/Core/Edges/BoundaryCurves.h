@@ -67,6 +67,8 @@ struct BoundaryCurves
   Buffer<BoundaryParticle> thinned;
   /// By the numbers of the particles; see CurveSegments.h, too.
   SurfaceEdges edges;
+  /// For meshes of a discontinuous field; else one.
+  SurfacePieces pieces;
   std::int64_t evaluations = 0;
 };
 

@@ -304,6 +304,31 @@ std::optional<BoundaryPoint> BoundaryTracer::walkAroundEdge(
   return std::nullopt;
 }
 
+/// Moves a point along an edge of the mesh to where the surface of the point's own element meets the edge: faces that the
+/// surface passes on the way around the edge may have small jumps. Without it no chord would begin on the surface. Where it
+/// does not meet the edge within a spacing it ought to end at the face by which the walk has come.
+void BoundaryTracer::findOwnPlace(BoundaryPoint& point)
+{
+  const ElementMesh& mesh = *this->Surface.mesh;
+  const int element = point.at.location.element;
+  const double spacing = this->PassedJump / LargestJumpPerSpacing;
+  const int entry = otherFaceAt(mesh, point.at.location, point.face, OnFace);
+  if (entry < 0 || this->Surface.holds(point.at.point, spacing))
+  {
+    return;
+  }
+  if (const auto place = this->projectAlongEdge(point.at.location, point.face, entry, spacing))
+  {
+    point.at = *place;
+  }
+  else if (this->LooksForEnds && mesh.neighbor(element, entry).element >= 0)
+  {
+    const FaceNeighbor& neighbor = mesh.neighbor(element, entry);
+    this->OverlookedFaces.push_back(faceSlot(element, entry));
+    this->OverlookedFaces.push_back(faceSlot(neighbor.element, neighbor.face));
+  }
+}
+
 /// The vertex on an edge of the mesh that a boundary curve comes to.
 /// \param u a place near the vertex, on the edge between the curve's face and another one
 BoundaryTracer::Ahead BoundaryTracer::passEdge(
@@ -319,10 +344,14 @@ BoundaryTracer::Ahead BoundaryTracer::passEdge(
   {
     return { std::nullopt, true };
   }
-  const auto beyond = this->walkAroundEdge(*at, from.face, otherFace);
+  auto beyond = this->walkAroundEdge(*at, from.face, otherFace);
   if (!beyond)
   {
     return {};
+  }
+  if (this->HasEnds)
+  {
+    this->findOwnPlace(*beyond);
   }
   BoundaryVertex vertex{ { *at, from.face }, *beyond, false };
   vertex.corner = isCutAt(this->Surface, vertex.arriving) ||
@@ -512,13 +541,21 @@ bool BoundaryTracer::replacesStart(const BoundaryVertex& last, const BoundaryVer
 
 /// Remembers what is traced. A chord may lead past a corner of an element to another one, which has the rest of it. (Two
 /// elements whose surfaces jump have curves of their own.)
-void BoundaryTracer::addChord(const BoundaryPoint& from, const BoundaryPoint& to)
+/// \param way of both ends, see BoundaryChords::Chord
+void BoundaryTracer::addChord(
+  const BoundaryPoint& from, const BoundaryPoint& to, const std::array<double, 2>& way)
 {
-  this->Chords.add({ from, to });
+  BoundaryChords::Chord chord(from, to);
+  chord.way = way;
+  chord.trace = this->Trace;
+  this->Chords.add(chord);
   const int there = to.at.location.element;
   if (there != from.at.location.element && this->Surface.mesh->neighbor(there, to.face).element < 0)
   {
-    this->Chords.add({ to, from });
+    BoundaryChords::Chord back(to, from);
+    back.way = { way[1], way[0] };
+    back.trace = this->Trace;
+    this->Chords.add(back);
   }
 }
 
@@ -531,11 +568,12 @@ bool BoundaryTracer::follow(const BoundaryPoint& start, double step, double dire
   BoundaryPoint here = start;
   std::optional<Passed> before;
   std::optional<std::array<BoundaryPoint, 2>> lastChord;
+  std::array<double, 2> lastWay{};
   const auto addLast = [&]()
   {
     if (lastChord)
     {
-      this->addChord((*lastChord)[0], (*lastChord)[1]);
+      this->addChord((*lastChord)[0], (*lastChord)[1], lastWay);
     }
   };
   double chord = step;
@@ -559,9 +597,13 @@ bool BoundaryTracer::follow(const BoundaryPoint& start, double step, double dire
     standstills = moved < ChordLengths::Standstill * step ? standstills + 1 : 0;
     isPossible = limits.admit(here.at.location, here.face, next->arriving.at.location);
     // The last chord ends where this one begins, and is added only now: it would be met at once.
-    const bool again = this->Chords.pass(next->leaving);
+    const double way = lastWay[1] + direction * moved;
+    // Elsewhere it changes curves by little: on deal.II's shell pictures of ranks depart from each other more.
+    const bool again = this->HasEnds ? this->Chords.meet({ next->leaving, way, this->Trace })
+                                     : this->Chords.pass(next->leaving);
     addLast();
     lastChord = { here, next->arriving };
+    lastWay = { lastWay[1], way };
     if (again)
     {
       addLast();
@@ -591,6 +633,7 @@ BoundaryTrace BoundaryTracer::trace(
 {
   BoundaryTrace result;
   this->PassedJump = ChordLengths::PassedJump * step;
+  ++this->Trace;
   // On an edge of an element the boundary curve may have a corner: how it comes there is not known yet.
   const bool isOnEdge =
     otherFaceAt(*this->Surface.mesh, start.at.location, start.face, OnFace) >= 0;

@@ -143,7 +143,8 @@ private:
   bool replacesStart(const BoundaryVertex& last, const BoundaryVertex& start) const;
   bool follow(const BoundaryPoint& start, double step, double direction,
     std::vector<BoundaryVertex>& vertices, const ParallelFor& parallelFor);
-  void addChord(const BoundaryPoint& from, const BoundaryPoint& to);
+  void addChord(
+    const BoundaryPoint& from, const BoundaryPoint& to, const std::array<double, 2>& way);
   std::optional<BoundaryVertex> advanceAtMost(double& chord, double step, const Heading& heading);
   Ahead advance(const Heading& heading, double step);
   ReferenceVector predict(const Heading& heading, double step) const;
@@ -154,6 +155,7 @@ private:
   Ahead passEdge(const BoundaryPoint& from, const ReferencePoint& u, int otherFace, double step);
   std::optional<Evaluated> projectAlongEdge(
     const Location& start, int faceA, int faceB, double maximumTravel);
+  void findOwnPlace(BoundaryPoint& point);
   std::optional<BoundaryPoint> walkAroundEdge(const Evaluated& at, int boundaryFace, int face);
   std::optional<BoundaryPoint> crossAtEdge(EdgeWalk& walk);
   void lookBehind(const Location& here, int face, const Location& there);
@@ -168,6 +170,8 @@ private:
   /// Passes boundary faces where the surface goes on, and so tells where it ends.
   SurfaceWalker Passer;
   BoundaryChords Chords;
+  /// Number of the trace at hand.
+  int Trace = 0;
   bool HasCuts = false;
   bool LooksForCreases = false;
   bool HasEnds = false;

@@ -85,8 +85,10 @@ std::vector<std::vector<CurveTracing::Hint>> CurveTracing::findHints(
         mesh, box, [&](int face) { return this->Surface.mayEnd(box.middle.element, face); },
         [&](const FaceCrossing& crossing)
         {
-          if (this->Surface.isCutAt(box.middle.element, crossing.face) ||
-            !this->Samples.meet(crossing, sample, Tracing::MeetingJump))
+          // Along all of a face the surface ends where the field does not jump there, too.
+          const bool endsAlongFace =
+            this->Surface.jumpTolerance(box.middle.element, crossing.face) <= 0.0;
+          if (endsAlongFace || !this->Samples.meet(crossing, sample, Tracing::MeetingJump))
           {
             hints[b].push_back(
               { crossing, sample.found ? sample.patch.spacing : this->Sizing.spacing });

@@ -362,6 +362,23 @@ FaceJumps findFaceJumps(
   return JumpFinder(surface, proxy).run(parallelFor);
 }
 
+void endAround(const ElementMesh& mesh, const std::vector<int>& elements, FaceJumps& jumps)
+{
+  for (const int element : elements)
+  {
+    const auto faces = static_cast<int>(facts(mesh.elements[element].domain).faces.size());
+    for (int face = 0; face < faces; ++face)
+    {
+      const FaceNeighbor& behind = mesh.neighbor(element, face);
+      if (behind.element >= 0)
+      {
+        jumps.jumpTolerances[faceSlot(element, face)] = 0.0f;
+        jumps.jumpTolerances[faceSlot(behind.element, behind.face)] = 0.0f;
+      }
+    }
+  }
+}
+
 FacePassages countFacePassages(const ElementMesh& mesh, const SurfaceProxy& proxy,
   const FaceJumps& jumps, const ParallelFor& parallelFor)
 {

@@ -65,6 +65,7 @@ void FastSystem::finish()
   };
   const SurfaceEdges& edges = this->Curves.edges;
   this->Result.edges = { addAll(edges.segments), addAll(edges.directed), addAll(edges.coincident) };
+  this->Result.pieces = std::move(this->Curves.pieces);
   for (const BoundaryParticle& boundary : this->Curves.particles)
   {
     particles.push_back(boundary.particle);

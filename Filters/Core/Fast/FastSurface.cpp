@@ -188,6 +188,7 @@ void FastSystem::prepareSurface()
       findCreaseSpacings(this->Surface, *this->Proxy, this->Jumps, this->Parallel, cost),
       this->Parallel);
   }
+  this->Proxy->limitSpacings(this->Parameters.spacingLimits, this->Parallel);
   this->Work.ask();
   this->traceBoundaryCurves();
   this->Evaluations += cost + this->Curves.evaluations;
@@ -198,6 +199,7 @@ void FastSystem::findJumps()
 {
   this->Surface.jumpTolerances = nullptr;
   this->Jumps = findFaceJumps(this->Surface, *this->Proxy, this->Parallel);
+  endAround(this->Mesh, this->Parameters.endedElements, this->Jumps);
   this->Evaluations += this->Jumps.evaluations;
 }
 

@@ -71,8 +71,9 @@ bool Finish::finish(int i, const Location& place, const Jet& jet)
   {
     return false;
   }
-  const double spacing =
-    this->Sizing.angularDensity == 0.0 ? this->Sizing.spacing : this->Moving.patches()[i].spacing;
+  const bool isSame =
+    this->Sizing.angularDensity == 0.0 && this->Moving.proxy().spacingPlaces() == 0;
+  const double spacing = isSame ? this->Sizing.spacing : this->Moving.patches()[i].spacing;
   this->Result.particles[i] =
     particleAt(place, point, curvature(point.gradient, worldHessian(jet, point)), spacing);
   offerFaces(surface, this->Jumps, jet, point, this->Result.particles[i]);

@@ -82,7 +82,7 @@ ConstrainedEdges::ConstrainedEdges(const Distribution& distribution)
   }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  closeChains(distribution.particles, edges);
+  closeChains(distribution, edges);
   splitAtParticles(distribution, edges);
   this->set(edges, distribution.particles.size());
 }

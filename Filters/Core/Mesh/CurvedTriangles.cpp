@@ -292,7 +292,9 @@ void Bender::listNodes(std::size_t triangle, int* nodes) const
 
 CurvedTriangles Bender::bend()
 {
+  askCaller(this->Parallel);
   this->markEnds();
+  askCaller(this->Parallel);
   this->Particles.resize(this->FirstFaceNode + this->Triangles.size() * this->nodesInFace());
   Particle* const edgeNodes = this->Particles.data() + this->FirstEdgeNode;
   this->forPieces(this->Found.all.size(),

@@ -46,16 +46,17 @@ struct Closure
 class ChainCloser
 {
 public:
-  ChainCloser(const Buffer<Particle>& particles, std::vector<Edge>& edges)
-    : Particles(particles)
+  ChainCloser(const Distribution& distribution, std::vector<Edge>& edges)
+    : Particles(distribution.particles)
+    , Pieces(distribution.pieces)
     , Edges(edges)
-    , Next(edges, EdgeLinks::By::Beginning, particles.size())
-    , Previous(edges, EdgeLinks::By::End, particles.size())
-    , Surplus(particles.size())
+    , Next(edges, EdgeLinks::By::Beginning, Particles.size())
+    , Previous(edges, EdgeLinks::By::End, Particles.size())
+    , Surplus(Particles.size())
   {
     const auto countOf = [&](const EdgeLinks& links, std::size_t p)
     { return static_cast<int>(links.at(static_cast<int>(p)).size()); };
-    for (std::size_t p = 0; p < particles.size(); ++p)
+    for (std::size_t p = 0; p < this->Surplus.size(); ++p)
     {
       this->Surplus[p] = countOf(this->Previous, p) - countOf(this->Next, p);
     }
@@ -147,6 +148,7 @@ private:
     const double h = std::min(here.spacing, there.spacing);
     const double distance = length(there.position - here.position) / h;
     if (isFromEnd == (this->Surplus[particle] > 0) || distance > ChainEnds::Reach ||
+      !this->Pieces.areSame(here.location, there.location) ||
       dot(here.normal, there.normal) < ChainEnds::Cosine)
     {
       return;
@@ -177,6 +179,7 @@ private:
   }
 
   const Buffer<Particle>& Particles;
+  const SurfacePieces& Pieces;
   std::vector<Edge>& Edges;
   EdgeLinks Next, Previous;
   /// Edges that end at a particle less edges that begin there.
@@ -199,11 +202,11 @@ bool areClosed(const std::vector<Edge>& edges, std::size_t particleCount)
 
 } // namespace
 
-void closeChains(const Buffer<Particle>& particles, std::vector<Edge>& edges)
+void closeChains(const Distribution& distribution, std::vector<Edge>& edges)
 {
-  if (!areClosed(edges, particles.size()))
+  if (!areClosed(edges, distribution.particles.size()))
   {
-    ChainCloser(particles, edges).run();
+    ChainCloser(distribution, edges).run();
     std::sort(edges.begin(), edges.end());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   }

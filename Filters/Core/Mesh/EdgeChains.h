@@ -16,6 +16,6 @@ namespace hop
 /// opposite direction: a slit without width. A chain without any other nearby is followed back to its own beginning.
 /// Derivation: Documentation/algorithm.md, section Mesh.
 /// \param edges from particle to particle with the surface to the left, sorted, each once; so on return, too
-void closeChains(const Buffer<Particle>& particles, std::vector<std::array<int, 2>>& edges);
+void closeChains(const Distribution& distribution, std::vector<std::array<int, 2>>& edges);
 
 } // namespace hop

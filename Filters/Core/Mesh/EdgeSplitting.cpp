@@ -1,11 +1,13 @@
 #include "Mesh/EdgeSplitting.h"
 
+#include "Edges/BoundaryChords.h"
 #include "Mesh/TangentPlane.h"
 #include "Support/SpacedPoints.h"
 #include "Support/SpacingGrid.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 
@@ -46,6 +48,7 @@ class EdgeSplitter
 public:
   EdgeSplitter(const Distribution& distribution, std::vector<Edge>& edges)
     : Particles(distribution.particles)
+    , Pieces(distribution.pieces)
     , Edges(edges)
     , IsOnEdge(distribution.particles.size(), 0)
     , IsDouble(distribution.particles.size(), 0)
@@ -125,7 +128,8 @@ private:
     const Particle& here = this->Particles[this->Candidates[candidate]];
     const Particle& first = this->Particles[edge[0]];
     const Particle& last = this->Particles[edge[1]];
-    if (std::min(dot(here.normal, first.normal), dot(here.normal, last.normal)) < OnEdge::Cosine)
+    if (std::min(dot(here.normal, first.normal), dot(here.normal, last.normal)) < OnEdge::Cosine ||
+      !this->Pieces.areSame(here.location, first.location))
     {
       return;
     }
@@ -173,6 +177,7 @@ private:
   }
 
   const Buffer<Particle>& Particles;
+  const SurfacePieces& Pieces;
   std::vector<Edge>& Edges;
   /// By particle: whether it is on an edge, and whether there is another one in its place.
   std::vector<char> IsOnEdge, IsDouble;
@@ -181,6 +186,38 @@ private:
   std::vector<Place> Places;
 };
 
+/// Whether two other edges lead the same way over a particle that is on the edge.
+bool isShortcut(const Buffer<Particle>& particles, const std::vector<Edge>& edges, const Edge& edge)
+{
+  const auto has = [&edges](int from, int to) {
+    return std::binary_search(edges.begin(), edges.end(), Edge{ from, to });
+  };
+  const auto [from, to] = edge;
+  const glm::dvec3& start = particles[from].position.xyz;
+  const glm::dvec3& end = particles[to].position.xyz;
+  for (auto first = std::lower_bound(edges.begin(), edges.end(), Edge{ from, 0 });
+       first != edges.end() && (*first)[0] == from; ++first)
+  {
+    const Particle& over = particles[(*first)[1]];
+    if ((*first)[1] != to && has((*first)[1], to) && !has(to, from) &&
+      distanceToSegment(over.position.xyz, start, end) <= OnEdge::Near * over.spacing)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Drops such edges: where a strip is narrower than its particles can tell, the other side's curve has lost some of its
+/// own, and leads over them.
+void dropShortcuts(const Buffer<Particle>& particles, std::vector<Edge>& edges)
+{
+  std::vector<Edge> kept;
+  std::copy_if(edges.begin(), edges.end(), std::back_inserter(kept),
+    [&](const Edge& edge) { return !isShortcut(particles, edges, edge); });
+  edges = std::move(kept);
+}
+
 } // namespace
 
 void splitAtParticles(const Distribution& distribution, std::vector<Edge>& edges)
@@ -188,6 +225,7 @@ void splitAtParticles(const Distribution& distribution, std::vector<Edge>& edges
   if (!edges.empty())
   {
     EdgeSplitter(distribution, edges).run();
+    dropShortcuts(distribution.particles, edges);
   }
 }
 

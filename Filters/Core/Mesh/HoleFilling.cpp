@@ -152,8 +152,8 @@ private:
       const OpenLoop& loop = this->Loops[n];
       if (loop.isClosed && loop.edgeCount() <= Hole::MostEdges)
       {
-        const bool isHole =
-          loop.particles.size() >= 3 && areaInside(this->Particles, loop.particles) > 0.0;
+        const bool isHole = loop.particles.size() >= 3 &&
+          (areaInside(this->Particles, loop.particles) > 0.0 || this->isOnBorder(loop));
         (isHole ? this->Holes : this->Islands).push_back(n);
         for (const int particle : isHole ? loop.particles : std::vector<int>())
         {
@@ -163,7 +163,22 @@ private:
     }
   }
 
-  /// Whether a loop runs around a particle once, counterclockwise, in the particle's tangent plane.
+  /// Whether all edges of a loop have the surface to their left: it encloses a piece of surface, be that without area.
+  bool isOnBorder(const OpenLoop& loop) const
+  {
+    for (std::size_t n = 0; n < loop.edgeCount(); ++n)
+    {
+      const int next = loop.particles[(n + 1) % loop.particles.size()];
+      if (!this->Edges.has(loop.particles[n], next) || this->Edges.has(next, loop.particles[n]))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// Whether a loop runs around a particle once, counterclockwise, in the particle's tangent plane. It does not run around
+  /// what is in the place of its own corners, as the other side of a crease.
   bool surrounds(const std::vector<int>& loop, int particle) const
   {
     const Particle& middle = this->Particles[particle];
@@ -172,7 +187,7 @@ private:
     glm::dvec2 before = plane.flat(this->at(loop.back()));
     for (const int corner : loop)
     {
-      if (corner == particle ||
+      if (this->at(corner) == this->at(particle) ||
         glm::dot(this->normalOf(corner), middle.normal.xyz) <= Hole::OtherSheet)
       {
         return false;

@@ -1,5 +1,6 @@
 #include "Mesh/LiftedField.h"
 
+#include "Support/KeepMarked.h"
 #include "Support/PointBins.h"
 #include "Surface/ActiveFaces.h"
 #include "Surface/FaceLocator.h"
@@ -53,6 +54,23 @@ double flatSpacing(const Buffer<Particle>& particles)
     most = std::max(most, particle.spacing);
   }
   return most;
+}
+
+/// The places of the corners of a mesh, each once.
+std::vector<glm::dvec3> cornersOf(
+  const Buffer<Particle>& particles, const std::vector<int>& corners)
+{
+  std::vector<char> isCorner(particles.size(), 0);
+  for (const int corner : corners)
+  {
+    isCorner[corner] = 1;
+  }
+  std::vector<glm::dvec3> places;
+  for (const int corner : markedIndices(isCorner, particles.size()))
+  {
+    places.push_back(particles[corner].position.xyz);
+  }
+  return places;
 }
 
 /// The faces of its element that a place is on, two at most.
@@ -278,25 +296,23 @@ bool putBack(const Isosurface& surface, Distribution& distribution, const Parall
 }
 
 bool isCoveredBy(const Buffer<Particle>& particles, const std::vector<int>& corners,
-  const Buffer<Particle>& others, const std::vector<int>& otherCorners)
+  const Buffer<Particle>& others, const std::vector<int>& otherCorners,
+  const ParallelFor& parallelFor)
 {
-  std::vector<glm::dvec3> there;
-  there.reserve(otherCorners.size());
-  for (const int other : otherCorners)
-  {
-    there.push_back(others[other].position.xyz);
-  }
+  const std::vector<glm::dvec3> here = cornersOf(particles, corners);
+  const std::vector<glm::dvec3> there = cornersOf(others, otherCorners);
   const double reach = flatSpacing(particles);
-  const PointBins bins(there, reach);
-  return std::all_of(corners.begin(), corners.end(),
-    [&](int corner)
+  // What is in one bin is near to each other: of a dense mesh one point is looked at for each corner, as a rule.
+  const PointBins bins(there, reach / std::sqrt(3.0));
+  std::vector<char> isNear(here.size());
+  forAll(parallelFor, here.size(),
+    [&](std::size_t i)
     {
-      const glm::dvec3& here = particles[corner].position.xyz;
-      bool isNear = false;
-      bins.visit(here, reach,
-        [&](int other) { isNear = isNear || glm::distance(here, there[other]) <= reach; });
-      return isNear;
+      const auto isReached = [&](int other)
+      { return glm::distance(here[i], there[other]) <= reach; };
+      isNear[i] = bins.anyOf(here[i], 0.0, isReached) || bins.anyOf(here[i], reach, isReached);
     });
+  return std::find(isNear.begin(), isNear.end(), 0) == isNear.end();
 }
 
 } // namespace hop

@@ -38,6 +38,7 @@ bool putBack(const Isosurface& surface, Distribution& distribution, const Parall
 /// part of the surface is lost.
 /// \param corners,otherCorners indices of particles, repeated at will
 bool isCoveredBy(const Buffer<Particle>& particles, const std::vector<int>& corners,
-  const Buffer<Particle>& others, const std::vector<int>& otherCorners);
+  const Buffer<Particle>& others, const std::vector<int>& otherCorners,
+  const ParallelFor& parallelFor = {});
 
 } // namespace hop

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace hop
@@ -57,6 +58,26 @@ bool isAlongSlit(const OpenLoop& loop, const ConstrainedEdges& edges)
     }
   }
   return true;
+}
+
+/// Whether a closed loop follows each of its edges in both directions, as around strips without width.
+bool leadsThereAndBack(const Buffer<Particle>& particles, const OpenLoop& loop)
+{
+  const auto placeOf = [&](std::size_t n)
+  {
+    return *std::find_if(loop.particles.begin(), loop.particles.end(),
+      [&](int particle)
+      { return particles[particle].position.xyz == particles[loop.particles[n]].position.xyz; });
+  };
+  std::set<std::array<int, 2>> edges;
+  for (std::size_t n = 0; n < loop.edgeCount(); ++n)
+  {
+    edges.insert({ placeOf(n), placeOf((n + 1) % loop.particles.size()) });
+  }
+  return std::all_of(edges.begin(), edges.end(),
+    [&](const std::array<int, 2>& edge) {
+      return edges.count({ edge[1], edge[0] }) > 0;
+    });
 }
 
 /// Joins edges to loops.
@@ -196,6 +217,26 @@ void cutAtPinches(const Buffer<Particle>& particles, std::vector<OpenLoop>& loop
   }
 }
 
+bool isAlongEnds(const ElementMesh& mesh, const Distribution& distribution, const OpenLoop& loop,
+  const ConstrainedEdges& edges)
+{
+  const auto placeOf = [&](int particle) -> const Location&
+  { return distribution.particles[particle].location; };
+  bool areConstrained = true;
+  for (std::size_t n = 0; n < loop.edgeCount(); ++n)
+  {
+    const int a = loop.particles[n];
+    const int b = loop.particles[(n + 1) % loop.particles.size()];
+    const bool isConstrained = edges.joins(a, b);
+    if (!isConstrained && !distribution.pieces.areOnEnd(mesh, placeOf(a), placeOf(b)))
+    {
+      return false;
+    }
+    areConstrained = areConstrained && isConstrained;
+  }
+  return !areConstrained;
+}
+
 std::vector<OpenLoop> findOpenLoops(const Buffer<Particle>& particles,
   const ConstrainedEdges& edges, const TriangleFans& fans, const ParallelFor& parallelFor)
 {
@@ -209,7 +250,7 @@ std::vector<OpenLoop> findOpenLoops(const Buffer<Particle>& particles,
   }
   std::vector<OpenLoop> loops = walker.walk();
   const auto enclosesNothing = [&](const OpenLoop& loop)
-  { return loop.isClosed ? loop.edgeCount() < 3 : isAlongSlit(loop, edges); };
+  { return loop.isClosed ? leadsThereAndBack(particles, loop) : isAlongSlit(loop, edges); };
   loops.erase(std::remove_if(loops.begin(), loops.end(), enclosesNothing), loops.end());
   return loops;
 }

@@ -21,8 +21,8 @@ struct OpenLoop
 };
 
 /// All edges that lack a triangle though the surface does not end there, as loops, in the order of their first
-/// particles. Two edges between the same two particles enclose nothing, and are no loop; nor are rows of edges that count in
-/// both directions and have triangles on one side alone.
+/// particles. Edges there and back between the same places enclose nothing, and are no loop; nor are rows of edges that
+/// count in both directions and have triangles on one side alone.
 std::vector<OpenLoop> findOpenLoops(const Buffer<Particle>& particles,
   const ConstrainedEdges& edges, const TriangleFans& fans, const ParallelFor& parallelFor);
 
@@ -32,5 +32,11 @@ double areaInside(const Buffer<Particle>& particles, const std::vector<int>& loo
 
 /// Cuts closed loops that pass a particle twice in two, if both parts are holes: they only touch there.
 void cutAtPinches(const Buffer<Particle>& particles, std::vector<OpenLoop>& loops);
+
+/// Whether a loop runs along constrained edges and, between them, along faces at which the surface of a discontinuous
+/// field ends: the mesh ends there, and the surface does not go on inside of the loop. A part of a curve was lost there,
+/// or thinned out.
+bool isAlongEnds(const ElementMesh& mesh, const Distribution& distribution, const OpenLoop& loop,
+  const ConstrainedEdges& edges);
 
 } // namespace hop

@@ -236,7 +236,7 @@ class Areas
 public:
   Areas(
     const Distribution& distribution, const ConstrainedEdges& edges, const ParallelFor& parallelFor)
-    : Places(distribution.particles, parallelFor)
+    : Places(distribution, parallelFor)
     , Edges(edges)
     , Parallel(parallelFor)
     , Found(distribution.particles.size())

@@ -17,17 +17,20 @@ namespace
 {
 
 /// Particles without a triangle, those in one place taken for one.
-std::int64_t countUnused(const std::vector<int>& places, const TriangleFans& fans)
+std::vector<int> findUnused(const std::vector<int>& places, const TriangleFans& fans)
 {
   std::vector<char> isUsed(places.size(), 0);
   for (std::size_t p = 0; p < places.size(); ++p)
   {
     isUsed[places[p]] |= fans.hasTriangles(static_cast<int>(p)) ? 1 : 0;
   }
-  std::int64_t unused = 0;
-  for (std::size_t p = 0; p < places.size(); ++p)
+  std::vector<int> unused;
+  for (int p = 0; p < static_cast<int>(places.size()); ++p)
   {
-    unused += places[p] == static_cast<int>(p) && !isUsed[p];
+    if (places[p] == p && !isUsed[p])
+    {
+      unused.push_back(p);
+    }
   }
   return unused;
 }
@@ -41,12 +44,17 @@ std::int64_t countTurned(
 }
 
 /// What is open.
-void countOpen(const Distribution& distribution, const ConstrainedEdges& edges,
-  const TriangleFans& fans, SurfaceMesh& mesh, const ParallelFor& parallelFor)
+void countOpen(const Isosurface& surface, const Distribution& distribution,
+  const ConstrainedEdges& edges, const TriangleFans& fans, SurfaceMesh& mesh,
+  const ParallelFor& parallelFor)
 {
   const Buffer<Particle>& particles = distribution.particles;
   for (const OpenLoop& loop : findOpenLoops(particles, edges, fans, parallelFor))
   {
+    if (isAlongEnds(*surface.mesh, distribution, loop, edges))
+    {
+      continue;
+    }
     ++mesh.openLoops;
     double around = 0.0;
     for (std::size_t n = 0; n < loop.edgeCount(); ++n)
@@ -55,6 +63,7 @@ void countOpen(const Distribution& distribution, const ConstrainedEdges& edges,
       around += length(particles[next].position - particles[loop.particles[n]].position);
     }
     mesh.openLength += around;
+    mesh.atFaults.insert(mesh.atFaults.end(), loop.particles.begin(), loop.particles.end());
     if (mesh.onLongestLoop < 0 || around > mesh.longestLoop)
     {
       mesh.longestLoop = around;
@@ -65,12 +74,15 @@ void countOpen(const Distribution& distribution, const ConstrainedEdges& edges,
 
 } // namespace
 
-SurfaceMesh meshSurface(const Isosurface& surface, ConstrainedEdges edges,
-  Distribution& distribution, const Monitor& monitor, const ParallelFor& parallelFor)
+SurfaceMesh meshSurface(const Isosurface& whole, ConstrainedEdges edges, Distribution& distribution,
+  const Monitor& monitor, const ParallelFor& parallelFor)
 {
   Interruptible work(monitor, parallelFor);
   const ParallelFor parallel(std::ref(work));
-  const ParticleNeighbors neighbors(distribution.particles, parallel);
+  const std::vector<float> tolerances = distribution.pieces.jumpTolerances();
+  Isosurface surface = whole;
+  surface.jumpTolerances = tolerances.empty() ? whole.jumpTolerances : &tolerances;
+  const ParticleNeighbors neighbors(distribution, parallel);
   TriangleFans fans = agreedTriangles(neighbors, edges, parallel);
   SurfaceMesh mesh;
   // Holes that touched in a vertex become one, which may be filled.
@@ -89,8 +101,10 @@ SurfaceMesh meshSurface(const Isosurface& surface, ConstrainedEdges edges,
   const std::vector<int> places = firstInPlace(distribution.edges, distribution.particles.size());
   mesh.triangles = distribution.edges.coincident.empty() ? fans.triangles(parallel)
                                                          : keepManifold(places, fans, parallel);
-  countOpen(distribution, edges, fans, mesh, parallel);
-  mesh.unusedParticles = countUnused(places, fans);
+  countOpen(surface, distribution, edges, fans, mesh, parallel);
+  const std::vector<int> unused = findUnused(places, fans);
+  mesh.unusedParticles = static_cast<std::int64_t>(unused.size());
+  mesh.atFaults.insert(mesh.atFaults.end(), unused.begin(), unused.end());
   mesh.turnedTriangles = countTurned(distribution.particles, mesh.triangles);
   return mesh;
 }

@@ -26,6 +26,8 @@ struct SurfaceMesh
   int onLongestLoop = -1;
   /// Particles without a triangle.
   std::int64_t unusedParticles = 0;
+  /// The particles on open loops, and those without a triangle.
+  std::vector<int> atFaults;
   /// Triangles that are turned away from the normal of a corner.
   std::int64_t turnedTriangles = 0;
   /// Pairs of a particle and one that was added in its place, because boundary curves touch there.
@@ -39,8 +41,8 @@ struct SurfaceMesh
 /// \param edges of the distribution as it is before
 /// \param distribution may get particles where a hole is filled with new ones, and where boundary curves touch
 /// \throw Interrupted if the monitor asks for an early end
-SurfaceMesh meshSurface(const Isosurface& surface, ConstrainedEdges edges,
-  Distribution& distribution, const Monitor& monitor, const ParallelFor& parallelFor);
+SurfaceMesh meshSurface(const Isosurface& whole, ConstrainedEdges edges, Distribution& distribution,
+  const Monitor& monitor, const ParallelFor& parallelFor);
 
 /// Area of the surface around each particle, world units squared: its cell of the Voronoi diagram in its tangent plane,
 /// cut off at boundary curves and creases. Needs no mesh.

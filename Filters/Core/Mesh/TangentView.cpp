@@ -74,18 +74,21 @@ bool endOppositely(const Particle& a, const Particle& b)
 
 } // namespace
 
-ParticlePlaces::ParticlePlaces(const Buffer<Particle>& all, const ParallelFor& parallelFor)
-  : particles(all)
+ParticlePlaces::ParticlePlaces(const Distribution& distribution, const ParallelFor& parallelFor)
+  : particles(distribution.particles)
+  , pieces(distribution.pieces)
   , points(
-      all.size(), [&](std::size_t i) { return all[i].position.xyz; },
-      [&](std::size_t i) { return all[i].spacing; }, parallelFor)
-  , normals(all.size())
+      particles.size(), [this](std::size_t i) { return this->particles[i].position.xyz; },
+      [this](std::size_t i) { return this->particles[i].spacing; }, parallelFor)
+  , normals(particles.size())
 {
-  forAll(parallelFor, all.size(), [&](std::size_t i) { this->normals[i] = all[i].normal.xyz; });
+  forAll(parallelFor, this->normals.size(),
+    [&](std::size_t i) { this->normals[i] = this->particles[i].normal.xyz; });
 }
 
-ParticleNeighbors::ParticleNeighbors(const Buffer<Particle>& all, const ParallelFor& parallelFor)
-  : ParticlePlaces(all, parallelFor)
+ParticleNeighbors::ParticleNeighbors(
+  const Distribution& distribution, const ParallelFor& parallelFor)
+  : ParticlePlaces(distribution, parallelFor)
   , seen(points.positions, points.spacings, Reach, parallelFor)
 {
 }
@@ -108,7 +111,7 @@ bool TangentView::isOnSheet(int particle) const
   const glm::vec3& normal = this->Particles.normals[particle];
   const glm::dvec3 apart = this->Particles.points.positions[particle] - this->Plane.origin;
   const float cosine = glm::dot(normal, this->Normal);
-  return cosine > SameSheet::Cosine &&
+  return cosine > SameSheet::Cosine && this->Particles.areOnOnePiece(this->Middle, particle) &&
     std::abs(glm::dot(apart, glm::dvec3(normal + this->Normal))) * this->Plane.perSpacing <=
     2.0 * SameSheet::Thickness &&
     (cosine > SameSheet::Alike || this->turnsAsExpected(particle));

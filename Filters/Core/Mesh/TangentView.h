@@ -16,10 +16,18 @@ namespace hop
 /// Where particles are, without what else is known of them.
 struct ParticlePlaces
 {
-  /// \pre the particles outlive it
-  ParticlePlaces(const Buffer<Particle>& all, const ParallelFor& parallelFor);
+  /// \pre the distribution outlives it
+  ParticlePlaces(const Distribution& distribution, const ParallelFor& parallelFor);
+
+  /// Whether two particles are on one piece of the surface.
+  bool areOnOnePiece(int a, int b) const
+  {
+    return this->pieces.areOne() ||
+      this->pieces.areSame(this->particles[a].location, this->particles[b].location);
+  }
 
   const Buffer<Particle>& particles;
+  const SurfacePieces& pieces;
   SpacedPoints points;
   Buffer<glm::vec3> normals;
 };
@@ -34,8 +42,8 @@ struct ParticleNeighbors : ParticlePlaces
   /// No neighbour farther away is in an empty circle: its diameter.
   static constexpr double Reach = 2.0 * LargestRadius;
 
-  /// \pre the particles outlive it
-  ParticleNeighbors(const Buffer<Particle>& all, const ParallelFor& parallelFor);
+  /// \pre the distribution outlives it
+  ParticleNeighbors(const Distribution& distribution, const ParallelFor& parallelFor);
 
   /// The particles within reach of a particle.
   Span<int> of(int particle) const

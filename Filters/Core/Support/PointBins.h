@@ -25,6 +25,10 @@ public:
   template <class Visit>
   void visit(const glm::dvec3& position, double radius, const Visit& visit) const;
 
+  /// Whether holds(index) is true of one of these points; the others are not tested any more.
+  template <class Holds>
+  bool anyOf(const glm::dvec3& position, double radius, const Holds& holds) const;
+
 private:
   glm::i64vec3 binOf(const glm::dvec3& position) const;
   static std::uint64_t key(const glm::i64vec3& bin);
@@ -76,8 +80,8 @@ struct NeighborLists
 NeighborLists findNeighbors(const std::vector<glm::dvec3>& points, const std::vector<double>& radii,
   const ParallelFor& parallelFor);
 
-template <class Visit>
-void PointBins::visit(const glm::dvec3& position, double radius, const Visit& visit) const
+template <class Holds>
+bool PointBins::anyOf(const glm::dvec3& position, double radius, const Holds& holds) const
 {
   const glm::i64vec3 lower = this->binOf(position - radius);
   const glm::i64vec3 upper = this->binOf(position + radius);
@@ -91,11 +95,26 @@ void PointBins::visit(const glm::dvec3& position, double radius, const Visit& vi
         for (int i = bin == this->Bins.end() ? 0 : bin->second.first;
              bin != this->Bins.end() && i < bin->second.second; ++i)
         {
-          visit(this->Order[i]);
+          if (holds(this->Order[i]))
+          {
+            return true;
+          }
         }
       }
     }
   }
+  return false;
+}
+
+template <class Visit>
+void PointBins::visit(const glm::dvec3& position, double radius, const Visit& visit) const
+{
+  this->anyOf(position, radius,
+    [&](int index)
+    {
+      visit(index);
+      return false;
+    });
 }
 
 template <class Visit>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Elements/ElementMesh.h"
+#include "Support/GradationTree.h"
 #include "Surface/PlanePolygon.h"
 #include "Surface/SizingFunction.h"
 
@@ -56,6 +57,11 @@ struct DistributionParameters
   /// Whether particles stand on creases, too, on each side one in the same place: what meshes need. Fast only; not
   /// where these are more than the given number.
   bool onCreases = false;
+  /// Elements at all of whose faces the surface ends, as a discontinuous field's does elsewhere. Fast only, and for
+  /// meshes of discontinuous fields only.
+  std::vector<int> endedElements;
+  /// Places around which spacings are smaller than the sizing function's. Fast only.
+  std::vector<GradationTree::Place> spacingLimits;
   /// What is wanted of a surface that is a plane; without corners all of it. Fast only, without a given number.
   PlanePolygon polygon;
   /// Places of this mesh to start from: particles of the last run, on a surface nearby. Parts of the surface without

@@ -63,6 +63,8 @@ struct ParticleMesh : MeshNumbers
   /// The longest of the open loops: its length, and a particle on it; -1 if there is none. Known to the worker alone.
   double longestLoop = 0.0;
   int onLongestLoop = -1;
+  /// The particles on all of them, and those that no cell uses. Known to the worker alone.
+  std::vector<int> atFaults;
   /// nodesPerCell indices into the particles a cell, the corners first.
   std::vector<int> nodes;
   /// For each particle the first particle in the same place: itself, but for creases.

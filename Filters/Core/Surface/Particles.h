@@ -3,6 +3,7 @@
 #include "Support/Buffer.h"
 #include "Surface/Energy.h"
 #include "Surface/SurfaceEdges.h"
+#include "Surface/SurfacePieces.h"
 #include "Surface/SurfaceWalker.h"
 
 #include <array>
@@ -140,6 +141,8 @@ struct Distribution
   Buffer<Particle> particles;
   /// By the indices of the particles; Fast only.
   SurfaceEdges edges;
+  /// Of meshes of discontinuous fields; else one.
+  SurfacePieces pieces;
   DistributionReport report;
 };
 

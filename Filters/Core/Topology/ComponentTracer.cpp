@@ -7,20 +7,11 @@ namespace hop
 
 void ComponentTracer::prepare(const std::vector<int>& elements)
 {
-  std::vector<std::unique_ptr<ElementSurface>> surfaces(elements.size());
-  runParallel(this->Parallel, static_cast<std::ptrdiff_t>(elements.size()),
-    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-    {
-      std::optional<LeafTests> tests;
-      for (std::ptrdiff_t n = begin; n < end; ++n)
-      {
-        surfaces[n] = std::make_unique<ElementSurface>(
-          findElementSurface(this->Mesh, elements[n], this->Isovalue, tests));
-      }
-    });
+  std::vector<ElementSurface> surfaces =
+    findElementSurfaces(this->Mesh, elements, this->Isovalue, this->Parallel);
   for (std::size_t n = 0; n < elements.size(); ++n)
   {
-    this->Surfaces.emplace(elements[n], std::move(surfaces[n]));
+    this->Surfaces.emplace(elements[n], std::make_unique<ElementSurface>(std::move(surfaces[n])));
   }
 }
 
@@ -31,7 +22,7 @@ const ElementSurface& ComponentTracer::surfaceOf(int element)
   {
     askCaller(this->Parallel);
     surface = std::make_unique<ElementSurface>(
-      findElementSurface(this->Mesh, element, this->Isovalue, this->Tests));
+      findElementSurface(this->Mesh, element, this->Isovalue, this->Tests, this->Parallel));
   }
   return *surface;
 }

@@ -1,6 +1,7 @@
 #include "Topology/ElementLeaves.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace hop
 {
@@ -24,6 +25,10 @@ struct SplitLimits
   /// fewer components pass unresolved leaves, and elements that are singular along edges or in faces take longer: 2 ms
   /// each at a 32nd, 0.1 s without this limit (topology_benchmark vtkdata_pyramid_quadratic.vtu DistanceToCenter 0.866).
   static constexpr int SizeAtZero = LeafGrid::Size / 32;
+
+  /// The share of the boxes that findFewLeaves() looks at: a fiftieth of a second. Larger: the caller waits longer for one
+  /// element; smaller: more elements are begun twice.
+  static constexpr std::size_t ShareOfFew = 16;
 
   static std::size_t boxes(std::size_t coefficients, int partsOfCell)
   {
@@ -89,6 +94,100 @@ void forOctants(const Degrees& degrees, Box& box, const Use& use)
   }
 }
 
+/// What examining boxes has given, in their order.
+struct ExaminedBoxes
+{
+  ElementLeaves leaves;
+  std::vector<Box> undecided;
+};
+
+/// Moves the elements of a list to the end of another one.
+template <class Item>
+void moveToEnd(std::vector<Item>& from, std::vector<Item>& to)
+{
+  to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+}
+
+/// Splits an element's cube, one level of the octree after the other.
+class LeafSearch
+{
+public:
+  LeafSearch(const ElementCube& cube, const LeafTests& tests)
+    : Cube(cube)
+    , Tests(tests)
+  {
+    this->examine({ glm::ivec3(0), LeafGrid::Size, 0 }, cube.values, this->Found);
+    this->Examined = 1;
+  }
+
+  /// Whether no box is undecided, or all that are so are of the smallest size.
+  bool isDone() const
+  {
+    return this->Found.undecided.empty() || this->Found.undecided.front().leaf.size == 1;
+  }
+
+  /// How many boxes have been looked at.
+  std::size_t examined() const { return this->Examined; }
+
+  /// Splits all boxes that are undecided. Finds the same for any number of threads.
+  void splitAll(const ParallelFor& parallelFor)
+  {
+    std::vector<Box> level = std::move(this->Found.undecided);
+    this->Found.undecided.clear();
+    std::vector<ExaminedBoxes> parts(level.size()); // each where its first box is
+    runParallel(parallelFor, static_cast<std::ptrdiff_t>(level.size()),
+      [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+      {
+        for (std::ptrdiff_t n = begin; n < end; ++n)
+        {
+          forOctants(this->Cube.degrees, level[n],
+            [&](const Leaf& leaf, std::vector<double> values)
+            { this->examine(leaf, std::move(values), parts[begin]); });
+        }
+      });
+    for (ExaminedBoxes& part : parts)
+    {
+      moveToEnd(part.leaves.discs, this->Found.leaves.discs);
+      moveToEnd(part.leaves.unresolved, this->Found.leaves.unresolved);
+      moveToEnd(part.undecided, this->Found.undecided);
+    }
+    this->Examined += 8 * level.size();
+  }
+
+  /// What has been found; nothing is proven of boxes that are still undecided. To be called once.
+  ElementLeaves leaves()
+  {
+    for (const Box& box : this->Found.undecided)
+    {
+      this->Found.leaves.unresolved.push_back(box.leaf);
+    }
+    return std::move(this->Found.leaves);
+  }
+
+private:
+  void examine(Leaf leaf, std::vector<double> values, ExaminedBoxes& boxes) const
+  {
+    const LeafSurface surface = this->Tests.examine(values, this->Cube.slack, leaf.signs);
+    if (surface == LeafSurface::Disc)
+    {
+      boxes.leaves.discs.push_back(leaf);
+    }
+    else if (surface == LeafSurface::ZeroAtCorner && leaf.size <= SplitLimits::SizeAtZero)
+    {
+      boxes.leaves.unresolved.push_back(leaf);
+    }
+    else if (surface != LeafSurface::Empty)
+    {
+      boxes.undecided.push_back({ leaf, std::move(values) });
+    }
+  }
+
+  const ElementCube& Cube;
+  const LeafTests& Tests;
+  ExaminedBoxes Found;
+  std::size_t Examined = 0;
+};
+
 } // namespace
 
 glm::dvec3 LeafGrid::fromCube(const glm::dvec3& t)
@@ -114,46 +213,33 @@ glm::dvec3 LeafGrid::toCube(const glm::dvec3& place)
   return t;
 }
 
-ElementLeaves findLeaves(const ElementCube& cube, const LeafTests& tests, int partsOfCell)
+ElementLeaves findLeaves(
+  const ElementCube& cube, const LeafTests& tests, int partsOfCell, const ParallelFor& parallelFor)
 {
-  ElementLeaves leaves;
-  std::vector<Box> level;
-  std::size_t examined = 0;
   const std::size_t most = SplitLimits::boxes(cube.values.size(), partsOfCell);
-  const auto examine = [&](Leaf leaf, std::vector<double> values, std::vector<Box>& undecided)
+  LeafSearch search(cube, tests);
+  while (!search.isDone() && search.examined() < most)
   {
-    ++examined;
-    const LeafSurface surface = tests.examine(values, cube.slack, leaf.signs);
-    if (surface == LeafSurface::Disc)
-    {
-      leaves.discs.push_back(leaf);
-    }
-    else if (surface == LeafSurface::ZeroAtCorner && leaf.size <= SplitLimits::SizeAtZero)
-    {
-      leaves.unresolved.push_back(leaf);
-    }
-    else if (surface != LeafSurface::Empty)
-    {
-      undecided.push_back({ leaf, std::move(values) });
-    }
-  };
-  examine({ glm::ivec3(0), LeafGrid::Size, 0 }, cube.values, level);
-  while (!level.empty() && examined < most && level.front().leaf.size > 1)
-  {
-    std::vector<Box> next;
-    for (Box& box : level)
-    {
-      forOctants(cube.degrees, box,
-        [&](const Leaf& leaf, std::vector<double> values)
-        { examine(leaf, std::move(values), next); });
-    }
-    level = std::move(next);
+    search.splitAll(parallelFor);
   }
-  for (const Box& box : level)
+  return search.leaves();
+}
+
+std::optional<ElementLeaves> findFewLeaves(
+  const ElementCube& cube, const LeafTests& tests, int partsOfCell)
+{
+  const std::size_t most =
+    SplitLimits::boxes(cube.values.size(), partsOfCell) / SplitLimits::ShareOfFew;
+  LeafSearch search(cube, tests);
+  while (!search.isDone())
   {
-    leaves.unresolved.push_back(box.leaf);
+    if (search.examined() >= most)
+    {
+      return std::nullopt;
+    }
+    search.splitAll({});
   }
-  return leaves;
+  return search.leaves();
 }
 
 } // namespace hop

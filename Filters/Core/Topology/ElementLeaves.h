@@ -1,7 +1,10 @@
 #pragma once
 
+#include "Common/Monitor.h"
 #include "Topology/ElementCube.h"
 #include "Topology/LeafTests.h"
+
+#include <optional>
 
 namespace hop
 {
@@ -44,6 +47,12 @@ struct ElementLeaves
 /// Splits an element's cube until nothing is undecided, or leaves are as small as they may be, or too many.
 /// \param tests for the cube's degrees
 /// \param partsOfCell elements that share the limits of a cell, at least 1
-ElementLeaves findLeaves(const ElementCube& cube, const LeafTests& tests, int partsOfCell = 1);
+ElementLeaves findLeaves(const ElementCube& cube, const LeafTests& tests, int partsOfCell = 1,
+  const ParallelFor& parallelFor = {});
+
+/// The same where it takes little time, on one thread.
+/// \return nothing where more than a sixteenth of the boxes that may be looked at would have to be
+std::optional<ElementLeaves> findFewLeaves(
+  const ElementCube& cube, const LeafTests& tests, int partsOfCell = 1);
 
 } // namespace hop

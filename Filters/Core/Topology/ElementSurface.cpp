@@ -381,8 +381,15 @@ int ElementSurface::curveAt(int face, const glm::dvec3& t) const
   return found == this->curves.end() ? -1 : static_cast<int>(found - this->curves.begin());
 }
 
-ElementSurface findElementSurface(
-  const ElementMesh& mesh, int element, double isovalue, std::optional<LeafTests>& tests)
+namespace
+{
+
+/// The surface in one element.
+/// \param leavesOf leavesOf(cube, tests, partsOfCell) finds the leaves, or nothing where that takes too long
+/// \return nothing where leavesOf has returned it
+template <class LeavesOf>
+std::optional<ElementSurface> surfaceFrom(const ElementMesh& mesh, int element, double isovalue,
+  std::optional<LeafTests>& tests, const ParallelFor& parallelFor, const LeavesOf& leavesOf)
 {
   const ElementCube cube = elementCube(mesh, element, isovalue);
   if (!cube.isFinite())
@@ -395,13 +402,56 @@ ElementSurface findElementSurface(
   {
     tests.emplace(cube.degrees);
   }
-  const int partsOfCell = mesh.elements[element].partsOfCell;
-  ElementSurface surface = joinLeaves(cube.shape, findLeaves(cube, *tests, partsOfCell));
+  std::optional<ElementLeaves> leaves = leavesOf(cube, *tests, mesh.elements[element].partsOfCell);
+  if (!leaves)
+  {
+    return std::nullopt;
+  }
+  ElementSurface surface = joinLeaves(cube.shape, std::move(*leaves), parallelFor);
   surface.isLifted = cube.isLifted;
   return surface;
 }
 
-ElementSurface joinLeaves(const CubeShape& shape, ElementLeaves leaves)
+} // namespace
+
+ElementSurface findElementSurface(const ElementMesh& mesh, int element, double isovalue,
+  std::optional<LeafTests>& tests, const ParallelFor& parallelFor)
+{
+  return *surfaceFrom(mesh, element, isovalue, tests, parallelFor,
+    [&](const ElementCube& cube, const LeafTests& ofCube, int partsOfCell)
+    { return std::optional(findLeaves(cube, ofCube, partsOfCell, parallelFor)); });
+}
+
+std::vector<ElementSurface> findElementSurfaces(const ElementMesh& mesh,
+  const std::vector<int>& elements, double isovalue, const ParallelFor& parallelFor)
+{
+  std::vector<ElementSurface> surfaces(elements.size());
+  std::vector<char> takesLong(elements.size(), 0);
+  runParallel(parallelFor, static_cast<std::ptrdiff_t>(elements.size()),
+    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+    {
+      std::optional<LeafTests> tests;
+      for (std::ptrdiff_t n = begin; n < end; ++n)
+      {
+        std::optional<ElementSurface> surface =
+          surfaceFrom(mesh, elements[n], isovalue, tests, {}, findFewLeaves);
+        takesLong[n] = !surface;
+        surfaces[n] = surface ? std::move(*surface) : ElementSurface();
+      }
+    });
+  std::optional<LeafTests> tests;
+  for (std::size_t n = 0; n < elements.size(); ++n)
+  {
+    if (takesLong[n] != 0)
+    {
+      surfaces[n] = findElementSurface(mesh, elements[n], isovalue, tests, parallelFor);
+    }
+  }
+  return surfaces;
+}
+
+ElementSurface joinLeaves(
+  const CubeShape& shape, ElementLeaves leaves, const ParallelFor& parallelFor)
 {
   ElementSurface surface;
   surface.shape = shape;
@@ -410,7 +460,9 @@ ElementSurface joinLeaves(const CubeShape& shape, ElementLeaves leaves)
     [](const Leaf& a, const Leaf& b) { return leafOrder(a.lower) < leafOrder(b.lower); });
   if (!leaves.discs.empty())
   {
+    askCaller(parallelFor);
     LeafComplex complex(leaves);
+    askCaller(parallelFor);
     surface.leaves = std::move(leaves.discs);
     SurfaceJoiner(surface, complex).join();
   }

@@ -73,13 +73,21 @@ struct ElementSurface
 
 /// Finds the surface in one element.
 /// \param tests kept from one element to the next, as they are the same for the same degrees
-ElementSurface findElementSurface(
-  const ElementMesh& mesh, int element, double isovalue, std::optional<LeafTests>& tests);
+ElementSurface findElementSurface(const ElementMesh& mesh, int element, double isovalue,
+  std::optional<LeafTests>& tests, const ParallelFor& parallelFor = {});
+
+/// Finds the surfaces in several elements: each thread in some of them, and all threads together in one after the other
+/// of those that take long, so that the caller is asked meanwhile.
+/// \return one an element
+std::vector<ElementSurface> findElementSurfaces(const ElementMesh& mesh,
+  const std::vector<int>& elements, double isovalue, const ParallelFor& parallelFor);
 
 /// Joins the discs in the leaves of an element to pieces of the surface:
 ///   Euler characteristic = discs - arcs in faces of leaves + points on edges of leaves.
 /// Of a face between one leaf and several smaller ones the arcs of the smaller ones count, likewise of edges.
 /// Derivation: Documentation/algorithm.md, section Topology.
-ElementSurface joinLeaves(const CubeShape& shape, ElementLeaves leaves);
+/// \param parallelFor asks the caller where there are many leaves; the work is one thread's
+ElementSurface joinLeaves(
+  const CubeShape& shape, ElementLeaves leaves, const ParallelFor& parallelFor = {});
 
 } // namespace hop

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <tuple>
 
@@ -12,22 +13,6 @@ namespace hop
 {
 namespace
 {
-
-std::vector<ElementSurface> elementSurfaces(
-  const ElementMesh& mesh, double isovalue, const ParallelFor& parallelFor)
-{
-  std::vector<ElementSurface> surfaces(mesh.elements.size());
-  runParallel(parallelFor, static_cast<std::ptrdiff_t>(mesh.elements.size()),
-    [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-    {
-      std::optional<LeafTests> tests;
-      for (std::ptrdiff_t e = begin; e < end; ++e)
-      {
-        surfaces[e] = findElementSurface(mesh, static_cast<int>(e), isovalue, tests);
-      }
-    });
-  return surfaces;
-}
 
 /// A curve, by its element and its number there.
 struct CurveReference
@@ -419,7 +404,9 @@ SurfaceTopology findTopology(const ElementMesh& mesh, double isovalue, const Fac
   const ParallelFor& parallelFor)
 {
   SurfaceTopology topology;
-  topology.surfaces = elementSurfaces(mesh, isovalue, parallelFor);
+  std::vector<int> all(mesh.elements.size());
+  std::iota(all.begin(), all.end(), 0);
+  topology.surfaces = findElementSurfaces(mesh, all, isovalue, parallelFor);
   std::vector<std::vector<CurveMatch>> matches(mesh.elements.size());
   const SurfaceOfElement surfaceOf = [&](int element) -> const ElementSurface&
   { return topology.surfaces[element]; };

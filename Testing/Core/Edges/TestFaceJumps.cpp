@@ -264,6 +264,25 @@ TEST(FaceJumps, CountWhereTheSurfaceEnds)
   EXPECT_EQ(passages(2.0).ended, 2);
 }
 
+TEST(FaceJumps, SurfaceEndsAroundElements)
+{
+  const ElementMesh mesh = Halves{ 0.0, 0.0, 0.0 }.mesh(Domain::Tetrahedron);
+  FaceJumps jumps = jumpsOf(mesh);
+  const std::vector<float> before = jumps.jumpTolerances;
+  constexpr int inMiddle = 2;
+  endAround(mesh, { inMiddle, inMiddle }, jumps);
+  for (int element = 0; element < static_cast<int>(mesh.elements.size()); ++element)
+  {
+    for (int face = 0; face < 4; ++face)
+    {
+      const std::size_t slot = faceSlot(element, face);
+      const int behind = mesh.neighbor(element, face).element;
+      const bool isAround = behind >= 0 && (element == inMiddle || behind == inMiddle);
+      EXPECT_EQ(jumps.jumpTolerances[slot], isAround ? 0.0f : before[slot]);
+    }
+  }
+}
+
 TEST(FaceJumps, DoNotDependOnThreads)
 {
   const ElementMesh mesh = Halves{ 0.5, -0.5, 0.3 }.mesh(Domain::Tetrahedron);

@@ -3,6 +3,7 @@
 #include "AnalyticFields.h"
 #include "DistributionMeasures.h"
 #include "ElementCases.h"
+#include "Isolation/SizingField.h"
 #include "OpenCases.h"
 #include "ThreadedFor.h"
 
@@ -610,6 +611,32 @@ TEST(FastDistribution, DoesNotDependOnTheUnitOfLength)
   {
     EXPECT_NEAR(static_cast<double>(at(scale)), one, 0.01 * one) << scale;
   }
+}
+
+TEST(FastDistribution, SpacingsAreLimitedAroundAPlace)
+{
+  constexpr double spacing = 0.1;
+  constexpr double least = 0.025;
+  const glm::dvec3 pole(0.0, 0.0, 0.6);
+  const ElementMesh mesh = meshOf(Domain::Hexahedron, 3, sphere({ 0, 0, 0 }, 0.6).field);
+  DistributionParameters parameters = withSpacing(spacing);
+  const auto nearPole = [&]()
+  {
+    const Distribution result = distribute(mesh, parameters);
+    return std::count_if(result.particles.begin(), result.particles.end(),
+      [&](const Particle& p) { return glm::distance(p.position.xyz, pole) < spacing; });
+  };
+  EXPECT_LT(nearPole(), 9);
+  parameters.spacingLimits = { { pole, static_cast<float>(least) } };
+  for (const Particle& p : distribute(mesh, parameters).particles)
+  {
+    const double allowed =
+      least + SizingField::GradationSlope * glm::distance(p.position.xyz, pole);
+    EXPECT_NEAR(p.spacing, std::min(spacing, allowed), 0.05 * spacing);
+  }
+  // The integral of 2/(sqrt(3) h^2) over a disc of this radius is 19.6.
+  EXPECT_GT(nearPole(), 14);
+  EXPECT_LT(nearPole(), 26);
 }
 
 } // namespace

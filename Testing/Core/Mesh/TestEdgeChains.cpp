@@ -13,7 +13,9 @@ using Edges = std::vector<std::array<int, 2>>;
 
 Edges closed(const Buffer<Particle>& particles, Edges edges)
 {
-  closeChains(particles, edges);
+  Distribution distribution;
+  distribution.particles = particles;
+  closeChains(distribution, edges);
   return edges;
 }
 

@@ -48,6 +48,15 @@ TEST(EdgeSplitting, IsAtParticlesBeyondTheChordOfACurve)
   }
 }
 
+TEST(EdgeSplitting, DropsAnEdgeBesideTwoThatLeadTheSameWay)
+{
+  const Edges all{ { 0, 1 }, { 0, 2 }, { 2, 1 } };
+  EXPECT_EQ(split(above({ { 0.1, 0.02 } }, 1.0), all), (Edges{ { 0, 2 }, { 2, 1 } }));
+  EXPECT_EQ(split(above({ { 0.1, 0.2 } }, 1.0), all), all) << "a triangle";
+  const Edges there{ { 0, 1 }, { 0, 2 }, { 1, 0 }, { 2, 1 } };
+  EXPECT_EQ(split(above({ { 0.1, 0.02 } }, 1.0), there), there) << "a slit";
+}
+
 TEST(EdgeSplitting, IsNotWhereTheSurfaceGoesOn)
 {
   EXPECT_EQ(split(above({ { 0.1, 0.1 } }, 0.1), { { 0, 1 } }), (Edges{ { 0, 1 } }));

@@ -43,7 +43,7 @@ Filled fillAfter(FlatSheet& sheet, const Change& change)
   Distribution& distribution = sheet.distribution;
   const std::size_t before = distribution.particles.size();
   const ConstrainedEdges edges(distribution);
-  const ParticleNeighbors neighbors(distribution.particles, {});
+  const ParticleNeighbors neighbors(distribution, {});
   TriangleFans fans = agreedTriangles(neighbors, edges, {});
   change(fans);
   fillHoles(sheet.surface(), neighbors, edges, distribution, fans, {});
@@ -94,6 +94,29 @@ TEST(HoleFilling, JoinsPiecesInsideOfHoles)
     });
   expectWhole(sheet, filled);
   EXPECT_EQ(filled.added, 0u);
+}
+
+/// As at the tip of a slit, where a curve lost its second particle in one place.
+TEST(HoleFilling, DoesNotTakeWhatIsInThePlaceOfACornerForWhatIsInside)
+{
+  const FlatSheet sheet({ square }, 2.0 * spacing);
+  const Distribution& whole = sheet.distribution;
+  const TriangleFans fans =
+    agreedTriangles(ParticleNeighbors(whole, {}), ConstrainedEdges(whole), {});
+  for (const Triangle& gone : fans.triangles({}))
+  {
+    for (const int corner : gone)
+    {
+      Distribution distribution = whole;
+      distribution.particles.push_back(Particle(whole.particles[corner]));
+      TriangleFans open = fans;
+      open.remove(gone);
+      open.appendVertex();
+      fillHoles(sheet.surface(), ParticleNeighbors(distribution, {}),
+        ConstrainedEdges(distribution), distribution, open, {});
+      EXPECT_EQ(open.apexOf(gone[0], gone[1]), gone[2]);
+    }
+  }
 }
 
 TEST(HoleFilling, AddsParticlesWhereTheyAreMissing)

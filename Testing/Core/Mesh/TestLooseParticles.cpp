@@ -21,13 +21,13 @@ MeshMeasures measuresWith(const glm::dvec3& place, const glm::dvec3& normal)
   Distribution& distribution = sheet.distribution;
   const ConstrainedEdges edges(distribution);
   const std::vector<Triangle> triangles =
-    agreedTriangles(ParticleNeighbors(distribution.particles, {}), edges, {}).triangles({});
+    agreedTriangles(ParticleNeighbors(distribution, {}), edges, {}).triangles({});
   Particle loose = distribution.particles.front();
   loose.position = { place };
   loose.normal = { normal };
   distribution.particles.push_back(loose);
   TriangleFans fans = fansOf(distribution.particles.size(), triangles);
-  joinLooseParticles(ParticleNeighbors(distribution.particles, {}), edges, fans);
+  joinLooseParticles(ParticleNeighbors(distribution, {}), edges, fans);
   const MeshMeasures measures = measureMesh(distribution, fans.triangles({}));
   EXPECT_EQ(measures.badEdges, 0);
   EXPECT_EQ(measures.badVertices, 0);

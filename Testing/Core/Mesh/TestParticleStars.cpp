@@ -18,7 +18,7 @@ const FlatSheet::Loop square{ { -0.8, -0.8 }, { 0.8, -0.8 }, { 0.8, 0.8 }, { -0.
 TriangleFans starsOf(const Distribution& distribution)
 {
   const ConstrainedEdges edges(distribution);
-  const ParticleNeighbors neighbors(distribution.particles, {});
+  const ParticleNeighbors neighbors(distribution, {});
   return agreedTriangles(neighbors, edges, {});
 }
 

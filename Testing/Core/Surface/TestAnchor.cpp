@@ -1,6 +1,5 @@
 #include "Surface/Anchor.h"
 
-#include "Edges/BoundaryTracer.h"
 #include "ElementCases.h"
 #include "Support/Random.h"
 #include "Surface/Energy.h"
@@ -130,30 +129,6 @@ TEST_P(Anchored, TellsAboutPlacesAround)
   EXPECT_LE(near[1], far[1] / 10.0);
   EXPECT_LE(near[0], 1e-5);
   EXPECT_LE(near[1], 1e-3);
-}
-
-TEST(BoundaryChords, CrossLinesOnTheirFaceOnly)
-{
-  const auto pointAt = [](const glm::dvec3& u)
-  {
-    BoundaryPoint point;
-    point.face = 4;
-    point.at.location = { 7, { u } };
-    point.at.point.map.position = { u };
-    return point;
-  };
-  BoundaryChords chords;
-  chords.add({ pointAt({ 0.2, 0.2, 0.0 }), pointAt({ 0.6, 0.6, 0.0 }) });
-  const auto crosses = [&](const glm::dvec3& a, const glm::dvec3& b) {
-    return chords.cross(7, 4, { a, b });
-  };
-  EXPECT_TRUE(crosses({ 0.0, 0.5, 0.0 }, { 1.0, 0.5, 0.0 }));
-  EXPECT_TRUE(crosses({ 0.2, 0.0, 0.0 }, { 0.2, 0.4, 0.0 })) << "through its end";
-  EXPECT_FALSE(crosses({ 0.0, 0.7, 0.0 }, { 1.0, 0.7, 0.0 })) << "beyond its end";
-  EXPECT_FALSE(crosses({ 0.0, 0.5, 0.0 }, { 0.4, 0.5, 0.0 })) << "too short";
-  EXPECT_FALSE(crosses({ 0.3, 0.2, 0.0 }, { 0.7, 0.6, 0.0 })) << "parallel";
-  EXPECT_FALSE(chords.cross(7, 3, { glm::dvec3(0.0, 0.5, 0.0), glm::dvec3(1.0, 0.5, 0.0) }));
-  EXPECT_FALSE(chords.cross(6, 4, { glm::dvec3(0.0, 0.5, 0.0), glm::dvec3(1.0, 0.5, 0.0) }));
 }
 
 } // namespace

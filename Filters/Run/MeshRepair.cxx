@@ -1,0 +1,227 @@
+#include "Run/MeshRepair.h"
+
+#include "Fast/FastDistribution.h"
+#include "Mesh/LiftedField.h"
+#include "Run/RunMesh.h"
+#include "Support/Interruptible.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <utility>
+
+namespace hop
+{
+
+namespace
+{
+
+/// Whether a lifted field seems to have sheets that the field itself has not, by the numbers of particles: two instead of
+/// one where it touches the isovalue and does not cross it.
+bool hasMoreSheets(const Distribution& lifted, const Distribution& own)
+{
+  // Two sheets have twice as many; particles that holes lack are some tenths.
+  constexpr double more = 1.8;
+  return static_cast<double>(lifted.particles.size()) >
+    more * static_cast<double>(own.particles.size());
+}
+
+/// Whether the field jumps by more than rounding where the surface ends.
+bool jumps(const Distribution& distribution)
+{
+  constexpr double rounding = 1e-8;
+  const Buffer<Particle>& particles = distribution.particles;
+  return std::any_of(particles.begin(), particles.end(),
+    [](const Particle& particle) { return std::abs(particle.jump) > rounding; });
+}
+
+/// Whether a mesh has holes, or particles without a triangle.
+bool isOpen(const ParticleMesh& mesh)
+{
+  return mesh.openLoops > 0 || mesh.unusedParticles > 0;
+}
+
+/// How bad a mesh is: what it lacks, and triangles that are turned away.
+std::int64_t faultsOf(const ParticleMesh& mesh)
+{
+  // Turned triangles that are as bad as a hole; chosen by experiment. Larger: sheets that nearly cross come back through
+  // each other; smaller: holes stay for the sake of few slivers.
+  constexpr std::int64_t turnedPerHole = 10;
+  return turnedPerHole * lackOf(mesh) + mesh.turnedTriangles;
+}
+
+/// What was found of singular places is said of the surface itself, not of the lifted one.
+void keepFindings(const DistributionReport& own, DistributionReport& lifted)
+{
+  lifted.boxesUndecided = own.boxesUndecided;
+  lifted.undecidedCells = own.undecidedCells;
+  lifted.singularPoints = own.singularPoints;
+}
+
+/// Whether a mesh has faults, and so few of them that they are places of their own: those of noise, and of surfaces that
+/// bend faster than the spacing follows, are not mended by a few particles more.
+bool hasFewFaults(const IsovalueParticles& some)
+{
+  constexpr std::size_t few = 50;           // particles at faults
+  constexpr std::size_t particlesEach = 20; // all particles for each one of them
+  const std::size_t faults = some.mesh.atFaults.size();
+  return faults > 0 &&
+    (faults <= few || particlesEach * faults <= some.distribution.particles.size());
+}
+
+/// Asks for particles nearer to each other around the faults of a mesh.
+/// \param nearer in units of the spacings there; from 1 on, where they are
+/// \param least spacing
+/// \param inPieces whether the surface is to end around the elements of the faults
+void addFaults(const IsovalueParticles& some, double nearer, double least, bool inPieces,
+  DistributionParameters& around)
+{
+  for (const int p : some.mesh.atFaults)
+  {
+    const Particle& particle = some.distribution.particles[p];
+    if (inPieces)
+    {
+      around.endedElements.push_back(particle.location.element);
+    }
+    if (nearer < 1.0)
+    {
+      const double spacing = std::max(nearer * particle.spacing, least);
+      around.spacingLimits.push_back({ particle.position.xyz, static_cast<float>(spacing) });
+    }
+  }
+}
+
+} // namespace
+
+void MeshRepair::run(IsovalueParticles& some) const
+{
+  if (this->Properties.outputType == OutputType::Particles || lackOf(some.mesh) == 0)
+  {
+    return;
+  }
+  const bool isDiscontinuous = jumps(some.distribution);
+  if (!isDiscontinuous)
+  {
+    this->meshLifted(some);
+  }
+  this->meshAroundFaults(isDiscontinuous, some);
+}
+
+/// Distributes and joins particles anew on a lifted surface: where nodes have the isovalue, or nearly so, by little, and by
+/// more if holes are left; and if they are left still, all of the surface at values beside the isovalue.
+/// \param some whose mesh lacks something; replaced where a new one lacks less and is of the same surface
+void MeshRepair::meshLifted(IsovalueParticles& some) const
+{
+  // Chosen by experiment, see liftedMesh(). In spacings of a fiftieth of an element particles do not find back from the
+  // larger height; in spacings of an element the smaller one leaves holes.
+  constexpr double heights[] = { 1e-3, 5e-3 };
+  // The same for all of the surface, the smaller ones first. Larger: parts of the surface are lost, and triangles turn
+  // over as particles are put back; smaller: sheets are nearer to each other than particles can tell apart.
+  constexpr double beside[] = { 1e-4, -1e-4, 1e-3, -1e-3 };
+  const bool wasOpen = isOpen(some.mesh);
+  bool isBetter = true;
+  for (std::size_t i = 0; i < std::size(heights) && isBetter && (i == 0 || isOpen(some.mesh)); ++i)
+  {
+    isBetter = this->meshBesideNodes(heights[i], some);
+  }
+  Isosurface lifted = this->Surface;
+  const auto isLacking = [&some] { return isOpen(some.mesh) || some.mesh.turnedTriangles > 0; };
+  for (std::size_t i = 0; i < std::size(beside) && wasOpen && isLacking(); ++i)
+  {
+    lifted.isovalue = this->Surface.isovalue + beside[i];
+    this->takeBetter(this->meshAnew(lifted, this->Parameters, some.isovalue), some);
+  }
+}
+
+/// The same by one height where nodes have the isovalue.
+/// \return whether the mesh was replaced
+bool MeshRepair::meshBesideNodes(double height, IsovalueParticles& some) const
+{
+  const std::optional<ElementMesh> mesh = liftedMesh(*this->Surface.mesh, this->Surface.isovalue,
+    isOpen(some.mesh) ? LiftedValues::Near : LiftedValues::Isovalue, height);
+  if (!mesh)
+  {
+    return false;
+  }
+  Isosurface lifted = this->Surface;
+  lifted.mesh = &*mesh;
+  return this->takeBetter(this->meshAnew(lifted, this->Parameters, some.isovalue), some);
+}
+
+/// Distributes and joins particles anew, evener and nearer to each other around the faults of a mesh. The surface of a
+/// discontinuous field ends there at all faces of the elements: in pieces of one element no curve has to find its way to
+/// another one.
+/// \param inPieces whether the field is discontinuous
+/// \param some whose mesh is open; replaced where a new one lacks less
+void MeshRepair::meshAroundFaults(bool inPieces, IsovalueParticles& some) const
+{
+  // All chosen by experiment. Tries to close holes, and those for particles that are left over only. More: what stays is
+  // seldom mended later; fewer: holes stay that would be closed.
+  constexpr int mostTimes = 4;
+  constexpr int mostTimesWithoutHoles = 2;
+  // Of the spacings at faults, each time anew. Larger: strips stay narrower than a spacing; smaller: new faults around them.
+  constexpr double nearer = 0.5;
+  DistributionParameters around = this->Parameters;
+  around.quality = Quality::High;
+  // Nothing closer than the tolerance is told apart.
+  const double least = std::max(this->Surface.tolerance, around.sizing.smallestSpacing);
+  addFaults(some, some.mesh.openLoops > 0 ? 1.0 : nearer, least, inPieces, around);
+  for (int n = 0;
+       n < (some.mesh.openLoops > 0 ? mostTimes : mostTimesWithoutHoles) && hasFewFaults(some); ++n)
+  {
+    auto other = this->meshAnew(this->Surface, around, some.isovalue);
+    if (!other)
+    {
+      return;
+    }
+    addFaults(*other, nearer, least, inPieces, around);
+    this->takeBetter(std::move(other), some);
+  }
+}
+
+/// Distributes and joins particles anew.
+/// \param own see hop::addMesh()
+/// \return nothing if there are no particles, or not all of them are on the surface
+std::optional<IsovalueParticles> MeshRepair::meshAnew(
+  const Isosurface& own, const DistributionParameters& parameters, double isovalue) const
+{
+  IsovalueParticles some;
+  some.isovalue = isovalue;
+  some.distribution = distributeFast(own, parameters, this->Task.monitor, this->Task.parallelFor);
+  const bool isMeshed = !some.distribution.report.aborted && !some.distribution.particles.empty() &&
+    addMesh(this->Surface, own, this->Properties.outputType, this->Properties.order, false, some,
+      this->Task.monitor, this->Task.parallelFor);
+  return isMeshed ? std::optional<IsovalueParticles>(std::move(some)) : std::nullopt;
+}
+
+/// Takes another mesh in place of one if there is one, and it is better.
+/// \return whether it was taken
+bool MeshRepair::takeBetter(std::optional<IsovalueParticles> other, IsovalueParticles& some) const
+{
+  const bool isBetter = other && this->isInPlaceOf(some, *other);
+  if (isBetter)
+  {
+    keepFindings(some.distribution.report, other->distribution.report);
+    some = std::move(*other);
+  }
+  return isBetter;
+}
+
+/// Whether another mesh, of a lifted surface or with particles nearer to each other, is better than one, and of all of it.
+bool MeshRepair::isInPlaceOf(const IsovalueParticles& own, const IsovalueParticles& other) const
+{
+  // Of the triangles, turned ones that look like noise rather than like a few slivers.
+  constexpr std::int64_t onePercent = 100;
+  const auto triangles =
+    static_cast<std::int64_t>(other.mesh.nodes.size()) / other.mesh.nodesPerCell;
+  Interruptible loops(this->Task.monitor, this->Task.parallelFor);
+  return faultsOf(other.mesh) < faultsOf(own.mesh) &&
+    other.mesh.openLength <= own.mesh.openLength &&
+    other.mesh.turnedTriangles <= std::max(own.mesh.turnedTriangles, triangles / onePercent) &&
+    !hasMoreSheets(other.distribution, own.distribution) &&
+    isCoveredBy(own.distribution.particles, own.mesh.nodes, other.distribution.particles,
+      other.mesh.nodes, std::ref(loops));
+}
+
+} // namespace hop
