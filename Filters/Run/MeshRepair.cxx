@@ -42,12 +42,13 @@ bool isOpen(const ParticleMesh& mesh)
   return mesh.openLoops > 0 || mesh.unusedParticles > 0;
 }
 
+/// Turned triangles that are as bad as a hole; chosen by experiment. Larger: sheets that nearly cross come back through each
+/// other; smaller: holes stay for the sake of few slivers.
+constexpr std::int64_t turnedPerHole = 10;
+
 /// How bad a mesh is: what it lacks, and triangles that are turned away.
 std::int64_t faultsOf(const ParticleMesh& mesh)
 {
-  // Turned triangles that are as bad as a hole; chosen by experiment. Larger: sheets that nearly cross come back through
-  // each other; smaller: holes stay for the sake of few slivers.
-  constexpr std::int64_t turnedPerHole = 10;
   return turnedPerHole * lackOf(mesh) + mesh.turnedTriangles;
 }
 
@@ -218,7 +219,8 @@ bool MeshRepair::isInPlaceOf(const IsovalueParticles& own, const IsovalueParticl
   Interruptible loops(this->Task.monitor, this->Task.parallelFor);
   return faultsOf(other.mesh) < faultsOf(own.mesh) &&
     other.mesh.openLength <= own.mesh.openLength &&
-    other.mesh.turnedTriangles <= std::max(own.mesh.turnedTriangles, triangles / onePercent) &&
+    other.mesh.turnedTriangles <=
+    std::max({ own.mesh.turnedTriangles, triangles / onePercent, turnedPerHole }) &&
     !hasMoreSheets(other.distribution, own.distribution) &&
     isCoveredBy(own.distribution.particles, own.mesh.nodes, other.distribution.particles,
       other.mesh.nodes, std::ref(loops));

@@ -362,18 +362,31 @@ FaceJumps findFaceJumps(
   return JumpFinder(surface, proxy).run(parallelFor);
 }
 
-void endAround(const ElementMesh& mesh, const std::vector<int>& elements, FaceJumps& jumps)
+void endAround(const Isosurface& surface, const std::vector<int>& elements, FaceJumps& jumps)
 {
+  const ElementMesh& mesh = *surface.mesh;
   for (const int element : elements)
   {
     const auto faces = static_cast<int>(facts(mesh.elements[element].domain).faces.size());
     for (int face = 0; face < faces; ++face)
     {
       const FaceNeighbor& behind = mesh.neighbor(element, face);
+      std::vector<std::size_t> slots;
       if (behind.element >= 0)
       {
-        jumps.jumpTolerances[faceSlot(element, face)] = 0.0f;
-        jumps.jumpTolerances[faceSlot(behind.element, behind.face)] = 0.0f;
+        slots.push_back(faceSlot(behind.element, behind.face));
+      }
+      else if (surface.locator)
+      {
+        slots = surface.locator->slotsBehind(element, face);
+      }
+      if (!slots.empty())
+      {
+        slots.push_back(faceSlot(element, face));
+      }
+      for (const std::size_t slot : slots)
+      {
+        jumps.jumpTolerances[slot] = 0.0f;
       }
     }
   }

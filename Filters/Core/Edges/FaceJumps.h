@@ -41,8 +41,8 @@ constexpr double CreaseAngle = 0.17453293;
 FaceJumps findFaceJumps(
   const Isosurface& surface, const SurfaceProxy& proxy, const ParallelFor& parallelFor);
 
-/// Lets the surface end at all faces of some elements that the mesh joins, as it does at jumps.
-void endAround(const ElementMesh& mesh, const std::vector<int>& elements, FaceJumps& jumps);
+/// Lets the surface end at all faces of some elements behind which it may go on, as it does at jumps.
+void endAround(const Isosurface& surface, const std::vector<int>& elements, FaceJumps& jumps);
 
 /// How often the surface reaches a face between two elements, counted from each side, and how often it ends there, at a
 /// jump. Faces to which nothing is joined do not count, be it the end of the mesh or an element without surface.

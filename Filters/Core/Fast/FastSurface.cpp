@@ -21,6 +21,9 @@ struct BoxDiagonal
   /// More than in a hexahedron, as wedges and tetrahedra fill less of their bounds.
   static constexpr double Wedge = 7.0;
   static constexpr double Tetrahedron = 7.5;
+  /// Where spacings turn out to be limited to less, boxes are kept up to so many times the size. Larger: too few particles
+  /// near thin places; smaller: more boxes where spacings change much, up to a quarter more evaluations.
+  static constexpr double Kept = 2.0;
   /// For drafts, in all elements. Larger: holes.
   static constexpr double Draft = 9.0;
   /// Where the gradient of the field vanishes nearby (SurfaceBox::risesWeakly), so that one sample tells less.
@@ -73,36 +76,47 @@ std::vector<char> onePerSheet(const BoundaryCurves& curves)
 
 } // namespace
 
+/// Largest diagonal of a box of an element, in units of the spacing there.
+double FastSystem::diagonalPerSpacing(int element) const
+{
+  return this->Parameters.quality == Quality::Draft
+    ? BoxDiagonal::Draft
+    : BoxDiagonal::of(this->Mesh.elements[element].domain);
+}
+
 /// Whether one sample tells enough about the surface in a box. It tells less where the gradient of the field vanishes
 /// nearby; where the surface is thinner than a spacing every box gets a particle of its own.
-bool FastSystem::isFineEnough(const SurfaceBox& box, const SizingFunction& sizing)
+/// \param limits what limits spacings further; nullptr: nothing is known of it yet
+bool FastSystem::isFineEnough(
+  const SurfaceBox& box, const SizingFunction& sizing, const SurfaceProxy* limits)
 {
   const int element = box.middle.element;
-  const Domain domain = this->Mesh.elements[element].domain;
-  const double perSpacing =
-    this->Parameters.quality == Quality::Draft ? BoxDiagonal::Draft : BoxDiagonal::of(domain);
+  const double perSpacing = this->diagonalPerSpacing(element);
   const double largest = perSpacing * sizing.spacing;
-  const double smallest = (box.mayBeThin ? 1.0 : perSpacing) * sizing.smallest();
+  const double smallest =
+    (box.mayBeThin ? 1.0 : perSpacing) * (limits ? limits->smallestSpacing() : sizing.smallest());
   if (this->isOutOfReach(box) || this->isFarBeyondPolygon(box))
   {
     return true;
   }
   if (box.size > largest || box.size <= smallest ||
-    (sizing.angularDensity == 0.0 && !box.mayBeThin))
+    (sizing.angularDensity == 0.0 && !box.mayBeThin && !limits))
   {
     return box.size <= largest;
   }
   ++this->Evaluations;
   Anchor anchor;
   Patch patch;
-  const Location place{ element, proxyMiddle(domain, box) };
+  const Location place{ element, proxyMiddle(this->Mesh.elements[element].domain, box) };
   const Jet jet = exactHessian(this->Mesh, place);
   if (!anchorPatch(place, jet, this->Surface.isovalue, anchor, patch))
   {
     return true;
   }
-  const double spacing = sizing.at(patch.curvatureMagnitude());
-  const bool isThin = patch.curvatureMagnitude() * spacing > BoxDiagonal::ThinBend ||
+  const double bend = patch.curvatureMagnitude();
+  const double spacing =
+    limits ? limits->spacingAt(patch.position, patch.curvatureMagnitude()) : sizing.at(bend);
+  const bool isThin = bend * spacing > BoxDiagonal::ThinBend ||
     (box.risesWeakly && std::abs(anchor.offset) > MovingParticles::SeedOffset * spacing);
   const double perOwnSpacing = isThin ? BoxDiagonal::Thin
     : box.risesWeakly                 ? BoxDiagonal::Weak
@@ -123,10 +137,13 @@ bool FastSystem::isOutOfReach(const SurfaceBox& box) const
 /// \param shareOfRun fraction of the run that is over when the surface is found
 SurfaceProxy FastSystem::proxyOfBoxesAt(const SizingFunction& sizing, double shareOfRun)
 {
-  const auto isFineEnough = [&](const SurfaceBox& box) { return this->isFineEnough(box, sizing); };
+  const auto isFineEnough = [&](const SurfaceBox& box)
+  { return this->isFineEnough(box, sizing, nullptr); };
   const auto found = [&](double share) { this->Work.raiseFraction(shareOfRun * share); };
-  std::vector<SurfaceBox> boxes = findSurfaceBoxes(this->Mesh, this->Surface.isovalue, isFineEnough,
-    this->Parallel, found, this->RoughBoxes.empty() ? nullptr : &this->RoughBoxes);
+  const KnownBoxes rough{ this->RoughBoxes.empty() ? nullptr : &this->RoughBoxes,
+    [&](const SurfaceBox& box) { return box.certified && isFineEnough(box); } };
+  std::vector<SurfaceBox> boxes = findSurfaceBoxes(
+    this->Mesh, this->Surface.isovalue, isFineEnough, this->Parallel, found, rough);
   this->dropFarBeyondPolygon(boxes);
   SurfaceProxy proxy(this->Surface, this->Sizing, std::move(boxes), this->Parallel);
   this->Evaluations += proxy.evaluations();
@@ -182,16 +199,44 @@ void FastSystem::prepareSurface()
   this->Work.ask();
   this->findJumps();
   std::int64_t cost = 0;
+  std::vector<SizingField::Limit> limits;
   if (this->Parameters.quality != Quality::Draft)
   {
-    this->Proxy->limitSpacings(
-      findCreaseSpacings(this->Surface, *this->Proxy, this->Jumps, this->Parallel, cost),
-      this->Parallel);
+    limits = findCreaseSpacings(this->Surface, *this->Proxy, this->Jumps, this->Parallel, cost);
   }
-  this->Proxy->limitSpacings(this->Parameters.spacingLimits, this->Parallel);
+  limits.insert(
+    limits.end(), this->Parameters.spacingLimits.begin(), this->Parameters.spacingLimits.end());
+  this->Proxy->limitSpacings(limits, this->Parallel);
+  this->refineBoxes(limits);
   this->Work.ask();
   this->traceBoundaryCurves();
   this->Evaluations += cost + this->Curves.evaluations;
+}
+
+/// Makes the boxes of elements smaller where spacings are limited to much less than the curvature in a box asks for, as near
+/// thin places and creases.
+/// \param limits that the proxy has beside those of its samples
+void FastSystem::refineBoxes(const std::vector<SizingField::Limit>& limits)
+{
+  const SurfaceProxy& coarse = *this->Proxy;
+  const auto mayStay = [&](const SurfaceBox& box)
+  {
+    const SurfaceProxy::Sample& sample = coarse.samples()[&box - coarse.boxes().data()];
+    const double largest = BoxDiagonal::Kept * this->diagonalPerSpacing(box.middle.element);
+    return !box.certified || !sample.found || box.size <= largest * sample.patch.spacing ||
+      this->isOutOfReach(box) || this->isFarBeyondPolygon(box);
+  };
+  if (std::all_of(coarse.boxes().begin(), coarse.boxes().end(), mayStay))
+  {
+    return;
+  }
+  std::vector<SurfaceBox> boxes = findSurfaceBoxes(this->Mesh, this->Surface.isovalue,
+    [&](const SurfaceBox& box) { return this->isFineEnough(box, this->Sizing, &coarse); },
+    this->Parallel, {}, { &coarse.boxes(), mayStay });
+  this->dropFarBeyondPolygon(boxes);
+  auto finer = std::make_unique<SurfaceProxy>(coarse, std::move(boxes), limits, this->Parallel);
+  this->Evaluations += finer->evaluations();
+  this->Proxy = std::move(finer);
 }
 
 /// Until the boundary curves are traced the surface passes all jumps.
@@ -199,7 +244,7 @@ void FastSystem::findJumps()
 {
   this->Surface.jumpTolerances = nullptr;
   this->Jumps = findFaceJumps(this->Surface, *this->Proxy, this->Parallel);
-  endAround(this->Mesh, this->Parameters.endedElements, this->Jumps);
+  endAround(this->Surface, this->Parameters.endedElements, this->Jumps);
   this->Evaluations += this->Jumps.evaluations;
 }
 

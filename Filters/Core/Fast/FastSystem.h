@@ -87,13 +87,16 @@ protected:
   double overlap(double spacings) const { return spacings * this->Parameters.sizing.spacing; }
 
   // The surface's boxes and boundary curves: FastSurface.cpp.
-  bool isFineEnough(const SurfaceBox& box, const SizingFunction& sizing);
+  double diagonalPerSpacing(int element) const;
+  bool isFineEnough(
+    const SurfaceBox& box, const SizingFunction& sizing, const SurfaceProxy* limits);
   bool isOutOfReach(const SurfaceBox& box) const;
   SurfaceProxy proxyOfBoxesAt(const SizingFunction& sizing, double shareOfRun);
   bool tooMany(double count);
   static double countAlongStrips(const SurfaceProxy& proxy);
   bool estimateCount();
   void prepareSurface();
+  void refineBoxes(const std::vector<SizingField::Limit>& limits);
   void findJumps();
   void traceBoundaryCurves();
   void keepCurvesIn(const Slab& slab);

@@ -17,18 +17,18 @@ constexpr std::size_t fewElements = 16;
 
 using IsSmall = std::function<bool(const SurfaceBox&)>;
 
-/// What is known of the boxes of elements before they are split.
-class KnownBoxes
+/// The known boxes by element.
+class KnownElements
 {
 public:
-  /// \param boxes nullptr: nothing is known. Outlives it
-  KnownBoxes(const std::vector<SurfaceBox>* boxes, std::size_t elementCount)
-    : Boxes(boxes)
-    , First(boxes ? elementCount + 1 : 0, 0)
+  /// \param known outlives it
+  KnownElements(const KnownBoxes& known, std::size_t elementCount)
+    : Known(known)
+    , First(known.boxes ? elementCount + 1 : 0, 0)
   {
-    for (std::size_t b = 0; boxes && b < boxes->size(); ++b)
+    for (std::size_t b = 0; known.boxes && b < known.boxes->size(); ++b)
     {
-      this->First[(*boxes)[b].middle.element + 1] = b + 1;
+      this->First[(*known.boxes)[b].middle.element + 1] = b + 1;
     }
     for (std::size_t e = 1; e < this->First.size(); ++e)
     {
@@ -36,25 +36,24 @@ public:
     }
   }
 
-  /// Appends the boxes of an element, unless they are not known, or one is not certified or not fine enough. An element
-  /// that had no boxes has no surface.
+  /// Appends the boxes of an element, if they are known and all may stay. An element that had no boxes has no surface.
   /// \return whether the element is done
-  bool take(int element, const IsSmall& isFineEnough, std::vector<SurfaceBox>& boxes) const
+  bool take(int element, std::vector<SurfaceBox>& boxes) const
   {
-    if (!this->Boxes)
+    if (!this->Known.boxes)
     {
       return false;
     }
-    const auto first = this->Boxes->begin() + static_cast<std::ptrdiff_t>(this->First[element]);
-    const auto last = this->Boxes->begin() + static_cast<std::ptrdiff_t>(this->First[element + 1]);
-    const bool isDone = std::all_of(
-      first, last, [&](const SurfaceBox& box) { return box.certified && isFineEnough(box); });
+    const auto begin = this->Known.boxes->begin();
+    const auto first = begin + static_cast<std::ptrdiff_t>(this->First[element]);
+    const auto last = begin + static_cast<std::ptrdiff_t>(this->First[element + 1]);
+    const bool isDone = std::all_of(first, last, this->Known.mayStay);
     boxes.insert(boxes.end(), first, isDone ? last : first);
     return isDone;
   }
 
 private:
-  const std::vector<SurfaceBox>* Boxes;
+  const KnownBoxes& Known;
   /// Index of the first box of each element, then the number of boxes.
   std::vector<std::size_t> First;
 };
@@ -75,7 +74,7 @@ std::vector<SurfaceBox> joined(const std::vector<std::vector<SurfaceBox>>& ofEle
 /// Splits elements one after the other, each by all threads.
 /// \param progress is told how many elements are done
 std::vector<SurfaceBox> splitInTurn(const ElementMesh& mesh, double isovalue,
-  const IsSmall& isFineEnough, const KnownBoxes& known, const ParallelFor& parallelFor,
+  const IsSmall& isFineEnough, const KnownElements& known, const ParallelFor& parallelFor,
   const ReportProgress& progress)
 {
   std::vector<SurfaceBox> boxes;
@@ -83,7 +82,7 @@ std::vector<SurfaceBox> splitInTurn(const ElementMesh& mesh, double isovalue,
   ElementSplitter splitter(mesh, isovalue, kinds, isFineEnough);
   for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
   {
-    if (!known.take(e, isFineEnough, boxes))
+    if (!known.take(e, boxes))
     {
       splitter.split(
         e, parallelFor, [&, e](double share) { progress(e + share); }, boxes);
@@ -96,7 +95,7 @@ std::vector<SurfaceBox> splitInTurn(const ElementMesh& mesh, double isovalue,
 /// Splits many elements at a time, each by one thread, and then those that take long by all threads. Parameters are those
 /// of splitInTurn.
 std::vector<SurfaceBox> splitAtOnce(const ElementMesh& mesh, double isovalue,
-  const IsSmall& isFineEnough, const KnownBoxes& known, const ParallelFor& parallelFor,
+  const IsSmall& isFineEnough, const KnownElements& known, const ParallelFor& parallelFor,
   const ReportProgress& progress)
 {
   const PreparedKinds kinds(mesh, isovalue);
@@ -110,8 +109,8 @@ std::vector<SurfaceBox> splitAtOnce(const ElementMesh& mesh, double isovalue,
       for (std::ptrdiff_t e = begin; e < end; ++e)
       {
         const int element = static_cast<int>(e);
-        isLong[e] = !known.take(element, isFineEnough, ofElement[e]) &&
-          !splitter.splitIfShort(element, ofElement[e]);
+        isLong[e] =
+          !known.take(element, ofElement[e]) && !splitter.splitIfShort(element, ofElement[e]);
         if (!isLong[e])
         {
           progress(++done);
@@ -143,14 +142,14 @@ std::vector<SurfaceBox> findSurfaceBoxes(
 
 std::vector<SurfaceBox> findSurfaceBoxes(const ElementMesh& mesh, double isovalue,
   const IsSmall& isFineEnough, const ParallelFor& parallelFor, const ReportProgress& progress,
-  const std::vector<SurfaceBox>* known)
+  const KnownBoxes& known)
 {
-  const KnownBoxes knownBoxes(known, mesh.elements.size());
+  const KnownElements knownElements(known, mesh.elements.size());
   const auto reportElements = [&](double done)
   { report(progress, done / static_cast<double>(mesh.elements.size())); };
   return mesh.elements.size() < fewElements
-    ? splitInTurn(mesh, isovalue, isFineEnough, knownBoxes, parallelFor, reportElements)
-    : splitAtOnce(mesh, isovalue, isFineEnough, knownBoxes, parallelFor, reportElements);
+    ? splitInTurn(mesh, isovalue, isFineEnough, knownElements, parallelFor, reportElements)
+    : splitAtOnce(mesh, isovalue, isFineEnough, knownElements, parallelFor, reportElements);
 }
 
 } // namespace hop

@@ -3,6 +3,9 @@
 #include "Common/Monitor.h"
 #include "Isolation/SurfaceBox.h"
 
+#include <functional>
+#include <vector>
+
 namespace hop
 {
 
@@ -16,13 +19,20 @@ namespace hop
 std::vector<SurfaceBox> findSurfaceBoxes(
   const ElementMesh& mesh, double isovalue, double largestSize, const ParallelFor& parallelFor);
 
+/// Boxes of a surface that were found before, in the order of the elements.
+struct KnownBoxes
+{
+  /// nullptr: there are none.
+  const std::vector<SurfaceBox>* boxes = nullptr;
+  /// Whether a box may stay as it is: an element all of whose boxes may keeps them. Called from several threads.
+  std::function<bool(const SurfaceBox&)> mayStay;
+};
+
 /// The same with a size that depends on the box.
 /// \param isFineEnough whether a certified box is small enough; called from several threads
 /// \param progress receives the share of the work that is done, 0 to 1; called from several threads
-/// \param known boxes of the same surface that were found before, in the order of the elements: an element all of whose
-///   boxes are certified and fine enough keeps them. nullptr: there are none
 std::vector<SurfaceBox> findSurfaceBoxes(const ElementMesh& mesh, double isovalue,
   const std::function<bool(const SurfaceBox&)>& isFineEnough, const ParallelFor& parallelFor,
-  const std::function<void(double)>& progress = {}, const std::vector<SurfaceBox>* known = nullptr);
+  const std::function<void(double)>& progress = {}, const KnownBoxes& known = {});
 
 } // namespace hop

@@ -127,14 +127,38 @@ SurfaceProxy::SurfaceProxy(const Isosurface& surface, const SizingFunction& sizi
   , Samples(this->Boxes.size())
   , FirstBox(boxRanges(this->Boxes, surface.mesh->elements.size()))
 {
-  this->sampleBoxes(parallelFor);
+  this->sampleBoxes(nullptr, parallelFor);
+  this->findSpacings({}, parallelFor);
+}
+
+SurfaceProxy::SurfaceProxy(const SurfaceProxy& before, std::vector<SurfaceBox> boxes,
+  const std::vector<SizingField::Limit>& limits, const ParallelFor& parallelFor)
+  : Surface(before.Surface)
+  , Field(before.sizing())
+  , Boxes(assignFaceSheets(before.Surface, std::move(boxes), parallelFor))
+  , Samples(this->Boxes.size())
+  , FirstBox(boxRanges(this->Boxes, before.Surface.mesh->elements.size()))
+{
+  this->sampleBoxes(&before, parallelFor);
+  this->findSpacings(limits, parallelFor);
+}
+
+/// The sizing field of the samples and of further limits, and what follows from it.
+void SurfaceProxy::findSpacings(
+  std::vector<SizingField::Limit> limits, const ParallelFor& parallelFor)
+{
   for (Sample& sample : this->Samples)
   {
-    sample.patch.spacing = static_cast<float>(sizing.at(sample.patch.curvatureMagnitude()));
+    sample.patch.spacing = static_cast<float>(this->sizing().at(sample.patch.curvatureMagnitude()));
   }
-  if (sizing.angularDensity > 0.0)
+  if (this->sizing().angularDensity > 0.0)
   {
-    this->Field.add(this->chooseRepresentatives(), parallelFor);
+    const std::vector<SizingField::Limit> ofSamples = this->chooseRepresentatives();
+    limits.insert(limits.end(), ofSamples.begin(), ofSamples.end());
+  }
+  if (!limits.empty())
+  {
+    this->Field.add(std::move(limits), parallelFor);
     this->limitSamples(parallelFor);
   }
   this->findSmallestSpacing();
@@ -246,28 +270,60 @@ bool SurfaceProxy::sampleAt(std::size_t box, const Location& place, const Jet& j
 }
 
 /// Finds a sample for each box.
-void SurfaceProxy::sampleBoxes(const ParallelFor& parallelFor)
+/// \param before the proxy from which samples may be taken; nullptr: there is none
+void SurfaceProxy::sampleBoxes(const SurfaceProxy* before, const ParallelFor& parallelFor)
 {
   std::atomic<std::int64_t> evaluations{ 0 };
+  const std::vector<char> isKept =
+    before ? this->keepSamples(*before) : std::vector<char>(this->Boxes.size(), 0);
   std::vector<Location> places(this->Boxes.size());
   runParallel(parallelFor, static_cast<std::ptrdiff_t>(this->Boxes.size()),
     [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-    { evaluations += this->sampleRange(begin, end, places); });
+    {
+      std::vector<int> pending;
+      for (auto b = static_cast<int>(begin); b < end; ++b)
+      {
+        if (!isKept[b])
+        {
+          pending.push_back(b);
+        }
+      }
+      evaluations += this->sampleSome(std::move(pending), places);
+    });
   this->Evaluations = evaluations;
 }
 
-/// Samples the boxes begin to end - 1 by Newton's method from the middle of their triangles, which is near the surface
-/// already. Boxes of one element are evaluated together. A box whose place is not near enough takes a Newton step and
-/// is evaluated again; if the steps leave the box, or are too many, it is sampled patiently.
+/// Takes the samples of elements that have the boxes of before.
+/// \return marks of the boxes that have one
+std::vector<char> SurfaceProxy::keepSamples(const SurfaceProxy& before)
+{
+  std::vector<char> isKept(this->Boxes.size(), 0);
+  for (std::size_t e = 0; e + 1 < this->FirstBox.size(); ++e)
+  {
+    const auto [first, last] = this->boxesOf(static_cast<int>(e));
+    const auto [firstBefore, lastBefore] = before.boxesOf(static_cast<int>(e));
+    const auto isSame = [](const SurfaceBox& a, const SurfaceBox& b)
+    { return a.middle.u.xyz == b.middle.u.xyz && a.size == b.size; };
+    if (std::equal(this->Boxes.begin() + first, this->Boxes.begin() + last,
+          before.Boxes.begin() + firstBefore, before.Boxes.begin() + lastBefore, isSame))
+    {
+      std::copy(before.Samples.begin() + firstBefore, before.Samples.begin() + lastBefore,
+        this->Samples.begin() + first);
+      std::fill(isKept.begin() + first, isKept.begin() + last, 1);
+    }
+  }
+  return isKept;
+}
+
+/// Samples some boxes by Newton's method from the middle of their triangles, which is near the surface already. Boxes of
+/// one element are evaluated together. A box whose place is not near enough takes a Newton step and is evaluated again; if
+/// the steps leave the box, or are too many, it is sampled patiently.
 /// \param places room for one a box
 /// \return number of evaluations
-std::int64_t SurfaceProxy::sampleRange(
-  std::ptrdiff_t begin, std::ptrdiff_t end, std::vector<Location>& places)
+std::int64_t SurfaceProxy::sampleSome(std::vector<int> pending, std::vector<Location>& places)
 {
   const ElementMesh& mesh = *this->Surface.mesh;
   std::int64_t evaluations = 0;
-  std::vector<int> pending(end - begin);
-  std::iota(pending.begin(), pending.end(), static_cast<int>(begin));
   for (const int b : pending)
   {
     const int element = this->Boxes[b].middle.element;

@@ -34,6 +34,12 @@ public:
   SurfaceProxy(const Isosurface& surface, const SizingFunction& sizing,
     std::vector<SurfaceBox> boxes, const ParallelFor& parallelFor);
 
+  /// The same of a surface that has a proxy, with other boxes: elements that have the boxes which they have there keep
+  /// their samples.
+  /// \param limits as in limitSpacings()
+  SurfaceProxy(const SurfaceProxy& before, std::vector<SurfaceBox> boxes,
+    const std::vector<SizingField::Limit>& limits, const ParallelFor& parallelFor);
+
   /// Multiplies all spacings by a factor near 1, so that the boxes still have the right size; particleCount() falls by
   /// its square. No evaluation is made.
   void scaleSpacings(double factor);
@@ -135,8 +141,10 @@ private:
     SizingField::Ball spacings;
   };
 
-  void sampleBoxes(const ParallelFor& parallelFor);
-  std::int64_t sampleRange(std::ptrdiff_t begin, std::ptrdiff_t end, std::vector<Location>& places);
+  void sampleBoxes(const SurfaceProxy* before, const ParallelFor& parallelFor);
+  void findSpacings(std::vector<SizingField::Limit> limits, const ParallelFor& parallelFor);
+  std::vector<char> keepSamples(const SurfaceProxy& before);
+  std::int64_t sampleSome(std::vector<int> pending, std::vector<Location>& places);
   bool stepInBox(std::size_t box, Location& place) const;
   bool samplePatiently(std::size_t box, std::int64_t& evaluations);
   bool sampleAt(std::size_t box, const Location& place, const Jet& jet);

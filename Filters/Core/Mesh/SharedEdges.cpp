@@ -13,6 +13,8 @@ namespace hop
 namespace
 {
 
+using Edge = std::array<int, 2>;
+
 /// An edge that has a triangle to its left, between two places with several particles.
 struct Joint
 {
@@ -66,8 +68,8 @@ std::vector<Joint> jointsOf(const std::vector<int>& places, const TriangleFans& 
 }
 
 /// The edges inside of a sheet that are to be split, of all between the same two places.
-void findShared(const Joint* begin, const Joint* end, const TriangleFans& fans,
-  std::vector<std::array<int, 2>>& shared)
+void findShared(
+  const Joint* begin, const Joint* end, const TriangleFans& fans, std::vector<Edge>& shared)
 {
   constexpr std::ptrdiff_t sides = 2;
   if (end - begin <= sides)
@@ -90,7 +92,7 @@ void findShared(const Joint* begin, const Joint* end, const TriangleFans& fans,
 }
 
 /// Puts the last vertex between the two ends of an edge.
-void split(const std::array<int, 2>& edge, TriangleFans& fans)
+void split(const Edge& edge, TriangleFans& fans)
 {
   const auto [a, b] = edge;
   const int middle = static_cast<int>(fans.vertexCount()) - 1;
@@ -104,36 +106,72 @@ void split(const std::array<int, 2>& edge, TriangleFans& fans)
   fans.add({ middle, a, right });
 }
 
-} // namespace
-
-void uniteEnds(Distribution& distribution)
+/// Edges along boundary curves and creases between two particles in one place.
+std::vector<Edge> edgesWithoutLength(const Distribution& distribution)
 {
   // Distance that is none, in units of the spacing.
   constexpr double none = 1e-9;
-  SurfaceEdges& edges = distribution.edges;
-  std::vector<std::array<int, 2>> pairs;
-  for (const auto* list : { &edges.segments, &edges.directed })
+  std::vector<Edge> found;
+  for (const auto* list : { &distribution.edges.segments, &distribution.edges.directed })
   {
-    std::copy_if(list->begin(), list->end(), std::back_inserter(pairs),
-      [&](const std::array<int, 2>& edge)
+    std::copy_if(list->begin(), list->end(), std::back_inserter(found),
+      [&](const Edge& edge)
       {
         const Particle& a = distribution.particles[edge[0]];
         const Particle& b = distribution.particles[edge[1]];
         return edge[0] != edge[1] && length(b.position - a.position) <= none * a.spacing;
       });
   }
-  if (pairs.empty())
+  return found;
+}
+
+/// Where creases end in the midst of the surface: pairs of a particle at which the edges along one side end, and one in
+/// the same place from which those along the other side begin.
+std::vector<Edge> tipsOfCreases(const Distribution& distribution)
+{
+  // Least cosine between their normals: those of one sheet in a star.
+  constexpr double sameSheet = 0.3;
+  std::vector<int> surplus(distribution.particles.size(), 0);
+  for (const auto& [from, to] : distribution.edges.directed)
+  {
+    --surplus[from];
+    ++surplus[to];
+  }
+  std::vector<Edge> tips;
+  for (const auto& [a, b] : distribution.edges.coincident)
+  {
+    if (surplus[a] * surplus[b] < 0 &&
+      dot(distribution.particles[a].normal, distribution.particles[b].normal) > sameSheet)
+    {
+      tips.push_back({ a, b });
+      surplus[a] = surplus[b] = 0;
+    }
+  }
+  return tips;
+}
+
+} // namespace
+
+void uniteEnds(Distribution& distribution)
+{
+  SurfaceEdges& edges = distribution.edges;
+  const std::vector<Edge> pairs = edgesWithoutLength(distribution);
+  const std::vector<Edge> tips = tipsOfCreases(distribution);
+  if (pairs.empty() && tips.empty())
   {
     return;
   }
   DisjointSets places(distribution.particles.size());
-  for (const auto& [a, b] : pairs)
+  for (const auto* list : { &pairs, &tips })
   {
-    places.unite(a, b);
+    for (const auto& [a, b] : *list)
+    {
+      places.unite(a, b);
+    }
   }
   for (auto* list : { &edges.segments, &edges.directed })
   {
-    for (std::array<int, 2>& edge : *list)
+    for (Edge& edge : *list)
     {
       edge = { places.root(edge[0]), places.root(edge[1]) };
     }
@@ -145,7 +183,7 @@ void splitSharedEdges(const Isosurface& surface, const std::vector<int>& places,
   Distribution& distribution, TriangleFans& fans, const ParallelFor& parallelFor)
 {
   const std::vector<Joint> joints = jointsOf(places, fans);
-  std::vector<std::array<int, 2>> shared;
+  std::vector<Edge> shared;
   for (auto begin = joints.begin(); begin != joints.end();)
   {
     const auto end = std::find_if(
@@ -158,7 +196,7 @@ void splitSharedEdges(const Isosurface& surface, const std::vector<int>& places,
     return;
   }
   SurfaceBelow below(surface, parallelFor);
-  for (const std::array<int, 2>& edge : shared)
+  for (const Edge& edge : shared)
   {
     const Particle& a = distribution.particles[edge[0]];
     const Particle& b = distribution.particles[edge[1]];

@@ -9,9 +9,10 @@
 namespace hop
 {
 
-/// Makes one of the particles that follow each other on a boundary curve or crease and stand in one place, as at corners of
-/// elements that are as small as rounding: no triangle has an edge without length. The other one stays in its place, and on
-/// no edge.
+/// Makes one of the particles in one place between which an edge without length would lead, as no triangle has one: of those
+/// that follow each other on a boundary curve or crease, as at corners of elements that are as small as rounding, and of
+/// those on the two sides of a crease where it ends in the midst of the surface. The other one stays in its place, and on no
+/// edge.
 void uniteEnds(Distribution& distribution);
 
 /// Splits edges between two places that are joined by another sheet, or by a crease, too: where creases meet within a

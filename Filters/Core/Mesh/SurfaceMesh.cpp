@@ -43,6 +43,26 @@ std::int64_t countTurned(
     [&particles](const std::array<int, 3>& corners) { return isTurned(particles, corners); });
 }
 
+/// The edges of a loop at which the mesh lacks something. Where particles do not tell on which side of an edge the surface
+/// is, and the mesh is on the other side, it may end there: such edges count only if a loop has no others.
+std::vector<std::array<int, 2>> lackingEdges(
+  const OpenLoop& loop, const ConstrainedEdges& edges, const TriangleFans& fans)
+{
+  std::vector<std::array<int, 2>> all, lacking;
+  for (std::size_t n = 0; n < loop.edgeCount(); ++n)
+  {
+    const int a = loop.particles[n];
+    const int b = loop.particles[(n + 1) % loop.particles.size()];
+    const bool mayEnd = edges.has(a, b) && edges.has(b, a) && fans.apexOf(b, a) >= 0;
+    all.push_back({ a, b });
+    if (!mayEnd)
+    {
+      lacking.push_back({ a, b });
+    }
+  }
+  return lacking.empty() ? all : lacking;
+}
+
 /// What is open.
 void countOpen(const Isosurface& surface, const Distribution& distribution,
   const ConstrainedEdges& edges, const TriangleFans& fans, SurfaceMesh& mesh,
@@ -57,13 +77,12 @@ void countOpen(const Isosurface& surface, const Distribution& distribution,
     }
     ++mesh.openLoops;
     double around = 0.0;
-    for (std::size_t n = 0; n < loop.edgeCount(); ++n)
+    for (const auto& [a, b] : lackingEdges(loop, edges, fans))
     {
-      const int next = loop.particles[n + 1 < loop.particles.size() ? n + 1 : 0];
-      around += length(particles[next].position - particles[loop.particles[n]].position);
+      around += length(particles[b].position - particles[a].position);
+      mesh.atFaults.insert(mesh.atFaults.end(), { a, b });
     }
     mesh.openLength += around;
-    mesh.atFaults.insert(mesh.atFaults.end(), loop.particles.begin(), loop.particles.end());
     if (mesh.onLongestLoop < 0 || around > mesh.longestLoop)
     {
       mesh.longestLoop = around;
@@ -105,6 +124,8 @@ SurfaceMesh meshSurface(const Isosurface& whole, ConstrainedEdges edges, Distrib
   const std::vector<int> unused = findUnused(places, fans);
   mesh.unusedParticles = static_cast<std::int64_t>(unused.size());
   mesh.atFaults.insert(mesh.atFaults.end(), unused.begin(), unused.end());
+  std::sort(mesh.atFaults.begin(), mesh.atFaults.end());
+  mesh.atFaults.erase(std::unique(mesh.atFaults.begin(), mesh.atFaults.end()), mesh.atFaults.end());
   mesh.turnedTriangles = countTurned(distribution.particles, mesh.triangles);
   return mesh;
 }

@@ -26,7 +26,7 @@ struct SurfaceMesh
   int onLongestLoop = -1;
   /// Particles without a triangle.
   std::int64_t unusedParticles = 0;
-  /// The particles on open loops, and those without a triangle.
+  /// The particles on open loops, and those without a triangle, ascending.
   std::vector<int> atFaults;
   /// Triangles that are turned away from the normal of a corner.
   std::int64_t turnedTriangles = 0;

@@ -236,6 +236,17 @@ bool FaceLocator::mayContinueIn(int element, int face, int other) const
       [&](int j) { return this->Faces[j].element == other; });
 }
 
+std::vector<std::size_t> FaceLocator::slotsBehind(int element, int face) const
+{
+  std::vector<std::size_t> slots;
+  if (const OpenFace* from = this->find(element, face))
+  {
+    std::transform(from->opposite.begin(), from->opposite.end(), std::back_inserter(slots),
+      [this](int j) { return faceSlot(this->Faces[j].element, this->Faces[j].face); });
+  }
+  return slots;
+}
+
 std::optional<LocatedPlace> FaceLocator::locate(
   const LocalMap& point, int element, int face, double tolerance, std::int64_t& evaluations) const
 {

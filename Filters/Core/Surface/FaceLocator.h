@@ -41,6 +41,9 @@ public:
   /// Whether the element `other` may lie behind a face that has no neighbour.
   bool mayContinueIn(int element, int face, int other) const;
 
+  /// The faces, as faceSlot(), of elements that may lie behind a face that has no neighbour.
+  std::vector<std::size_t> slotsBehind(int element, int face) const;
+
   /// The place behind a face that is nearest to a point of the face. Of several elements the one with the smallest gap
   /// is chosen, or the first whose gap is zero to rounding.
   /// \param point with the Jacobian of the face's element

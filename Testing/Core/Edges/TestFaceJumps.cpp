@@ -270,7 +270,7 @@ TEST(FaceJumps, SurfaceEndsAroundElements)
   FaceJumps jumps = jumpsOf(mesh);
   const std::vector<float> before = jumps.jumpTolerances;
   constexpr int inMiddle = 2;
-  endAround(mesh, { inMiddle, inMiddle }, jumps);
+  endAround({ &mesh }, { inMiddle, inMiddle }, jumps);
   for (int element = 0; element < static_cast<int>(mesh.elements.size()); ++element)
   {
     for (int face = 0; face < 4; ++face)
@@ -281,6 +281,30 @@ TEST(FaceJumps, SurfaceEndsAroundElements)
       EXPECT_EQ(jumps.jumpTolerances[slot], isAround ? 0.0f : before[slot]);
     }
   }
+}
+
+/// Beside a hanging node the large element's face, and those of all small ones behind it.
+TEST(FaceJumps, SurfaceEndsAroundElementsThatTheMeshDoesNotJoin)
+{
+  MeshRecipe recipe;
+  recipe.field = [](const glm::dvec3& x) { return x.z - 0.3 * x.x; };
+  const ElementMesh mesh = hangingMesh(recipe, recipe);
+  const FaceLocator locator(mesh, 0.0, {});
+  Isosurface surface{ &mesh, 0.0, 1e-9 };
+  surface.locator = &locator;
+  FaceJumps jumps = jumpsOf(mesh, false);
+  endAround(surface, { 0 }, jumps);
+  int ending = 0;
+  for (int element = 0; element < static_cast<int>(mesh.elements.size()); ++element)
+  {
+    for (int face = 0; face < 6; ++face)
+    {
+      const bool isBetween = isInMiddle(mesh, element, face);
+      EXPECT_EQ(jumps.jumpTolerances[faceSlot(element, face)] == 0.0f, isBetween);
+      ending += isBetween ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(ending, 5);
 }
 
 TEST(FaceJumps, DoNotDependOnThreads)

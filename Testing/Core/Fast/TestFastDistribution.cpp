@@ -639,5 +639,30 @@ TEST(FastDistribution, SpacingsAreLimitedAroundAPlace)
   EXPECT_LT(nearPole(), 26);
 }
 
+/// Where spacings grow a hundredfold within a box, one sample tells nothing of the others.
+TEST(FastDistribution, FollowsSpacingsThatAreMuchSmallerThanBoxes)
+{
+  constexpr double spacing = 0.1;
+  constexpr double least = 0.001;
+  const glm::dvec3 place(0.13, 0.07, 0.1);
+  const ElementMesh mesh =
+    meshOf(Domain::Hexahedron, 1, [](const glm::dvec3& x) { return x.z - 0.1; });
+  DistributionParameters parameters = withSpacing(spacing);
+  parameters.spacingLimits = { { place, static_cast<float>(least) } };
+  const Distribution result = distribute(mesh, parameters);
+  for (const double radius : { 4.0 * least, 8.0 * least, 16.0 * least })
+  {
+    const auto count =
+      static_cast<double>(std::count_if(result.particles.begin(), result.particles.end(),
+        [&](const Particle& p) { return glm::distance(p.position.xyz, place) < radius; }));
+    // The integral of 2/(sqrt(3) h^2) over a disc, h = least + slope r.
+    const double slope = SizingField::GradationSlope;
+    const double ratio = least / (least + slope * radius);
+    const double wanted =
+      4.0 * Pi / (std::sqrt(3.0) * slope * slope) * (ratio - 1.0 - std::log(ratio));
+    EXPECT_NEAR(count / wanted, 1.0, 0.15) << radius;
+  }
+}
+
 } // namespace
 } // namespace hop::testing

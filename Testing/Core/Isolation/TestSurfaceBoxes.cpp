@@ -186,7 +186,7 @@ TEST(SurfaceBoxes, AreTheSameForAnyNumberOfThreads)
   }
 }
 
-TEST(SurfaceBoxes, AreKeptWhereTheyAreKnownAndFineEnough)
+TEST(SurfaceBoxes, AreKeptWhereTheyAreKnownAndMayStay)
 {
   MeshRecipe recipe;
   recipe.degrees = { 3, 3, 3 };
@@ -207,7 +207,8 @@ TEST(SurfaceBoxes, AreKeptWhereTheyAreKnownAndFineEnough)
     const std::vector<SurfaceBox> found = findSurfaceBoxes(mesh, 0.1, isFineEnough, {});
     const int askedAtFirst = asked.exchange(0);
     const std::vector<SurfaceBox> coarse = findSurfaceBoxes(mesh, 0.1, 0.3, {});
-    const auto refined = findSurfaceBoxes(mesh, 0.1, isFineEnough, threadedFor(4), {}, &coarse);
+    const auto refined =
+      findSurfaceBoxes(mesh, 0.1, isFineEnough, threadedFor(4), {}, { &coarse, isFineEnough });
     EXPECT_LT(asked, askedAtFirst);
     ASSERT_EQ(refined.size(), found.size());
     for (std::size_t b = 0; b < found.size(); ++b)
@@ -216,7 +217,8 @@ TEST(SurfaceBoxes, AreKeptWhereTheyAreKnownAndFineEnough)
       EXPECT_EQ(refined[b].middle.u.xyz, found[b].middle.u.xyz);
     }
     asked = 0;
-    EXPECT_EQ(findSurfaceBoxes(mesh, 0.1, isFineEnough, {}, {}, &found).size(), found.size());
+    const auto same = findSurfaceBoxes(mesh, 0.1, isFineEnough, {}, {}, { &found, isFineEnough });
+    EXPECT_EQ(same.size(), found.size());
     EXPECT_EQ(asked, static_cast<int>(found.size()));
   }
 }

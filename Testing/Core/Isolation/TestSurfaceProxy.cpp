@@ -147,6 +147,41 @@ TEST(SurfaceProxy, FeelsASmallSpacingHoweverLargeTheSpacingsAroundIt)
   }
 }
 
+/// Of other boxes of the same surface, those of elements that have the same ones as before.
+TEST(SurfaceProxy, KeepsSamplesOfElementsWhoseBoxesStay)
+{
+  const ElementMesh mesh = curvedMesh(Domain::Hexahedron);
+  const Isosurface surface{ &mesh, 0.0, 1e-9 };
+  const auto boxesAt = [&](double largest, const KnownBoxes& known = {})
+  {
+    return findSurfaceBoxes(
+      mesh, 0.0, [&](const SurfaceBox& box) { return box.size <= largest; }, {}, {}, known);
+  };
+  const std::vector<SurfaceBox> coarse = boxesAt(5.0 * spacing);
+  const auto isOnTheLeft = [&](const SurfaceBox& box)
+  { return box.middle.element < static_cast<int>(mesh.elements.size()) / 2; };
+  const std::vector<SurfaceBox> mixed = boxesAt(2.0 * spacing, { &coarse, isOnTheLeft });
+  const auto left = std::count_if(coarse.begin(), coarse.end(), isOnTheLeft);
+  ASSERT_EQ(std::count_if(mixed.begin(), mixed.end(), isOnTheLeft), left);
+  ASSERT_GT(mixed.size(), 2 * coarse.size());
+
+  const SizingFunction sizing{ spacing, 10.0 };
+  const SurfaceProxy before(surface, sizing, coarse, {});
+  const std::vector<SizingField::Limit> limits{ { { 0.0, 0.0, 0.7 }, 0.3f * spacing } };
+  const SurfaceProxy kept(before, mixed, limits, {});
+  SurfaceProxy anew(surface, sizing, mixed, {});
+  anew.limitSpacings(limits, {});
+  EXPECT_EQ(kept.particleCount(), anew.particleCount());
+  EXPECT_EQ(kept.smallestSpacing(), anew.smallestSpacing());
+  EXPECT_LE(kept.evaluations(), anew.evaluations() - left);
+  ASSERT_EQ(kept.samples().size(), anew.samples().size());
+  for (std::size_t b = 0; b < kept.samples().size(); ++b)
+  {
+    EXPECT_EQ(kept.samples()[b].patch.position, anew.samples()[b].patch.position);
+    EXPECT_EQ(kept.samples()[b].patch.spacing, anew.samples()[b].patch.spacing);
+  }
+}
+
 /// A bump on a plane, in elements far smaller than the spacing on the plane, which is to be 0.5.
 ElementMesh fineMesh()
 {

@@ -74,5 +74,49 @@ TEST(SharedEdges, EndsInOnePlaceBecomeOne)
   EXPECT_EQ(firstInPlace(distribution.edges, 4), (std::vector<int>{ 0, 1, 1, 3 }));
 }
 
+/// A slit from (-1, 0) to the origin: 0 to 1 along one side of a crease, 2 to 3 back along the other one.
+struct Slit
+{
+  Slit()
+  {
+    this->distribution.particles = particlesAt({ { -1, 0 }, { 0, 0 }, { 0, 0 }, { -1, 0 } });
+    this->distribution.edges.segments = { { 0, 1 }, { 2, 3 } };
+    this->distribution.edges.directed = this->distribution.edges.segments;
+    this->distribution.edges.coincident = { { 1, 2 } };
+  }
+
+  Distribution distribution;
+};
+
+TEST(SharedEdges, CreasesThatEndInTheSurfaceHaveOneParticleThere)
+{
+  Slit slit;
+  uniteEnds(slit.distribution);
+  const ConstrainedEdges edges(slit.distribution);
+  EXPECT_TRUE(edges.has(0, 1) && edges.has(1, 3));
+  EXPECT_FALSE(edges.isOnEdge(2));
+}
+
+TEST(SharedEdges, CreasesBetweenOppositeSheetsEndInTwo)
+{
+  Slit slit;
+  for (const int other : { 2, 3 })
+  {
+    slit.distribution.particles[other].normal = -1.0 * slit.distribution.particles[other].normal;
+  }
+  uniteEnds(slit.distribution);
+  EXPECT_TRUE(ConstrainedEdges(slit.distribution).isOnEdge(2));
+}
+
+TEST(SharedEdges, SidesOfACreaseThatGoesOnStayApart)
+{
+  Slit slit;
+  slit.distribution.particles.push_back(slit.distribution.particles[0]);
+  slit.distribution.particles.back().position = { { 1.0, 0.0, 0.0 } };
+  slit.distribution.edges.directed = { { 0, 1 }, { 1, 4 }, { 4, 2 }, { 2, 3 } };
+  uniteEnds(slit.distribution);
+  EXPECT_EQ(slit.distribution.edges.directed[3], (std::array<int, 2>{ 2, 3 }));
+}
+
 } // namespace
 } // namespace hop::testing
