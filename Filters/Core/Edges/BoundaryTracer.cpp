@@ -379,12 +379,12 @@ ReferenceVector BoundaryTracer::predict(const Heading& heading, double step) con
 
 /// Whether a curve keeps to the face between two points: the distances from the face's edges are cubics, by
 /// their values and slopes at both points. A curve that leaves the face and comes back has two vertices more, which its
-/// other side may see.
+/// other side may see. A chord that leads past a corner to another element leaves it only where the surface is not cut.
 bool BoundaryTracer::staysOnFace(const BoundaryPoint& from, const BoundaryPoint& to) const
 {
   if (to.at.location.element != from.at.location.element || to.face != from.face)
   {
-    return false;
+    return !this->HasCuts;
   }
   const ReferenceVector chord = to.at.location.u - from.at.location.u;
   const double length = glm::distance(from.at.point.map.position.xyz, to.at.point.map.position.xyz);
@@ -494,7 +494,8 @@ BoundaryTracer::Ahead BoundaryTracer::advance(const Heading& heading, double ste
   }
   const auto next = this->project({ from.at.location.element, u }, from.face, step);
   if (!next || dot(this->tangent(*next), this->tangent(from)) < TraceAngles::LeastCosine ||
-    (this->HasCuts && !(this->staysOnFace(from, *next) && this->bendsEvenly(from, *next))))
+    ((this->HasCuts || this->HasEnds) && !this->staysOnFace(from, *next)) ||
+    (this->HasCuts && !this->bendsEvenly(from, *next)))
   {
     return {};
   }

@@ -371,6 +371,34 @@ TEST(BoundaryCurves, OfMeshesDoNotEndWhereAJumpFades)
   EXPECT_EQ(ends, begins);
 }
 
+/// On the left the surface reaches over the upper end of the face between two halves of a cube, for less than a chord: its
+/// curve leaves the face there, runs along the end of the mesh, and comes back.
+TEST(BoundaryCurves, OfMeshesLeaveAFaceHoweverShortTheWayOutside)
+{
+  constexpr double bend = 0.98;
+  constexpr double middle = 0.04;
+  for (const double half : { 0.018, 0.02 })
+  {
+    MeshRecipe left, right;
+    left.degrees = { 2, 2, 2 };
+    left.field = [=](const glm::dvec3& x)
+    { return x.z - 1.0 - bend * (half * half - std::pow(x.y - middle, 2)) - 0.3 * x.x; };
+    right.field = [](const glm::dvec3& x) { return x.z - 0.5; };
+    ElementMesh mesh;
+    appendBox(mesh, left, { -1, -1, -1 }, { 0, 1, 1 });
+    appendBox(mesh, right, { 0, -1, -1 }, { 1, 1, 1 });
+    findFaceNeighbors(mesh, 1e-9);
+    const BoundaryCurves curves = curvesOf(mesh, {}, SampledCurves::ForMeshes);
+    std::vector<int> surplus(curves.particles.size(), 0);
+    for (const auto& [a, b] : curves.edges.directed)
+    {
+      ++surplus[a];
+      --surplus[b];
+    }
+    EXPECT_EQ(surplus, std::vector<int>(curves.particles.size(), 0)) << half;
+  }
+}
+
 TEST(BoundaryCurves, OfSplatsEndWhereAJumpFades)
 {
   const BoundaryCurves curves = curvesOf(halvesWithFadingStep());
