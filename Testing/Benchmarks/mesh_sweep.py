@@ -1,11 +1,12 @@
 """What meshes lack, over many isovalues, spacings and seeds: a table in Markdown, a row a field, and the meshes that
 lack something.
 
-    pvpython Testing/Benchmarks/mesh_sweep.py PLUGIN [FOLDER ...] [--only WORD] [--jumps] [--isovalues N] [--finer F ...]
-        [--seeds S ...] [--area]
+    pvpython Testing/Benchmarks/mesh_sweep.py PLUGIN [FOLDER ...] [--only WORD] [--jumps | --every] [--isovalues N]
+        [--finer F ...] [--seeds S ...] [--area]
 
 Every FOLDER (default: Testing/Data) is searched for the files of the list below: those whose field is continuous, or,
-with --jumps, the others. Isovalues are spread evenly within the range of the field, N of them (default 6); spacings are
+with --jumps, the others. With --every, each array of each .vtu file counts, continuous or not, by its components and, if
+it has several, its magnitude (-1); of equal names the file of the first FOLDER. Isovalues are spread evenly within the range of the field, N of them (default 6); spacings are
 the proxy's default over F (default 2, 1 and 0.5); seeds are 1, 2 and 3 by default. Columns:
   closed    meshes without hole, particle without a triangle, or edge of three triangles, of all whose surface has
             triangles, and no singular points
@@ -61,6 +62,9 @@ WITH_JUMPS = (
     Field("pyfr_cylinder_3360hex_7656prism_p3.vtu", "Pressure", 0),
 )
 
+# Arrays that describe the mesh, not the solution.
+BOOKKEEPING = ("RationalWeights", "vtkOriginal")
+
 FOLD = 10  # degrees
 ON_EDGE = 0.01  # spacings
 AWAY = 1.5
@@ -68,6 +72,17 @@ AWAY = 1.5
 
 def find(name, folders):
     return next((folder / name for folder in folders if (folder / name).is_file()), None)
+
+
+def every_field(folders):
+    files = {path.name: path for folder in reversed(folders) for path in folder.glob("*.vtu")}
+    for name in sorted(files):
+        for array in read(files[name]).PointData.values():
+            count = array.GetNumberOfComponents()
+            for component in range(count) if count == 1 else (*range(count), -1):
+                low, high = array.GetRange(component)
+                if not array.Name.startswith(BOOKKEEPING) and high - low > 1e-12 * max(abs(low), abs(high)):
+                    yield Field(name, array.Name, component)
 
 
 def read(path):
@@ -78,8 +93,9 @@ def read(path):
 
 
 def mesh_of(reader, field, isovalue, finer, **properties):
+    component = {} if field.component < 0 else {"Component": field.component}
     proxy = simple.HighOrderParticleIsosurface(
-        Input=reader, ContourBy=["POINTS", field.array], Component=field.component, Isosurfaces=[isovalue],
+        Input=reader, ContourBy=["POINTS", field.array], Isosurfaces=[isovalue], **component,
         OutputType="Triangles", PassDiagnostics=1, **properties)
     proxy.Spacing = proxy.Spacing / finer
     algorithm = proxy.GetClientSideObject()
@@ -234,6 +250,7 @@ def main():
     parser.add_argument("folders", nargs="*", type=Path)
     parser.add_argument("--only", default="")
     parser.add_argument("--jumps", action="store_true")
+    parser.add_argument("--every", action="store_true")
     parser.add_argument("--isovalues", type=int, default=6)
     parser.add_argument("--finer", type=float, nargs="+", default=[2.0, 1.0, 0.5])
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3])
@@ -244,7 +261,8 @@ def main():
     print_row(["field", "closed", "singular", "holes", "left over", "threefold", "proven", "area", "angles off edges", "angles away"])
     print("|---" * 10 + "|")
     everything, lacking = [], []
-    for field in WITH_JUMPS if arguments.jumps else CONTINUOUS:
+    fields = every_field(folders) if arguments.every else WITH_JUMPS if arguments.jumps else CONTINUOUS
+    for field in fields:
         name = f"{field.file} {field.array} {field.component}"
         path = find(field.file, folders)
         if path is None or arguments.only not in name:
