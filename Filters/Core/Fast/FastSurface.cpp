@@ -133,18 +133,40 @@ bool FastSystem::isOutOfReach(const SurfaceBox& box) const
        .holds(glm::dvec3(evaluateGradient(this->Mesh.form(element), box.middle.u).value));
 }
 
+/// The boxes of the surface. Where they are too many for the memory, the surface is followed no further.
+/// \param isFineEnough whether a certified box is small enough
+std::vector<SurfaceBox> FastSystem::findBoxes(
+  const IsFine& isFineEnough, const KnownBoxes& known, const std::function<void(double)>& progress)
+{
+  this->BoxCount = 0;
+  const auto isLast = [&](const SurfaceBox& box)
+  {
+    const bool ends = this->hasTooManyBoxes() || isFineEnough(box);
+    this->BoxCount += ends ? 1 : 0;
+    return ends;
+  };
+  std::vector<SurfaceBox> boxes =
+    findSurfaceBoxes(this->Mesh, this->Surface.isovalue, isLast, this->Parallel, progress, known);
+  this->dropFarBeyondPolygon(boxes);
+  return boxes;
+}
+
 /// \param sizing decides how fine the boxes are; the proxy's spacings follow the sizing function that is asked for
 /// \param shareOfRun fraction of the run that is over when the surface is found
+/// \return a proxy without boxes, and an error in the report, if they are too many
 SurfaceProxy FastSystem::proxyOfBoxesAt(const SizingFunction& sizing, double shareOfRun)
 {
   const auto isFineEnough = [&](const SurfaceBox& box)
   { return this->isFineEnough(box, sizing, nullptr); };
-  const auto found = [&](double share) { this->Work.raiseFraction(shareOfRun * share); };
   const KnownBoxes rough{ this->RoughBoxes.empty() ? nullptr : &this->RoughBoxes,
     [&](const SurfaceBox& box) { return box.certified && isFineEnough(box); } };
-  std::vector<SurfaceBox> boxes = findSurfaceBoxes(
-    this->Mesh, this->Surface.isovalue, isFineEnough, this->Parallel, found, rough);
-  this->dropFarBeyondPolygon(boxes);
+  std::vector<SurfaceBox> boxes = this->findBoxes(
+    isFineEnough, rough, [&](double share) { this->Work.raiseFraction(shareOfRun * share); });
+  if (this->hasTooManyBoxes())
+  {
+    this->Result.report.error = this->Parameters.refusalOfBoxes();
+    boxes.clear();
+  }
   SurfaceProxy proxy(this->Surface, this->Sizing, std::move(boxes), this->Parallel);
   this->Evaluations += proxy.evaluations();
   return proxy;
@@ -152,8 +174,9 @@ SurfaceProxy FastSystem::proxyOfBoxesAt(const SizingFunction& sizing, double sha
 
 bool FastSystem::tooMany(double count)
 {
-  this->Result.report.error = this->Parameters.refusal(count);
-  return !this->Result.report.error.empty();
+  std::string& error = this->Result.report.error;
+  error = error.empty() ? this->Parameters.refusal(count) : error;
+  return !error.empty();
 }
 
 /// Particles along strips of the surface that are narrower than a spacing, as in cells like slivers: more than go by
@@ -230,10 +253,13 @@ void FastSystem::refineBoxes(const std::vector<SizingField::Limit>& limits)
   {
     return;
   }
-  std::vector<SurfaceBox> boxes = findSurfaceBoxes(this->Mesh, this->Surface.isovalue,
-    [&](const SurfaceBox& box) { return this->isFineEnough(box, this->Sizing, &coarse); },
-    this->Parallel, {}, { &coarse.boxes(), mayStay });
-  this->dropFarBeyondPolygon(boxes);
+  std::vector<SurfaceBox> boxes = this->findBoxes([&](const SurfaceBox& box)
+    { return this->isFineEnough(box, this->Sizing, &coarse); },
+    { &coarse.boxes(), mayStay }, {});
+  if (this->hasTooManyBoxes())
+  {
+    return;
+  }
   auto finer = std::make_unique<SurfaceProxy>(coarse, std::move(boxes), limits, this->Parallel);
   this->Evaluations += finer->evaluations();
   this->Proxy = std::move(finer);

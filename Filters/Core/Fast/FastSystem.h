@@ -91,6 +91,10 @@ protected:
   bool isFineEnough(
     const SurfaceBox& box, const SizingFunction& sizing, const SurfaceProxy* limits);
   bool isOutOfReach(const SurfaceBox& box) const;
+  using IsFine = std::function<bool(const SurfaceBox&)>;
+  std::vector<SurfaceBox> findBoxes(const IsFine& isFineEnough, const KnownBoxes& known,
+    const std::function<void(double)>& progress);
+  bool hasTooManyBoxes() const { return this->BoxCount > this->Parameters.boxLimit(); }
   SurfaceProxy proxyOfBoxesAt(const SizingFunction& sizing, double shareOfRun);
   bool tooMany(double count);
   static double countAlongStrips(const SurfaceProxy& proxy);
@@ -159,6 +163,8 @@ protected:
   FaceLocator Locator;
   /// Boxes of the rough proxy that guessed the spacing of a given number, if they may be as fine as this wants them.
   std::vector<SurfaceBox> RoughBoxes;
+  /// Of the surface that is isolated, so far.
+  std::atomic<std::int64_t> BoxCount{ 0 };
   std::unique_ptr<SurfaceProxy> Proxy;
   FaceJumps Jumps;
   BoundaryCurves Curves;

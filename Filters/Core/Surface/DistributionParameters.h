@@ -88,6 +88,16 @@ struct DistributionParameters
          << this->particleLimit;
     return text.str();
   }
+
+  /// Boxes of isolation that take about as much memory as the particles of the limit.
+  std::int64_t boxLimit() const { return 2 * this->particleLimit; }
+
+  /// Why a request is refused whose surface lies in more boxes than that.
+  std::string refusalOfBoxes() const
+  {
+    return "the surface bends so much that it takes more than " + std::to_string(this->boxLimit()) +
+      " boxes, twice the limit of " + std::to_string(this->particleLimit) + " particles";
+  }
 };
 
 } // namespace hop

@@ -486,6 +486,27 @@ TEST(FastDistribution, CountsParticlesBeforehandWhereMostStandCloseBecauseTheSur
   EXPECT_FALSE(distribute(mesh, parameters).report.error.empty());
 }
 
+TEST(FastDistribution, StopsFollowingASurfaceThatTakesTooManyBoxes)
+{
+  // Noise: at the spacing of the estimate it is not counted beforehand, as a plane would take few particles.
+  MeshRecipe recipe;
+  recipe.degrees = { 4, 4, 4 };
+  recipe.cells = 3;
+  recipe.field = [](const glm::dvec3& x)
+  { return std::sin(37.0 * x.x) + std::sin(41.0 * x.y) + std::sin(43.0 * x.z); };
+  const ElementMesh mesh = makeMesh(recipe);
+  DistributionParameters parameters = withSpacing(0.1, 10.0);
+  const std::int64_t boxes = distribute(mesh, parameters).report.boxes;
+  ASSERT_GT(boxes, 500);
+  parameters.particleLimit = boxes / 8;
+  const Distribution result = distribute(mesh, parameters);
+  EXPECT_TRUE(result.particles.empty());
+  EXPECT_NE(result.report.error.find("boxes, twice the limit of " + std::to_string(boxes / 8)),
+    std::string::npos)
+    << result.report.error;
+  EXPECT_LT(result.report.evaluations, boxes);
+}
+
 TEST(FastDistribution, ReportsUndersampledParticles)
 {
   // A tube that the mesh cuts off: closed components of fewer than six particles are distributed once more.
