@@ -2,7 +2,6 @@
 
 #include "Fast/FastDistribution.h"
 #include "Mesh/LiftedField.h"
-#include "Run/RunMesh.h"
 #include "Support/Interruptible.h"
 
 #include <algorithm>
@@ -95,7 +94,7 @@ void addFaults(const IsovalueParticles& some, double nearer, double least, bool 
 
 } // namespace
 
-void MeshRepair::run(IsovalueParticles& some) const
+void MeshRepair::run(IsovalueParticles& some)
 {
   if (this->Properties.outputType == OutputType::Particles || lackOf(some.mesh) == 0)
   {
@@ -112,7 +111,7 @@ void MeshRepair::run(IsovalueParticles& some) const
 /// Distributes and joins particles anew on a lifted surface: where nodes have the isovalue, or nearly so, by little, and by
 /// more if holes are left; and if they are left still, all of the surface at values beside the isovalue.
 /// \param some whose mesh lacks something; replaced where a new one lacks less and is of the same surface
-void MeshRepair::meshLifted(IsovalueParticles& some) const
+void MeshRepair::meshLifted(IsovalueParticles& some)
 {
   // Chosen by experiment, see liftedMesh(). In spacings of a fiftieth of an element particles do not find back from the
   // larger height; in spacings of an element the smaller one leaves holes.
@@ -126,36 +125,50 @@ void MeshRepair::meshLifted(IsovalueParticles& some) const
   {
     isBetter = this->meshBesideNodes(heights[i], some);
   }
-  Isosurface lifted = this->Surface;
   const auto isLacking = [&some] { return isOpen(some.mesh) || some.mesh.turnedTriangles > 0; };
   for (std::size_t i = 0; i < std::size(beside) && wasOpen && isLacking(); ++i)
   {
-    lifted.isovalue = this->Surface.isovalue + beside[i];
-    this->takeBetter(this->meshAnew(lifted, this->Parameters, some.isovalue), some);
+    auto lifted = std::make_unique<LiftedSurface>();
+    lifted->surface = this->Surface;
+    lifted->surface.isovalue += beside[i];
+    this->meshOn(std::move(lifted), some);
   }
 }
 
 /// The same by one height where nodes have the isovalue.
 /// \return whether the mesh was replaced
-bool MeshRepair::meshBesideNodes(double height, IsovalueParticles& some) const
+bool MeshRepair::meshBesideNodes(double height, IsovalueParticles& some)
 {
-  const std::optional<ElementMesh> mesh = liftedMesh(*this->Surface.mesh, this->Surface.isovalue,
+  auto lifted = std::make_unique<LiftedSurface>();
+  lifted->mesh = liftedMesh(*this->Surface.mesh, this->Surface.isovalue,
     isOpen(some.mesh) ? LiftedValues::Near : LiftedValues::Isovalue, height);
-  if (!mesh)
+  if (!lifted->mesh)
   {
     return false;
   }
-  Isosurface lifted = this->Surface;
-  lifted.mesh = &*mesh;
-  return this->takeBetter(this->meshAnew(lifted, this->Parameters, some.isovalue), some);
+  lifted->surface = this->Surface;
+  lifted->surface.mesh = &*lifted->mesh;
+  return this->meshOn(std::move(lifted), some);
 }
 
-/// Distributes and joins particles anew, evener and nearer to each other around the faults of a mesh. The surface of a
-/// discontinuous field ends there at all faces of the elements: in pieces of one element no curve has to find its way to
+/// The same on a lifted surface.
+bool MeshRepair::meshOn(std::unique_ptr<LiftedSurface> lifted, IsovalueParticles& some)
+{
+  auto other = this->meshAnew(*lifted, this->Parameters, some.isovalue);
+  const bool isBetter = other && this->takeBetter(std::move(*other), true, some);
+  if (isBetter)
+  {
+    this->Lifted = std::move(lifted);
+  }
+  return isBetter;
+}
+
+/// Distributes and joins particles anew, evener and nearer to each other around the faults of a mesh, on the surface on
+/// which they stand. That of a discontinuous field ends there at all faces of the elements: in pieces of one element no curve has to find its way to
 /// another one.
 /// \param inPieces whether the field is discontinuous
 /// \param some whose mesh is open; replaced where a new one lacks less
-void MeshRepair::meshAroundFaults(bool inPieces, IsovalueParticles& some) const
+void MeshRepair::meshAroundFaults(bool inPieces, IsovalueParticles& some)
 {
   // All chosen by experiment. Tries to close holes, and those for particles that are left over only. More: what stays is
   // seldom mended later; fewer: holes stay that would be closed.
@@ -167,17 +180,18 @@ void MeshRepair::meshAroundFaults(bool inPieces, IsovalueParticles& some) const
   around.quality = Quality::High;
   // Nothing closer than the tolerance is told apart.
   const double least = std::max(this->Surface.tolerance, around.sizing.smallestSpacing);
+  MeshedSurface& own = this->Lifted ? *this->Lifted : this->Whole;
   addFaults(some, some.mesh.openLoops > 0 ? 1.0 : nearer, least, inPieces, around);
   for (int n = 0;
        n < (some.mesh.openLoops > 0 ? mostTimes : mostTimesWithoutHoles) && hasFewFaults(some); ++n)
   {
-    auto other = this->meshAnew(this->Surface, around, some.isovalue);
+    auto other = this->meshAnew(own, around, some.isovalue);
     if (!other)
     {
       return;
     }
     addFaults(*other, nearer, least, inPieces, around);
-    this->takeBetter(std::move(other), some);
+    this->takeBetter(std::move(*other), false, some);
   }
 }
 
@@ -185,32 +199,37 @@ void MeshRepair::meshAroundFaults(bool inPieces, IsovalueParticles& some) const
 /// \param own see hop::addMesh()
 /// \return nothing if there are no particles, or not all of them are on the surface
 std::optional<IsovalueParticles> MeshRepair::meshAnew(
-  const Isosurface& own, const DistributionParameters& parameters, double isovalue) const
+  MeshedSurface& own, DistributionParameters parameters, double isovalue) const
 {
+  parameters.boxes = this->Parameters.boxes ? &own.boxes : nullptr;
   IsovalueParticles some;
   some.isovalue = isovalue;
-  some.distribution = distributeFast(own, parameters, this->Task.monitor, this->Task.parallelFor);
+  some.distribution =
+    distributeFast(own.surface, parameters, this->Task.monitor, this->Task.parallelFor);
   const bool isMeshed = !some.distribution.report.aborted && !some.distribution.particles.empty() &&
     addMesh(this->Surface, own, this->Properties.outputType, this->Properties.order, false, some,
-      this->Task.monitor, this->Task.parallelFor);
+      this->Task);
   return isMeshed ? std::optional<IsovalueParticles>(std::move(some)) : std::nullopt;
 }
 
-/// Takes another mesh in place of one if there is one, and it is better.
+/// Takes another mesh in place of one if it is better.
+/// \param onAnother whether the particles of the two stood on different surfaces, one of them lifted
 /// \return whether it was taken
-bool MeshRepair::takeBetter(std::optional<IsovalueParticles> other, IsovalueParticles& some) const
+bool MeshRepair::takeBetter(IsovalueParticles other, bool onAnother, IsovalueParticles& some) const
 {
-  const bool isBetter = other && this->isInPlaceOf(some, *other);
+  const bool isBetter = this->isInPlaceOf(some, other, onAnother);
   if (isBetter)
   {
-    keepFindings(some.distribution.report, other->distribution.report);
-    some = std::move(*other);
+    keepFindings(some.distribution.report, other.distribution.report);
+    some = std::move(other);
   }
   return isBetter;
 }
 
 /// Whether another mesh, of a lifted surface or with particles nearer to each other, is better than one, and of all of it.
-bool MeshRepair::isInPlaceOf(const IsovalueParticles& own, const IsovalueParticles& other) const
+/// \param onAnother see takeBetter()
+bool MeshRepair::isInPlaceOf(
+  const IsovalueParticles& own, const IsovalueParticles& other, bool onAnother) const
 {
   // Of the triangles, turned ones that look like noise rather than like a few slivers.
   constexpr std::int64_t onePercent = 100;
@@ -221,7 +240,7 @@ bool MeshRepair::isInPlaceOf(const IsovalueParticles& own, const IsovalueParticl
     other.mesh.openLength <= own.mesh.openLength &&
     other.mesh.turnedTriangles <=
     std::max({ own.mesh.turnedTriangles, triangles / onePercent, turnedPerHole }) &&
-    !hasMoreSheets(other.distribution, own.distribution) &&
+    !(onAnother && hasMoreSheets(other.distribution, own.distribution)) &&
     isCoveredBy(own.distribution.particles, own.mesh.nodes, other.distribution.particles,
       other.mesh.nodes, std::ref(loops));
 }

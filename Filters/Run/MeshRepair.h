@@ -2,10 +2,11 @@
 
 #include "Output/OutputRows.h"
 #include "Run/ParticleRun.h"
+#include "Run/RunMesh.h"
 #include "Run/Work.h"
 #include "Surface/DistributionParameters.h"
-#include "Surface/SurfaceWalker.h"
 
+#include <memory>
 #include <optional>
 
 namespace hop
@@ -19,9 +20,10 @@ class MeshRepair
 public:
   /// \param parameters of the particles that were joined, which cover all of the surface
   /// \pre all arguments outlive the repair
-  MeshRepair(const Isosurface& surface, const DistributionParameters& parameters,
+  MeshRepair(MeshedSurface& surface, const DistributionParameters& parameters,
     const RunProperties& properties, const Work& work)
-    : Surface(surface)
+    : Whole(surface)
+    , Surface(surface.surface)
     , Parameters(parameters)
     , Properties(properties)
     , Task(work)
@@ -30,21 +32,33 @@ public:
 
   /// \param some replaced where a new mesh lacks less, and is of all of the surface
   /// \throw Interrupted
-  void run(IsovalueParticles& some) const;
+  void run(IsovalueParticles& some);
 
 private:
-  void meshLifted(IsovalueParticles& some) const;
-  bool meshBesideNodes(double height, IsovalueParticles& some) const;
-  void meshAroundFaults(bool inPieces, IsovalueParticles& some) const;
-  std::optional<IsovalueParticles> meshAnew(
-    const Isosurface& own, const DistributionParameters& parameters, double isovalue) const;
-  bool takeBetter(std::optional<IsovalueParticles> other, IsovalueParticles& some) const;
-  bool isInPlaceOf(const IsovalueParticles& own, const IsovalueParticles& other) const;
+  /// A surface beside the one to be meshed, on which particles can be told apart.
+  struct LiftedSurface : MeshedSurface
+  {
+    /// Its field, if it is another one.
+    std::optional<ElementMesh> mesh;
+  };
 
+  void meshLifted(IsovalueParticles& some);
+  bool meshBesideNodes(double height, IsovalueParticles& some);
+  bool meshOn(std::unique_ptr<LiftedSurface> lifted, IsovalueParticles& some);
+  void meshAroundFaults(bool inPieces, IsovalueParticles& some);
+  std::optional<IsovalueParticles> meshAnew(
+    MeshedSurface& own, DistributionParameters parameters, double isovalue) const;
+  bool takeBetter(IsovalueParticles other, bool onAnother, IsovalueParticles& some) const;
+  bool isInPlaceOf(
+    const IsovalueParticles& own, const IsovalueParticles& other, bool onAnother) const;
+
+  MeshedSurface& Whole;
   const Isosurface& Surface;
   const DistributionParameters& Parameters;
   const RunProperties& Properties;
   const Work& Task;
+  /// Where the particles stand if not on the surface itself.
+  std::unique_ptr<LiftedSurface> Lifted;
 };
 
 } // namespace hop

@@ -48,11 +48,12 @@ std::vector<MeshComponent> partsOf(const ElementMesh& elements, const Buffer<Par
 }
 
 /// Compares a mesh with what is proven of the surface.
+/// \param topology that is proven
 /// \param isCut whether the mesh covers a part of the surface only, of which nothing is proven
 /// \param mesh whose vertices are known; receives what comes out
-void prove(const Isosurface& surface, const Buffer<Particle>& particles,
-  std::vector<std::array<int, 3>> triangles, bool isCut, ParticleMesh& mesh,
-  const ParallelFor& parallelFor)
+void compare(const ElementMesh& elements, const SurfaceTopology& topology,
+  const Buffer<Particle>& particles, std::vector<std::array<int, 3>> triangles, bool isCut,
+  ParticleMesh& mesh, const ParallelFor& parallelFor)
 {
   for (std::array<int, 3>& corners : triangles)
   {
@@ -61,30 +62,40 @@ void prove(const Isosurface& surface, const Buffer<Particle>& particles,
       corner = mesh.vertices[corner];
     }
   }
-  const FaceLocator locator(*surface.mesh, surface.isovalue, parallelFor);
-  SurfaceTopology topology = findTopology(*surface.mesh, surface.isovalue, &locator, parallelFor);
-  for (SurfaceComponent& component : topology.components)
-  {
-    component.proven = component.proven && !isCut;
-  }
   TopologyComparison comparison = compareTopology(topology, particles, triangles, parallelFor);
   if (isCut)
   {
     comparison.missingComponents.clear();
   }
   mesh.components = static_cast<std::int64_t>(comparison.meshComponents.size());
-  mesh.parts = partsOf(*surface.mesh, particles, topology, comparison);
+  mesh.parts = partsOf(elements, particles, topology, comparison);
   mesh.unprovenComponents = std::count_if(
     mesh.parts.begin(), mesh.parts.end(), [](const MeshComponent& part) { return !part.proven; });
   mesh.isProven = comparison.proven;
 }
 
+/// What is proven of a surface, of which a part only may be meshed.
+void prove(bool isCut, MeshedSurface& own, const ParallelFor& parallelFor)
+{
+  if (own.topology)
+  {
+    return;
+  }
+  const ElementMesh& mesh = *own.surface.mesh;
+  const FaceLocator locator(mesh, own.surface.isovalue, parallelFor);
+  own.topology = findTopology(mesh, own.surface.isovalue, &locator, parallelFor);
+  for (SurfaceComponent& component : own.topology->components)
+  {
+    component.proven = component.proven && !isCut;
+  }
+}
+
 /// Joins the particles to triangles, and says what is known of them.
-SurfaceMesh join(const Isosurface& surface, const ConstrainedEdges& edges, bool isCut,
-  IsovalueParticles& some, const Monitor& monitor, const ParallelFor& parallelFor)
+SurfaceMesh join(MeshedSurface& own, const ConstrainedEdges& edges, bool isCut,
+  IsovalueParticles& some, const Work& work)
 {
   Distribution& distribution = some.distribution;
-  SurfaceMesh mesh = meshSurface(surface, edges, distribution, monitor, parallelFor);
+  SurfaceMesh mesh = meshSurface(own.surface, edges, distribution, work.monitor, work.parallelFor);
   some.mesh.openLoops = mesh.openLoops;
   some.mesh.openLength = mesh.openLength;
   some.mesh.longestLoop = mesh.longestLoop;
@@ -95,8 +106,16 @@ SurfaceMesh join(const Isosurface& surface, const ConstrainedEdges& edges, bool 
   some.mesh.nodesPerCell = 3;
   some.mesh.vertices = firstInPlace(distribution.edges, distribution.particles.size());
   some.mesh.shared = sharedPlaces(some.mesh.vertices);
-  Interruptible loops(monitor, parallelFor);
-  prove(surface, distribution.particles, mesh.triangles, isCut, some.mesh, std::ref(loops));
+  Interruptible loops(work.monitor, work.parallelFor);
+  prove(isCut, own, std::ref(loops));
+  compare(*own.surface.mesh, *own.topology, distribution.particles, mesh.triangles, isCut,
+    some.mesh, std::ref(loops));
+  if (lackOf(some.mesh) == 0)
+  {
+    // There will be no other mesh.
+    own.topology.reset();
+    own.boxes = {};
+  }
   return mesh;
 }
 
@@ -216,11 +235,12 @@ void mergePlaces(const ParticleMesh& mesh, Buffer<Particle>& particles)
 
 } // namespace
 
-bool addMesh(const Isosurface& surface, const Isosurface& own, OutputType type, int order,
-  bool isCut, IsovalueParticles& some, const Monitor& monitor, const ParallelFor& parallelFor)
+bool addMesh(const Isosurface& surface, MeshedSurface& own, OutputType type, int order, bool isCut,
+  IsovalueParticles& some, const Work& work)
 {
   Distribution& distribution = some.distribution;
-  Interruptible loops(monitor, parallelFor);
+  const ParallelFor& parallelFor = work.parallelFor;
+  Interruptible loops(work.monitor, parallelFor);
   if (type != OutputType::Particles)
   {
     uniteEnds(distribution);
@@ -229,13 +249,13 @@ bool addMesh(const Isosurface& surface, const Isosurface& own, OutputType type, 
   SurfaceMesh mesh;
   if (type != OutputType::Particles)
   {
-    mesh = join(own, edges, isCut, some, monitor, parallelFor);
+    mesh = join(own, edges, isCut, some, work);
   }
   std::vector<double> areas;
   bool areOn = true;
-  if (own.mesh == surface.mesh && own.isovalue == surface.isovalue)
+  if (own.surface.mesh == surface.mesh && own.surface.isovalue == surface.isovalue)
   {
-    areas = particleAreas(distribution, edges, monitor, parallelFor);
+    areas = particleAreas(distribution, edges, work.monitor, parallelFor);
     shareAreas(mesh.copies, areas);
   }
   else

@@ -41,10 +41,14 @@ void SurfaceWorker::distribute(
     parameters.start = this->Previous.startOf(number, origin, this->Mesh);
   }
   const auto method = this->Properties.isClassic ? distributeClassic : distributeFast;
-  const Isosurface surface{ &this->Mesh, fieldIsovalue, this->Scale.tolerance };
+  MeshedSurface surface{ { &this->Mesh, fieldIsovalue, this->Scale.tolerance }, {}, {} };
+  if (parameters.onCreases && parameters.quality != Quality::Draft)
+  {
+    parameters.boxes = &surface.boxes;
+  }
   const Work first = work.part(0.0, distributed);
   Distribution& distribution = some.distribution;
-  distribution = method(surface, parameters, first.monitor, first.parallelFor);
+  distribution = method(surface.surface, parameters, first.monitor, first.parallelFor);
   if (continues)
   {
     this->Previous.remember(number, origin, this->Mesh, distribution, work.parallelFor);
@@ -52,9 +56,8 @@ void SurfaceWorker::distribute(
   if (!distribution.report.aborted)
   {
     const bool isCut = !parameters.polygon.isEverything();
-    const Work second = work.part(distributed, 1.0);
-    addMesh(surface, surface, this->Properties.outputType, this->Properties.order, isCut, some,
-      second.monitor, second.parallelFor);
+    addMesh(surface.surface, surface, this->Properties.outputType, this->Properties.order, isCut,
+      some, work.part(distributed, 1.0));
     if (!this->Properties.isClassic && !isCut)
     {
       const Work last = work.part(1.0, 1.0);

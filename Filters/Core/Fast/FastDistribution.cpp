@@ -92,6 +92,10 @@ Distribution FastSystem::takeResult()
     report.evaluations += this->Moving->evaluations();
     report.iterations = this->Moving->sweeps();
   }
+  if (this->Parameters.boxes && this->Proxy)
+  {
+    *this->Parameters.boxes = this->Proxy->takeBoxes();
+  }
   return std::move(this->Result);
 }
 

@@ -151,6 +151,17 @@ std::vector<SurfaceBox> FastSystem::findBoxes(
   return boxes;
 }
 
+/// Boxes that were found before: on another distribution of the same surface, or roughly.
+KnownBoxes FastSystem::boxesBefore(const IsFine& isFineEnough) const
+{
+  if (this->Parameters.boxes && !this->Parameters.boxes->empty())
+  {
+    return { this->Parameters.boxes, [](const SurfaceBox&) { return true; } };
+  }
+  return { this->RoughBoxes.empty() ? nullptr : &this->RoughBoxes,
+    [&](const SurfaceBox& box) { return box.certified && isFineEnough(box); } };
+}
+
 /// \param sizing decides how fine the boxes are; the proxy's spacings follow the sizing function that is asked for
 /// \param shareOfRun fraction of the run that is over when the surface is found
 /// \return a proxy without boxes, and an error in the report, if they are too many
@@ -158,10 +169,8 @@ SurfaceProxy FastSystem::proxyOfBoxesAt(const SizingFunction& sizing, double sha
 {
   const auto isFineEnough = [&](const SurfaceBox& box)
   { return this->isFineEnough(box, sizing, nullptr); };
-  const KnownBoxes rough{ this->RoughBoxes.empty() ? nullptr : &this->RoughBoxes,
-    [&](const SurfaceBox& box) { return box.certified && isFineEnough(box); } };
-  std::vector<SurfaceBox> boxes = this->findBoxes(
-    isFineEnough, rough, [&](double share) { this->Work.raiseFraction(shareOfRun * share); });
+  std::vector<SurfaceBox> boxes = this->findBoxes(isFineEnough, this->boxesBefore(isFineEnough),
+    [&](double share) { this->Work.raiseFraction(shareOfRun * share); });
   if (this->hasTooManyBoxes())
   {
     this->Result.report.error = this->Parameters.refusalOfBoxes();

@@ -94,6 +94,7 @@ protected:
   using IsFine = std::function<bool(const SurfaceBox&)>;
   std::vector<SurfaceBox> findBoxes(const IsFine& isFineEnough, const KnownBoxes& known,
     const std::function<void(double)>& progress);
+  KnownBoxes boxesBefore(const IsFine& isFineEnough) const;
   bool hasTooManyBoxes() const { return this->BoxCount > this->Parameters.boxLimit(); }
   SurfaceProxy proxyOfBoxesAt(const SizingFunction& sizing, double shareOfRun);
   bool tooMany(double count);

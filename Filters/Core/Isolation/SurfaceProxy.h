@@ -122,6 +122,8 @@ public:
   std::optional<Location> locate(const glm::dvec3& position, int element) const;
 
   const std::vector<SurfaceBox>& boxes() const { return this->Boxes; }
+  /// The boxes of a proxy that is of no use afterwards.
+  std::vector<SurfaceBox> takeBoxes() { return std::move(this->Boxes); }
   std::int64_t evaluations() const { return this->Evaluations; }
 
 private:

@@ -14,6 +14,8 @@
 namespace hop
 {
 
+struct SurfaceBox;
+
 /// How much work the Fast distribution puts into an even spread.
 enum class Quality
 {
@@ -67,6 +69,10 @@ struct DistributionParameters
   /// Places of this mesh to start from: particles of the last run, on a surface nearby. Parts of the surface without
   /// such a place are seeded; where few places are near the surface, all of it is. Fast only.
   std::vector<Location> start;
+  /// Where the boxes of the surface are kept (SurfaceBoxes.h) from one distribution on it to the next one, which asks for
+  /// the same number at the same sizing function, neither of them in a draft: it need not isolate the surface again.
+  /// nullptr: nowhere. Fast only; outlives the distribution.
+  std::vector<SurfaceBox>* boxes = nullptr;
   /// A request that would need more particles is refused before work begins. The default is as much as tens of
   /// gigabytes of memory hold.
   std::int64_t particleLimit = 100'000'000;
