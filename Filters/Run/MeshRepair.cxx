@@ -70,25 +70,35 @@ bool hasFewFaults(const IsovalueParticles& some)
     (faults <= few || particlesEach * faults <= some.distribution.particles.size());
 }
 
-/// Asks for particles nearer to each other around the faults of a mesh.
-/// \param nearer in units of the spacings there; from 1 on, where they are
+/// Asks for particles nearer to each other around the faults of a mesh than they are; elsewhere they stay.
 /// \param least spacing
 /// \param inPieces whether the surface is to end around the elements of the faults
-void addFaults(const IsovalueParticles& some, double nearer, double least, bool inPieces,
-  DistributionParameters& around)
+/// \param around the parameters of these particles
+void changeAroundFaults(
+  const IsovalueParticles& some, double least, bool inPieces, DistributionParameters& around)
 {
+  // Of the spacings at faults. Larger: strips stay narrower than a spacing; smaller: new faults around them.
+  constexpr double nearer = 0.5;
+  const Buffer<Particle>& particles = some.distribution.particles;
+  around.start.clear();
+  for (const Particle& particle : particles)
+  {
+    around.start.push_back(particle.location);
+  }
+  around.changedAround.clear();
   for (const int p : some.mesh.atFaults)
   {
-    const Particle& particle = some.distribution.particles[p];
+    const Particle& particle = particles[p];
     if (inPieces)
     {
       around.endedElements.push_back(particle.location.element);
     }
-    if (nearer < 1.0)
-    {
-      const double spacing = std::max(nearer * particle.spacing, least);
-      around.spacingLimits.push_back({ particle.position.xyz, static_cast<float>(spacing) });
-    }
+    Patch place;
+    place.position = particle.position.xyz;
+    place.normal = glm::vec3(particle.normal.xyz);
+    place.spacing = static_cast<float>(std::max(nearer * particle.spacing, least));
+    around.changedAround.push_back(place);
+    around.spacingLimits.push_back({ place.position, place.spacing });
   }
 }
 
@@ -163,34 +173,28 @@ bool MeshRepair::meshOn(std::unique_ptr<LiftedSurface> lifted, IsovalueParticles
   return isBetter;
 }
 
-/// Distributes and joins particles anew, evener and nearer to each other around the faults of a mesh, on the surface on
-/// which they stand. That of a discontinuous field ends there at all faces of the elements: in pieces of one element no curve has to find its way to
+/// Distributes and joins particles anew, nearer to each other around the faults of a mesh, on the surface on which they
+/// stand. That of a discontinuous field ends there at all faces of the elements: in pieces of one element no curve has to find its way to
 /// another one.
 /// \param inPieces whether the field is discontinuous
 /// \param some whose mesh is open; replaced where a new one lacks less
 void MeshRepair::meshAroundFaults(bool inPieces, IsovalueParticles& some)
 {
-  // All chosen by experiment. Tries to close holes, and those for particles that are left over only. More: what stays is
-  // seldom mended later; fewer: holes stay that would be closed.
-  constexpr int mostTimes = 4;
-  constexpr int mostTimesWithoutHoles = 2;
-  // Of the spacings at faults, each time anew. Larger: strips stay narrower than a spacing; smaller: new faults around them.
-  constexpr double nearer = 0.5;
+  // Chosen by experiment. More: what stays is seldom mended later; fewer: holes stay that would be closed.
+  constexpr int mostTimes = 5;
+  MeshedSurface& own = this->Lifted ? *this->Lifted : this->Whole;
   DistributionParameters around = this->Parameters;
-  around.quality = Quality::High;
   // Nothing closer than the tolerance is told apart.
   const double least = std::max(this->Surface.tolerance, around.sizing.smallestSpacing);
-  MeshedSurface& own = this->Lifted ? *this->Lifted : this->Whole;
-  addFaults(some, some.mesh.openLoops > 0 ? 1.0 : nearer, least, inPieces, around);
-  for (int n = 0;
-       n < (some.mesh.openLoops > 0 ? mostTimes : mostTimesWithoutHoles) && hasFewFaults(some); ++n)
+  changeAroundFaults(some, least, inPieces, around);
+  for (int n = 0; n < mostTimes && hasFewFaults(some); ++n)
   {
     auto other = this->meshAnew(own, around, some.isovalue);
     if (!other)
     {
       return;
     }
-    addFaults(*other, nearer, least, inPieces, around);
+    changeAroundFaults(*other, least, inPieces, around);
     this->takeBetter(std::move(*other), false, some);
   }
 }

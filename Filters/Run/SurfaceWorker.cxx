@@ -42,7 +42,7 @@ void SurfaceWorker::distribute(
   }
   const auto method = this->Properties.isClassic ? distributeClassic : distributeFast;
   MeshedSurface surface{ { &this->Mesh, fieldIsovalue, this->Scale.tolerance }, {}, {} };
-  if (parameters.onCreases && parameters.quality != Quality::Draft)
+  if (parameters.onCreases)
   {
     parameters.boxes = &surface.boxes;
   }

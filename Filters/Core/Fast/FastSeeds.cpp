@@ -34,6 +34,11 @@ struct WarmStart
 void FastSystem::makeSeeds(std::int64_t count)
 {
   this->startMoving();
+  if (!this->Parameters.changedAround.empty())
+  {
+    this->changeStart(count);
+    return;
+  }
   if (!this->Parameters.start.empty())
   {
     this->continueFrom(this->Parameters.start);
@@ -84,6 +89,23 @@ void FastSystem::continueFrom(const std::vector<Location>& places)
   keepWithin(WarmStart::FarthestStart);
   this->Moving->approach(WarmStart::Arrived);
   keepWithin(WarmStart::Arrived);
+}
+
+/// Continues with the particles of a distribution that is to be changed around some places, and around those where it has
+/// gaps at the spacings of now.
+void FastSystem::changeStart(std::int64_t count)
+{
+  this->continueFrom(this->Parameters.start);
+  const std::vector<char> all(this->Moving->count(), 1);
+  this->Moving->keep(thinOut(this->Moving->patches(), all, MinimumSeparation, this->Parallel));
+  this->dropNearBoundaryCurves(MinimumSeparation);
+  const auto before = static_cast<std::ptrdiff_t>(this->Moving->count());
+  this->addSeedsBetween(count);
+  this->coverBoxes({});
+  const auto begin = this->Moving->patches().begin();
+  const auto after = static_cast<std::ptrdiff_t>(this->Moving->count());
+  this->Changed = this->Parameters.changedAround;
+  this->Changed.insert(this->Changed.end(), begin + before, begin + after);
 }
 
 /// Of `count` seeds all over the surface, adds the ones that are far from all particles.

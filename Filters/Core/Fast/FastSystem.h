@@ -126,6 +126,7 @@ protected:
   void makeSeeds(std::int64_t count);
   void startMoving();
   void continueFrom(const std::vector<Location>& places);
+  void changeStart(std::int64_t count);
   void addSeedsBetween(std::int64_t count);
   void dropNearBoundaryCurves(double nearest);
   void addSamples(const std::vector<int>& boxes);
@@ -181,6 +182,8 @@ protected:
   double TargetInStrip = 0.0;
   /// In a slab, marks the particles that move whose worker this is. The others are at home in other slabs.
   std::vector<char> IsOwn;
+  /// Places around which the particles to start from are relaxed, if not everywhere.
+  Buffer<Patch> Changed;
   /// Whether particles of the previous run go on.
   bool IsWarm = false;
   std::atomic<std::int64_t> Evaluations{ 0 };

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "Elements/ElementMesh.h"
+#include "Support/Buffer.h"
 #include "Support/GradationTree.h"
+#include "Surface/Patch.h"
 #include "Surface/PlanePolygon.h"
 #include "Surface/SizingFunction.h"
 
@@ -69,9 +71,12 @@ struct DistributionParameters
   /// Places of this mesh to start from: particles of the last run, on a surface nearby. Parts of the surface without
   /// such a place are seeded; where few places are near the surface, all of it is. Fast only.
   std::vector<Location> start;
+  /// Places around which the distribution to start from is to be changed: its other particles stay where they are. Without
+  /// any all are spread anew. Fast only.
+  Buffer<Patch> changedAround;
   /// Where the boxes of the surface are kept (SurfaceBoxes.h) from one distribution on it to the next one, which asks for
-  /// the same number at the same sizing function, neither of them in a draft: it need not isolate the surface again.
-  /// nullptr: nowhere. Fast only; outlives the distribution.
+  /// the same number, quality and sizing function: it need not isolate the surface again. nullptr: nowhere. Fast only;
+  /// outlives the distribution.
   std::vector<SurfaceBox>* boxes = nullptr;
   /// A request that would need more particles is refused before work begins. The default is as much as tens of
   /// gigabytes of memory hold.
