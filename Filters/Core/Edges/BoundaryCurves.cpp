@@ -79,7 +79,8 @@ public:
   {
   }
 
-  BoundaryCurves make(ThinnedCurves wanted, const ParallelFor& parallelFor);
+  /// \param pieces of the surface, where particles are thinned out for meshes of them
+  BoundaryCurves make(ThinnedCurves wanted, SurfacePieces pieces, const ParallelFor& parallelFor);
 
 private:
   std::vector<PlaceKind> finish(const ParallelFor& parallelFor);
@@ -150,8 +151,10 @@ void BoundaryParticles::meet(std::vector<char>& found)
   renumber(this->Result.edges.coincident, found);
 }
 
-BoundaryCurves BoundaryParticles::make(ThinnedCurves wanted, const ParallelFor& parallelFor)
+BoundaryCurves BoundaryParticles::make(
+  ThinnedCurves wanted, SurfacePieces pieces, const ParallelFor& parallelFor)
 {
+  this->Result.pieces = std::move(pieces);
   const std::vector<PlaceKind> kinds = this->finish(parallelFor);
   Buffer<BoundaryParticle>& particles = this->Result.particles;
   std::vector<char> found(particles.size());
@@ -216,13 +219,11 @@ BoundaryCurves findBoundaryCurves(const Isosurface& surface, FaceJumps& jumps,
       const ThinnedCurves thinned = !isForMesh ? ThinnedCurves::OfSplats
         : endsAtFaces                          ? ThinnedCurves::OfPieces
                                                : ThinnedCurves::OfMesh;
-      BoundaryCurves curves =
-        BoundaryParticles(cut, jumps, proxy, sizing, places).make(thinned, parallelFor);
+      SurfacePieces pieces =
+        endsAtFaces ? SurfacePieces(*surface.mesh, jumps.jumpTolerances) : SurfacePieces();
+      BoundaryCurves curves = BoundaryParticles(cut, jumps, proxy, sizing, places)
+                                .make(thinned, std::move(pieces), parallelFor);
       curves.evaluations += evaluations + tracing.evaluations();
-      if (endsAtFaces)
-      {
-        curves.pieces = SurfacePieces(*surface.mesh, jumps.jumpTolerances);
-      }
       return curves;
     }
     evaluations += tracing.evaluations();

@@ -42,13 +42,15 @@ bool areSidesOfJump(const BoundaryParticle& a, const BoundaryParticle& b)
     b.particle.jump != 0.0 && lookAtEachOther(a.side, b.side);
 }
 
-/// Whether two particles bound pieces of surface in two elements, at a jump.
-bool areOfTwoPieces(const Particle& a, const Particle& b)
+/// Whether two particles bound two pieces of the surface, or parts of a piece in two elements, at a jump.
+bool areOfTwoPieces(const SurfacePieces& pieces, const Particle& a, const Particle& b)
 {
-  return a.location.element != b.location.element && (a.jump != 0.0 || b.jump != 0.0);
+  return a.location.element != b.location.element &&
+    (a.jump != 0.0 || b.jump != 0.0 || !pieces.areSame(a.location, b.location));
 }
 
-bool areTooNear(const BoundaryParticle& a, const BoundaryParticle& b, ThinnedCurves wanted)
+bool areTooNear(const BoundaryParticle& a, const BoundaryParticle& b, ThinnedCurves wanted,
+  const SurfacePieces& pieces)
 {
   if (a.isOnCrease || b.isOnCrease)
   {
@@ -58,7 +60,7 @@ bool areTooNear(const BoundaryParticle& a, const BoundaryParticle& b, ThinnedCur
   {
     return false;
   }
-  if (wanted == ThinnedCurves::OfPieces && areOfTwoPieces(a.particle, b.particle))
+  if (wanted == ThinnedCurves::OfPieces && areOfTwoPieces(pieces, a.particle, b.particle))
   {
     return false;
   }
@@ -202,7 +204,7 @@ void thinOut(std::vector<CurvePlace> places, const std::vector<CurveRange>& rang
     grid.visit(points.positions[i], points.spacings[i],
       [&](std::size_t j)
       {
-        if (ranks[j] < ranks[i] && areTooNear(particles[i], particles[j], wanted))
+        if (ranks[j] < ranks[i] && areTooNear(particles[i], particles[j], wanted, curves.pieces))
         {
           use(j);
         }
