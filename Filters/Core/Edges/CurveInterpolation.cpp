@@ -3,13 +3,13 @@
 namespace hop
 {
 
-double CurveInterpolation::spacingAt(const BoundaryPoint& point)
+double CurveInterpolation::spacingAt(const Location& location)
 {
   if (this->Sizing.angularDensity == 0.0)
   {
     return this->Sizing.spacing;
   }
-  const Evaluated at = this->Walker.evaluateCurved(point.at.location);
+  const Evaluated at = this->Walker.evaluateCurved(location);
   return this->Proxy.spacingAt(at.point.map.position.xyz,
     static_cast<float>(curvature(at.point.gradient, at.hessian).magnitude));
 }

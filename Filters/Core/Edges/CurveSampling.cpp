@@ -31,8 +31,30 @@ public:
   SampledPlaces place(const ParallelFor& parallelFor);
 
 private:
+  /// A place on a stretch up to which lengths are summed up.
+  struct Knot
+  {
+    /// Number of the vertex at the end of the chord, and share of the chord's length.
+    std::size_t chord = 1;
+    double share = 0.0;
+    /// Length of the stretch up to here, in units of the spacing.
+    double sum = 0.0;
+    double spacing = 0.0;
+  };
+
+  /// A step of a trace.
+  struct Chord
+  {
+    const BoundaryPoint* from = nullptr;
+    const BoundaryPoint* to = nullptr;
+    /// World units.
+    double length = 0.0;
+  };
+
   bool bounds(std::size_t trace) const;
   std::int64_t leastIntervals(std::size_t stretch) const;
+  void addKnots(const Chord& chord, const Knot& begin, const Knot& end, std::vector<Knot>& knots);
+  std::vector<Knot> knotsOf(Span<BoundaryVertex> vertices);
   std::vector<BoundaryPlace> sampleStretch(
     const CurveStretch& stretch, std::int64_t leastIntervals, const ParallelFor& parallelFor);
   BoundaryPlace startOf(const CurveStretch& stretch, const BoundaryPlace& sampled) const;
@@ -92,53 +114,91 @@ BoundaryPlace CurveSampling::startOf(
     : sampled;
 }
 
+/// Cuts a part of a chord of a trace in two, and again, as long as it is long beside the spacings at its ends: spacings may
+/// be smaller in between.
+/// \param begin,end of the part
+/// \param knots whose last one is where the part begins; receives those behind it
+void CurveSampling::addKnots(
+  const Chord& chord, const Knot& begin, const Knot& end, std::vector<Knot>& knots)
+{
+  // Longest part, in units of the spacing. Chosen by experiment. Larger: gaps where spacings are smaller in between;
+  // smaller: more evaluations.
+  constexpr double longest = 2.2;
+  // Parts of a chord that are as short as places can be told apart.
+  constexpr double shortest = 1e-6;
+  const double spacing = std::min(begin.spacing, end.spacing);
+  const double share = end.share - begin.share;
+  if (share * chord.length <= longest * spacing || share < shortest)
+  {
+    knots.push_back(end);
+    knots.back().sum = knots[knots.size() - 2].sum + share * chord.length / spacing;
+    return;
+  }
+  Knot middle{ end.chord, 0.5 * (begin.share + end.share), 0.0, 0.0 };
+  middle.spacing = this->Between.spacingAt(
+    this->Between.placeBetween(*chord.from, *chord.to, middle.share).location);
+  this->addKnots(chord, begin, middle, knots);
+  this->addKnots(chord, middle, end, knots);
+}
+
+/// The sums of lengths in units of the spacing along a stretch.
+std::vector<CurveSampling::Knot> CurveSampling::knotsOf(Span<BoundaryVertex> vertices)
+{
+  std::vector<Knot> knots{ { 1, 0.0, 0.0,
+    this->IsCut ? this->Between.spacingAt(vertices[0].leaving) : 0.0 } };
+  for (std::size_t v = 1; v < vertices.size(); ++v)
+  {
+    const Chord chord{ &vertices[v - 1].leaving, &vertices[v].arriving,
+      glm::distance(vertices[v - 1].position(), vertices[v].position()) };
+    const Knot end{ v, 1.0, 0.0, this->Between.spacingAt(*chord.to) };
+    if (this->IsCut)
+    {
+      this->addKnots(chord, { v, 0.0, 0.0, knots.back().spacing }, end, knots);
+    }
+    else
+    {
+      knots.push_back({ v, 1.0, knots.back().sum + chord.length / end.spacing, end.spacing });
+    }
+  }
+  return knots;
+}
+
 /// Places along a stretch, at equal distances in units of the spacing wanted there, the first one on the first vertex.
 std::vector<BoundaryPlace> CurveSampling::sampleStretch(
   const CurveStretch& stretch, std::int64_t leastIntervals, const ParallelFor& parallelFor)
 {
   // Places between two questions whether to end early: fewer cost more calls, more delay an abort. Chosen by experiment.
   constexpr std::int64_t placesAtOnce = 4096;
-  const Span<BoundaryVertex> vertices(
-    &this->Curves.traces[stretch.trace].vertices[stretch.first], stretch.last + 1 - stretch.first);
-  std::vector<BoundaryPlace> places;
-  std::vector<double> sums{ 0.0 };
-  std::vector<double> spacings{ 0.0 };
-  double spacing = 0.0;
-  for (std::size_t v = 1; v < vertices.size(); ++v)
-  {
-    const double before = v > 1 ? spacing
-      : this->IsCut             ? this->Between.spacingAt(vertices[0].leaving)
-                                : 0.0;
-    spacing = this->Between.spacingAt(vertices[v].arriving);
-    spacings.push_back(spacing);
-    const double length = glm::distance(vertices[v - 1].position(), vertices[v].position());
-    sums.push_back(sums.back() + length / (this->IsCut ? std::min(before, spacing) : spacing));
-  }
   // Beyond the chords of a coarser crease particles beside it would stand.
   constexpr double longestInterval = 1.1;
+  const Span<BoundaryVertex> vertices(
+    &this->Curves.traces[stretch.trace].vertices[stretch.first], stretch.last + 1 - stretch.first);
+  const std::vector<Knot> knots = this->knotsOf(vertices);
+  const double whole = knots.back().sum;
   const std::int64_t wanted = stretch.creaseFace < 0
-    ? std::llround(sums.back())
-    : static_cast<std::int64_t>(std::ceil(sums.back() / longestInterval));
+    ? std::llround(whole)
+    : static_cast<std::int64_t>(std::ceil(whole / longestInterval));
   const std::int64_t count = std::max(leastIntervals, wanted);
-  std::size_t v = 1;
+  std::vector<BoundaryPlace> places;
+  std::size_t k = 1;
   for (std::int64_t n = 0; n < count + stretch.withEnd; ++n)
   {
     if (n % placesAtOnce == placesAtOnce - 1)
     {
       askCaller(parallelFor);
     }
-    const double place = sums.back() * static_cast<double>(n) / static_cast<double>(count);
-    while (v + 1 < vertices.size() && sums[v] < place)
+    const double place = whole * static_cast<double>(n) / static_cast<double>(count);
+    while (k + 1 < knots.size() && knots[k].sum < place)
     {
-      ++v;
+      ++k;
     }
-    const BoundaryPoint& from = vertices[v - 1].leaving;
-    const BoundaryPoint& to = vertices[v].arriving;
-    spacing = this->IsCut ? spacings[v] : spacing;
-    const double chord = sums[v] - sums[v - 1];
-    const double t = chord > 0.0 ? std::clamp((place - sums[v - 1]) / chord, 0.0, 1.0) : 0.0;
-    places.push_back(this->Between.placeBetween(from, to, t));
-    places.back().spacing = spacing;
+    const Knot& end = knots[k];
+    const double begin = k > 1 && knots[k - 1].chord == end.chord ? knots[k - 1].share : 0.0;
+    const double part = end.sum - knots[k - 1].sum;
+    const double t = part > 0.0 ? std::clamp((place - knots[k - 1].sum) / part, 0.0, 1.0) : 0.0;
+    places.push_back(this->Between.placeBetween(vertices[end.chord - 1].leaving,
+      vertices[end.chord].arriving, begin + t * (end.share - begin)));
+    places.back().spacing = this->IsCut ? end.spacing : knots.back().spacing;
   }
   places.front() = this->startOf(stretch, places.front());
   return places;
