@@ -57,9 +57,10 @@ PlaceKind BoundaryFinisher::finish(const BoundaryPlace& place, BoundaryParticle&
   result.patch.spacing =
     this->Proxy.spacingAt(result.patch.position, result.patch.curvatureMagnitude());
   result.patch.fixed = true;
+  const bool isUniform = this->Sizing.angularDensity == 0.0 && this->Proxy.spacingPlaces() == 0;
   result.particle =
     particleAt(point->at.location, field, curvature(field.gradient, point->at.hessian),
-      this->Sizing.angularDensity == 0.0 ? this->Sizing.spacing : result.patch.spacing);
+      isUniform ? this->Sizing.spacing : result.patch.spacing);
   result.particle.jump = beyond->jump;
   const Jet& jet = this->Exact.jetAt(*point);
   offerFaces(this->Surface, this->Jumps, jet, field, result.particle);

@@ -5,7 +5,7 @@ namespace hop
 
 double CurveInterpolation::spacingAt(const Location& location)
 {
-  if (this->Sizing.angularDensity == 0.0)
+  if (this->Sizing.angularDensity == 0.0 && this->Proxy.spacingPlaces() == 0)
   {
     return this->Sizing.spacing;
   }

@@ -4,6 +4,7 @@
 #include "DistributionMeasures.h"
 #include "ElementCases.h"
 #include "Isolation/SizingField.h"
+#include "Isolation/SurfaceBox.h"
 #include "OpenCases.h"
 #include "ThreadedFor.h"
 
@@ -682,6 +683,118 @@ TEST(FastDistribution, FollowsSpacingsThatAreMuchSmallerThanBoxes)
     const double wanted =
       4.0 * Pi / (std::sqrt(3.0) * slope * slope) * (ratio - 1.0 - std::log(ratio));
     EXPECT_NEAR(count / wanted, 1.0, 0.15) << radius;
+  }
+}
+
+/// The steps of a trace are as long as the spacing where it begins; in between it may be a hundred times smaller. The
+/// surface has a crease at x = 0.
+TEST(FastDistribution, CurvesOfMeshesFollowSpacingsThatAreMuchSmallerThanTheirSteps)
+{
+  constexpr double least = 0.001;
+  const ElementMesh mesh = meshOf(
+    Domain::Hexahedron, 1, [](const glm::dvec3& x) { return x.z - 0.1 - 0.4 * std::abs(x.x); });
+  DistributionParameters parameters = withSpacing(0.1);
+  parameters.onCreases = true;
+  const glm::dvec3 place(0.0, 0.37, 0.1);
+  parameters.spacingLimits = { { place, static_cast<float>(least) } };
+  const Distribution result = distribute(mesh, parameters);
+  const auto distanceOf = [&](int p)
+  { return glm::distance(result.particles[p].position.xyz, place); };
+  int near = 0;
+  for (const auto& [a, b] : result.edges.directed)
+  {
+    const double allowed =
+      least + SizingField::GradationSlope * std::max(distanceOf(a), distanceOf(b));
+    EXPECT_LT(length(result.particles[b].position - result.particles[a].position), 1.6 * allowed);
+    near += distanceOf(a) < 10.0 * least ? 1 : 0;
+  }
+  // Twice the integral of 1/h over this length is 9.2, and each side of the crease has its own.
+  EXPECT_GE(near, 14);
+}
+
+/// A sphere and the particles on it, of which some around the north pole are to stand nearer to each other.
+struct ChangedSphere
+{
+  ElementMesh mesh = meshOf(Domain::Hexahedron, 3, sphere({ 0, 0, 0 }, 0.6).field);
+  glm::dvec3 pole{ 0.0, 0.0, 0.6 };
+  DistributionParameters parameters = withSpacing(0.04);
+  Distribution before = distribute(this->mesh, this->parameters);
+
+  ChangedSphere()
+  {
+    for (const Particle& particle : this->before.particles)
+    {
+      this->parameters.start.push_back(particle.location);
+    }
+    Patch place;
+    place.position = this->pole;
+    place.normal = { 0.0f, 0.0f, 1.0f };
+    place.spacing = 0.02f;
+    this->parameters.spacingLimits = { { place.position, place.spacing } };
+    this->parameters.changedAround = { place };
+  }
+
+  /// How many particles of the distribution before are not among others, and how far from the pole they stood at most.
+  std::pair<int, double> moved(const Distribution& after) const
+  {
+    std::pair<int, double> result{ 0, 0.0 };
+    for (const Particle& old : this->before.particles)
+    {
+      const bool stays = std::any_of(after.particles.begin(), after.particles.end(),
+        [&](const Particle& p) { return length(p.position - old.position) < 10.0 * tolerance; });
+      result.first += stays ? 0 : 1;
+      result.second =
+        std::max(result.second, stays ? 0.0 : glm::distance(old.position.xyz, this->pole));
+    }
+    return result;
+  }
+};
+
+TEST(FastDistribution, ChangesSomeParticlesAndLeavesTheOthers)
+{
+  ChangedSphere sphere;
+  const Distribution after = distribute(sphere.mesh, sphere.parameters);
+  expectHonestParticles(sphere.mesh, after);
+  const auto [count, farthest] = sphere.moved(after);
+  EXPECT_GT(count, 10);
+  EXPECT_LT(farthest, 10.0 * 0.04);
+  const auto nearPole = [&](const Distribution& some)
+  {
+    return std::count_if(some.particles.begin(), some.particles.end(),
+      [&](const Particle& p) { return glm::distance(p.position.xyz, sphere.pole) < 0.03; });
+  };
+  EXPECT_GT(nearPole(after), 1.5 * static_cast<double>(nearPole(sphere.before)));
+  // All are spread anew if no places are said.
+  sphere.parameters.changedAround.clear();
+  EXPECT_GT(sphere.moved(distribute(sphere.mesh, sphere.parameters)).second, 1.0);
+}
+
+TEST(FastDistribution, ChangedParticlesDoNotDependOnThreads)
+{
+  const ChangedSphere sphere;
+  const Distribution one = distribute(sphere.mesh, sphere.parameters);
+  const Distribution many = distribute(sphere.mesh, sphere.parameters, {}, threadedFor(5));
+  ASSERT_EQ(one.particles.size(), many.particles.size());
+  for (std::size_t i = 0; i < one.particles.size(); ++i)
+  {
+    ASSERT_EQ(one.particles[i].position.xyz, many.particles[i].position.xyz);
+  }
+}
+
+TEST(FastDistribution, KeptBoxesGiveTheSameParticlesWithoutIsolation)
+{
+  const ElementMesh mesh = meshOf(Domain::Tetrahedron, 3, sphere({ 0, 0, 0 }, 0.6).field);
+  DistributionParameters parameters = withSpacing(0.05, 10.0);
+  std::vector<SurfaceBox> boxes;
+  parameters.boxes = &boxes;
+  const Distribution first = distribute(mesh, parameters);
+  EXPECT_EQ(static_cast<std::int64_t>(boxes.size()), first.report.boxes);
+  const Distribution second = distribute(mesh, parameters);
+  EXPECT_LT(second.report.evaluations, first.report.evaluations);
+  ASSERT_EQ(first.particles.size(), second.particles.size());
+  for (std::size_t i = 0; i < first.particles.size(); ++i)
+  {
+    ASSERT_EQ(first.particles[i].position.xyz, second.particles[i].position.xyz);
   }
 }
 
