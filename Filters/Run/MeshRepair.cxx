@@ -187,6 +187,14 @@ void MeshRepair::meshAroundFaults(bool inPieces, IsovalueParticles& some)
   // Nothing closer than the tolerance is told apart.
   const double least = std::max(this->Surface.tolerance, around.sizing.smallestSpacing);
   changeAroundFaults(some, least, inPieces, around);
+  if (around.quality == Quality::Draft)
+  {
+    // Too uneven to be changed here and there.
+    around.quality = Quality::Standard;
+    around.start.clear();
+    around.changedAround.clear();
+    own.boxes.clear();
+  }
   for (int n = 0; n < mostTimes && hasFewFaults(some); ++n)
   {
     auto other = this->meshAnew(own, around, some.isovalue);
