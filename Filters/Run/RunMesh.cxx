@@ -110,6 +110,12 @@ SurfaceMesh join(MeshedSurface& own, const ConstrainedEdges& edges, bool isCut,
   prove(isCut, own, std::ref(loops));
   compare(*own.surface.mesh, *own.topology, distribution.particles, mesh.triangles, isCut,
     some.mesh, std::ref(loops));
+  if (some.mesh.openLoops == 0 && some.mesh.isProven)
+  {
+    // The mesh has all of the surface without them.
+    some.mesh.unusedParticles = 0;
+    some.mesh.atFaults.clear();
+  }
   if (lackOf(some.mesh) == 0)
   {
     // There will be no other mesh.

@@ -39,14 +39,19 @@ bool linesMeet(const std::array<glm::dvec3, 2>& a, const std::array<glm::dvec3, 
     reached <= length + rounding;
 }
 
+/// The share of the way from a to b that is nearest to a place.
+double nearestShare(const glm::dvec3& x, const glm::dvec3& a, const glm::dvec3& b)
+{
+  const glm::dvec3 d = b - a;
+  const double length2 = glm::dot(d, d);
+  return length2 > 0.0 ? std::clamp(glm::dot(x - a, d) / length2, 0.0, 1.0) : 0.0;
+}
+
 } // namespace
 
 double distanceToSegment(const glm::dvec3& x, const glm::dvec3& a, const glm::dvec3& b)
 {
-  const glm::dvec3 d = b - a;
-  const double length2 = glm::dot(d, d);
-  const double t = length2 > 0.0 ? std::clamp(glm::dot(x - a, d) / length2, 0.0, 1.0) : 0.0;
-  return glm::distance(x, a + t * d);
+  return glm::distance(x, a + nearestShare(x, a, b) * (b - a));
 }
 
 BoundaryChords::Chord::Chord(const BoundaryPoint& from, const BoundaryPoint& to)
@@ -72,7 +77,10 @@ bool BoundaryChords::anyPasses(const BoundaryPoint& point, const Test& test) con
       {
         const auto& [a, b] = chord.positions;
         const double length = glm::distance(a, b);
-        return distanceToSegment(x, a, b) <= PassShare * length &&
+        const double t = nearestShare(x, a, b);
+        const bool isBeyond = (t == 0.0 && chord.isLast[0]) || (t == 1.0 && chord.isLast[1]);
+        const double farthest = (isBeyond ? PassShareBeyond : PassShare) * length;
+        return glm::distance(x, a + t * (b - a)) <= farthest &&
           dot(chord.gradient, point.at.point.gradient) > 0.0 && test(chord, length);
       });
 }

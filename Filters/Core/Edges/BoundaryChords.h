@@ -19,6 +19,9 @@ public:
   /// A chord passes a point that is nearer to it than this, in units of its own length. More takes another boundary
   /// curve close by for the same one; less than what the curve bends away from its chords traces it twice.
   static constexpr double PassShare = 0.2;
+  /// The same beyond the end of a chord at which the curve leaves the face. More takes the tips of two curves for one; less
+  /// than what is left of an edge's distance from the surface traces a curve twice.
+  static constexpr double PassShareBeyond = 1e-3;
 
   struct Chord
   {
@@ -34,6 +37,8 @@ public:
     std::array<double, 2> way{};
     /// Number of the trace.
     int trace = -1;
+    /// Whether the curve leaves the face at an end: nothing beyond that end is on the chord.
+    std::array<bool, 2> isLast{};
   };
 
   /// Where a trace is.
@@ -46,7 +51,8 @@ public:
 
   void add(const Chord& chord) { this->Chords[chord.face].push_back(chord); }
 
-  /// Whether a chord of the same sheet on the same face passes a point, to a fifth of the chord's length.
+  /// Whether a chord of the same sheet on the same face passes a point, to a fifth of the chord's length; beyond an end at
+  /// which the curve leaves the face, to a thousandth.
   bool pass(const BoundaryPoint& point) const;
 
   /// Whether a trace meets a chord of the same sheet on the same face. It does not meet what it has just left: where chords

@@ -202,7 +202,7 @@ BoundaryCurves findBoundaryCurves(const Isosurface& surface, FaceJumps& jumps,
   std::int64_t evaluations = 0;
   for (int n = 1;; ++n)
   {
-    CurveTracing tracing(cut, isCut, proxy, sizing, slab, reach);
+    CurveTracing tracing(cut, isCut || endsAtFaces, proxy, sizing, slab, reach);
     if (isCut)
     {
       tracing.followCreases(n < mostTimes);

@@ -184,6 +184,7 @@ ReferenceVector BoundaryTracer::velocity(const BoundaryPoint& point) const
 }
 
 /// Newton's method for F = c along the edge between two faces of an element.
+/// \return nothing where the surface does not meet the edge; with ends of the surface at faces, however close it comes
 std::optional<Evaluated> BoundaryTracer::projectAlongEdge(
   const Location& start, int faceA, int faceB, double maximumTravel)
 {
@@ -205,7 +206,9 @@ std::optional<Evaluated> BoundaryTracer::projectAlongEdge(
     }
     if (std::abs(at.point.value) <= this->Surface.tolerance * slope)
     {
-      return this->polished(at, edge, maximumTravel);
+      at = this->polished(at, edge, maximumTravel);
+      const bool comesClose = this->IsRough && this->HasEnds && at.point.value != 0.0;
+      return comesClose ? std::nullopt : std::optional<Evaluated>(at);
     }
     const WorldVector along = at.point.map.push({ direction });
     const double rate = dot(along, at.point.gradient);
@@ -377,14 +380,37 @@ ReferenceVector BoundaryTracer::predict(const Heading& heading, double step) con
   return (heading.direction * step) * (now + weight * change);
 }
 
+/// The least value between 0 and 1 of a cubic: from `first` to `last`, whose slopes there exceed the straight line's by
+/// `ahead` and, at the end, `behind`.
+double leastOf(double first, double last, double ahead, double behind)
+{
+  double least = std::min(first, last);
+  // Where its derivative a t^2 - 2 b t + c is zero.
+  const double a = 3.0 * (ahead + behind);
+  const double b = 2.0 * ahead + behind;
+  const double c = last - first + ahead;
+  const double root = std::sqrt(std::max(0.0, b * b - a * c));
+  const double q = b < 0.0 ? b - root : b + root;
+  for (const double t : { a != 0.0 ? q / a : 0.0, q != 0.0 ? c / q : 0.0 })
+  {
+    if (t > 0.0 && t < 1.0)
+    {
+      least = std::min(
+        least, first + t * (last - first) + t * (1.0 - t) * ((1.0 - t) * ahead - t * behind));
+    }
+  }
+  return least;
+}
+
 /// Whether a curve keeps to the face between two points: the distances from the face's edges are cubics, by
 /// their values and slopes at both points. A curve that leaves the face and comes back has two vertices more, which its
-/// other side may see. A chord that leads past a corner to another element leaves it only where the surface is not cut.
+/// other side may see. A chord leads past a corner to another face or element only where the surface is not cut, nor ends
+/// along faces.
 bool BoundaryTracer::staysOnFace(const BoundaryPoint& from, const BoundaryPoint& to) const
 {
   if (to.at.location.element != from.at.location.element || to.face != from.face)
   {
-    return !this->HasCuts;
+    return !this->HasCuts && !this->HasEnds;
   }
   const ReferenceVector chord = to.at.location.u - from.at.location.u;
   const double length = glm::distance(from.at.point.map.position.xyz, to.at.point.map.position.xyz);
@@ -399,17 +425,21 @@ bool BoundaryTracer::staysOnFace(const BoundaryPoint& from, const BoundaryPoint&
     const double last = faceMargin(faces[f], to.at.location.u);
     const double ahead = way * dot(inward, start) - (last - first);
     const double behind = way * dot(inward, end) - (last - first);
-    for (const double t : { 0.25, 0.5, 0.75 })
+    if (f != from.face && leastOf(first, last, ahead, behind) < -OnFace)
     {
-      const double margin =
-        first + t * (last - first) + t * (1.0 - t) * ((1.0 - t) * ahead - t * behind);
-      if (f != from.face && margin < -OnFace)
-      {
-        return false;
-      }
+      return false;
     }
   }
   return true;
+}
+
+/// Whether a curve comes back from behind an edge of its face, where it was to leave the face: it passed the edge before.
+bool BoundaryTracer::entersAt(const BoundaryPoint& point, int edge, double direction) const
+{
+  constexpr double along = 1e-9; // rounding
+  const ReferenceVector velocity = direction * this->velocity(point);
+  const ReferenceVector& inward = this->Surface.mesh->face(point.at.location.element, edge).inward;
+  return dot(inward, velocity) > along * std::sqrt(dot(velocity, velocity) * dot(inward, inward));
 }
 
 /// Whether a curve bends between two points as its tangents there say. Where it turns back close to another part of it, at
@@ -489,6 +519,7 @@ BoundaryTracer::Ahead BoundaryTracer::advance(const Heading& heading, double ste
     // At a saddle of the field on the face, a chord may lead across to another part of the curve, which runs the other way.
     const bool isAcross = passed.vertex &&
       (dot(this->tangent(passed.vertex->arriving), this->tangent(from)) < 0.0 ||
+        (this->HasEnds && this->entersAt(passed.vertex->arriving, edge, heading.direction)) ||
         (this->HasCuts && !this->bendsEvenly(from, passed.vertex->arriving)));
     return isAcross ? Ahead{} : passed;
   }
@@ -549,6 +580,12 @@ void BoundaryTracer::addChord(
   BoundaryChords::Chord chord(from, to);
   chord.way = way;
   chord.trace = this->Trace;
+  const auto isLast = [this](const BoundaryPoint& end)
+  {
+    return this->HasEnds &&
+      otherFaceAt(*this->Surface.mesh, end.at.location, end.face, OnFace) >= 0;
+  };
+  chord.isLast = { isLast(from), isLast(to) };
   this->Chords.add(chord);
   const int there = to.at.location.element;
   if (there != from.at.location.element && this->Surface.mesh->neighbor(there, to.face).element < 0)

@@ -151,6 +151,7 @@ private:
   bool runsAlong(int element, int face, const ReferenceVector& step) const;
   ActiveFaces facesAlong(const Heading& heading, const ReferenceVector& step) const;
   bool staysOnFace(const BoundaryPoint& from, const BoundaryPoint& to) const;
+  bool entersAt(const BoundaryPoint& point, int edge, double direction) const;
   bool bendsEvenly(const BoundaryPoint& from, const BoundaryPoint& to);
   Ahead passEdge(const BoundaryPoint& from, const ReferencePoint& u, int otherFace, double step);
   std::optional<Evaluated> projectAlongEdge(

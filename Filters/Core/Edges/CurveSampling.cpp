@@ -13,8 +13,8 @@ namespace
 constexpr std::size_t fewPlaces = 4;
 
 /// Length of a closed curve above which it is one, in units of the spacing. Shorter ones are places where a trace passes
-/// edges of the mesh and comes back.
-constexpr double shortestCurve = 0.1;
+/// edges of the mesh and comes back, within its tolerance.
+constexpr double shortestCurve = 1e-4;
 
 class CurveSampling
 {

@@ -18,9 +18,10 @@ struct Tracing
   static constexpr double Chord = 0.75;
   /// Largest distance from the surface, by which a vertex may miss it: particles are taken to the tolerance later.
   static constexpr double Tolerance = 1e-2;
-  /// The same of curves along creases, whose vertices on edges of the mesh tell which creases meet. Larger: where the surface
-  /// passes close to a corner of the mesh, curves leave a face by the wrong edge; smaller: more evaluations.
-  static constexpr double ToleranceOnCut = 1e-5;
+  /// The same of curves for meshes, whose vertices on edges of the mesh tell which creases meet and where pieces of surface
+  /// end. Larger: where the surface passes close to an edge or a corner of the mesh, curves leave a face by the wrong edge;
+  /// smaller: more evaluations.
+  static constexpr double ToleranceForMesh = 1e-5;
   /// Within this distance of the surface a crossing tells whether the surface ends there. A larger one believes values
   /// and slopes too far off; with a smaller one more starts are put onto the surface in vain.
   static constexpr double CrossingReach = 0.2;
@@ -40,9 +41,9 @@ struct Tracing
 };
 
 /// The surface for the tracer. Chords need not lie on it as exactly as particles.
-Isosurface roughly(Isosurface surface, double spacing, bool isCut)
+Isosurface roughly(Isosurface surface, double spacing, bool isForMesh)
 {
-  const double tolerance = isCut ? Tracing::ToleranceOnCut : Tracing::Tolerance;
+  const double tolerance = isForMesh ? Tracing::ToleranceForMesh : Tracing::Tolerance;
   surface.tolerance = std::max(surface.tolerance, tolerance * spacing);
   return surface;
 }
@@ -57,7 +58,7 @@ bool isSame(const BoundaryVertex& a, const BoundaryVertex& b, double spacing)
 
 } // namespace
 
-CurveTracing::CurveTracing(const Isosurface& surface, bool isCut, const SurfaceProxy& proxy,
+CurveTracing::CurveTracing(const Isosurface& surface, bool isForMesh, const SurfaceProxy& proxy,
   const SizingFunction& sizing, const Slab& slab, const Slab& reach)
   : Surface(surface)
   , Proxy(proxy)
@@ -65,7 +66,7 @@ CurveTracing::CurveTracing(const Isosurface& surface, bool isCut, const SurfaceP
   , Part(slab)
   , Reach(reach)
   , Samples(*surface.mesh, proxy)
-  , Tracer(roughly(surface, proxy.smallestSpacing(), isCut), BoundaryTracer::Points::Rough)
+  , Tracer(roughly(surface, proxy.smallestSpacing(), isForMesh), BoundaryTracer::Points::Rough)
   , Between(surface, proxy, sizing, this->Tracer)
 {
 }

@@ -25,10 +25,10 @@ class CurveTracing
 {
 public:
   /// \param surface, proxy outlive this
-  /// \param isCut whether the surface is cut along creases
+  /// \param isForMesh whether the surface is cut along creases, or ends along whole faces: its curves are to be closed
   /// \param slab curves get corners where they pass one of its planes
   /// \param reach where curves are sought
-  CurveTracing(const Isosurface& surface, bool isCut, const SurfaceProxy& proxy,
+  CurveTracing(const Isosurface& surface, bool isForMesh, const SurfaceProxy& proxy,
     const SizingFunction& sizing, const Slab& slab, const Slab& reach);
 
   /// For a surface that is cut along creases.

@@ -9,6 +9,8 @@
 #include "Support/Interruptible.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <functional>
 
 namespace hop
@@ -33,6 +35,34 @@ std::vector<int> findUnused(const std::vector<int>& places, const TriangleFans& 
     }
   }
   return unused;
+}
+
+/// Leaves out particles that a mesh without holes does not need: one or two alone, in the midst of the surface and beside
+/// particles of the mesh, as where it bends within a spacing. A component has more of them, and pieces of surface have
+/// particles on their boundary curves.
+void leaveOutSpare(
+  const Distribution& distribution, const ConstrainedEdges& edges, std::vector<int>& unused)
+{
+  constexpr double beside =
+    2.0; // spacings. Larger: particles of another component may count as the mesh's own
+  const Buffer<Particle>& particles = distribution.particles;
+  const std::vector<int> all = unused;
+  const auto isSpare = [&](int p)
+  {
+    const Particle& particle = particles[p];
+    int used = 0, others = 0;
+    for (int other = 0; other < static_cast<int>(particles.size()); ++other)
+    {
+      const bool isBeside = other != p &&
+        length(particles[other].position - particle.position) < beside * particle.spacing &&
+        distribution.pieces.areSame(particles[other].location, particle.location);
+      const bool isUsed = isBeside && !std::binary_search(all.begin(), all.end(), other);
+      used += isUsed ? 1 : 0;
+      others += isBeside && !isUsed ? 1 : 0;
+    }
+    return used > 0 && others < 2 && !edges.isOnEdge(p) && particle.jump == 0.0;
+  };
+  unused.erase(std::remove_if(unused.begin(), unused.end(), isSpare), unused.end());
 }
 
 /// Triangles that are turned away from the normal of a corner.
@@ -121,11 +151,54 @@ SurfaceMesh meshSurface(const Isosurface& whole, ConstrainedEdges edges, Distrib
   mesh.triangles = distribution.edges.coincident.empty() ? fans.triangles(parallel)
                                                          : keepManifold(places, fans, parallel);
   countOpen(surface, distribution, edges, fans, mesh, parallel);
-  const std::vector<int> unused = findUnused(places, fans);
+  std::vector<int> unused = findUnused(places, fans);
+  if (mesh.openLoops == 0)
+  {
+    leaveOutSpare(distribution, edges, unused);
+  }
   mesh.unusedParticles = static_cast<std::int64_t>(unused.size());
   mesh.atFaults.insert(mesh.atFaults.end(), unused.begin(), unused.end());
   std::sort(mesh.atFaults.begin(), mesh.atFaults.end());
   mesh.atFaults.erase(std::unique(mesh.atFaults.begin(), mesh.atFaults.end()), mesh.atFaults.end());
+  if (getenv("HOP_LEFT"))
+  {
+    for (int u : unused)
+    {
+      const Particle& q = distribution.particles[u];
+      fprintf(stderr,
+        "LEFT %d spacing %.3g edges after %d before %d own elem %d; x %.6f %.6f %.6f n %.3f %.3f "
+        "%.3f jump %.2g  seen %d:",
+        u, q.spacing, (int)(edges.after(u).end() - edges.after(u).begin()),
+        (int)(edges.before(u).end() - edges.before(u).begin()), q.location.element,
+        q.position.xyz.x, q.position.xyz.y, q.position.xyz.z, q.normal.xyz.x, q.normal.xyz.y,
+        q.normal.xyz.z, q.jump, (int)(neighbors.seen.end(u) - neighbors.seen.begin(u)));
+      for (int a : edges.after(u))
+        fprintf(stderr, " ->%d(%.2f%s)", a,
+          length(distribution.particles[a].position - q.position) / q.spacing,
+          fans.hasTriangles(a) ? "t" : "-");
+      for (int a : edges.before(u))
+        fprintf(stderr, " <-%d(%.2f%s)", a,
+          length(distribution.particles[a].position - q.position) / q.spacing,
+          fans.hasTriangles(a) ? "t" : "-");
+      fprintf(stderr, "\n");
+      for (std::size_t i = 0; i < distribution.particles.size(); ++i)
+      {
+        const Particle& o = distribution.particles[i];
+        if (o.location.element != q.location.element ||
+          length(o.position - q.position) > 3 * q.spacing)
+          continue;
+        const auto x = (o.position.xyz - q.position.xyz) / q.spacing;
+        fprintf(stderr,
+          "   near %d dx %.3f %.3f %.3f n %.3f %.3f %.3f h %.3f k %.3g tri %d jump %.2g edge %d:",
+          (int)i, x.x, x.y, x.z, o.normal.xyz.x, o.normal.xyz.y, o.normal.xyz.z,
+          o.spacing / q.spacing, o.curvature.magnitude * q.spacing, fans.hasTriangles((int)i),
+          o.jump, edges.isOnEdge((int)i));
+        for (int a : edges.after((int)i))
+          fprintf(stderr, " ->%d", a);
+        fprintf(stderr, "\n");
+      }
+    }
+  }
   mesh.turnedTriangles = countTurned(distribution.particles, mesh.triangles);
   return mesh;
 }

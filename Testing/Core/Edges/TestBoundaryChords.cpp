@@ -53,5 +53,17 @@ TEST(BoundaryChords, MeetTracesThatComeBackAndNotThoseThatLeave)
   EXPECT_TRUE(chords.meet({ behind, 4.0, 3 })) << "a closed curve";
 }
 
+TEST(BoundaryChords, DoNotMeetWhatIsBeyondTheEdgeAtWhichTheyEnd)
+{
+  BoundaryChords::Chord chord(pointAt({ 0.0, 0.0, 0.0 }), pointAt({ 1.0, 0.0, 0.0 }));
+  chord.isLast = { false, true };
+  BoundaryChords chords;
+  chords.add(chord);
+  EXPECT_TRUE(chords.pass(pointAt({ -0.1, 0.0, 0.0 })));
+  EXPECT_TRUE(chords.pass(pointAt({ 0.99, 0.05, 0.0 })));
+  EXPECT_TRUE(chords.pass(pointAt({ 1.0, 0.0, 0.0 })));
+  EXPECT_FALSE(chords.pass(pointAt({ 1.01, 0.0, 0.0 }))) << "the tip of another curve";
+}
+
 } // namespace
 } // namespace hop::testing

@@ -245,6 +245,89 @@ TEST(SurfaceMesh, KeepsBranchesOfACreaseApartAtASaddle)
   }
 }
 
+/// A cube whose left half has a surface of its own: with another one at z = 0.5 on the right, the field jumps.
+ElementMesh besideAnother(const Field& field)
+{
+  MeshRecipe left, right;
+  left.degrees = { 3, 3, 3 };
+  left.field = field;
+  right.field = [](const glm::dvec3& x) { return x.z - 0.5; };
+  ElementMesh elements;
+  appendBox(elements, left, { -1, -1, -1 }, { 0, 1, 1 });
+  appendBox(elements, right, { 0, -1, -1 }, { 1, 1, 1 });
+  findFaceNeighbors(elements, 1e-9);
+  return elements;
+}
+
+constexpr double jumpSpacing = 0.06;
+
+/// \param jumping a discontinuous field
+void expectNothingLacks(const ElementMesh& jumping)
+{
+  const Meshed meshed = meshWithCreases(jumping, jumpSpacing);
+  EXPECT_EQ(meshed.mesh.openLoops, 0);
+  EXPECT_EQ(meshed.mesh.unusedParticles, 0);
+  EXPECT_FALSE(meshed.distribution.pieces.areOne());
+}
+
+/// The end of the surface leaves the face between the halves by its upper edge, shortly before it comes to the corner.
+TEST(SurfaceMesh, KeepsCornersThatItsEndCutsOff)
+{
+  for (const double bend : { -8.0, -4.0, -1.0, 0.0, 1.0, 4.0, 8.0 })
+  {
+    for (const double slope : { 0.05, 0.1, 0.3 })
+    {
+      for (double before = 0.005; before < 0.06; before += 0.01)
+      {
+        SCOPED_TRACE(::testing::Message() << bend << ", " << slope << ", " << before);
+        expectNothingLacks(besideAnother(
+          [=](const glm::dvec3& x)
+          {
+            const double y = x.y - 1.0 + before;
+            return x.z - 1.0 - slope * (x.x + y) - bend * y * y;
+          }));
+      }
+    }
+  }
+}
+
+/// The surface cuts off the edge between two faces at which it ends, but for a strip of almost no width, or a gap, in the
+/// middle of the edge: there its curves come within far less than a chord of each other.
+TEST(SurfaceMesh, KeepsStripsThatAreAllButCut)
+{
+  for (const double width : { 1e-5, 1e-4, 1e-3, 1e-2, -1e-5, -1e-4, -1e-3, -1e-2 }) // spacings
+  {
+    for (const double slope : { 0.3, 1.0, 3.0 })
+    {
+      for (const double bend : { 0.1, 1.0 })
+      {
+        for (double middle = 0.007; middle < 0.06; middle += 0.014)
+        {
+          SCOPED_TRACE(
+            ::testing::Message() << width << ", " << slope << ", " << bend << ", " << middle);
+          expectNothingLacks(besideAnother(
+            [=](const glm::dvec3& x)
+            {
+              const double y = x.y - middle;
+              return x.z - 1.0 + slope * x.x * (1.0 + 0.3 * y) + bend * y * y + width * jumpSpacing;
+            }));
+        }
+      }
+    }
+  }
+}
+
+/// The surface cuts off a corner of the left half, a piece far smaller than the spacing.
+TEST(SurfaceMesh, KeepsSmallPieces)
+{
+  for (const double size : { 1e-3, 1e-2, 1e-1 }) // spacings
+  {
+    SCOPED_TRACE(size);
+    expectNothingLacks(besideAnother(
+      [=](const glm::dvec3& x) { return x.z + x.x + x.y - 2.0 + size * jumpSpacing; }));
+  }
+}
+
 TEST(SurfaceMesh, IsTheSameOverCreasesForAnyNumberOfThreads)
 {
   const ElementMesh elements = polyhedron();
