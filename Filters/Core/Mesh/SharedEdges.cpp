@@ -177,6 +177,13 @@ void uniteEnds(Distribution& distribution)
     }
   }
   edges.coincident.insert(edges.coincident.end(), pairs.begin(), pairs.end());
+  for (int p = 0; p < static_cast<int>(distribution.particles.size()); ++p)
+  {
+    if (places.root(p) != p)
+    {
+      edges.replaced.push_back(p);
+    }
+  }
 }
 
 void splitSharedEdges(const Isosurface& surface, const std::vector<int>& places,

@@ -84,6 +84,10 @@ ParticlePlaces::ParticlePlaces(const Distribution& distribution, const ParallelF
 {
   forAll(parallelFor, this->normals.size(),
     [&](std::size_t i) { this->normals[i] = this->particles[i].normal.xyz; });
+  for (const int replaced : distribution.edges.replaced)
+  {
+    this->normals[replaced] = glm::vec3(0.0f);
+  }
 }
 
 ParticleNeighbors::ParticleNeighbors(

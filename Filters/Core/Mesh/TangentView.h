@@ -29,6 +29,7 @@ struct ParticlePlaces
   const Buffer<Particle>& particles;
   const SurfacePieces& pieces;
   SpacedPoints points;
+  /// Zero, which is on no sheet, for those that are replaced (SurfaceEdges.h).
   Buffer<glm::vec3> normals;
 };
 

@@ -19,6 +19,8 @@ struct SurfaceEdges
   /// Pairs of particles in the same place on the two sides of a crease (more at corners, where each pair joins two of
   /// them): one vertex of any mesh.
   std::vector<std::array<int, 2>> coincident;
+  /// Particles on no edge, because another one in the same place is on theirs: no corners of a mesh. See uniteEnds().
+  std::vector<int> replaced{};
 };
 
 /// For each of the particles the first one in the same place: itself, but for creases.

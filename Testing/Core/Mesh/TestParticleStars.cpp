@@ -51,6 +51,18 @@ TEST(ParticleStars, AgreeAllOverAPlane)
   EXPECT_NEAR(measures.area, sheet.area(), 1e-9);
 }
 
+TEST(ParticleStars, HaveNoParticleThatIsReplaced)
+{
+  FlatSheet sheet({ square }, 0.1);
+  Distribution& distribution = sheet.distribution;
+  distribution.particles.push_back(Particle(distribution.particles.front()));
+  EXPECT_TRUE(starsOf(distribution).hasTriangles(0));
+  distribution.edges.replaced = { 0 };
+  const TriangleFans fans = starsOf(distribution);
+  EXPECT_FALSE(fans.hasTriangles(0));
+  EXPECT_EQ(measureMesh(distribution, fans.triangles({})).holeEdges, 0);
+}
+
 TEST(ParticleStars, MakeNoTriangleThatIsTurnedAway)
 {
   // Noise: particles anywhere in a thin layer, with normals up to 45 degrees off. What is proven holds all the same.

@@ -71,6 +71,7 @@ TEST(SharedEdges, EndsInOnePlaceBecomeOne)
   const ConstrainedEdges edges(distribution);
   EXPECT_TRUE(edges.has(0, 1) && edges.has(1, 3) && edges.has(3, 0));
   EXPECT_FALSE(edges.isOnEdge(2));
+  EXPECT_EQ(distribution.edges.replaced, (std::vector<int>{ 2 }));
   EXPECT_EQ(firstInPlace(distribution.edges, 4), (std::vector<int>{ 0, 1, 1, 3 }));
 }
 
