@@ -106,43 +106,60 @@ void changeAroundFaults(
 
 void MeshRepair::run(IsovalueParticles& some)
 {
+  // Particles of all tries together. More: noise takes much longer than its particles do; fewer: holes stay.
+  constexpr std::int64_t alwaysAllowed = 400000;
+  constexpr std::int64_t timesOwn = 4;
   if (this->Properties.outputType == OutputType::Particles || lackOf(some.mesh) == 0)
   {
     return;
   }
+  this->ParticlesLeft = std::max(
+    alwaysAllowed, timesOwn * static_cast<std::int64_t>(some.distribution.particles.size()));
   const bool isDiscontinuous = jumps(some.distribution);
   if (!isDiscontinuous)
   {
-    this->meshLifted(some);
+    this->meshBesideNodes(some);
   }
   this->meshAroundFaults(isDiscontinuous, some);
+  if (!isDiscontinuous && this->meshBeside(some))
+  {
+    this->meshAroundFaults(isDiscontinuous, some);
+  }
 }
 
-/// Distributes and joins particles anew on a lifted surface: where nodes have the isovalue, or nearly so, by little, and by
-/// more if holes are left; and if they are left still, all of the surface at values beside the isovalue.
+/// Distributes and joins particles anew on a surface that is lifted where nodes have the isovalue, or nearly so: by little,
+/// and by more if holes are left.
 /// \param some whose mesh lacks something; replaced where a new one lacks less and is of the same surface
-void MeshRepair::meshLifted(IsovalueParticles& some)
+void MeshRepair::meshBesideNodes(IsovalueParticles& some)
 {
   // Chosen by experiment, see liftedMesh(). In spacings of a fiftieth of an element particles do not find back from the
   // larger height; in spacings of an element the smaller one leaves holes.
   constexpr double heights[] = { 1e-3, 5e-3 };
-  // The same for all of the surface, the smaller ones first. Larger: parts of the surface are lost, and triangles turn
-  // over as particles are put back; smaller: sheets are nearer to each other than particles can tell apart.
-  constexpr double beside[] = { 1e-4, -1e-4, 1e-3, -1e-3 };
-  const bool wasOpen = isOpen(some.mesh);
   bool isBetter = true;
   for (std::size_t i = 0; i < std::size(heights) && isBetter && (i == 0 || isOpen(some.mesh)); ++i)
   {
     isBetter = this->meshBesideNodes(heights[i], some);
   }
+}
+
+/// The same on surfaces of values beside the isovalue, as long as holes are left or triangles turned.
+/// \return whether one was taken
+bool MeshRepair::meshBeside(IsovalueParticles& some)
+{
+  // The smaller ones first. Larger: parts of the surface are lost, and triangles turn over as particles are put back;
+  // smaller: sheets are nearer to each other than particles can tell apart.
+  constexpr double beside[] = { 1e-4, -1e-4, 1e-3, -1e-3 };
+  const bool wasOpen = isOpen(some.mesh);
   const auto isLacking = [&some] { return isOpen(some.mesh) || some.mesh.turnedTriangles > 0; };
+  bool isTaken = false;
   for (std::size_t i = 0; i < std::size(beside) && wasOpen && isLacking(); ++i)
   {
     auto lifted = std::make_unique<LiftedSurface>();
     lifted->surface = this->Surface;
     lifted->surface.isovalue += beside[i];
-    this->meshOn(std::move(lifted), some);
+    isTaken = this->meshOn(std::move(lifted), some) || isTaken;
   }
+  return isTaken;
 }
 
 /// The same by one height where nodes have the isovalue.
@@ -195,7 +212,11 @@ void MeshRepair::meshAroundFaults(bool inPieces, IsovalueParticles& some)
     around.changedAround.clear();
     own.boxes.clear();
   }
-  for (int n = 0; n < mostTimes && hasFewFaults(some); ++n)
+  // Tries in a row that lack more than the one before. More: time; fewer: what the next one would close stays open.
+  constexpr int mostRises = 2;
+  std::int64_t lacked = lackOf(some.mesh);
+  int rises = 0;
+  for (int n = 0; n < mostTimes && rises < mostRises && hasFewFaults(some); ++n)
   {
     auto other = this->meshAnew(own, around, some.isovalue);
     if (!other)
@@ -203,21 +224,29 @@ void MeshRepair::meshAroundFaults(bool inPieces, IsovalueParticles& some)
       return;
     }
     changeAroundFaults(*other, least, inPieces, around);
+    const std::int64_t lacks = lackOf(other->mesh);
+    rises = lacks > lacked ? rises + 1 : 0;
+    lacked = lacks;
     this->takeBetter(std::move(*other), false, some);
   }
 }
 
 /// Distributes and joins particles anew.
 /// \param own see hop::addMesh()
-/// \return nothing if there are no particles, or not all of them are on the surface
+/// \return nothing if there are no particles, or not all of them are on the surface, or enough was tried
 std::optional<IsovalueParticles> MeshRepair::meshAnew(
-  MeshedSurface& own, DistributionParameters parameters, double isovalue) const
+  MeshedSurface& own, DistributionParameters parameters, double isovalue)
 {
+  if (this->ParticlesLeft <= 0)
+  {
+    return std::nullopt;
+  }
   parameters.boxes = this->Parameters.boxes ? &own.boxes : nullptr;
   IsovalueParticles some;
   some.isovalue = isovalue;
   some.distribution =
     distributeFast(own.surface, parameters, this->Task.monitor, this->Task.parallelFor);
+  this->ParticlesLeft -= static_cast<std::int64_t>(some.distribution.particles.size());
   const bool isMeshed = !some.distribution.report.aborted && !some.distribution.particles.empty() &&
     addMesh(this->Surface, own, this->Properties.outputType, this->Properties.order, false, some,
       this->Task);

@@ -42,12 +42,13 @@ private:
     std::optional<ElementMesh> mesh;
   };
 
-  void meshLifted(IsovalueParticles& some);
+  void meshBesideNodes(IsovalueParticles& some);
   bool meshBesideNodes(double height, IsovalueParticles& some);
+  bool meshBeside(IsovalueParticles& some);
   bool meshOn(std::unique_ptr<LiftedSurface> lifted, IsovalueParticles& some);
   void meshAroundFaults(bool inPieces, IsovalueParticles& some);
   std::optional<IsovalueParticles> meshAnew(
-    MeshedSurface& own, DistributionParameters parameters, double isovalue) const;
+    MeshedSurface& own, DistributionParameters parameters, double isovalue);
   bool takeBetter(IsovalueParticles other, bool onAnother, IsovalueParticles& some) const;
   bool isInPlaceOf(
     const IsovalueParticles& own, const IsovalueParticles& other, bool onAnother) const;
@@ -59,6 +60,8 @@ private:
   const Work& Task;
   /// Where the particles stand if not on the surface itself.
   std::unique_ptr<LiftedSurface> Lifted;
+  /// That may still be distributed.
+  std::int64_t ParticlesLeft = 0;
 };
 
 } // namespace hop
