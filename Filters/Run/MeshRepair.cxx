@@ -191,8 +191,8 @@ bool MeshRepair::meshOn(std::unique_ptr<LiftedSurface> lifted, IsovalueParticles
 }
 
 /// Distributes and joins particles anew, nearer to each other around the faults of a mesh, on the surface on which they
-/// stand. That of a discontinuous field ends there at all faces of the elements: in pieces of one element no curve has to find its way to
-/// another one.
+/// stand. That of a discontinuous field ends there at all faces of the elements: in pieces of one element no curve has to
+/// find its way to another one.
 /// \param inPieces whether the field is discontinuous
 /// \param some whose mesh is open; replaced where a new one lacks less
 void MeshRepair::meshAroundFaults(bool inPieces, IsovalueParticles& some)
