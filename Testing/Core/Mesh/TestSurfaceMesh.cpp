@@ -277,7 +277,7 @@ TEST(SurfaceMesh, KeepsCornersThatItsEndCutsOff)
   {
     for (const double slope : { 0.05, 0.1, 0.3 })
     {
-      for (double before = 0.005; before < 0.06; before += 0.01)
+      for (const double before : { 0.005, 0.015, 0.025, 0.035, 0.045, 0.055 })
       {
         SCOPED_TRACE(::testing::Message() << bend << ", " << slope << ", " << before);
         expectNothingLacks(besideAnother(
@@ -301,7 +301,7 @@ TEST(SurfaceMesh, KeepsStripsThatAreAllButCut)
     {
       for (const double bend : { 0.1, 1.0 })
       {
-        for (double middle = 0.007; middle < 0.06; middle += 0.014)
+        for (const double middle : { 0.007, 0.021, 0.035, 0.049 })
         {
           SCOPED_TRACE(
             ::testing::Message() << width << ", " << slope << ", " << bend << ", " << middle);
