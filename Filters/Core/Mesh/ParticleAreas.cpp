@@ -35,7 +35,7 @@ class AreaMeter
 {
 public:
   AreaMeter(const ParticlePlaces& places, const ConstrainedEdges& edges)
-    : Particles(places.particles)
+    : Places(places)
     , View(places, edges)
   {
   }
@@ -44,8 +44,12 @@ public:
   /// \param near the particles around, without itself
   double areaOf(int particle, Span<int> near)
   {
+    if (this->Places.isReplaced(particle))
+    {
+      return 0.0;
+    }
     this->View.lookFrom(particle, near);
-    this->At = &this->Particles[particle];
+    this->At = &this->Places.particles[particle];
     this->findBend();
     this->ReachSquared = 0.0;
     double area = 0.0;
@@ -221,7 +225,7 @@ private:
     return area + this->areaBeyond(first, 1.0) + this->areaBeyond(last, -1.0);
   }
 
-  const Buffer<Particle>& Particles;
+  const ParticlePlaces& Places;
   TangentView View;
   const Particle* At = nullptr;
   ConvexPolygon Whole;

@@ -26,6 +26,8 @@ struct ParticlePlaces
       this->pieces.areSame(this->particles[a].location, this->particles[b].location);
   }
 
+  bool isReplaced(int particle) const { return this->normals[particle] == glm::vec3(0.0f); }
+
   const Buffer<Particle>& particles;
   const SurfacePieces& pieces;
   SpacedPoints points;

@@ -476,6 +476,19 @@ TEST(ParticleAreas, AddUpToTheSurface)
     1.0, 0.002);
 }
 
+TEST(ParticleAreas, AreNoneOfParticlesThatAreReplaced)
+{
+  const KnownSurface ball = sphere({ 0, 0, 0 }, 0.6);
+  Meshed meshed = meshOf(ball.field, 4, 0.1);
+  Distribution& distribution = meshed.distribution;
+  distribution.particles.push_back(Particle(distribution.particles.front()));
+  distribution.edges.replaced = { 0 };
+  const std::vector<double> areas =
+    particleAreas(distribution, ConstrainedEdges(distribution), {}, {});
+  EXPECT_EQ(areas.front(), 0.0);
+  EXPECT_NEAR(sumOf(areas) / ball.area, 1.0, 0.002);
+}
+
 /// Hexagonal packing in the plane z = 0, spacing 1, around the origin, where two particles are missing.
 Distribution packingWithAHole()
 {
