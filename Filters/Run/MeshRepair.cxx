@@ -116,12 +116,13 @@ void MeshRepair::run(IsovalueParticles& some)
   this->ParticlesLeft = std::max(
     alwaysAllowed, timesOwn * static_cast<std::int64_t>(some.distribution.particles.size()));
   const bool isDiscontinuous = jumps(some.distribution);
+  const bool mayBeCritical = isOpen(some.mesh) || some.distribution.report.singularPoints > 0;
   if (!isDiscontinuous)
   {
     this->meshBesideNodes(some);
   }
   this->meshAroundFaults(isDiscontinuous, some);
-  if (!isDiscontinuous && this->meshBeside(some))
+  if (!isDiscontinuous && mayBeCritical && this->meshBeside(some))
   {
     this->meshAroundFaults(isDiscontinuous, some);
   }
@@ -142,17 +143,16 @@ void MeshRepair::meshBesideNodes(IsovalueParticles& some)
   }
 }
 
-/// The same on surfaces of values beside the isovalue, as long as holes are left or triangles turned.
+/// The same on surfaces of values beside the isovalue, as long as something is lacking or triangles are turned.
 /// \return whether one was taken
 bool MeshRepair::meshBeside(IsovalueParticles& some)
 {
   // The smaller ones first. Larger: parts of the surface are lost, and triangles turn over as particles are put back;
   // smaller: sheets are nearer to each other than particles can tell apart.
   constexpr double beside[] = { 1e-4, -1e-4, 1e-3, -1e-3 };
-  const bool wasOpen = isOpen(some.mesh);
-  const auto isLacking = [&some] { return isOpen(some.mesh) || some.mesh.turnedTriangles > 0; };
+  const auto isLacking = [&some] { return lackOf(some.mesh) > 0 || some.mesh.turnedTriangles > 0; };
   bool isTaken = false;
-  for (std::size_t i = 0; i < std::size(beside) && wasOpen && isLacking(); ++i)
+  for (std::size_t i = 0; i < std::size(beside) && isLacking(); ++i)
   {
     auto lifted = std::make_unique<LiftedSurface>();
     lifted->surface = this->Surface;

@@ -37,9 +37,9 @@ std::vector<int> findUnused(const std::vector<int>& places, const TriangleFans& 
   return unused;
 }
 
-/// Leaves out particles that a mesh without holes does not need: one or two alone, in the midst of the surface and beside
-/// particles of the mesh, as where it bends within a spacing. A component has more of them, and pieces of surface have
-/// particles on their boundary curves.
+/// Leaves out particles that a mesh in pieces, of whose topology nothing is proven, does not need if it has no holes: one
+/// or two alone, in the midst of the surface and beside particles of the mesh, as where it bends within a spacing. A
+/// component has more of them, and pieces have particles on their boundary curves.
 void leaveOutSpare(
   const Distribution& distribution, const ConstrainedEdges& edges, std::vector<int>& unused)
 {
@@ -152,7 +152,7 @@ SurfaceMesh meshSurface(const Isosurface& whole, ConstrainedEdges edges, Distrib
                                                          : keepManifold(places, fans, parallel);
   countOpen(surface, distribution, edges, fans, mesh, parallel);
   std::vector<int> unused = findUnused(places, fans);
-  if (mesh.openLoops == 0)
+  if (mesh.openLoops == 0 && !distribution.pieces.areOne())
   {
     leaveOutSpare(distribution, edges, unused);
   }

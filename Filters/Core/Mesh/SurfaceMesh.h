@@ -24,7 +24,8 @@ struct SurfaceMesh
   /// The longest of them: its length, and a particle on it; -1 if there is none.
   double longestLoop = 0.0;
   int onLongestLoop = -1;
-  /// Particles without a triangle, but for one or two of them in the midst of a surface that is closed without them.
+  /// Particles without a triangle; of a discontinuous field, but for one or two of them in the midst of a surface that is
+  /// closed without them.
   std::int64_t unusedParticles = 0;
   /// The particles on open loops, and those that are counted as unused, ascending.
   std::vector<int> atFaults;
