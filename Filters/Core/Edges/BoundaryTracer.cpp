@@ -59,6 +59,28 @@ struct ChordLengths
 /// (faceMargin(), of order one).
 constexpr double locatedOnFace = 1e-6;
 
+/// The least value between 0 and 1 of a cubic: from `first` to `last`, whose slopes there exceed the straight line's by
+/// `ahead` and, at the end, `behind`.
+double leastOf(double first, double last, double ahead, double behind)
+{
+  double least = std::min(first, last);
+  // Where its derivative a t^2 - 2 b t + c is zero.
+  const double a = 3.0 * (ahead + behind);
+  const double b = 2.0 * ahead + behind;
+  const double c = last - first + ahead;
+  const double root = std::sqrt(std::max(0.0, b * b - a * c));
+  const double q = b < 0.0 ? b - root : b + root;
+  for (const double t : { a != 0.0 ? q / a : 0.0, q != 0.0 ? c / q : 0.0 })
+  {
+    if (t > 0.0 && t < 1.0)
+    {
+      least = std::min(
+        least, first + t * (last - first) + t * (1.0 - t) * ((1.0 - t) * ahead - t * behind));
+    }
+  }
+  return least;
+}
+
 } // namespace
 
 /// The boundary face on which a place lies, the preferred one if the place lies on several; -1 if there is none.
@@ -378,28 +400,6 @@ ReferenceVector BoundaryTracer::predict(const Heading& heading, double step) con
   const ReferenceVector change = now - before->velocity;
   const double weight = std::min(1.0, 0.5 * step / come);
   return (heading.direction * step) * (now + weight * change);
-}
-
-/// The least value between 0 and 1 of a cubic: from `first` to `last`, whose slopes there exceed the straight line's by
-/// `ahead` and, at the end, `behind`.
-double leastOf(double first, double last, double ahead, double behind)
-{
-  double least = std::min(first, last);
-  // Where its derivative a t^2 - 2 b t + c is zero.
-  const double a = 3.0 * (ahead + behind);
-  const double b = 2.0 * ahead + behind;
-  const double c = last - first + ahead;
-  const double root = std::sqrt(std::max(0.0, b * b - a * c));
-  const double q = b < 0.0 ? b - root : b + root;
-  for (const double t : { a != 0.0 ? q / a : 0.0, q != 0.0 ? c / q : 0.0 })
-  {
-    if (t > 0.0 && t < 1.0)
-    {
-      least = std::min(
-        least, first + t * (last - first) + t * (1.0 - t) * ((1.0 - t) * ahead - t * behind));
-    }
-  }
-  return least;
 }
 
 /// Whether a curve keeps to the face between two points: the distances from the face's edges are cubics, by

@@ -9,8 +9,6 @@
 #include "Support/Interruptible.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <functional>
 
 namespace hop
@@ -43,8 +41,8 @@ std::vector<int> findUnused(const std::vector<int>& places, const TriangleFans& 
 void leaveOutSpare(
   const Distribution& distribution, const ConstrainedEdges& edges, std::vector<int>& unused)
 {
-  constexpr double beside =
-    2.0; // spacings. Larger: particles of another component may count as the mesh's own
+  // Spacings. Larger: particles of another component may count as the mesh's own.
+  constexpr double beside = 2.0;
   const Buffer<Particle>& particles = distribution.particles;
   const std::vector<int> all = unused;
   const auto isSpare = [&](int p)
@@ -160,45 +158,6 @@ SurfaceMesh meshSurface(const Isosurface& whole, ConstrainedEdges edges, Distrib
   mesh.atFaults.insert(mesh.atFaults.end(), unused.begin(), unused.end());
   std::sort(mesh.atFaults.begin(), mesh.atFaults.end());
   mesh.atFaults.erase(std::unique(mesh.atFaults.begin(), mesh.atFaults.end()), mesh.atFaults.end());
-  if (getenv("HOP_LEFT"))
-  {
-    for (int u : unused)
-    {
-      const Particle& q = distribution.particles[u];
-      fprintf(stderr,
-        "LEFT %d spacing %.3g edges after %d before %d own elem %d; x %.6f %.6f %.6f n %.3f %.3f "
-        "%.3f jump %.2g  seen %d:",
-        u, q.spacing, (int)(edges.after(u).end() - edges.after(u).begin()),
-        (int)(edges.before(u).end() - edges.before(u).begin()), q.location.element,
-        q.position.xyz.x, q.position.xyz.y, q.position.xyz.z, q.normal.xyz.x, q.normal.xyz.y,
-        q.normal.xyz.z, q.jump, (int)(neighbors.seen.end(u) - neighbors.seen.begin(u)));
-      for (int a : edges.after(u))
-        fprintf(stderr, " ->%d(%.2f%s)", a,
-          length(distribution.particles[a].position - q.position) / q.spacing,
-          fans.hasTriangles(a) ? "t" : "-");
-      for (int a : edges.before(u))
-        fprintf(stderr, " <-%d(%.2f%s)", a,
-          length(distribution.particles[a].position - q.position) / q.spacing,
-          fans.hasTriangles(a) ? "t" : "-");
-      fprintf(stderr, "\n");
-      for (std::size_t i = 0; i < distribution.particles.size(); ++i)
-      {
-        const Particle& o = distribution.particles[i];
-        if (o.location.element != q.location.element ||
-          length(o.position - q.position) > 3 * q.spacing)
-          continue;
-        const auto x = (o.position.xyz - q.position.xyz) / q.spacing;
-        fprintf(stderr,
-          "   near %d dx %.3f %.3f %.3f n %.3f %.3f %.3f h %.3f k %.3g tri %d jump %.2g edge %d:",
-          (int)i, x.x, x.y, x.z, o.normal.xyz.x, o.normal.xyz.y, o.normal.xyz.z,
-          o.spacing / q.spacing, o.curvature.magnitude * q.spacing, fans.hasTriangles((int)i),
-          o.jump, edges.isOnEdge((int)i));
-        for (int a : edges.after((int)i))
-          fprintf(stderr, " ->%d", a);
-        fprintf(stderr, "\n");
-      }
-    }
-  }
   mesh.turnedTriangles = countTurned(distribution.particles, mesh.triangles);
   return mesh;
 }
