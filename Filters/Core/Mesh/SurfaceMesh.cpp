@@ -39,26 +39,24 @@ std::vector<int> findUnused(const std::vector<int>& places, const TriangleFans& 
 /// or two alone, in the midst of the surface and beside particles of the mesh, as where it bends within a spacing. A
 /// component has more of them, and pieces have particles on their boundary curves.
 void leaveOutSpare(
-  const Distribution& distribution, const ConstrainedEdges& edges, std::vector<int>& unused)
+  const ParticleNeighbors& neighbors, const ConstrainedEdges& edges, std::vector<int>& unused)
 {
-  // Spacings. Larger: particles of another component may count as the mesh's own.
-  constexpr double beside = 2.0;
-  const Buffer<Particle>& particles = distribution.particles;
   const std::vector<int> all = unused;
   const auto isSpare = [&](int p)
   {
-    const Particle& particle = particles[p];
-    int used = 0, others = 0;
-    for (int other = 0; other < static_cast<int>(particles.size()); ++other)
+    if (static_cast<std::size_t>(p) >= neighbors.seen.size() || edges.isOnEdge(p) ||
+      neighbors.particles[p].jump != 0.0)
     {
-      const bool isBeside = other != p &&
-        length(particles[other].position - particle.position) < beside * particle.spacing &&
-        distribution.pieces.areSame(particles[other].location, particle.location);
-      const bool isUsed = isBeside && !std::binary_search(all.begin(), all.end(), other);
-      used += isUsed ? 1 : 0;
-      others += isBeside && !isUsed ? 1 : 0;
+      return false;
     }
-    return used > 0 && others < 2 && !edges.isOnEdge(p) && particle.jump == 0.0;
+    int used = 0, others = 0;
+    for (const int other : neighbors.of(p))
+    {
+      const bool isUnused = std::binary_search(all.begin(), all.end(), other);
+      used += neighbors.areOnOnePiece(p, other) && !isUnused ? 1 : 0;
+      others += isUnused ? 1 : 0;
+    }
+    return used > 0 && others < 2;
   };
   unused.erase(std::remove_if(unused.begin(), unused.end(), isSpare), unused.end());
 }
@@ -152,7 +150,7 @@ SurfaceMesh meshSurface(const Isosurface& whole, ConstrainedEdges edges, Distrib
   std::vector<int> unused = findUnused(places, fans);
   if (mesh.openLoops == 0 && !distribution.pieces.areOne())
   {
-    leaveOutSpare(distribution, edges, unused);
+    leaveOutSpare(neighbors, edges, unused);
   }
   mesh.unusedParticles = static_cast<std::int64_t>(unused.size());
   mesh.atFaults.insert(mesh.atFaults.end(), unused.begin(), unused.end());

@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -326,6 +327,41 @@ TEST(SurfaceMesh, KeepsSmallPieces)
     expectNothingLacks(besideAnother(
       [=](const glm::dvec3& x) { return x.z + x.x + x.y - 2.0 + size * jumpSpacing; }));
   }
+}
+
+/// Joins the particles of a mesh anew, with some more in its midst that no triangle can have, as their normals are turned.
+std::int64_t unusedWith(int more, Meshed meshed)
+{
+  Distribution& distribution = meshed.distribution;
+  const glm::dvec3 middle(-0.5, 0.0, 0.1);
+  const Particle nearest =
+    *std::min_element(distribution.particles.begin(), distribution.particles.end(),
+      [&](const Particle& a, const Particle& b)
+      { return glm::distance(a.position.xyz, middle) < glm::distance(b.position.xyz, middle); });
+  for (int n = 0; n < more; ++n)
+  {
+    Particle turned = nearest;
+    turned.position.xyz += nearest.spacing * glm::dvec3(0.3 + 0.1 * n, 0.2 * n, 0.0);
+    turned.normal = { { 1.0, 0.0, 0.0 } };
+    distribution.particles.push_back(turned);
+  }
+  const Isosurface surface{ &meshed.elements, 0.0, 1e-9 };
+  const SurfaceMesh mesh =
+    meshSurface(surface, ConstrainedEdges(distribution), distribution, {}, {});
+  EXPECT_EQ(mesh.openLoops, 0);
+  EXPECT_EQ(mesh.atFaults.size(), static_cast<std::size_t>(mesh.unusedParticles));
+  return mesh.unusedParticles;
+}
+
+TEST(SurfaceMesh, NeedsNoLoneParticleInPieces)
+{
+  const Field plane = [](const glm::dvec3& x) { return x.z - 0.1; };
+  const Meshed jumping = meshWithCreases(besideAnother(plane), jumpSpacing);
+  EXPECT_EQ(unusedWith(1, jumping), 0);
+  EXPECT_EQ(unusedWith(2, jumping), 0);
+  EXPECT_EQ(unusedWith(4, jumping), 4) << "they may be of another component";
+  EXPECT_EQ(unusedWith(1, meshWithCreases(halves(plane, plane), jumpSpacing)), 1)
+    << "where topology tells more";
 }
 
 TEST(SurfaceMesh, IsTheSameOverCreasesForAnyNumberOfThreads)
