@@ -116,13 +116,13 @@ void MeshRepair::run(IsovalueParticles& some)
   this->ParticlesLeft = std::max(
     alwaysAllowed, timesOwn * static_cast<std::int64_t>(some.distribution.particles.size()));
   const bool isDiscontinuous = jumps(some.distribution);
-  const bool mayBeCritical = isOpen(some.mesh) || some.distribution.report.singularPoints > 0;
+  const bool wasOpen = isOpen(some.mesh);
   if (!isDiscontinuous)
   {
     this->meshBesideNodes(some);
   }
   this->meshAroundFaults(isDiscontinuous, some);
-  if (!isDiscontinuous && mayBeCritical && this->meshBeside(some))
+  if (!isDiscontinuous && wasOpen && this->meshBeside(some))
   {
     this->meshAroundFaults(isDiscontinuous, some);
   }
