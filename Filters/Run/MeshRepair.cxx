@@ -26,13 +26,11 @@ bool hasMoreSheets(const Distribution& lifted, const Distribution& own)
     more * static_cast<double>(own.particles.size());
 }
 
-/// Whether the field jumps by more than rounding where the surface ends.
+/// Whether the surface jumps from element to element by more than rounding.
 bool jumps(const Distribution& distribution)
 {
-  constexpr double rounding = 1e-8;
-  const Buffer<Particle>& particles = distribution.particles;
-  return std::any_of(particles.begin(), particles.end(),
-    [](const Particle& particle) { return std::abs(particle.jump) > rounding; });
+  constexpr double rounding = 1e-3; // in spacings
+  return distribution.report.largestJump > rounding;
 }
 
 /// Whether a mesh has holes, or particles without a triangle.

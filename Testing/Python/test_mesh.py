@@ -388,6 +388,17 @@ def test_pieces_of_a_field_that_jumps_everywhere_are_closed(plugin, cell, surfac
     assert support.reported(mesh, "MeshOpenLoops") == 0
 
 
+@pytest.mark.parametrize("size, seed", [(0.002, 3), (0.002, 11), (0.005, 2), (0.005, 16)])
+def test_facets_with_small_jumps_are_closed(plugin, size, seed):
+    """By less than 0.2 spacings, which the surface passes; but its two sides at a crease are in different places."""
+    function, isovalue = JUMPING["gyroid"]
+    mesh = support.run(with_jumps("TETRAHEDRON", function, size, seed), "v", isovalue, OutputType="Triangles",
+                       Spacing=0.06)[0]
+    assert mesh.GetNumberOfCells() > 10000
+    assert support.reported(mesh, "MeshOpenLoops") == 0
+    assert support.reported(mesh, "MeshUnusedParticles") == 0
+
+
 def test_topology_of_a_field_with_jumps_is_not_proven(data, plugin):
     grid = support.read(data("mfem_dg_advection_0.vtu"))
     mesh = support.make_filter(grid, "rho", 0.293, OutputType="Triangles")[0]

@@ -139,8 +139,8 @@ private:
     /// Infinite where the sides agree.
     float jumpTolerance = std::numeric_limits<float>::infinity();
     float dihedralAngle = 0.0f;
-    /// Whether the sides are apart, at a face that the mesh joins.
-    bool isApart = false;
+    /// See FaceJumps::largestJump.
+    double jump = 0.0;
   };
 
   /// Two walkers: one stays on the face as if the surface ended there, the other passes it.
@@ -207,8 +207,11 @@ std::optional<JumpFinder::Finding> JumpFinder::look(
   Finding finding{ faceSlot(element, crossing.face),
     faceSlot(behind->at.location.element, behind->face) };
   const double jump = SurfaceWalker::jumpBetween(this->Mesh, here, *behind);
-  finding.isApart = this->Mesh.neighbor(element, crossing.face).element >= 0 &&
-    std::abs(behind->at.point.value - here.point.value) > largest * length(here.point.gradient);
+  if (this->Mesh.neighbor(element, crossing.face).element >= 0)
+  {
+    finding.jump = std::abs(behind->at.point.value - here.point.value) /
+      (spacing * length(here.point.gradient));
+  }
   if (!(jump <= largest))
   {
     finding.jumpTolerance = static_cast<float>(largest);
@@ -343,7 +346,7 @@ FaceJumps JumpFinder::gathered() const
   {
     for (const Finding& finding : findings)
     {
-      result.isDiscontinuous = result.isDiscontinuous || finding.isApart;
+      result.largestJump = std::max(result.largestJump, finding.jump);
       for (const std::size_t slot : { finding.here, finding.there })
       {
         result.jumpTolerances[slot] = std::min(result.jumpTolerances[slot], finding.jumpTolerance);
@@ -351,6 +354,7 @@ FaceJumps JumpFinder::gathered() const
       }
     }
   }
+  result.isDiscontinuous = result.largestJump > LargestJumpPerSpacing;
   return result;
 }
 
@@ -387,6 +391,7 @@ void endAround(const Isosurface& surface, const std::vector<int>& elements, Face
       for (const std::size_t slot : slots)
       {
         jumps.jumpTolerances[slot] = 0.0f;
+        jumps.isDiscontinuous = true;
       }
     }
   }

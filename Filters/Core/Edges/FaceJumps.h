@@ -17,8 +17,11 @@ struct FaceJumps
   /// smooth. A jump that the surface passes counts as an angle, too: jump / spacing, below CreaseAngle; where the sides
   /// are parallel, a small one may be overlooked.
   std::vector<float> dihedralAngles;
-  /// Whether the surfaces on the two sides of a face that the mesh joins were seen to be more than LargestJumpPerSpacing
-  /// apart: along their normals, as a surface may be tangent to a face.
+  /// Largest distance of the surfaces on the two sides of a face that the mesh joins, as far as seen, in units of the
+  /// spacing: along their normals, as a surface may be tangent to a face.
+  double largestJump = 0.0;
+  /// Whether meshes of the surface are to be in pieces: it is larger than LargestJumpPerSpacing, or the surface is to end
+  /// around some elements.
   bool isDiscontinuous = false;
   std::int64_t evaluations = 0;
 };

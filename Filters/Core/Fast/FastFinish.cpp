@@ -74,6 +74,7 @@ void FastSystem::finish()
     countFacePassages(this->Mesh, *this->Proxy, this->Jumps, this->Parallel);
   report.facesReached = faces.reached;
   report.facesEnded = faces.ended;
+  report.largestJump = this->Jumps.largestJump;
   fitSmallComponents(*this->Proxy, all, particles, this->Parallel);
   this->dropOthers();
   report.particlesUndersampled = std::count_if(

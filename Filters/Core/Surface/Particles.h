@@ -130,6 +130,8 @@ struct DistributionReport
   /// Faces of elements that the surface reaches, counted from each side, and those of them at which it ends; Fast only.
   std::int64_t facesReached = 0;
   std::int64_t facesEnded = 0;
+  /// Largest jump seen, see FaceJumps::largestJump; Fast only.
+  double largestJump = 0.0;
   bool converged = true;
   bool aborted = false;
   /// Why nothing was computed; empty if all is well.

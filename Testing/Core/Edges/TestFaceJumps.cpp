@@ -247,6 +247,31 @@ TEST(FaceJumps, TellWhetherTheFieldIsDiscontinuous)
   EXPECT_FALSE(jumps(0.5, 0.1));
 }
 
+TEST(FaceJumps, TellHowFarTheSidesAreApartAlongTheNormal)
+{
+  const auto largest = [](double slope, double step, double tilt)
+  { return jumpsOf(Halves{ slope, slope, step, tilt }.mesh(Domain::Hexahedron)).largestJump; };
+  EXPECT_NEAR(largest(0.0, 0.15, 0.0), 0.15, 1e-6);
+  EXPECT_NEAR(largest(0.0, 2.0, 0.0), 2.0, 1e-6);
+  EXPECT_NEAR(largest(0.0, 0.3, 1.0), 0.3 / std::sqrt(2.0), 1e-6);
+  EXPECT_NEAR(largest(0.5, 0.0, 0.0), 0.0, 1e-12);
+  // At a crease steps too small to matter are seen, too.
+  const double beside = jumpsOf(Halves{ 0.0, 0.5, 0.05 }.mesh(Domain::Hexahedron)).largestJump;
+  EXPECT_NEAR(beside, 0.05, 1e-6);
+}
+
+TEST(FaceJumps, BreakSurfacesThatAreToEndAroundElements)
+{
+  const ElementMesh mesh = Halves{ 0.0, 0.0 }.mesh(Domain::Hexahedron);
+  FaceJumps jumps = jumpsOf(mesh);
+  const Isosurface surface{ &mesh, 0.0, 1e-9 };
+  endAround(surface, {}, jumps);
+  EXPECT_FALSE(jumps.isDiscontinuous);
+  endAround(surface, { 0 }, jumps);
+  EXPECT_TRUE(jumps.isDiscontinuous);
+  EXPECT_EQ(std::count(jumps.jumpTolerances.begin(), jumps.jumpTolerances.end(), 0.0f), 2);
+}
+
 TEST(FaceJumps, CountWhereTheSurfaceEnds)
 {
   const auto passages = [](double step)
