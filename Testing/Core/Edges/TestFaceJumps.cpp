@@ -249,8 +249,9 @@ TEST(FaceJumps, TellWhetherTheFieldIsDiscontinuous)
 
 TEST(FaceJumps, TellHowFarTheSidesAreApartAlongTheNormal)
 {
-  const auto largest = [](double slope, double step, double tilt)
-  { return jumpsOf(Halves{ slope, slope, step, tilt }.mesh(Domain::Hexahedron)).largestJump; };
+  const auto largest = [](double slope, double step, double tilt) {
+    return jumpsOf(Halves{ slope, slope, step, tilt }.mesh(Domain::Hexahedron)).largestJump;
+  };
   EXPECT_NEAR(largest(0.0, 0.15, 0.0), 0.15, 1e-6);
   EXPECT_NEAR(largest(0.0, 2.0, 0.0), 2.0, 1e-6);
   EXPECT_NEAR(largest(0.0, 0.3, 1.0), 0.3 / std::sqrt(2.0), 1e-6);
