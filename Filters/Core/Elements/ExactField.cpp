@@ -76,11 +76,6 @@ Columns columnsOf(const DerivativeJets& jets, const NumberOf& numberOf)
   return result;
 }
 
-double sumOfProducts(const glm::dmat3& a, const glm::dmat3& b)
-{
-  return glm::dot(a[0], b[0]) + glm::dot(a[1], b[1]) + glm::dot(a[2], b[2]);
-}
-
 /// The quantity along the coordinates of the cell. With G = U' X'^-1 and T = q' X'^-T, a change of the cell's columns
 /// changes q by T : (dU' - G dX'). Along two coordinates k and l that is T : (U'_kl - G X'_kl - G_k X'_l - G_l X'_k) and
 /// the bend of q, so that no second derivative of G is needed.

@@ -19,12 +19,6 @@ double trace(const glm::dmat3& a)
   return a[0][0] + a[1][1] + a[2][2];
 }
 
-/// The sum of a_ij b_ij.
-double sumOfProducts(const glm::dmat3& a, const glm::dmat3& b)
-{
-  return glm::dot(a[0], b[0]) + glm::dot(a[1], b[1]) + glm::dot(a[2], b[2]);
-}
-
 glm::dvec3 curlOf(const glm::dmat3& g)
 {
   return { g[1][2] - g[2][1], g[2][0] - g[0][2], g[0][1] - g[1][0] };

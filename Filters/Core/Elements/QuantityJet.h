@@ -2,6 +2,7 @@
 
 #include "Elements/Quantity.h"
 
+#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
 #include <array>
@@ -20,6 +21,12 @@ struct ScalarJet
 /// The coordinates along which the six second derivatives are taken.
 constexpr std::array<std::array<int, 2>, 6> SecondDerivatives{ { { 0, 0 }, { 0, 1 }, { 0, 2 },
   { 1, 1 }, { 1, 2 }, { 2, 2 } } };
+
+/// The sum of a_ij b_ij.
+inline double sumOfProducts(const glm::dmat3& a, const glm::dmat3& b)
+{
+  return glm::dot(a[0], b[0]) + glm::dot(a[1], b[1]) + glm::dot(a[2], b[2]);
+}
 
 /// A quantity q of the gradient G of a field of three components, columns du/dx_j, or the quantity's square where that is
 /// derived.

@@ -1,5 +1,6 @@
 #include "Mesh/ManifoldVertices.h"
 
+#include "Mesh/SharedEdges.h"
 #include "Support/KeepMarked.h"
 
 #include <set>
@@ -233,13 +234,7 @@ private:
 /// Looks only at the triangles around places with several particles: nearly all meshes are sound.
 bool isManifold(const std::vector<int>& places, const std::vector<Triangle>& triangles)
 {
-  std::vector<char> isShared(places.size(), 0);
-  for (std::size_t p = 0; p < places.size(); ++p)
-  {
-    const bool isAnother = places[p] != static_cast<int>(p);
-    isShared[p] |= isAnother ? 1 : 0;
-    isShared[places[p]] |= isAnother ? 1 : 0;
-  }
+  const std::vector<char> isShared = marksOfShared(places);
   WeldedFans welded(places);
   std::set<int> vertices;
   for (const Triangle& triangle : triangles)

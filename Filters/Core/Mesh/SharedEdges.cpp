@@ -24,23 +24,10 @@ struct Joint
   std::pair<int, int> places() const { return { this->lowerPlace, this->upperPlace }; }
 };
 
-std::vector<char> sharedPlaces(const std::vector<int>& places)
-{
-  std::vector<char> isShared(places.size(), 0);
-  for (std::size_t p = 0; p < places.size(); ++p)
-  {
-    if (places[p] != static_cast<int>(p))
-    {
-      isShared[p] = isShared[places[p]] = 1;
-    }
-  }
-  return isShared;
-}
-
 /// In the order of their places, those between the same two places side by side.
 std::vector<Joint> jointsOf(const std::vector<int>& places, const TriangleFans& fans)
 {
-  const std::vector<char> isShared = sharedPlaces(places);
+  const std::vector<char> isShared = marksOfShared(places);
   std::vector<Joint> joints;
   for (std::size_t p = 0; p < places.size(); ++p)
   {
@@ -151,6 +138,19 @@ std::vector<Edge> tipsOfCreases(const Distribution& distribution)
 }
 
 } // namespace
+
+std::vector<char> marksOfShared(const std::vector<int>& places)
+{
+  std::vector<char> isShared(places.size(), 0);
+  for (std::size_t p = 0; p < places.size(); ++p)
+  {
+    if (places[p] != static_cast<int>(p))
+    {
+      isShared[p] = isShared[places[p]] = 1;
+    }
+  }
+  return isShared;
+}
 
 void uniteEnds(Distribution& distribution)
 {

@@ -9,6 +9,10 @@
 namespace hop
 {
 
+/// Marks particles that have another one in their place.
+/// \param places for each particle the first one in its place
+std::vector<char> marksOfShared(const std::vector<int>& places);
+
 /// Makes one of the particles in one place between which an edge without length would lead, as no triangle has one: of those
 /// that follow each other on a boundary curve or crease, as at corners of elements that are as small as rounding, and of
 /// those on the two sides of a crease where it ends in the midst of the surface. The other one stays in its place, and on no
