@@ -54,10 +54,11 @@ double distanceToSegment(const glm::dvec3& x, const glm::dvec3& a, const glm::dv
   return glm::distance(x, a + nearestShare(x, a, b) * (b - a));
 }
 
-BoundaryChords::Chord::Chord(const BoundaryPoint& from, const BoundaryPoint& to)
+BoundaryChords::Chord::Chord(
+  const BoundaryPoint& from, const BoundaryPoint& to, const WorldVector& tangent)
   : face(faceSlot(from.at.location.element, from.face))
   , positions{ from.at.point.map.position.xyz, to.at.point.map.position.xyz }
-  , gradient(from.at.point.gradient)
+  , along(tangent)
 {
   const Location& first = from.at.location;
   const Location& last = to.at.location;
@@ -65,10 +66,11 @@ BoundaryChords::Chord::Chord(const BoundaryPoint& from, const BoundaryPoint& to)
   this->places = { first.u.xyz, (last.element == first.element ? last : first).u.xyz };
 }
 
-/// Whether a chord passes a point of which test(chord, its length) is true.
+/// Whether a chord passes a place of which test(chord, its length) is true.
 template <class Test>
-bool BoundaryChords::anyPasses(const BoundaryPoint& point, const Test& test) const
+bool BoundaryChords::anyPasses(const Tip& tip, const Test& test) const
 {
+  const BoundaryPoint& point = tip.point;
   const auto found = this->Chords.find(faceSlot(point.at.location.element, point.face));
   const glm::dvec3& x = point.at.point.map.position.xyz;
   return found != this->Chords.end() &&
@@ -81,18 +83,18 @@ bool BoundaryChords::anyPasses(const BoundaryPoint& point, const Test& test) con
         const bool isBeyond = (t == 0.0 && chord.isLast[0]) || (t == 1.0 && chord.isLast[1]);
         const double farthest = (isBeyond ? PassShareBeyond : PassShare) * length;
         return glm::distance(x, a + t * (b - a)) <= farthest &&
-          dot(chord.gradient, point.at.point.gradient) > 0.0 && test(chord, length);
+          dot(chord.along, tip.along) >= 0.0 && test(chord, length);
       });
 }
 
-bool BoundaryChords::pass(const BoundaryPoint& point) const
+bool BoundaryChords::pass(const Tip& tip) const
 {
-  return this->anyPasses(point, [](const Chord&, double) { return true; });
+  return this->anyPasses(tip, [](const Chord&, double) { return true; });
 }
 
 bool BoundaryChords::meet(const Tip& tip) const
 {
-  return this->anyPasses(tip.point,
+  return this->anyPasses(tip,
     [&](const Chord& chord, double length)
     {
       const auto [first, last] = std::minmax(chord.way[0], chord.way[1]);

@@ -25,14 +25,15 @@ public:
 
   struct Chord
   {
-    Chord(const BoundaryPoint& from, const BoundaryPoint& to);
+    /// \param tangent the curve's, of unit length, at `from`, as the surface's end is seen from it (BoundaryTracer::tangent())
+    Chord(const BoundaryPoint& from, const BoundaryPoint& to, const WorldVector& tangent);
 
     std::size_t face = 0; ///< slot
     /// Of the ends, in the world and in the element's reference space.
     std::array<glm::dvec3, 2> positions;
     std::array<glm::dvec3, 2> places;
-    /// Gradient of the field at the first end: on two sheets close to each other the gradients are opposite.
-    WorldVector gradient;
+    /// On two sheets close to each other, and on the two sides of a lens or a strip, curves run in opposite directions.
+    WorldVector along;
     /// Of its ends along the trace, world units: from the start, negative against the curve's direction.
     std::array<double, 2> way{};
     /// Number of the trace.
@@ -41,21 +42,23 @@ public:
     std::array<bool, 2> isLast{};
   };
 
-  /// Where a trace is.
+  /// A place on a curve, and where its trace is there.
   struct Tip
   {
     const BoundaryPoint& point;
+    /// See Chord.
+    WorldVector along;
     double way = 0.0;
     int trace = -1;
   };
 
   void add(const Chord& chord) { this->Chords[chord.face].push_back(chord); }
 
-  /// Whether a chord of the same sheet on the same face passes a point, to a fifth of the chord's length; beyond an end at
+  /// Whether a chord of the same curve on the same face passes a place, to a fifth of the chord's length; beyond an end at
   /// which the curve leaves the face, to a thousandth.
-  bool pass(const BoundaryPoint& point) const;
+  bool pass(const Tip& tip) const;
 
-  /// Whether a trace meets a chord of the same sheet on the same face. It does not meet what it has just left: where chords
+  /// Whether a trace meets a chord of the same curve on the same face. It does not meet what it has just left: where chords
   /// become much shorter at a tip of the curve, they are all near the last long one.
   bool meet(const Tip& tip) const;
 
@@ -68,7 +71,7 @@ private:
   static constexpr double LeftBehind = 1.2;
 
   template <class Test>
-  bool anyPasses(const BoundaryPoint& point, const Test& test) const;
+  bool anyPasses(const Tip& tip, const Test& test) const;
 
   /// By the slots of the faces.
   std::unordered_map<std::size_t, std::vector<Chord>> Chords;

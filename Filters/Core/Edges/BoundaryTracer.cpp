@@ -577,7 +577,7 @@ bool BoundaryTracer::replacesStart(const BoundaryVertex& last, const BoundaryVer
 void BoundaryTracer::addChord(
   const BoundaryPoint& from, const BoundaryPoint& to, const std::array<double, 2>& way)
 {
-  BoundaryChords::Chord chord(from, to);
+  BoundaryChords::Chord chord(from, to, this->tangent(from));
   chord.way = way;
   chord.trace = this->Trace;
   const auto isLast = [this](const BoundaryPoint& end)
@@ -590,7 +590,7 @@ void BoundaryTracer::addChord(
   const int there = to.at.location.element;
   if (there != from.at.location.element && this->Surface.mesh->neighbor(there, to.face).element < 0)
   {
-    BoundaryChords::Chord back(to, from);
+    BoundaryChords::Chord back(to, from, this->tangent(to));
     back.way = { way[1], way[0] };
     back.trace = this->Trace;
     this->Chords.add(back);
@@ -637,8 +637,8 @@ bool BoundaryTracer::follow(const BoundaryPoint& start, double step, double dire
     // The last chord ends where this one begins, and is added only now: it would be met at once.
     const double way = lastWay[1] + direction * moved;
     // Elsewhere it changes curves by little: on deal.II's shell pictures of ranks depart from each other more.
-    const bool again = this->HasEnds ? this->Chords.meet({ next->leaving, way, this->Trace })
-                                     : this->Chords.pass(next->leaving);
+    const BoundaryChords::Tip tip{ next->leaving, this->tangent(next->leaving), way, this->Trace };
+    const bool again = this->HasEnds ? this->Chords.meet(tip) : this->Chords.pass(tip);
     addLast();
     lastChord = { here, next->arriving };
     lastWay = { lastWay[1], way };

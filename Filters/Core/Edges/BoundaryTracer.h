@@ -86,7 +86,10 @@ public:
   ReferenceVector velocity(const BoundaryPoint& point) const;
 
   /// Whether a boundary curve was traced through a point.
-  bool isTraced(const BoundaryPoint& point) const { return this->Chords.pass(point); }
+  bool isTraced(const BoundaryPoint& point) const
+  {
+    return this->Chords.pass({ point, this->tangent(point) });
+  }
   /// The same of a crossing. Costs nothing, but may overlook a curve.
   bool isTraced(const FaceCrossing& crossing) const
   {
