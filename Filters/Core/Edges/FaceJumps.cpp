@@ -209,8 +209,8 @@ std::optional<JumpFinder::Finding> JumpFinder::look(
   const double jump = SurfaceWalker::jumpBetween(this->Mesh, here, *behind);
   if (this->Mesh.neighbor(element, crossing.face).element >= 0)
   {
-    finding.jump = std::abs(behind->at.point.value - here.point.value) /
-      (spacing * length(here.point.gradient));
+    finding.jump =
+      std::abs(behind->at.point.value - here.point.value) / (spacing * length(here.point.gradient));
   }
   if (!(jump <= largest))
   {
