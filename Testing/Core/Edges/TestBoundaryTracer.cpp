@@ -50,6 +50,7 @@ TEST(BoundaryTracer, GoesAroundSlenderTips)
   {
     const Isosurface surface{ &mesh, 0.0, 1e-6 };
     BoundaryTracer tracer(surface, BoundaryTracer::Points::Rough);
+    tracer.followEnds(false);
     const double x = -0.2;
     const glm::dvec3 start(x, Lens::halfWidth(x), -1.0);
     const auto point = tracer.project({ 0, { 0.5 * (start + 1.0) } }, lowerFace(mesh), step);
