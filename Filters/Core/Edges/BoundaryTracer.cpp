@@ -636,7 +636,7 @@ bool BoundaryTracer::follow(const BoundaryPoint& start, double step, double dire
     isPossible = limits.admit(here.at.location, here.face, next->arriving.at.location);
     // The last chord ends where this one begins, and is added only now: it would be met at once.
     const double way = lastWay[1] + direction * moved;
-    // Elsewhere it changes curves by little: on deal.II's shell pictures of ranks depart from each other more.
+    // Elsewhere a trace would go on in ever shorter chords at a point in which the surface is singular.
     const BoundaryChords::Tip tip{ next->leaving, this->tangent(next->leaving), way, this->Trace };
     const bool again = this->HasEnds ? this->Chords.meet(tip) : this->Chords.pass(tip);
     addLast();
