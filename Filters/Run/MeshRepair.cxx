@@ -5,7 +5,6 @@
 #include "Support/Interruptible.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <iterator>
 #include <utility>
