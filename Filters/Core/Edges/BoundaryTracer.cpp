@@ -600,7 +600,7 @@ void BoundaryTracer::addChord(
 /// Follows a boundary curve in one direction, and adds its vertices behind the start.
 /// \param direction 1 or -1, of velocity()
 /// \return whether the boundary curve came back to its start
-bool BoundaryTracer::follow(const BoundaryPoint& start, double step, double direction,
+bool BoundaryTracer::follow(const BoundaryPoint& start, const StepAt& stepAt, double direction,
   std::vector<BoundaryVertex>& vertices, const ParallelFor& parallelFor)
 {
   BoundaryPoint here = start;
@@ -614,6 +614,7 @@ bool BoundaryTracer::follow(const BoundaryPoint& start, double step, double dire
       this->addChord((*lastChord)[0], (*lastChord)[1], lastWay);
     }
   };
+  double step = stepAt(start);
   double chord = step;
   double firstChord = 0.0;
   int standstills = 0;
@@ -622,6 +623,7 @@ bool BoundaryTracer::follow(const BoundaryPoint& start, double step, double dire
   while (isPossible && standstills <= ChordLengths::MostStandstills)
   {
     askCaller(parallelFor);
+    this->PassedJump = ChordLengths::PassedJump * step;
     const ReferenceVector velocity = this->velocity(here);
     const auto next =
       this->advanceAtMost(chord, step, { here, velocity, direction, before, standstills > 0 });
@@ -660,6 +662,7 @@ bool BoundaryTracer::follow(const BoundaryPoint& start, double step, double dire
     vertices.push_back(*next);
     before = Passed{ here.at.location.element, here.face, position, velocity };
     here = next->leaving;
+    step = stepAt(here);
     chord = std::min(step, ChordLengths::Growth * chord);
   }
   addLast();
@@ -667,20 +670,19 @@ bool BoundaryTracer::follow(const BoundaryPoint& start, double step, double dire
 }
 
 BoundaryTrace BoundaryTracer::trace(
-  const BoundaryPoint& start, double step, const ParallelFor& parallelFor)
+  const BoundaryPoint& start, const StepAt& stepAt, const ParallelFor& parallelFor)
 {
   BoundaryTrace result;
-  this->PassedJump = ChordLengths::PassedJump * step;
   ++this->Trace;
   // On an edge of an element the boundary curve may have a corner: how it comes there is not known yet.
   const bool isOnEdge =
     otherFaceAt(*this->Surface.mesh, start.at.location, start.face, OnFace) >= 0;
   result.vertices.push_back({ start, start, isOnEdge });
-  result.closed = this->follow(start, step, 1.0, result.vertices, parallelFor);
+  result.closed = this->follow(start, stepAt, 1.0, result.vertices, parallelFor);
   if (!result.closed)
   {
     std::vector<BoundaryVertex> back;
-    this->follow(start, step, -1.0, back, parallelFor);
+    this->follow(start, stepAt, -1.0, back, parallelFor);
     for (BoundaryVertex& vertex : back)
     {
       std::swap(vertex.arriving, vertex.leaving);

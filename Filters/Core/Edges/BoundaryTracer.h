@@ -5,6 +5,7 @@
 #include "Surface/ActiveFaces.h"
 #include "Surface/SurfaceWalker.h"
 
+#include <functional>
 #include <optional>
 
 namespace hop
@@ -22,6 +23,8 @@ public:
     /// On the surface to its tolerance, with Hessians.
     Exact
   };
+
+  using StepAt = std::function<double(const BoundaryPoint&)>;
 
   BoundaryTracer(const Isosurface& surface, Points points)
     : Surface(surface)
@@ -78,9 +81,10 @@ public:
   /// boundary face, and from a dead end also the other way.
   /// Ends where it meets a boundary curve that was traced before: its own start, as a rule. (Where the field jumps
   /// between elements, two boundary curves can run into one.)
-  /// \param step world length of the chords, at most; less where the boundary curve bends
+  /// \param stepAt world length of the chord that begins at a point, at most; less where the boundary curve bends
   /// \param parallelFor is asked at each chord whether to end early
-  BoundaryTrace trace(const BoundaryPoint& start, double step, const ParallelFor& parallelFor = {});
+  BoundaryTrace trace(
+    const BoundaryPoint& start, const StepAt& stepAt, const ParallelFor& parallelFor = {});
 
   /// Velocity in reference space that follows the boundary curve at speed one in the world, in direction n x w.
   ReferenceVector velocity(const BoundaryPoint& point) const;
@@ -144,7 +148,7 @@ private:
   };
 
   bool replacesStart(const BoundaryVertex& last, const BoundaryVertex& start) const;
-  bool follow(const BoundaryPoint& start, double step, double direction,
+  bool follow(const BoundaryPoint& start, const StepAt& stepAt, double direction,
     std::vector<BoundaryVertex>& vertices, const ParallelFor& parallelFor);
   void addChord(
     const BoundaryPoint& from, const BoundaryPoint& to, const std::array<double, 2>& way);

@@ -106,6 +106,13 @@ bool CurveTracing::isInReach(const Location& place) const
       glm::dvec3(evaluateGradient(this->Surface.mesh->form(place.element), place.u).value));
 }
 
+BoundaryTrace CurveTracing::traceFrom(const BoundaryPoint& start, const ParallelFor& parallelFor)
+{
+  const auto stepAt = [this](const BoundaryPoint& point)
+  { return Tracing::Chord * this->Between.spacingAt(point); };
+  return this->Tracer.trace(start, stepAt, parallelFor);
+}
+
 /// Traces the curve that a hint leads to, unless there is none or it is traced.
 void CurveTracing::follow(const Hint& hint, const ParallelFor& parallelFor)
 {
@@ -123,7 +130,7 @@ void CurveTracing::follow(const Hint& hint, const ParallelFor& parallelFor)
   {
     return;
   }
-  this->keep(this->Tracer.trace(*start, Tracing::Chord * nearby, parallelFor), nearby);
+  this->keep(this->traceFrom(*start, parallelFor), nearby);
 }
 
 /// Where a chord of a boundary curve passes a plane of the slab.
@@ -215,7 +222,7 @@ void CurveTracing::followOtherSide(std::size_t stretch, const ParallelFor& paral
     crossFace(*this->Surface.mesh, place, crease.creaseFace), behind.face, nearby);
   if (start && !this->Tracer.isTraced(*start))
   {
-    this->keep(this->Tracer.trace(*start, Tracing::Chord * nearby, parallelFor), nearby);
+    this->keep(this->traceFrom(*start, parallelFor), nearby);
   }
 }
 

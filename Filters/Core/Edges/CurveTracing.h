@@ -61,6 +61,7 @@ private:
   };
 
   std::vector<std::vector<Hint>> findHints(const ParallelFor& parallelFor) const;
+  BoundaryTrace traceFrom(const BoundaryPoint& start, const ParallelFor& parallelFor);
   void follow(const Hint& hint, const ParallelFor& parallelFor);
   bool isInReach(const Location& place) const;
   std::optional<BoundaryPoint> passageBetween(

@@ -114,7 +114,8 @@ FastSystem::ComponentHome FastSystem::homeOf(const SparseComponent& component) c
 void FastSystem::fillSparseComponents()
 {
   Buffer<Particle>& particles = this->Result.particles;
-  if (this->countIsGiven())
+  // Particles that are changed in places were filled in before.
+  if (this->countIsGiven() || !this->Parameters.changedAround.empty())
   {
     return;
   }

@@ -41,6 +41,16 @@ int lowerFace(const ElementMesh& mesh)
     faces.begin());
 }
 
+/// Where tracing a lens begins.
+BoundaryPoint startOn(BoundaryTracer& tracer, const ElementMesh& mesh, double step)
+{
+  const double x = -0.2;
+  const glm::dvec3 start(x, Lens::halfWidth(x), -1.0);
+  const auto point = tracer.project({ 0, { 0.5 * (start + 1.0) } }, lowerFace(mesh), step);
+  EXPECT_TRUE(point);
+  return *point;
+}
+
 /// At the tip the two sides of the curve are much closer to each other than chords are long, and the surface's normals are
 /// nearly the same there.
 TEST(BoundaryTracer, GoesAroundSlenderTips)
@@ -51,11 +61,8 @@ TEST(BoundaryTracer, GoesAroundSlenderTips)
     const Isosurface surface{ &mesh, 0.0, 1e-6 };
     BoundaryTracer tracer(surface, BoundaryTracer::Points::Rough);
     tracer.followEnds(false);
-    const double x = -0.2;
-    const glm::dvec3 start(x, Lens::halfWidth(x), -1.0);
-    const auto point = tracer.project({ 0, { 0.5 * (start + 1.0) } }, lowerFace(mesh), step);
-    ASSERT_TRUE(point);
-    const BoundaryTrace trace = tracer.trace(*point, step, {});
+    const BoundaryTrace trace = tracer.trace(
+      startOn(tracer, mesh, step), [step](const BoundaryPoint&) { return step; });
     EXPECT_TRUE(trace.closed) << step;
     glm::dvec2 least(0.0);
     glm::dvec2 most(0.0);
@@ -68,6 +75,34 @@ TEST(BoundaryTracer, GoesAroundSlenderTips)
     }
     EXPECT_NEAR(most.x - least.x, 2.0 * Lens::HalfLength, 0.1 * step);
     EXPECT_NEAR(most.y - least.y, 2.0 * Lens::HalfWidth, 0.1 * Lens::HalfWidth);
+  }
+}
+
+/// Around a singular point spacings are many times smaller than a little farther off, and curves begin there as well as
+/// anywhere else.
+TEST(BoundaryTracer, ChordsGrowWithTheSpacingAlongTheCurve)
+{
+  const ElementMesh mesh = Lens::mesh();
+  const Isosurface surface{ &mesh, 0.0, 1e-6 };
+  BoundaryTracer tracer(surface, BoundaryTracer::Points::Rough);
+  tracer.followEnds(false);
+  const double least = 1e-4;
+  const BoundaryPoint start = startOn(tracer, mesh, least);
+  const auto stepAt = [&](const BoundaryPoint& point)
+  {
+    const double away =
+      glm::distance(point.at.point.map.position.xyz, start.at.point.map.position.xyz);
+    return std::clamp(0.5 * away, least, 0.1);
+  };
+  const BoundaryTrace trace = tracer.trace(start, stepAt);
+  EXPECT_TRUE(trace.closed);
+  // As many chords of the least length as 5 % of the curve has.
+  EXPECT_LT(static_cast<double>(trace.vertices.size()), 0.05 * 4.0 * Lens::HalfLength / least);
+  for (std::size_t v = 1; v < trace.vertices.size(); ++v)
+  {
+    const BoundaryVertex& before = trace.vertices[v - 1];
+    EXPECT_LE(glm::distance(before.position(), trace.vertices[v].position()),
+      1.1 * stepAt(before.leaving));
   }
 }
 
