@@ -48,6 +48,14 @@ Isosurface roughly(Isosurface surface, double spacing, bool isForMesh)
   return surface;
 }
 
+/// Whether a curve is in one place, as in a corner of the mesh in which it passes from element to element.
+bool hasNoLength(const std::vector<BoundaryVertex>& vertices, double tolerance)
+{
+  return std::all_of(vertices.begin(), vertices.end(),
+    [&](const BoundaryVertex& vertex)
+    { return glm::distance(vertex.position(), vertices.front().position()) <= tolerance; });
+}
+
 /// Whether a curve is at the same corner, and goes on along the same face.
 bool isSame(const BoundaryVertex& a, const BoundaryVertex& b, double spacing)
 {
@@ -254,7 +262,7 @@ void CurveTracing::keep(BoundaryTrace trace, double spacing)
       this->cutAtPlane(plane, trace);
     }
   }
-  if (vertices.size() < 2 && !trace.closed)
+  if (!trace.closed && hasNoLength(vertices, Tracing::Tolerance * spacing))
   {
     return;
   }
