@@ -60,7 +60,7 @@ void keepFindings(const DistributionReport& own, DistributionReport& lifted)
 /// bend faster than the spacing follows, are not mended by a few particles more.
 bool hasFewFaults(const IsovalueParticles& some)
 {
-  constexpr std::size_t few = 50;           // particles at faults
+  constexpr std::size_t few = 300;          // particles at faults
   constexpr std::size_t particlesEach = 20; // all particles for each one of them
   const std::size_t faults = some.mesh.atFaults.size();
   return faults > 0 &&

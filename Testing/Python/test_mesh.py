@@ -399,6 +399,18 @@ def test_facets_with_small_jumps_are_closed(plugin, size, seed):
     assert support.reported(mesh, "MeshUnusedParticles") == 0
 
 
+def test_sharp_bends_of_a_small_mesh_are_closed(plugin):
+    """Two sheets that all but cross bend within a hundredth of the spacing: most particles of the first mesh are at
+    faults, but there are few."""
+    grid = straight_grid("LAGRANGE_HEXAHEDRON", order=2)
+    x = points_of(grid)
+    add_point_array(grid, "v", (2.0 * x[:, 0] - 1.0) * (2.0 * x[:, 2] - 1.0))
+    mesh = support.run(grid, "v", 3e-6, OutputType="Triangles", Spacing=0.15)[0]
+    assert_closed(mesh)
+    assert support.reported(mesh, "TopologyProven") == 1
+    assert list(components_of(mesh)["Proven"]) == [1, 1]
+
+
 def test_topology_of_a_field_with_jumps_is_not_proven(data, plugin):
     grid = support.read(data("mfem_dg_advection_0.vtu"))
     mesh = support.make_filter(grid, "rho", 0.293, OutputType="Triangles")[0]
