@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 namespace hop
 {
 
@@ -10,6 +12,10 @@ namespace hop
 /// ParaView's spreadsheet leaves out columns whose names begin so; colour lists leave the array out for its key
 /// vtkAbstractArray::GUI_HIDE.
 constexpr const char* SplatColumnsArray = "__vtkValidMask__Splats";
+
+/// The same of points of a mesh that lie on creases, where splats are drawn on both sides of the crease; zero elsewhere.
+/// Where creases meet it knows two sides.
+constexpr const char* CreaseColumnsArray = "__vtkValidMask__Creases";
 
 struct SplatColumn
 {
@@ -29,11 +35,23 @@ constexpr SplatColumn SplatColumns[] = {
   { "Cell_Borders", 16 },
 };
 
-/// Components of the array.
-constexpr int splatColumnCount()
+/// The unit normal of the side of which SplatColumns are, and what is known of the other one.
+constexpr SplatColumn CreaseColumns[] = {
+  { "Side_Normal", 3 },
+  { "Other_Normal", 3 },
+  { "Clip_Normal", 9 },
+  { "Clip_Distance", 3 },
+  { "Clip_Angle", 3 },
+  { "Clip_Curvature", 3 },
+  { "Shape_Operator", 6 },
+};
+
+/// Components of an array.
+template <std::size_t Count>
+constexpr int splatColumnCount(const SplatColumn (&columns)[Count])
 {
   int count = 0;
-  for (const SplatColumn& column : SplatColumns)
+  for (const SplatColumn& column : columns)
   {
     count += column.components;
   }

@@ -9,6 +9,7 @@
 #include "vtkInformationIntegerKey.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 namespace hop
@@ -17,8 +18,8 @@ namespace hop
 namespace
 {
 
-template <class Number>
-void writeVector(const glm::vec<3, Number>& v, Number* out)
+template <class Component, class Number>
+void writeVector(const glm::vec<3, Component>& v, Number* out)
 {
   std::copy_n(&v.x, 3, out);
 }
@@ -72,33 +73,55 @@ void writeCellId(const ParticleRow& row, const RowCells& cells, vtkIdType* out)
   *out = cells.cellOf(row);
 }
 
-/// The arrays that are columns of SplatColumnsArray, in its order.
-std::vector<const ParticleArray*> makeSplatColumns()
+/// The arrays that are columns, in their order; those of no such name are left out.
+template <std::size_t Count>
+std::vector<const ParticleArray*> findColumns(const SplatColumn (&names)[Count])
 {
+  const std::vector<ParticleArray>& table = particleArrays();
   std::vector<const ParticleArray*> columns;
-  for (const SplatColumn& column : SplatColumns)
+  for (const SplatColumn& column : names)
   {
-    const std::vector<ParticleArray>& table = particleArrays();
-    columns.push_back(&*std::find_if(table.begin(), table.end(),
-      [&](const ParticleArray& array) { return array.name == std::string(column.name); }));
+    const auto found = std::find_if(table.begin(), table.end(),
+      [&](const ParticleArray& array) { return array.name == std::string(column.name); });
+    if (found != table.end())
+    {
+      columns.push_back(&*found);
+    }
   }
   return columns;
 }
 
-const std::vector<const ParticleArray*>& splatColumns()
+/// Writes columns one after the other.
+void writeColumns(const std::vector<const ParticleArray*>& columns, const ParticleRow& row,
+  const RowCells& cells, double* out)
 {
-  static const std::vector<const ParticleArray*> columns = makeSplatColumns();
-  return columns;
-}
-
-/// Writes the columns one after the other.
-void writeSplatColumns(const ParticleRow& row, const RowCells& cells, double* out)
-{
-  for (const ParticleArray* column : splatColumns())
+  for (const ParticleArray* column : columns)
   {
     std::get<RowWriter<double>>(column->write)(row, cells, out);
     out += column->components;
   }
+}
+
+void writeSplatColumns(const ParticleRow& row, const RowCells& cells, double* out)
+{
+  static const std::vector<const ParticleArray*> columns = findColumns(SplatColumns);
+  writeColumns(columns, row, cells, out);
+}
+
+void writeCreaseColumns(const ParticleRow& row, const RowCells& cells, float* out)
+{
+  static const std::vector<const ParticleArray*> columns = findColumns(CreaseColumns);
+  std::array<double, splatColumnCount(CreaseColumns)> numbers{};
+  if (row.otherSide)
+  {
+    writeVector(row.particle->sideNormal, &numbers[0]);
+    writeVector(row.otherSide->sideNormal, &numbers[3]);
+    ParticleRow other;
+    other.particle = row.otherSide;
+    writeColumns(columns, other, cells, &numbers[6]);
+  }
+  std::transform(
+    numbers.begin(), numbers.end(), out, [](double number) { return static_cast<float>(number); });
 }
 
 std::vector<ParticleArray> makeParticleArrays()
@@ -204,10 +227,17 @@ std::vector<ParticleArray> makeParticleArrays()
       "The same as Cell_Id, under the name by which VTK's filters know it; ParaView does not list "
       "it.",
       writeCellId },
-    { SplatColumnsArray, splatColumnCount(),
+    { SplatColumnsArray, splatColumnCount(SplatColumns),
       "What only the renderer reads: Clip_Normal, Clip_Distance, Clip_Angle, Clip_Curvature, "
       "Shape_Operator, Original_Placement and Cell_Borders side by side.",
       writeSplatColumns, ArrayUse::Hidden },
+    { CreaseColumnsArray, splatColumnCount(CreaseColumns),
+      "What only the renderer reads of points of meshes on creases: the unit normal of one side, "
+      "that of "
+      "another one, and Clip_Normal, Clip_Distance, Clip_Angle, Clip_Curvature and Shape_Operator "
+      "of the "
+      "other one; zero elsewhere. Of meshes with creases.",
+      writeCreaseColumns, ArrayUse::HiddenOfCreases },
   };
 }
 

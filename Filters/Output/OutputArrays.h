@@ -36,6 +36,8 @@ enum class ArrayUse
   Diagnostic,
   /// Always; ParaView is not to offer it to users.
   Hidden,
+  /// The same, for meshes with creases alone.
+  HiddenOfCreases,
 };
 
 /// A point array of the output, whatever arrays the input has.

@@ -2,7 +2,9 @@
 
 #include "Support/SortedBy.h"
 
+#include <array>
 #include <functional>
+#include <map>
 
 namespace hop
 {
@@ -56,6 +58,7 @@ private:
   }
   int vertexOf(int particle) const { return this->Some.mesh.vertices[particle]; }
   void addCellsOf(std::size_t block, const std::vector<int>& cells, BlockRows& result);
+  void findSides();
   void chooseParticles(std::size_t block);
   ParticleRow rowOfVertex(std::size_t block, int vertex) const;
 
@@ -72,6 +75,8 @@ private:
   std::vector<int> StandIn;
   std::vector<int> Chosen;
   std::vector<int> RowOf;
+  /// For each place on a crease the first two particles of different sides.
+  std::map<int, std::array<int, 2>> SidesOf;
 };
 
 Sharing::Sharing(const InputBlocks& blocks, const ElementMesh& mesh, const IsovalueParticles& some,
@@ -112,6 +117,7 @@ void Sharing::addMesh(std::vector<BlockRows>& result)
   {
     cellsOfBlocks[this->blockOf(mesh.nodes[first])].push_back(static_cast<int>(first));
   }
+  this->findSides();
   this->StandIn.assign(this->Particles.size(), none);
   this->Chosen.assign(this->Particles.size(), none);
   this->RowOf.assign(this->Particles.size(), none);
@@ -120,6 +126,24 @@ void Sharing::addMesh(std::vector<BlockRows>& result)
     this->Work.ask();
     result[b].nodesPerCell = mesh.nodesPerCell;
     this->addCellsOf(b, cellsOfBlocks[b], result[b]);
+  }
+}
+
+void Sharing::findSides()
+{
+  const auto hasSide = [this](int p) { return this->Particles[p].sideNormal != glm::vec3(0.0f); };
+  for (const auto& [vertex, particle] : this->Some.mesh.shared)
+  {
+    if (hasSide(particle))
+    {
+      auto& sides =
+        this->SidesOf.try_emplace(vertex, std::array<int, 2>{ particle, none }).first->second;
+      if (sides[1] == none &&
+        this->Particles[sides[0]].sideNormal != this->Particles[particle].sideNormal)
+      {
+        sides[1] = particle;
+      }
+    }
   }
 }
 
@@ -141,6 +165,12 @@ ParticleRow Sharing::rowOfVertex(std::size_t block, int vertex) const
 {
   const int particle = this->Chosen[vertex] == none ? vertex : this->Chosen[vertex];
   ParticleRow row = rowOf(this->Some, particle);
+  const auto sides = this->SidesOf.find(vertex);
+  if (sides != this->SidesOf.end() && sides->second[1] != none)
+  {
+    const auto& [first, second] = sides->second;
+    row.otherSide = &this->Particles[first == particle ? second : first];
+  }
   if (this->isForeign(particle) || this->blockOf(particle) != block)
   {
     row.standIn = &this->Particles[this->StandIn[vertex]];

@@ -161,11 +161,14 @@ private:
   std::vector<std::function<void(std::ptrdiff_t begin, std::ptrdiff_t end)>> Writers;
   std::vector<EvaluatedArray> Evaluated;
   bool HasSeveralIsovalues = false;
+  bool HasCreases = false;
 };
 
 void Packer::pack(const std::vector<IsovalueParticles>& isovalues)
 {
   this->HasSeveralIsovalues = isovalues.size() > 1;
+  this->HasCreases = std::any_of(isovalues.begin(), isovalues.end(),
+    [](const IsovalueParticles& some) { return some.mesh.hasCreases; });
   this->addPoints();
   if (this->Content.nodesPerCell > 0)
   {
@@ -340,7 +343,8 @@ void Packer::addOwnArrays()
   std::map<RowWriter<vtkIdType>, vtkSmartPointer<vtkIdTypeArray>> idsOf;
   for (const ParticleArray& array : particleArrays())
   {
-    if (array.use == ArrayUse::Diagnostic && !this->Passed.diagnostics)
+    if ((array.use == ArrayUse::Diagnostic && !this->Passed.diagnostics) ||
+      (array.use == ArrayUse::HiddenOfCreases && !this->HasCreases))
     {
       continue;
     }
@@ -360,7 +364,7 @@ void Packer::addOwnArrays()
     {
       this->addIds(array.name, *ids, idsOf[*ids]);
     }
-    if (array.use == ArrayUse::Hidden)
+    if (array.use == ArrayUse::Hidden || array.use == ArrayUse::HiddenOfCreases)
     {
       hideInPanels(*this->Output->GetPointData()->GetAbstractArray(array.name));
     }

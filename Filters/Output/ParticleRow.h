@@ -16,6 +16,8 @@ struct ParticleRow
 {
   const Particle* particle = nullptr;
   double isovalue = 0.0;
+  /// Of a mesh's particle on a crease: a particle in the same place on another side; nullptr otherwise.
+  const Particle* otherSide = nullptr;
   /// For a corner of a mesh that lies in another block, or on another rank: a corner of the same triangle in this block,
   /// and its row.
   const Particle* standIn = nullptr;

@@ -204,7 +204,7 @@ std::int64_t countTurnedOver(
 }
 
 /// Gives all particles in one place what those of them that cells use have together: the mean normal, and the area.
-void mergePlaces(const ParticleMesh& mesh, Buffer<Particle>& particles)
+void mergePlaces(ParticleMesh& mesh, Buffer<Particle>& particles)
 {
   std::vector<char> isUsed(particles.size(), 0);
   for (const int node : mesh.nodes)
@@ -234,8 +234,14 @@ void mergePlaces(const ParticleMesh& mesh, Buffer<Particle>& particles)
   }
   for (const auto& [vertex, p] : mesh.shared)
   {
-    particles[p].normal = places.at(vertex).normal;
-    particles[p].area = places.at(vertex).area;
+    const Sum& place = places.at(vertex);
+    if (particles[p].normal.xyz != place.normal.xyz)
+    {
+      particles[p].sideNormal = particles[p].normal.xyz;
+      mesh.hasCreases = true;
+    }
+    particles[p].normal = place.normal;
+    particles[p].area = place.area;
   }
 }
 

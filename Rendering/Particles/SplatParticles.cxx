@@ -105,6 +105,14 @@ bool IsFinite(const double v[3])
   return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
 }
 
+// Whether a vector is not (0, 0, 0).
+bool IsSet(vtkDataArray* vectors, vtkIdType id)
+{
+  double vector[3];
+  vectors->GetTuple(id, vector);
+  return vector[0] != 0. || vector[1] != 0. || vector[2] != 0.;
+}
+
 // Reads one particle; false, with nothing written, if it cannot be drawn.
 bool ReadParticle(vtkPoints* points, vtkIdType id, double radius, vtkDataArray* normals,
   const std::array<double, 3>& origin, float centreRadius[4], float normal[4])
@@ -232,6 +240,12 @@ void ReadBorders(vtkDataArray* borders, vtkIdType id, float* read)
   }
 }
 
+// The normals of sides of creases if a point has one; nullptr otherwise.
+vtkDataArray* SideNormalsAt(const ParticleArrays& arrays, vtkIdType id)
+{
+  return arrays.SideNormals && IsSet(arrays.SideNormals, id) ? arrays.SideNormals : nullptr;
+}
+
 // Takes a border of a particle's cell along: its curve as a map takes the edge at a clip plane.
 void CarryBorder(const LinearMap& map, const double normal[3], float* border)
 {
@@ -261,8 +275,10 @@ void Carry(const LinearMap& map, const ParticleArrays& arrays, vtkIdType id,
   double normal[3];
   for (int axis = 0; axis < 3; ++axis)
   {
-    before[axis] = arrays.Placements->GetComponent(id, 3 + axis);
     now[axis] = particles.Normal[4 * i + axis];
+    // No filter turns the normals of sides.
+    before[axis] =
+      SideNormalsAt(arrays, id) ? now[axis] : arrays.Placements->GetComponent(id, 3 + axis);
   }
   map.CarryNormal(before, normal);
   if (arrays.Radii)
@@ -415,23 +431,55 @@ vtkSmartPointer<vtkDataArray> ColumnsOf(vtkDataArray* all, int first, int compon
   return columns;
 }
 
-// The array with a name, or the columns that stand for it.
-vtkDataArray* FindArray(
-  vtkPointData* data, vtkIdType points, const std::string& name, ParticleArrays& owner)
+// The columns with a name of an array that is made of columns; nullptr without it.
+template <std::size_t Count>
+vtkDataArray* FindColumns(vtkDataArray* packed, const SplatColumn (&columns)[Count],
+  const std::string& name, ParticleArrays& owner)
 {
-  vtkDataArray* packed = ParticleArrays::IfComplete(data->GetArray(SplatColumnsArray), points);
-  vtkDataArray* found = ParticleArrays::IfComplete(data->GetArray(name.c_str()), points);
   int first = 0;
-  for (const SplatColumn& column : SplatColumns)
+  for (const SplatColumn& column : columns)
   {
-    if (!found && packed && column.name == name)
+    if (packed && column.name == name)
     {
       owner.Columns.push_back(ColumnsOf(packed, first, column.components));
       return owner.Columns.back();
     }
     first += column.components;
   }
-  return found;
+  return nullptr;
+}
+
+// The arrays of other sides of creases. Where cells end there, nothing is known of.
+ParticleArrays OtherSidesOf(const ParticleArrays& own)
+{
+  ParticleArrays other = own;
+  const auto find = [&](const char* name)
+  { return FindColumns(own.Creases, CreaseColumns, name, other); };
+  other.SideNormals = find("Other_Normal");
+  other.ClipNormals = find("Clip_Normal");
+  other.ClipDistances = find("Clip_Distance");
+  other.ClipAngles = find("Clip_Angle");
+  other.ClipCurvatures = find("Clip_Curvature");
+  other.ShapeOperators = own.ShapeOperators ? find("Shape_Operator") : nullptr;
+  other.CellBorders = nullptr;
+  return other;
+}
+
+// Gives points on creases a second particle, behind all others.
+void AddOtherSides(vtkDataArray* normals, SplatParticles& particles)
+{
+  const vtkIdType count = particles.GetNumberOfParticles();
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    if (IsSet(normals, particles.PointIds[i]))
+    {
+      particles.PointIds.push_back(particles.PointIds[i]);
+      if (!particles.CellIds.empty())
+      {
+        particles.CellIds.push_back(particles.CellIds[i]);
+      }
+    }
+  }
 }
 }
 
@@ -445,7 +493,12 @@ vtkDataArray* ParticleArrays::IfComplete(vtkDataArray* array, vtkIdType rows)
 ParticleArrays ParticleArrays::FromPointData(vtkPointData* data, vtkIdType points)
 {
   ParticleArrays arrays;
-  const auto find = [&](const char* name) { return FindArray(data, points, name, arrays); };
+  vtkDataArray* packed = IfComplete(data->GetArray(SplatColumnsArray), points);
+  const auto find = [&](const char* name)
+  {
+    vtkDataArray* found = IfComplete(data->GetArray(name), points);
+    return found ? found : FindColumns(packed, SplatColumns, name, arrays);
+  };
   arrays.Normals = IfComplete(data->GetNormals(), points);
   arrays.ClipNormals = find("Clip_Normal");
   arrays.ClipDistances = find("Clip_Distance");
@@ -456,6 +509,8 @@ ParticleArrays ParticleArrays::FromPointData(vtkPointData* data, vtkIdType point
   arrays.CellBorders = find("Cell_Borders");
   arrays.Isovalues = IfComplete(data->GetArray("Isovalue"), points);
   arrays.Ghosts = IfComplete(data->GetArray(vtkDataSetAttributes::GhostArrayName()), points);
+  arrays.Creases = IfComplete(data->GetArray(CreaseColumnsArray), points);
+  arrays.SideNormals = FindColumns(arrays.Creases, CreaseColumns, "Side_Normal", arrays);
   return arrays;
 }
 
@@ -487,7 +542,7 @@ double SplatParticles::EstimateDistance(const double bounds[6], vtkIdType count)
 }
 
 //------------------------------------------------------------------------------
-SplatParticles SplatParticles::FromPolyData(vtkPolyData* input, const ParticleArrays& arrays)
+SplatParticles SplatParticles::FromPolyData(vtkPolyData* input, const ParticleArrays& all)
 {
   SplatParticles particles;
   if (!input || input->GetNumberOfPoints() == 0)
@@ -497,23 +552,29 @@ SplatParticles SplatParticles::FromPolyData(vtkPolyData* input, const ParticleAr
   const std::vector<vtkIdType> lost = CollectIds(input, particles);
   particles.Origin = MiddleOfFinitePoints(input->GetPoints());
 
-  const ParticleMotion motion(input->GetPoints(), arrays.Placements);
+  const ParticleMotion motion(input->GetPoints(), all.Placements);
   particles.Warped = motion.IsWarped();
 
+  const vtkIdType firstOther = particles.GetNumberOfParticles();
+  const ParticleArrays otherSides = all.SideNormals ? OtherSidesOf(all) : ParticleArrays();
+  if (otherSides.SideNormals)
+  {
+    AddOtherSides(otherSides.SideNormals, particles);
+  }
   const vtkIdType count = particles.GetNumberOfParticles();
-  particles.ClipStride = particles.Warped ? 0 : ClipStrideOf(arrays, particles.PointIds);
+  particles.ClipStride = particles.Warped ? 0 : ClipStrideOf(all, particles.PointIds);
   const int stride = particles.ClipStride;
-  const int planes = std::min(CountPlanes(arrays), SplatParticles::ClipPlanesIn(stride));
+  const int planes = std::min(CountPlanes(all), SplatParticles::ClipPlanesIn(stride));
   particles.CentreRadius.assign(4 * count, 0.f);
   particles.Normal.assign(4 * count, 0.f);
-  const bool shaped = arrays.ShapeOperators && arrays.Normals &&
-    arrays.ShapeOperators->GetNumberOfComponents() == 6 && !particles.Warped;
+  const bool shaped = all.ShapeOperators && all.Normals &&
+    all.ShapeOperators->GetNumberOfComponents() == 6 && !particles.Warped;
   particles.Shape.assign(shaped ? 8 * count : 0, 0.f);
   particles.Clip.assign(stride * count, 0.f);
   const bool bordered =
-    arrays.CellBorders && arrays.CellBorders->GetNumberOfComponents() >= 4 && !particles.Warped;
+    all.CellBorders && all.CellBorders->GetNumberOfComponents() >= 4 && !particles.Warped;
   particles.Borders.assign(bordered ? 4 * MaximumNumberOfBorders * count : 0, 0.f);
-  const std::vector<double> isovalues = FindIsovalues(arrays.Isovalues, particles.PointIds);
+  const std::vector<double> isovalues = FindIsovalues(all.Isovalues, particles.PointIds);
   std::atomic<vtkIdType> skipped(0);
   vtkSMPTools::For(0, count,
     [&](vtkIdType begin, vtkIdType end)
@@ -521,12 +582,14 @@ SplatParticles SplatParticles::FromPolyData(vtkPolyData* input, const ParticleAr
       for (vtkIdType i = begin; i < end; ++i)
       {
         const vtkIdType id = particles.PointIds[i];
+        const ParticleArrays& arrays = i < firstOther ? all : otherSides;
+        vtkDataArray* const sides = SideNormalsAt(arrays, id);
         const bool hidden = GhostTypeOf(arrays, id) & vtkDataSetAttributes::HIDDENPOINT;
         const double radius = hidden ? 0.
           : arrays.Radii             ? arrays.Radii->GetComponent(id, 0)
                                      : arrays.FallbackRadius;
-        if (!ReadParticle(input->GetPoints(), id, radius, arrays.Normals, particles.Origin,
-              &particles.CentreRadius[4 * i], &particles.Normal[4 * i]))
+        if (!ReadParticle(input->GetPoints(), id, radius, sides ? sides : arrays.Normals,
+              particles.Origin, &particles.CentreRadius[4 * i], &particles.Normal[4 * i]))
         {
           ++skipped;
         }
@@ -539,7 +602,7 @@ SplatParticles SplatParticles::FromPolyData(vtkPolyData* input, const ParticleAr
         {
           ReadClipPlanes(arrays, id, planes, &particles.Clip[stride * i]);
         }
-        if (bordered)
+        if (bordered && arrays.CellBorders)
         {
           ReadBorders(arrays.CellBorders, id, &particles.Borders[4 * MaximumNumberOfBorders * i]);
         }
@@ -557,7 +620,7 @@ SplatParticles SplatParticles::FromPolyData(vtkPolyData* input, const ParticleAr
   }
   particles.Skipped = skipped;
   particles.HasGhosts = std::any_of(particles.PointIds.begin(), particles.PointIds.end(),
-    [&](vtkIdType id) { return GhostTypeOf(arrays, id) & vtkDataSetAttributes::DUPLICATEPOINT; });
+    [&](vtkIdType id) { return GhostTypeOf(all, id) & vtkDataSetAttributes::DUPLICATEPOINT; });
   particles.IsovalueRanges = RangesOf(particles, std::max<std::size_t>(1, isovalues.size()));
   if (shaped && IsStronglyBent(particles))
   {
@@ -567,7 +630,7 @@ SplatParticles SplatParticles::FromPolyData(vtkPolyData* input, const ParticleAr
   {
     particles.Shape.clear();
   }
-  if (arrays.Normals)
+  if (all.Normals)
   {
     MarkLayers(particles);
   }

@@ -76,6 +76,13 @@ struct ParticleArrays
   vtkDataArray* Ghosts =
     nullptr; ///< vtkGhostType of points: duplicate ones are ghosts, hidden ones not drawn
 
+  /**
+   * Normals of the side of a crease of which clip planes and shape operators are, which count instead of Normals;
+   * (0, 0, 0) at points on no crease.
+   */
+  vtkDataArray* SideNormals = nullptr;
+  vtkDataArray* Creases = nullptr; ///< both sides of creases, see Common/SplatColumns.h
+
   /** Arrays made of columns, see Common/SplatColumns.h. */
   std::vector<vtkSmartPointer<vtkDataArray>> Columns;
 
@@ -124,8 +131,9 @@ struct SplatParticles
    * well.
    */
   std::vector<float> Shape;
-  std::vector<vtkIdType> PointIds; ///< 1 a particle: the point it was made from
-  std::vector<vtkIdType> CellIds;  ///< 1 a particle: its vertex cell; empty without vertex cells
+  /** 1 a particle: the point it was made from. Second splats at points on creases come last. */
+  std::vector<vtkIdType> PointIds;
+  std::vector<vtkIdType> CellIds; ///< 1 a particle: its vertex cell; empty without vertex cells
   /**
    * One range for each isovalue that ParticleArrays::Isovalues tells apart, at least one range: all particles of the
    * isovalue are from the first number to before the second. Particles of other isovalues may be among them.

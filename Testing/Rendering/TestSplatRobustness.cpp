@@ -140,8 +140,8 @@ void AddOddArrays(vtkPolyData* particles, Dice& dice)
     int Components;
   } known[] = { { "Clip_Normal", 9 }, { "Clip_Distance", 3 }, { "Clip_Angle", 3 },
     { "Clip_Curvature", 3 }, { "Shape_Operator", 6 }, { "Original_Placement", 6 },
-    { "Cell_Borders", 16 }, { "Isovalue", 1 }, { hop::SplatColumnsArray, hop::splatColumnCount() },
-    { "Value", 1 } };
+    { "Cell_Borders", 16 }, { "Isovalue", 1 },
+    { hop::SplatColumnsArray, hop::splatColumnCount(hop::SplatColumns) }, { "Value", 1 } };
   for (const auto& [name, components] : known)
   {
     if (dice.Chance(0.3))

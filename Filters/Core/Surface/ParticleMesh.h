@@ -33,6 +33,8 @@ struct MeshNumbers
   std::int64_t turnedTriangles = 0;
   /// Nodes of curved cells that are not on the surface.
   std::int64_t straightNodes = 0;
+  /// Whether particles in one place have normals of several sides.
+  bool hasCreases = false;
   /// Connected parts of the mesh, and those that are not proven to be as the surface is, with the components of the
   /// surface that the mesh lacks.
   std::int64_t components = 0;

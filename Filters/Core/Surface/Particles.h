@@ -75,6 +75,8 @@ struct Particle
   std::array<CellBorder, CellBorder::Most> borders;
   /// Of the surface around it (particleAreas()), world units squared; 0 where it was not computed.
   double area = 0.0;
+  /// Of a mesh's particle on a crease, whose normal is the mean of all sides': the normal of its own side. Zero elsewhere.
+  glm::vec3 sideNormal{ 0.0f };
   /// On a boundary curve where the field jumps between elements: F - c in the element behind the face. Zero elsewhere.
   double jump = 0.0;
   /// Ratio of the splat's radius to the spacing, 1 at most: less where the particle stands alone on a component of the
