@@ -41,6 +41,9 @@
  * Instead of these arrays there may be one that holds them side by side, see Common/SplatColumns.h. An array under its
  * own name counts where there are both.
  *
+ * Points of meshes on creases have one normal, a mean; another array of that kind, of CreaseColumns there, has the normals
+ * and planes of two sides, and a splat is drawn of each.
+ *
  * Particles that were moved after they had been computed take radii, shape operators and planes along, if one affine
  * map (or one for each run of points) has moved them and a point array `Original_Placement` says where they were: 6
  * components, position and unit normal as computed. A warning says that they were moved in another way.

@@ -26,8 +26,8 @@ void Place(QLabel* tip)
 
 void Shorten(QLabel* tip)
 {
-  static const QRegularExpression line(
-    QString("(\\n|<br\\s*/?>)\\s*%1:[^\\n<]*").arg(hop::SplatColumnsArray));
+  static const QRegularExpression line(QString("(\\n|<br\\s*/?>)\\s*(%1|%2):[^\\n<]*")
+                                         .arg(hop::SplatColumnsArray, hop::CreaseColumnsArray));
   const QString text = tip->text();
   const QString shorter = QString(text).remove(line);
   if (shorter != text)

@@ -481,6 +481,42 @@ void AddOtherSides(vtkDataArray* normals, SplatParticles& particles)
     }
   }
 }
+
+// Reads all of a particle. Returns whether it can be drawn.
+bool ReadAll(vtkPoints* points, const ParticleArrays& arrays, const std::vector<double>& isovalues,
+  const ParticleMotion& motion, SplatParticles& particles, vtkIdType i)
+{
+  const vtkIdType id = particles.PointIds[i];
+  vtkDataArray* const sides = SideNormalsAt(arrays, id);
+  const bool hidden = GhostTypeOf(arrays, id) & vtkDataSetAttributes::HIDDENPOINT;
+  const double radius = hidden ? 0.
+    : arrays.Radii             ? arrays.Radii->GetComponent(id, 0)
+                               : arrays.FallbackRadius;
+  const bool isDrawn = ReadParticle(points, id, radius, sides ? sides : arrays.Normals,
+    particles.Origin, &particles.CentreRadius[4 * i], &particles.Normal[4 * i]);
+  particles.Normal[4 * i + 3] = TagOf(arrays, particles, isovalues, i);
+  if (!particles.Shape.empty())
+  {
+    ReadShape(arrays.ShapeOperators, id, &particles.Shape[8 * i]);
+  }
+  const int stride = particles.ClipStride;
+  if (stride > 0)
+  {
+    ReadClipPlanes(arrays, id, std::min(CountPlanes(arrays), SplatParticles::ClipPlanesIn(stride)),
+      &particles.Clip[stride * i]);
+  }
+  if (!particles.Borders.empty() && arrays.CellBorders)
+  {
+    ReadBorders(
+      arrays.CellBorders, id, &particles.Borders[4 * SplatParticles::MaximumNumberOfBorders * i]);
+  }
+  if (const LinearMap* map = motion.Of(id))
+  {
+    Carry(*map, arrays, id, particles, i);
+  }
+  ForgetInfinities(particles, i);
+  return isDrawn;
+}
 }
 
 //------------------------------------------------------------------------------
@@ -509,7 +545,10 @@ ParticleArrays ParticleArrays::FromPointData(vtkPointData* data, vtkIdType point
   arrays.CellBorders = find("Cell_Borders");
   arrays.Isovalues = IfComplete(data->GetArray("Isovalue"), points);
   arrays.Ghosts = IfComplete(data->GetArray(vtkDataSetAttributes::GhostArrayName()), points);
-  arrays.Creases = IfComplete(data->GetArray(CreaseColumnsArray), points);
+  vtkDataArray* creases = IfComplete(data->GetArray(CreaseColumnsArray), points);
+  const bool isWhole =
+    creases && creases->GetNumberOfComponents() == splatColumnCount(CreaseColumns);
+  arrays.Creases = isWhole ? creases : nullptr;
   arrays.SideNormals = FindColumns(arrays.Creases, CreaseColumns, "Side_Normal", arrays);
   return arrays;
 }
@@ -563,14 +602,12 @@ SplatParticles SplatParticles::FromPolyData(vtkPolyData* input, const ParticleAr
   }
   const vtkIdType count = particles.GetNumberOfParticles();
   particles.ClipStride = particles.Warped ? 0 : ClipStrideOf(all, particles.PointIds);
-  const int stride = particles.ClipStride;
-  const int planes = std::min(CountPlanes(all), SplatParticles::ClipPlanesIn(stride));
   particles.CentreRadius.assign(4 * count, 0.f);
   particles.Normal.assign(4 * count, 0.f);
   const bool shaped = all.ShapeOperators && all.Normals &&
     all.ShapeOperators->GetNumberOfComponents() == 6 && !particles.Warped;
   particles.Shape.assign(shaped ? 8 * count : 0, 0.f);
-  particles.Clip.assign(stride * count, 0.f);
+  particles.Clip.assign(particles.ClipStride * count, 0.f);
   const bool bordered =
     all.CellBorders && all.CellBorders->GetNumberOfComponents() >= 4 && !particles.Warped;
   particles.Borders.assign(bordered ? 4 * MaximumNumberOfBorders * count : 0, 0.f);
@@ -581,36 +618,8 @@ SplatParticles SplatParticles::FromPolyData(vtkPolyData* input, const ParticleAr
     {
       for (vtkIdType i = begin; i < end; ++i)
       {
-        const vtkIdType id = particles.PointIds[i];
         const ParticleArrays& arrays = i < firstOther ? all : otherSides;
-        vtkDataArray* const sides = SideNormalsAt(arrays, id);
-        const bool hidden = GhostTypeOf(arrays, id) & vtkDataSetAttributes::HIDDENPOINT;
-        const double radius = hidden ? 0.
-          : arrays.Radii             ? arrays.Radii->GetComponent(id, 0)
-                                     : arrays.FallbackRadius;
-        if (!ReadParticle(input->GetPoints(), id, radius, sides ? sides : arrays.Normals,
-              particles.Origin, &particles.CentreRadius[4 * i], &particles.Normal[4 * i]))
-        {
-          ++skipped;
-        }
-        particles.Normal[4 * i + 3] = TagOf(arrays, particles, isovalues, i);
-        if (shaped)
-        {
-          ReadShape(arrays.ShapeOperators, id, &particles.Shape[8 * i]);
-        }
-        if (stride > 0)
-        {
-          ReadClipPlanes(arrays, id, planes, &particles.Clip[stride * i]);
-        }
-        if (bordered && arrays.CellBorders)
-        {
-          ReadBorders(arrays.CellBorders, id, &particles.Borders[4 * MaximumNumberOfBorders * i]);
-        }
-        if (const LinearMap* map = motion.Of(id))
-        {
-          Carry(*map, arrays, id, particles, i);
-        }
-        ForgetInfinities(particles, i);
+        skipped += !ReadAll(input->GetPoints(), arrays, isovalues, motion, particles, i);
       }
     });
   for (vtkIdType i : lost)

@@ -868,4 +868,4 @@ def test_splats_of_a_mesh_look_like_those_of_particles(data, plugin, tmp_path, f
         for kind in ("Particles", "Triangles"))
     assert background_share(particles.astype(int)) < 0.98
     error = ((particles - mesh) ** 2).mean()
-    assert error == 0 or 10 * np.log10(255**2 / error) >= 44  # a mesh has points on creases, particles have none there
+    assert error == 0 or 10 * np.log10(255**2 / error) >= 50  # a mesh has points on creases, particles have none there

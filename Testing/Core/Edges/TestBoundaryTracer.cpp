@@ -61,8 +61,8 @@ TEST(BoundaryTracer, GoesAroundSlenderTips)
     const Isosurface surface{ &mesh, 0.0, 1e-6 };
     BoundaryTracer tracer(surface, BoundaryTracer::Points::Rough);
     tracer.followEnds(false);
-    const BoundaryTrace trace = tracer.trace(
-      startOn(tracer, mesh, step), [step](const BoundaryPoint&) { return step; });
+    const BoundaryTrace trace =
+      tracer.trace(startOn(tracer, mesh, step), [step](const BoundaryPoint&) { return step; });
     EXPECT_TRUE(trace.closed) << step;
     glm::dvec2 least(0.0);
     glm::dvec2 most(0.0);
@@ -101,8 +101,8 @@ TEST(BoundaryTracer, ChordsGrowWithTheSpacingAlongTheCurve)
   for (std::size_t v = 1; v < trace.vertices.size(); ++v)
   {
     const BoundaryVertex& before = trace.vertices[v - 1];
-    EXPECT_LE(glm::distance(before.position(), trace.vertices[v].position()),
-      1.1 * stepAt(before.leaving));
+    EXPECT_LE(
+      glm::distance(before.position(), trace.vertices[v].position()), 1.1 * stepAt(before.leaving));
   }
 }
 
