@@ -343,7 +343,10 @@ std::vector<OutputArray> makeDescriptions()
   std::vector<OutputArray> rows;
   for (const ParticleArray& array : particleArrays())
   {
-    rows.push_back({ array.name, vtkDataObject::POINT, array.components, array.meaning });
+    if (array.use != ArrayUse::HiddenOfCreases)
+    {
+      rows.push_back({ array.name, vtkDataObject::POINT, array.components, array.meaning });
+    }
   }
   for (const ReportArray& array : reportArrays())
   {

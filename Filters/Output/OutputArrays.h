@@ -123,7 +123,7 @@ struct OutputArray
   const char* meaning;
 };
 
-/// Both tables: the point arrays, then those of the field data.
+/// Both tables: the point arrays, then those of the field data. Without what only meshes have.
 const std::vector<OutputArray>& describeOutputArrays();
 
 /// Whether particleArrays() has that name.

@@ -533,6 +533,25 @@ def test_particles_without_a_triangle_are_told(grid):
     assert any("1 particles are corners of no triangle" in text for text in messages.warnings)
 
 
+def test_points_on_creases_carry_the_normals_of_both_sides(data, plugin):
+    """For splats: a point has one normal, the mean."""
+    creased = support.run_quietly(support.read(data("dolfinx_tet_p3.vtu")), "u", 0.5, OutputType="Triangles")
+    columns = array_of(creased, "__vtkValidMask__Creases")
+    sides = columns[:, :6].reshape(-1, 2, 3)
+    on_crease = (sides != 0).any(axis=(1, 2))
+    assert 0.05 < on_crease.mean() < 0.5 and (columns[~on_crease] == 0).all()
+    np.testing.assert_allclose(np.linalg.norm(sides[on_crease], axis=2), 1, rtol=1e-6)
+    mean = sides[on_crease].sum(axis=1)
+    mean /= np.linalg.norm(mean, axis=1, keepdims=True)
+    # Of more than two sides where creases meet.
+    agrees = np.abs(mean - array_of(creased, "Normals")[on_crease]).max(axis=1) < 1e-5
+    assert agrees.mean() > 0.9
+    angles = np.degrees(np.arccos(np.clip((sides[on_crease][:, 0] * sides[on_crease][:, 1]).sum(axis=1), -1, 1)))
+    assert np.median(angles) > 10 and angles.max() < 180
+    smooth = support.run_quietly(support.read(data("mfem_hex1_p8.vtu")), "u", 0.2, OutputType="Triangles")
+    assert not smooth.GetPointData().HasArray("__vtkValidMask__Creases")
+
+
 def test_triangles_have_the_cell_arrays_of_their_first_corner(grid):
     mesh = mesh_of(grid, "Triangles")
     cells = array_of(mesh, "Cell_Id")[corners_of(mesh)[:, 0]]

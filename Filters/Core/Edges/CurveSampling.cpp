@@ -144,8 +144,7 @@ void CurveSampling::addKnots(
 /// The sums of lengths in units of the spacing along a stretch.
 std::vector<CurveSampling::Knot> CurveSampling::knotsOf(Span<BoundaryVertex> vertices)
 {
-  std::vector<Knot> knots{ { 1, 0.0, 0.0,
-    this->IsCut ? this->Between.spacingAt(vertices[0].leaving) : 0.0 } };
+  std::vector<Knot> knots{ { 1, 0.0, 0.0, this->Between.spacingAt(vertices[0].leaving) } };
   for (std::size_t v = 1; v < vertices.size(); ++v)
   {
     const Chord chord{ &vertices[v - 1].leaving, &vertices[v].arriving,
@@ -157,7 +156,8 @@ std::vector<CurveSampling::Knot> CurveSampling::knotsOf(Span<BoundaryVertex> ver
     }
     else
     {
-      knots.push_back({ v, 1.0, knots.back().sum + chord.length / end.spacing, end.spacing });
+      const double perSpacing = 0.5 * (1.0 / knots.back().spacing + 1.0 / end.spacing);
+      knots.push_back({ v, 1.0, knots.back().sum + perSpacing * chord.length, end.spacing });
     }
   }
   return knots;

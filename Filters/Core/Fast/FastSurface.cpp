@@ -169,8 +169,18 @@ SurfaceProxy FastSystem::proxyOfBoxesAt(const SizingFunction& sizing, double sha
 {
   const auto isFineEnough = [&](const SurfaceBox& box)
   { return this->isFineEnough(box, sizing, nullptr); };
-  std::vector<SurfaceBox> boxes = this->findBoxes(isFineEnough, this->boxesBefore(isFineEnough),
-    [&](double share) { this->Work.raiseFraction(shareOfRun * share); });
+  // About a particle each, a second's work: what is known of how long it takes while it takes long.
+  constexpr std::int64_t manyBoxes = 250'000;
+  const auto progress = [&](double share)
+  {
+    this->Work.raiseFraction(shareOfRun * share);
+    if (this->BoxCount > manyBoxes)
+    {
+      this->Work.raiseExpected(static_cast<double>(this->BoxCount));
+    }
+  };
+  std::vector<SurfaceBox> boxes =
+    this->findBoxes(isFineEnough, this->boxesBefore(isFineEnough), progress);
   if (this->hasTooManyBoxes())
   {
     this->Result.report.error = this->Parameters.refusalOfBoxes();

@@ -35,6 +35,16 @@ public:
     }
   }
 
+  /// Sets the number of particles of which the user is told at the next question, unless not many more are known: those
+  /// found so far. May be called from several threads.
+  void raiseExpected(double particles)
+  {
+    double known = this->Expected;
+    while (known < particles && !this->Expected.compare_exchange_weak(known, particles))
+    {
+    }
+  }
+
   void operator()(std::ptrdiff_t count, const LoopBody& body)
   {
     // So many chunks that many threads finish together, so small ones that each is short beside the period. Chosen by
@@ -97,11 +107,23 @@ private:
   /// Shorter: more chunks than the work needs.
   static constexpr std::chrono::milliseconds shortTime{ 5 };
 
+  void tellExpected()
+  {
+    constexpr double many = 1.2; // times as many as before are worth a word
+    const double expected = this->Expected;
+    if (expected > many * this->Told)
+    {
+      this->Told = expected;
+      this->expect(expected);
+    }
+  }
+
   void askAtTimes()
   {
     if (Clock::now() - this->LastAsked > period)
     {
       this->LastAsked = Clock::now();
+      this->tellExpected();
       this->ask();
     }
   }
@@ -109,6 +131,8 @@ private:
   const Monitor& Progress;
   const ParallelFor& Parallel;
   std::atomic<double> Fraction{ 0.0 };
+  std::atomic<double> Expected{ 0.0 };
+  double Told = 0.0;
   Clock::time_point LastAsked{};
 };
 

@@ -557,6 +557,25 @@ TEST(FastDistribution, StopsSoonAfterTheMonitorAsksForIt)
   }
 }
 
+TEST(FastDistribution, TellsOfManyParticlesWhileTheSurfaceIsSought)
+{
+  const ElementMesh mesh = meshOf(Domain::Hexahedron, 6, torus(0.5, 0.22).field);
+  double fraction = 0.0;
+  std::vector<double> told;
+  const Distribution result = distribute(mesh, withSpacing(0.001),
+    { [&](double share)
+      {
+        fraction = share;
+        return told.size() < 2;
+      },
+      [&](double particles) { told.push_back(particles); } });
+  EXPECT_TRUE(result.report.aborted);
+  ASSERT_EQ(told.size(), 2u);
+  EXPECT_GT(told[0], 250'000.0);
+  EXPECT_GT(told[1], 1.2 * told[0]);
+  EXPECT_LT(fraction, 0.35);
+}
+
 TEST(FastDistribution, ProgressRisesWhileOneElementIsSplit)
 {
   // The monitor is asked some twenty times a second: the element has to take longer than that.
