@@ -39,8 +39,8 @@
  * - for the renderer alone, in the hidden array `__vtkValidMask__Splats`: `Shape_Operator`; where the surface ends or
  *   turns near the particle: `Clip_Normal`, `Clip_Distance`, `Clip_Angle`, `Clip_Curvature` (with method FAST);
  *   where the particle was computed, for filters that move it: `Original_Placement`; where its cell ends on the
- *   surface: `Cell_Borders` (with method FAST). In meshes with creases `__vtkValidMask__Creases` has the normals of both
- *   sides, and what the first array has of one of them, of the other one.
+ *   surface: `Cell_Borders` (with method FAST). In meshes with creases another hidden array has
+ *   the normals of both sides, and what this one has of one of them, of the other one (Common/SplatColumns.h).
  *
  * With PassDiagnostics these are arrays under their own names, and `Jump` and `ParametricCoordinates` come with them.
  *

@@ -9,7 +9,6 @@
 #include "vtkInformationIntegerKey.h"
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 
 namespace hop
@@ -108,20 +107,18 @@ void writeSplatColumns(const ParticleRow& row, const RowCells& cells, double* ou
   writeColumns(columns, row, cells, out);
 }
 
-void writeCreaseColumns(const ParticleRow& row, const RowCells& cells, float* out)
+void writeCreaseColumns(const ParticleRow& row, const RowCells& cells, double* out)
 {
   static const std::vector<const ParticleArray*> columns = findColumns(CreaseColumns);
-  std::array<double, splatColumnCount(CreaseColumns)> numbers{};
+  std::fill_n(out, splatColumnCount(CreaseColumns), 0.0);
   if (row.otherSide)
   {
-    writeVector(row.particle->sideNormal, &numbers[0]);
-    writeVector(row.otherSide->sideNormal, &numbers[3]);
+    writeVector(row.particle->sideNormal, out);
+    writeVector(row.otherSide->sideNormal, out + 3);
     ParticleRow other;
     other.particle = row.otherSide;
-    writeColumns(columns, other, cells, &numbers[6]);
+    writeColumns(columns, other, cells, out + 6);
   }
-  std::transform(
-    numbers.begin(), numbers.end(), out, [](double number) { return static_cast<float>(number); });
 }
 
 std::vector<ParticleArray> makeParticleArrays()

@@ -60,11 +60,10 @@ void keepFindings(const DistributionReport& own, DistributionReport& lifted)
 /// bend faster than the spacing follows, are not mended by a few particles more.
 bool hasFewFaults(const IsovalueParticles& some)
 {
-  constexpr std::size_t few = 300;          // particles at faults
-  constexpr std::size_t particlesEach = 20; // all particles for each one of them
-  const std::size_t faults = some.mesh.atFaults.size();
-  return faults > 0 &&
-    (faults <= few || particlesEach * faults <= some.distribution.particles.size());
+  constexpr std::int64_t few = 300;          // particles at faults
+  constexpr std::int64_t particlesEach = 20; // all particles for each one of them
+  const auto faults = static_cast<std::int64_t>(some.mesh.atFaults.size());
+  return faults > 0 && (faults <= few || particlesEach * faults <= some.mesh.particles);
 }
 
 /// Asks for particles nearer to each other around the faults of a mesh than they are; elsewhere they stay.
@@ -110,8 +109,7 @@ void MeshRepair::run(IsovalueParticles& some)
   {
     return;
   }
-  this->ParticlesLeft = std::max(
-    alwaysAllowed, timesOwn * static_cast<std::int64_t>(some.distribution.particles.size()));
+  this->ParticlesLeft = std::max(alwaysAllowed, timesOwn * some.mesh.particles);
   const bool isDiscontinuous = jumps(some.distribution);
   const bool wasOpen = isOpen(some.mesh);
   if (!isDiscontinuous)
@@ -209,9 +207,9 @@ void MeshRepair::meshAroundFaults(bool inPieces, IsovalueParticles& some)
     around.changedAround.clear();
     own.boxes.clear();
   }
-  // Tries in a row that lack more than the one before. More: time; fewer: what the next one would close stays open.
+  // Tries in a row that lack more than the best one. More: time; fewer: what the next one would close stays open.
   constexpr int mostRises = 2;
-  std::int64_t lacked = lackOf(some.mesh);
+  std::int64_t leastLack = lackOf(some.mesh);
   int rises = 0;
   for (int n = 0; n < mostTimes && rises < mostRises && hasFewFaults(some); ++n)
   {
@@ -222,8 +220,8 @@ void MeshRepair::meshAroundFaults(bool inPieces, IsovalueParticles& some)
     }
     changeAroundFaults(*other, least, inPieces, around);
     const std::int64_t lacks = lackOf(other->mesh);
-    rises = lacks > lacked ? rises + 1 : 0;
-    lacked = lacks;
+    rises = lacks > leastLack ? rises + 1 : 0;
+    leastLack = std::min(leastLack, lacks);
     this->takeBetter(std::move(*other), false, some);
   }
 }

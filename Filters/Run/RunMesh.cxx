@@ -100,6 +100,7 @@ SurfaceMesh join(MeshedSurface& own, const ConstrainedEdges& edges, bool isCut,
   some.mesh.openLength = mesh.openLength;
   some.mesh.longestLoop = mesh.longestLoop;
   some.mesh.onLongestLoop = mesh.onLongestLoop;
+  some.mesh.particles = static_cast<std::int64_t>(distribution.particles.size());
   some.mesh.atFaults = std::move(mesh.atFaults);
   some.mesh.unusedParticles = mesh.unusedParticles;
   some.mesh.turnedTriangles = mesh.turnedTriangles;

@@ -65,6 +65,8 @@ struct ParticleMesh : MeshNumbers
   /// The longest of the open loops: its length, and a particle on it; -1 if there is none. Known to the worker alone.
   double longestLoop = 0.0;
   int onLongestLoop = -1;
+  /// Particles without the nodes of curved cells that are no corners. Known to the worker alone.
+  std::int64_t particles = 0;
   /// The particles on all of them, and those that no cell uses. Known to the worker alone.
   std::vector<int> atFaults;
   /// nodesPerCell indices into the particles a cell, the corners first.
