@@ -39,6 +39,8 @@ struct BoundaryVertex
   BoundaryPoint leaving;
   /// The boundary curve has a corner here, or passes an edge of the mesh and is a cut before or behind it.
   bool corner = false;
+  /// Wanted here, world units.
+  double spacing = 0.0;
 
   const glm::dvec3& position() const { return this->arriving.at.point.map.position.xyz; }
 };

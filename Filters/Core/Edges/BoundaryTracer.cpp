@@ -29,9 +29,12 @@ struct TraceAngles
   static constexpr double LeastSine = 1e-6;
 };
 
-/// How long chords are: lengths in units of the step asked for. Chosen by experiment.
+/// How long chords are: lengths in units of the longest one, unless it is said otherwise. Chosen by experiment.
 struct ChordLengths
 {
+  /// Largest chord, in units of the spacing wanted where it begins. Longer ones cost fewer
+  /// evaluations, but particles are placed on a cubic between the ends of a chord, and start farther from the curve.
+  static constexpr double Longest = 0.75;
   /// A boundary curve that cannot be followed by chords this short ends: all but tangent to its face it is not known to
   /// be there. Shorter ones cost evaluations at every dead end; longer ones give up at sharp bends.
   static constexpr double Shortest = 1.0 / 32.0;
@@ -48,8 +51,6 @@ struct ChordLengths
   /// After so many chords in a row that do not move, a trace ends: it would go round for ever. Fewer than the elements
   /// around a corner could end a trace that gets on.
   static constexpr int MostStandstills = 8;
-  /// Largest jump that the surface passes: LargestJumpPerSpacing, as a step is three quarters of a spacing.
-  static constexpr double PassedJump = LargestJumpPerSpacing / 0.75;
   /// Largest distance between the curve and the cubic of a chord, in units of the chord's length. Larger: where two parts
   /// of a curve turn back close to each other, a chord leads across; smaller: more evaluations.
   static constexpr double Unevenness = 0.01;
@@ -600,10 +601,10 @@ void BoundaryTracer::addChord(
 /// Follows a boundary curve in one direction, and adds its vertices behind the start.
 /// \param direction 1 or -1, of velocity()
 /// \return whether the boundary curve came back to its start
-bool BoundaryTracer::follow(const BoundaryPoint& start, const StepAt& stepAt, double direction,
-  std::vector<BoundaryVertex>& vertices, const ParallelFor& parallelFor)
+bool BoundaryTracer::follow(const BoundaryVertex& start, const SpacingAt& spacingAt,
+  double direction, std::vector<BoundaryVertex>& vertices, const ParallelFor& parallelFor)
 {
-  BoundaryPoint here = start;
+  BoundaryPoint here = start.leaving;
   std::optional<Passed> before;
   std::optional<std::array<BoundaryPoint, 2>> lastChord;
   std::array<double, 2> lastWay{};
@@ -614,7 +615,8 @@ bool BoundaryTracer::follow(const BoundaryPoint& start, const StepAt& stepAt, do
       this->addChord((*lastChord)[0], (*lastChord)[1], lastWay);
     }
   };
-  double step = stepAt(start);
+  double spacing = start.spacing;
+  double step = ChordLengths::Longest * spacing;
   double chord = step;
   double firstChord = 0.0;
   int standstills = 0;
@@ -623,9 +625,9 @@ bool BoundaryTracer::follow(const BoundaryPoint& start, const StepAt& stepAt, do
   while (isPossible && standstills <= ChordLengths::MostStandstills)
   {
     askCaller(parallelFor);
-    this->PassedJump = ChordLengths::PassedJump * step;
+    this->PassedJump = LargestJumpPerSpacing * spacing;
     const ReferenceVector velocity = this->velocity(here);
-    const auto next =
+    auto next =
       this->advanceAtMost(chord, step, { here, velocity, direction, before, standstills > 0 });
     if (!next)
     {
@@ -648,21 +650,24 @@ bool BoundaryTracer::follow(const BoundaryPoint& start, const StepAt& stepAt, do
     {
       addLast();
       // A trace that meets another boundary curve, not its own start, is open.
-      const glm::dvec3& begin = start.at.point.map.position.xyz;
+      const glm::dvec3& begin = start.position();
       const bool isClosed = distanceToSegment(begin, position.xyz, next->position()) <
         (this->HasCuts || this->HasEnds
             ? std::max(0.5 * moved, BoundaryChords::PassShare * firstChord)
             : 0.5 * moved);
       if (isClosed && direction > 0.0 && this->replacesStart(*next, vertices.front()))
       {
+        next->spacing = start.spacing;
         vertices.front() = *next;
       }
       return isClosed;
     }
+    spacing = spacingAt(next->leaving);
+    next->spacing = spacing;
     vertices.push_back(*next);
     before = Passed{ here.at.location.element, here.face, position, velocity };
     here = next->leaving;
-    step = stepAt(here);
+    step = ChordLengths::Longest * spacing;
     chord = std::min(step, ChordLengths::Growth * chord);
   }
   addLast();
@@ -670,19 +675,20 @@ bool BoundaryTracer::follow(const BoundaryPoint& start, const StepAt& stepAt, do
 }
 
 BoundaryTrace BoundaryTracer::trace(
-  const BoundaryPoint& start, const StepAt& stepAt, const ParallelFor& parallelFor)
+  const BoundaryPoint& start, const SpacingAt& spacingAt, const ParallelFor& parallelFor)
 {
   BoundaryTrace result;
   ++this->Trace;
   // On an edge of an element the boundary curve may have a corner: how it comes there is not known yet.
   const bool isOnEdge =
     otherFaceAt(*this->Surface.mesh, start.at.location, start.face, OnFace) >= 0;
-  result.vertices.push_back({ start, start, isOnEdge });
-  result.closed = this->follow(start, stepAt, 1.0, result.vertices, parallelFor);
+  const BoundaryVertex first{ start, start, isOnEdge, spacingAt(start) };
+  result.vertices.push_back(first);
+  result.closed = this->follow(first, spacingAt, 1.0, result.vertices, parallelFor);
   if (!result.closed)
   {
     std::vector<BoundaryVertex> back;
-    this->follow(start, stepAt, -1.0, back, parallelFor);
+    this->follow(first, spacingAt, -1.0, back, parallelFor);
     for (BoundaryVertex& vertex : back)
     {
       std::swap(vertex.arriving, vertex.leaving);

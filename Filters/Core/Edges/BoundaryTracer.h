@@ -24,7 +24,8 @@ public:
     Exact
   };
 
-  using StepAt = std::function<double(const BoundaryPoint&)>;
+  /// The spacing wanted at a point, world units.
+  using SpacingAt = std::function<double(const BoundaryPoint&)>;
 
   BoundaryTracer(const Isosurface& surface, Points points)
     : Surface(surface)
@@ -81,10 +82,11 @@ public:
   /// boundary face, and from a dead end also the other way.
   /// Ends where it meets a boundary curve that was traced before: its own start, as a rule. (Where the field jumps
   /// between elements, two boundary curves can run into one.)
-  /// \param stepAt world length of the chord that begins at a point, at most; less where the boundary curve bends
+  /// Chords are three quarters of the spacing wanted where they begin, at most; less where the boundary curve bends.
+  /// \param spacingAt asked once at each vertex
   /// \param parallelFor is asked at each chord whether to end early
   BoundaryTrace trace(
-    const BoundaryPoint& start, const StepAt& stepAt, const ParallelFor& parallelFor = {});
+    const BoundaryPoint& start, const SpacingAt& spacingAt, const ParallelFor& parallelFor = {});
 
   /// Velocity in reference space that follows the boundary curve at speed one in the world, in direction n x w.
   ReferenceVector velocity(const BoundaryPoint& point) const;
@@ -148,7 +150,7 @@ private:
   };
 
   bool replacesStart(const BoundaryVertex& last, const BoundaryVertex& start) const;
-  bool follow(const BoundaryPoint& start, const StepAt& stepAt, double direction,
+  bool follow(const BoundaryVertex& start, const SpacingAt& spacingAt, double direction,
     std::vector<BoundaryVertex>& vertices, const ParallelFor& parallelFor);
   void addChord(
     const BoundaryPoint& from, const BoundaryPoint& to, const std::array<double, 2>& way);

@@ -22,7 +22,6 @@ public:
   }
 
   /// The spacing wanted at a point, world units.
-  double spacingAt(const BoundaryPoint& point) { return this->spacingAt(point.at.location); }
   double spacingAt(const Location& location);
 
   /// A place near the curve between two points that follow each other on it.

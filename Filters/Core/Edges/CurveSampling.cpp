@@ -81,7 +81,7 @@ bool CurveSampling::bounds(std::size_t trace) const
   {
     length += glm::distance(curve.vertices[v - 1].position(), curve.vertices[v].position());
   }
-  return length > shortestCurve * this->Between.spacingAt(curve.vertices.front().leaving);
+  return length > shortestCurve * curve.vertices.front().spacing;
 }
 
 /// So many intervals a stretch needs that the surface beside it is no line: a closed curve through three places.
@@ -144,12 +144,12 @@ void CurveSampling::addKnots(
 /// The sums of lengths in units of the spacing along a stretch.
 std::vector<CurveSampling::Knot> CurveSampling::knotsOf(Span<BoundaryVertex> vertices)
 {
-  std::vector<Knot> knots{ { 1, 0.0, 0.0, this->Between.spacingAt(vertices[0].leaving) } };
+  std::vector<Knot> knots{ { 1, 0.0, 0.0, vertices[0].spacing } };
   for (std::size_t v = 1; v < vertices.size(); ++v)
   {
     const Chord chord{ &vertices[v - 1].leaving, &vertices[v].arriving,
       glm::distance(vertices[v - 1].position(), vertices[v].position()) };
-    const Knot end{ v, 1.0, 0.0, this->Between.spacingAt(*chord.to) };
+    const Knot end{ v, 1.0, 0.0, vertices[v].spacing };
     if (this->IsCut)
     {
       this->addKnots(chord, { v, 0.0, 0.0, knots.back().spacing }, end, knots);

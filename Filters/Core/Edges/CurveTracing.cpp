@@ -13,9 +13,6 @@ namespace
 /// How boundary curves are found and followed: lengths in units of the spacing wanted nearby. Chosen by experiment.
 struct Tracing
 {
-  /// Largest chord. Longer ones cost fewer evaluations, but particles are placed on a cubic between the ends of a
-  /// chord, and start farther from the curve.
-  static constexpr double Chord = 0.75;
   /// Largest distance from the surface, by which a vertex may miss it: particles are taken to the tolerance later.
   static constexpr double Tolerance = 1e-2;
   /// The same of curves for meshes, whose vertices on edges of the mesh tell which creases meet and where pieces of surface
@@ -116,9 +113,9 @@ bool CurveTracing::isInReach(const Location& place) const
 
 BoundaryTrace CurveTracing::traceFrom(const BoundaryPoint& start, const ParallelFor& parallelFor)
 {
-  const auto stepAt = [this](const BoundaryPoint& point)
-  { return Tracing::Chord * this->Between.spacingAt(point); };
-  return this->Tracer.trace(start, stepAt, parallelFor);
+  const auto spacingAt = [this](const BoundaryPoint& point)
+  { return this->Between.spacingAt(point.at.location); };
+  return this->Tracer.trace(start, spacingAt, parallelFor);
 }
 
 /// Traces the curve that a hint leads to, unless there is none or it is traced.
@@ -143,25 +140,24 @@ void CurveTracing::follow(const Hint& hint, const ParallelFor& parallelFor)
 
 /// Where a chord of a boundary curve passes a plane of the slab.
 std::optional<BoundaryPoint> CurveTracing::passageBetween(
-  const BoundaryPoint& from, const BoundaryPoint& to, double plane)
+  const BoundaryVertex& from, const BoundaryVertex& to, double plane)
 {
   // The curve departs from the chord by a tenth of it at most, so that each step leaves a hundredth of the error.
   constexpr int steps = 3;
-  const auto placeOf = [&](const BoundaryPoint& point)
-  { return this->Part.placeOf(point.at.point.map.position.xyz); };
-  const double length = placeOf(to) - placeOf(from);
-  double t = (plane - placeOf(from)) / length;
+  const double begin = this->Part.placeOf(from.position());
+  const double length = this->Part.placeOf(to.position()) - begin;
+  double t = (plane - begin) / length;
   std::optional<BoundaryPoint> point;
   for (int n = 0; n < steps; ++n)
   {
-    const BoundaryPlace place = this->Between.placeBetween(from, to, t);
-    point = this->Tracer.project(
-      place.location, place.face, Tracing::LongestWay * this->Between.spacingAt(from));
+    const BoundaryPlace place = this->Between.placeBetween(from.leaving, to.arriving, t);
+    point = this->Tracer.project(place.location, place.face, Tracing::LongestWay * from.spacing);
     if (!point)
     {
       break;
     }
-    t = std::clamp(t + (plane - placeOf(*point)) / length, 0.0, 1.0);
+    const double missed = plane - this->Part.placeOf(point->at.point.map.position.xyz);
+    t = std::clamp(t + missed / length, 0.0, 1.0);
   }
   return point;
 }
@@ -193,16 +189,16 @@ void CurveTracing::cutAtPlane(double plane, BoundaryTrace& trace)
     {
       continue;
     }
-    const auto point = this->passageBetween(vertices[v].leaving, next.arriving, plane);
-    const auto isNear = [&](const glm::dvec3& corner)
-    {
+    const auto point = this->passageBetween(vertices[v], next, plane);
+    const double spacing = point ? this->Between.spacingAt(point->at.location) : 0.0;
+    const auto isNear = [&](const glm::dvec3& corner) {
       return glm::distance(corner, point->at.point.map.position.xyz) <
-        Tracing::NearCorner * this->Between.spacingAt(*point);
+        Tracing::NearCorner * spacing;
     };
     if (point && std::none_of(corners.begin(), corners.end(), isNear))
     {
       corners.push_back(point->at.point.map.position.xyz);
-      cut.push_back({ *point, *point, true });
+      cut.push_back({ *point, *point, true, spacing });
     }
   }
   vertices = std::move(cut);

@@ -65,7 +65,7 @@ private:
   void follow(const Hint& hint, const ParallelFor& parallelFor);
   bool isInReach(const Location& place) const;
   std::optional<BoundaryPoint> passageBetween(
-    const BoundaryPoint& from, const BoundaryPoint& to, double plane);
+    const BoundaryVertex& from, const BoundaryVertex& to, double plane);
   void cutAtPlane(double plane, BoundaryTrace& trace);
   void followOtherSide(std::size_t stretch, const ParallelFor& parallelFor);
   bool standsStill(const BoundaryTrace& trace, double spacing) const;
