@@ -111,13 +111,19 @@ void MeshRepair::run(IsovalueParticles& some)
   }
   this->ParticlesLeft = std::max(alwaysAllowed, timesOwn * some.mesh.particles);
   const bool isDiscontinuous = jumps(some.distribution);
-  const bool wasOpen = isOpen(some.mesh);
+  const bool isLiftable = !isDiscontinuous && isOpen(some.mesh);
+  // Around singular points more particles are of little use.
+  const bool besideFirst = isLiftable && some.distribution.report.singularPoints > 0;
   if (!isDiscontinuous)
   {
     this->meshBesideNodes(some);
   }
+  if (besideFirst)
+  {
+    this->meshBeside(some);
+  }
   this->meshAroundFaults(isDiscontinuous, some);
-  if (!isDiscontinuous && wasOpen && this->meshBeside(some))
+  if (isLiftable && !besideFirst && this->meshBeside(some))
   {
     this->meshAroundFaults(isDiscontinuous, some);
   }
@@ -138,21 +144,31 @@ void MeshRepair::meshBesideNodes(IsovalueParticles& some)
   }
 }
 
-/// The same on surfaces of values beside the isovalue, as long as something is lacking or triangles are turned.
+/// The same on surfaces of values beside the isovalue, as long as something is lacking or triangles are turned: above it,
+/// then below.
 /// \return whether one was taken
 bool MeshRepair::meshBeside(IsovalueParticles& some)
 {
-  // The smaller ones first. Larger: parts of the surface are lost, and triangles turn over as particles are put back;
-  // smaller: sheets are nearer to each other than particles can tell apart.
-  constexpr double beside[] = { 1e-4, -1e-4, 1e-3, -1e-3 };
+  // How far beside. Chosen by experiment. Larger: particles do not find back, parts of the surface are lost, and triangles
+  // turn over; smaller: sheets are nearer to each other than particles can tell apart. So a smaller one is next where
+  // there is no mesh, as where spacings are small, or triangles are turned alone, and a larger one where it has holes.
+  constexpr double height = 1e-4;
+  constexpr double factor = 10.0;
   const auto isLacking = [&some] { return lackOf(some.mesh) > 0 || some.mesh.turnedTriangles > 0; };
   bool isTaken = false;
-  for (std::size_t i = 0; i < std::size(beside) && isLacking(); ++i)
+  for (const double side : { 1.0, -1.0 })
   {
-    auto lifted = std::make_unique<LiftedSurface>();
-    lifted->surface = this->Surface;
-    lifted->surface.isovalue += beside[i];
-    isTaken = this->meshOn(std::move(lifted), some) || isTaken;
+    double beside = height;
+    for (int n = 0; n < 2 && isLacking(); ++n)
+    {
+      auto lifted = std::make_unique<LiftedSurface>();
+      lifted->surface = this->Surface;
+      lifted->surface.isovalue += side * beside;
+      const Try outcome = this->meshOn(std::move(lifted), some);
+      isTaken = isTaken || outcome == Try::Better;
+      const bool isTooFar = outcome == Try::None || lackOf(some.mesh) == 0;
+      beside = isTooFar ? beside / factor : beside * factor;
+    }
   }
   return isTaken;
 }
@@ -170,19 +186,23 @@ bool MeshRepair::meshBesideNodes(double height, IsovalueParticles& some)
   }
   lifted->surface = this->Surface;
   lifted->surface.mesh = &*lifted->mesh;
-  return this->meshOn(std::move(lifted), some);
+  return this->meshOn(std::move(lifted), some) == Try::Better;
 }
 
 /// The same on a lifted surface.
-bool MeshRepair::meshOn(std::unique_ptr<LiftedSurface> lifted, IsovalueParticles& some)
+MeshRepair::Try MeshRepair::meshOn(std::unique_ptr<LiftedSurface> lifted, IsovalueParticles& some)
 {
   auto other = this->meshAnew(*lifted, this->Parameters, some.isovalue);
-  const bool isBetter = other && this->takeBetter(std::move(*other), true, some);
+  if (!other)
+  {
+    return Try::None;
+  }
+  const bool isBetter = this->takeBetter(std::move(*other), true, some);
   if (isBetter)
   {
     this->Lifted = std::move(lifted);
   }
-  return isBetter;
+  return isBetter ? Try::Better : Try::Worse;
 }
 
 /// Distributes and joins particles anew, nearer to each other around the faults of a mesh, on the surface on which they

@@ -42,10 +42,20 @@ private:
     std::optional<ElementMesh> mesh;
   };
 
+  /// What came of making a mesh anew.
+  enum class Try
+  {
+    /// There is none, as particles did not come back to the surface.
+    None,
+    /// It does not replace the one that there was.
+    Worse,
+    Better
+  };
+
   void meshBesideNodes(IsovalueParticles& some);
   bool meshBesideNodes(double height, IsovalueParticles& some);
   bool meshBeside(IsovalueParticles& some);
-  bool meshOn(std::unique_ptr<LiftedSurface> lifted, IsovalueParticles& some);
+  Try meshOn(std::unique_ptr<LiftedSurface> lifted, IsovalueParticles& some);
   void meshAroundFaults(bool inPieces, IsovalueParticles& some);
   std::optional<IsovalueParticles> meshAnew(
     MeshedSurface& own, DistributionParameters parameters, double isovalue);

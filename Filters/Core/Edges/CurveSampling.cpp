@@ -54,6 +54,7 @@ private:
   bool bounds(std::size_t trace) const;
   std::int64_t leastIntervals(std::size_t stretch) const;
   void addKnots(const Chord& chord, const Knot& begin, const Knot& end, std::vector<Knot>& knots);
+  double spacingWhereArriving(const BoundaryVertex& vertex);
   std::vector<Knot> knotsOf(Span<BoundaryVertex> vertices);
   std::vector<BoundaryPlace> sampleStretch(
     const CurveStretch& stretch, std::int64_t leastIntervals, const ParallelFor& parallelFor);
@@ -141,6 +142,14 @@ void CurveSampling::addKnots(
   this->addKnots(chord, middle, end, knots);
 }
 
+/// The spacing at a vertex, where a curve comes to another element in that which it leaves: curvatures of the two differ.
+double CurveSampling::spacingWhereArriving(const BoundaryVertex& vertex)
+{
+  const Location& arriving = vertex.arriving.at.location;
+  return arriving.element == vertex.leaving.at.location.element ? vertex.spacing
+                                                                : this->Between.spacingAt(arriving);
+}
+
 /// The sums of lengths in units of the spacing along a stretch.
 std::vector<CurveSampling::Knot> CurveSampling::knotsOf(Span<BoundaryVertex> vertices)
 {
@@ -149,7 +158,7 @@ std::vector<CurveSampling::Knot> CurveSampling::knotsOf(Span<BoundaryVertex> ver
   {
     const Chord chord{ &vertices[v - 1].leaving, &vertices[v].arriving,
       glm::distance(vertices[v - 1].position(), vertices[v].position()) };
-    const Knot end{ v, 1.0, 0.0, vertices[v].spacing };
+    const Knot end{ v, 1.0, 0.0, this->spacingWhereArriving(vertices[v]) };
     if (this->IsCut)
     {
       this->addKnots(chord, { v, 0.0, 0.0, knots.back().spacing }, end, knots);

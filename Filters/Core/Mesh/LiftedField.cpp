@@ -41,6 +41,9 @@ struct Lift
   /// singular points lose their shape; smaller: fewer meshes are closed there.
   static constexpr double FromBeside = 0.5;
   static constexpr double FarBeside = 0.6;
+  /// Share of the way back from the apex of a pyramid to where a particle was. Larger: it is farther from the surface than
+  /// its tolerance; smaller: the apex is as near as rounding.
+  static constexpr double BesideApex = 1e-8;
   /// Least cosine between the normals there and before: the other side of a cone is not taken.
   static constexpr double SameSide = 0.3;
 };
@@ -215,8 +218,15 @@ bool WayBack::putBack(Particle& particle)
     }
   }
   place = this->Walker.evaluateCurved(place.location);
+  if (place.point.map.singular && place.location.element == particle.location.element)
+  {
+    place.location.u =
+      place.location.u + Lift::BesideApex * (particle.location.u - place.location.u);
+    place = this->Walker.evaluateCurved(place.location);
+  }
   const double slope = length(place.point.gradient);
-  if (place.point.map.singular || !(slope > 0.0) || !std::isfinite(slope))
+  if (place.point.map.singular || !(slope > 0.0) || !std::isfinite(slope) ||
+    !this->Surface.holds(place.point, reach))
   {
     return false; // the surface is singular there
   }
@@ -284,7 +294,7 @@ bool putBack(const Isosurface& surface, Distribution& distribution, const Parall
     const Particle& one = particles[a];
     Particle& other = particles[b];
     const double apart = length(other.position - one.position);
-    areAllBack = areAllBack && apart <= Lift::Farthest * one.spacing;
+    areAllBack = areAllBack && apart <= Lift::Farthest * reach;
     if (apart > Lift::OnePlace * one.spacing)
     {
       other.location = one.location;

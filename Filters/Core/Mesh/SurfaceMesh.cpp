@@ -61,12 +61,21 @@ void leaveOutSpare(
   unused.erase(std::remove_if(unused.begin(), unused.end(), isSpare), unused.end());
 }
 
-/// Triangles that are turned away from the normal of a corner.
-std::int64_t countTurned(
-  const Buffer<Particle>& particles, const std::vector<std::array<int, 3>>& triangles)
+/// Counts triangles that are turned away from the normal of a corner. A closed mesh has its faults there, if it has any.
+void countTurned(const Buffer<Particle>& particles, SurfaceMesh& mesh)
 {
-  return std::count_if(triangles.begin(), triangles.end(),
-    [&particles](const std::array<int, 3>& corners) { return isTurned(particles, corners); });
+  const bool areFaults = mesh.atFaults.empty();
+  for (const std::array<int, 3>& corners : mesh.triangles)
+  {
+    if (isTurned(particles, corners))
+    {
+      ++mesh.turnedTriangles;
+      if (areFaults)
+      {
+        mesh.atFaults.insert(mesh.atFaults.end(), corners.begin(), corners.end());
+      }
+    }
+  }
 }
 
 /// The edges of a loop at which the mesh lacks something. Where particles do not tell on which side of an edge the surface
@@ -154,9 +163,9 @@ SurfaceMesh meshSurface(const Isosurface& whole, ConstrainedEdges edges, Distrib
   }
   mesh.unusedParticles = static_cast<std::int64_t>(unused.size());
   mesh.atFaults.insert(mesh.atFaults.end(), unused.begin(), unused.end());
+  countTurned(distribution.particles, mesh);
   std::sort(mesh.atFaults.begin(), mesh.atFaults.end());
   mesh.atFaults.erase(std::unique(mesh.atFaults.begin(), mesh.atFaults.end()), mesh.atFaults.end());
-  mesh.turnedTriangles = countTurned(distribution.particles, mesh.triangles);
   return mesh;
 }
 

@@ -27,7 +27,8 @@ struct SurfaceMesh
   /// Particles without a triangle; of a discontinuous field, but for one or two of them in the midst of a surface that is
   /// closed without them.
   std::int64_t unusedParticles = 0;
-  /// The particles on open loops, and those that are counted as unused, ascending.
+  /// The particles on open loops, and those that are counted as unused, ascending; if there are none, those at turned
+  /// triangles.
   std::vector<int> atFaults;
   /// Triangles that are turned away from the normal of a corner.
   std::int64_t turnedTriangles = 0;
