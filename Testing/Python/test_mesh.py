@@ -411,6 +411,18 @@ def test_sharp_bends_of_a_small_mesh_are_closed(plugin):
     assert list(components_of(mesh)["Proven"]) == [1, 1]
 
 
+@pytest.mark.parametrize("spacing", [0.02, 0.01])
+def test_singular_surfaces_are_closed(data, plugin, spacing):
+    """Cones meet in corners of the cells, where pyramids have their apexes: the mesh is that of a value beside, whose
+    particles come as far as to the apexes, and at the smaller spacing are closer to each other than that is long."""
+    grid = support.read(data("vtkdata_pyramid_quadratic.vtu"))
+    middle = np.mean(grid.PointData["DistanceToCenter"].GetRange(0))
+    mesh = support.run(grid, "DistanceToCenter", middle, OutputType="Triangles", Spacing=spacing)[0]
+    assert support.reported(mesh, "SingularPoints") > 0
+    assert_closed(mesh)
+    assert support.reported(mesh, "TopologyProven") == 1
+
+
 def test_topology_of_a_field_with_jumps_is_not_proven(data, plugin):
     grid = support.read(data("mfem_dg_advection_0.vtu"))
     mesh = support.make_filter(grid, "rho", 0.293, OutputType="Triangles")[0]
