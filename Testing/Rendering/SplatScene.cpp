@@ -97,6 +97,15 @@ void AddShapeOfSphere(vtkPolyData* particles, double radius)
 }
 
 //------------------------------------------------------------------------------
+hop::SplatParticles ReadSplats(vtkPolyData* particles)
+{
+  auto arrays =
+    hop::ParticleArrays::FromPointData(particles->GetPointData(), particles->GetNumberOfPoints());
+  arrays.Radii = particles->GetPointData()->GetArray("Radius");
+  return hop::SplatParticles::FromPolyData(particles, arrays);
+}
+
+//------------------------------------------------------------------------------
 SplatScene::SplatScene(vtkPolyData* particles, glm::dvec3 centre)
   : Window(vtkSmartPointer<vtkRenderWindow>::New())
   , Centre(centre)

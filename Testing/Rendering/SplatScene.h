@@ -1,6 +1,7 @@
 // One actor with disks in one window, and its pixels as points in space.
 #pragma once
 
+#include "Particles/SplatParticles.h"
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"
 
@@ -33,6 +34,9 @@ void AddVertexCells(vtkPolyData* particles, const std::vector<vtkIdType>& order 
 
 // Adds the shape operators of a sphere around the origin.
 void AddShapeOfSphere(vtkPolyData* particles, double radius);
+
+// What the mapper reads of particles whose radii are the array 'Radius'.
+hop::SplatParticles ReadSplats(vtkPolyData* particles);
 
 // Where a scene is looked at from.
 struct SceneView

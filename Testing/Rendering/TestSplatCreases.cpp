@@ -69,14 +69,6 @@ vtkSmartPointer<vtkPolyData> Ridge()
   return particles;
 }
 
-hop::SplatParticles Read(vtkPolyData* particles)
-{
-  auto arrays =
-    hop::ParticleArrays::FromPointData(particles->GetPointData(), particles->GetNumberOfPoints());
-  arrays.Radii = particles->GetPointData()->GetArray("Radius");
-  return hop::SplatParticles::FromPolyData(particles, arrays);
-}
-
 void ExpectVector(const std::vector<float>& numbers, std::size_t first, const glm::dvec3& wanted)
 {
   ASSERT_GE(numbers.size(), first + 3);
@@ -89,7 +81,7 @@ void ExpectVector(const std::vector<float>& numbers, std::size_t first, const gl
 
 TEST(SplatCreases, PointsHaveASplatOnEitherSide)
 {
-  const hop::SplatParticles splats = Read(Ridge());
+  const hop::SplatParticles splats = ReadSplats(Ridge());
   EXPECT_EQ(splats.PointIds, (std::vector<vtkIdType>{ 0, 1, 2, 3, 4, 5, 0 }));
   EXPECT_EQ(splats.Skipped, 0);
   ExpectVector(splats.Normal, 0, leftNormal);
@@ -122,7 +114,7 @@ TEST(SplatCreases, BothSidesFollowWhatMovesPoints)
   filter->SetTransform(turn);
   filter->Update();
   const auto turned = [](const glm::dvec3& v) { return glm::dvec3(v.y, v.z, v.x); };
-  const hop::SplatParticles splats = Read(filter->GetOutput());
+  const hop::SplatParticles splats = ReadSplats(filter->GetOutput());
   ASSERT_EQ(splats.PointIds.size(), 7u);
   ASSERT_EQ(splats.ClipStride, 12);
   ExpectVector(splats.Normal, 0, turned(leftNormal));
@@ -140,7 +132,7 @@ TEST(SplatCreases, ArraysThatAreTooSmallAreIgnored)
     columns->SetNumberOfComponents(components);
     columns->SetNumberOfTuples(tuples);
     columns->Fill(0.5);
-    const hop::SplatParticles splats = Read(particles);
+    const hop::SplatParticles splats = ReadSplats(particles);
     EXPECT_EQ(splats.PointIds.size(), 6u);
     ExpectVector(splats.Normal, 0, meanNormal);
   }

@@ -92,14 +92,6 @@ vtkSmartPointer<vtkTransform> ThirdOfATurn()
   return turn;
 }
 
-hop::SplatParticles Read(vtkPolyData* particles)
-{
-  auto arrays =
-    hop::ParticleArrays::FromPointData(particles->GetPointData(), particles->GetNumberOfPoints());
-  arrays.Radii = particles->GetPointData()->GetArray("Radius");
-  return hop::SplatParticles::FromPolyData(particles, arrays);
-}
-
 glm::dvec3 First3(const std::vector<float>& values, std::size_t first)
 {
   return { values[first], values[first + 1], values[first + 2] };
@@ -163,11 +155,11 @@ TEST(SplatMotion, PlanesRadiiAndNormalsFollowAffineMaps)
   const vtkSmartPointer<vtkTransform> turn = ThirdOfATurn();
   for (vtkTransform* transform : { turn.Get(), shear.Get() })
   {
-    const hop::SplatParticles splats = Read(Moved(sphere, transform));
+    const hop::SplatParticles splats = ReadSplats(Moved(sphere, transform));
     EXPECT_FALSE(splats.Warped);
     ExpectCutByImage(splats, transform);
   }
-  const hop::SplatParticles stretched = Read(Moved(sphere, shear));
+  const hop::SplatParticles stretched = ReadSplats(Moved(sphere, shear));
   for (std::size_t i = 0; i < stretched.PointIds.size(); ++i)
   {
     // The image of a circle is an ellipse; its longer axis is between the two larger factors.
@@ -235,9 +227,9 @@ TEST(SplatMotion, NormalsThatNobodyTurnedAreTurned)
 {
   const vtkSmartPointer<vtkPolyData> sphere = CutSphere();
   vtkSmartPointer<vtkPolyData> moved = Moved(sphere, ThirdOfATurn());
-  const hop::SplatParticles turned = Read(moved);
+  const hop::SplatParticles turned = ReadSplats(moved);
   moved->GetPointData()->SetNormals(sphere->GetPointData()->GetNormals());
-  const hop::SplatParticles stale = Read(moved);
+  const hop::SplatParticles stale = ReadSplats(moved);
   for (std::size_t i = 0; i < turned.Normal.size(); ++i)
   {
     EXPECT_NEAR(stale.Normal[i], turned.Normal[i], 1e-5);
@@ -255,7 +247,7 @@ TEST(SplatMotion, SeveralSetsMoveEachInItsOwnWay)
   both->AddInputData(Moved(sphere, mirror));
   both->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   both->Update();
-  const hop::SplatParticles splats = Read(both->GetOutput());
+  const hop::SplatParticles splats = ReadSplats(both->GetOutput());
   EXPECT_FALSE(splats.Warped);
   ExpectCutByImage(splats, mirror, sphere->GetNumberOfPoints());
 }
@@ -275,7 +267,7 @@ TEST(SplatMotion, AFlatSurfaceMayBeTurnedAndMirrored)
   vtkNew<vtkTransform> transform;
   transform->RotateWXYZ(33., 3., 2., 1.);
   transform->Scale(-1., 1., 1.);
-  const hop::SplatParticles splats = Read(Moved(flat, transform));
+  const hop::SplatParticles splats = ReadSplats(Moved(flat, transform));
   EXPECT_FALSE(splats.Warped);
   ExpectCutByImage(splats, transform);
 }
@@ -289,7 +281,7 @@ TEST(SplatMotion, WarpedParticlesAreSaidOnceAndDrawnWithoutPlanes)
     sphere->GetPoint(i, p);
     sphere->GetPoints()->SetPoint(i, p[0] + 0.3 * p[1] * p[1], p[1], p[2]);
   }
-  const hop::SplatParticles splats = Read(sphere);
+  const hop::SplatParticles splats = ReadSplats(sphere);
   EXPECT_TRUE(splats.Warped);
   EXPECT_TRUE(splats.Clip.empty());
   EXPECT_TRUE(splats.Shape.empty());
@@ -307,9 +299,9 @@ TEST(SplatMotion, WarpedParticlesAreSaidOnceAndDrawnWithoutPlanes)
 TEST(SplatMotion, NothingChangesWhereNothingMoved)
 {
   const vtkSmartPointer<vtkPolyData> sphere = CutSphere();
-  const hop::SplatParticles with = Read(sphere);
+  const hop::SplatParticles with = ReadSplats(sphere);
   sphere->GetPointData()->RemoveArray("Original_Placement");
-  const hop::SplatParticles without = Read(sphere);
+  const hop::SplatParticles without = ReadSplats(sphere);
   EXPECT_EQ(with.CentreRadius, without.CentreRadius);
   EXPECT_EQ(with.Normal, without.Normal);
   EXPECT_EQ(with.Clip, without.Clip);
