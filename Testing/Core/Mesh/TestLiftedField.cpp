@@ -145,6 +145,38 @@ TEST(LiftedField, PutsTheTipsOfAHyperboloidBesideTheTipOfTheCone)
   EXPECT_GT(below, 100);
 }
 
+/// The upper face of a hexahedron is drawn together to the apex of a pyramid, at which the map stands still, and the surface
+/// is a plane that leads there.
+TEST(LiftedField, PutsParticlesThatComeToTheApexOfAPyramidBesideIt)
+{
+  const glm::dvec3 apex(0.0, 0.0, 1.0);
+  MeshRecipe recipe;
+  recipe.degrees = { 1, 1, 1 };
+  recipe.cells = 1;
+  recipe.map = [](const glm::dvec3& x)
+  { return glm::dvec3(0.5 * (1.0 - x.z) * x.x, 0.5 * (1.0 - x.z) * x.y, x.z); };
+  recipe.field = [&apex](const glm::dvec3& x) { return x.x - x.y + 0.3 * (x.z - apex.z); };
+  const ElementMesh mesh = makeMesh(recipe);
+  const Isosurface surface{ &mesh, 0.0, 1e-10 };
+  SurfaceWalker walker(surface);
+  Distribution distribution;
+  for (const double below : { 1e-3, 1e-4 })
+  {
+    // On the edge x = y of the pyramid.
+    const Evaluated at = walker.evaluateCurved({ 0, { { 0.0, 0.0, 1.0 - below } } });
+    distribution.particles.push_back(
+      particleAt(at.location, at.point, curvature(at.point.gradient, at.hessian), 0.01));
+  }
+  ASSERT_TRUE(putBack(surface, distribution, {}));
+  for (const Particle& particle : distribution.particles)
+  {
+    EXPECT_LT(glm::distance(particle.position.xyz, apex), 1e-9);
+    EXPECT_GT(glm::distance(particle.position.xyz, apex), 0.0);
+    EXPECT_LE(particle.residual, 1e-10);
+    EXPECT_NEAR(length(particle.normal), 1.0, 1e-12);
+  }
+}
+
 TEST(LiftedField, CoversNothingBeyondASpacing)
 {
   ElementMesh mesh;
