@@ -45,7 +45,7 @@ private:
   /// What came of making a mesh anew.
   enum class Try
   {
-    /// There is none, as particles did not come back to the surface.
+    /// There is none: particles did not come back to the surface, or enough was tried.
     None,
     /// It does not replace the one that there was.
     Worse,

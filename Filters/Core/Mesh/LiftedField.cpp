@@ -23,7 +23,7 @@ struct Lift
   /// In units of the spacing: distance of particles that were in one place, once they are back, up to which each keeps its
   /// location, as the other side of a crease.
   static constexpr double OnePlace = 1e-6;
-  /// The same up to which they are taken for one at all.
+  /// The same up to which they are taken for one at all, in units of the spacing on flat surfaces.
   static constexpr double Farthest = 0.3;
   /// How near to a face a place on it is, see faceMargin(): what is in one place is on as many faces in all its elements.
   static constexpr double OnFace = 1e-8;
