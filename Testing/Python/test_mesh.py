@@ -1,7 +1,9 @@
 """Triangles and curved triangles: closed, on the surface, and at home in ParaView's other filters and files."""
 
+import os
 import re
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -171,8 +173,16 @@ def test_boundaries_of_a_plate_of_some_particles_are_closed(data, plugin, value,
     assert_closed(support.run_quietly(grid, "Nodal Displacement", value, Component=1, OutputType="Triangles", Seed=seed))
 
 
-def assert_closed(mesh):
-    assert mesh.GetNumberOfCells() > 900
+@pytest.mark.parametrize("file", sorted(path.name for path in Path(os.environ["HOP_DATA"]).glob("*.*vtu")))
+def test_surfaces_that_the_panel_chooses_are_closed(data, plugin, file):
+    proxy = simple.HighOrderParticleIsosurface(Input=support.read(data(file)), OutputType="Triangles")
+    mesh = output_of(proxy)
+    simple.Delete(proxy)
+    assert_closed(mesh, least_triangles=100)
+
+
+def assert_closed(mesh, least_triangles=900):
+    assert mesh.GetNumberOfCells() > least_triangles
     assert support.reported(mesh, "MeshOpenLoops") == support.reported(mesh, "MeshUnusedParticles") == 0
     edges = np.sort(corners_of(mesh)[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
     assert np.unique(edges, axis=0, return_counts=True)[1].max() == 2

@@ -54,6 +54,10 @@ public:
     , IsDouble(distribution.particles.size(), 0)
   {
     mark(edges, this->IsOnEdge);
+    for (const int replaced : distribution.edges.replaced)
+    {
+      this->IsOnEdge[replaced] = 1;
+    }
     mark(distribution.edges.coincident, this->IsDouble);
   }
 
@@ -179,7 +183,7 @@ private:
   const Buffer<Particle>& Particles;
   const SurfacePieces& Pieces;
   std::vector<Edge>& Edges;
-  /// By particle: whether it is on an edge, and whether there is another one in its place.
+  /// By particle: whether it, or the one that replaces it, is on an edge, and whether there is another one in its place.
   std::vector<char> IsOnEdge, IsDouble;
   std::vector<int> Candidates;
   /// By candidate.
