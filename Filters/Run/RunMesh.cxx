@@ -183,25 +183,12 @@ std::vector<double> areasOf(
   return areas;
 }
 
-/// Triangles that are turned away from the normal of a corner once their corners were put back. Those without height may
-/// be turned anyhow.
+/// Triangles that are turned away from the normal of a corner once their corners were put back.
 std::int64_t countTurnedOver(
   const std::vector<std::array<int, 3>>& triangles, const Buffer<Particle>& particles)
 {
-  // Height over the longest edge below which there is none: half a degree.
-  constexpr double none = 0.01;
   return std::count_if(triangles.begin(), triangles.end(),
-    [&](const std::array<int, 3>& corners)
-    {
-      double longest = 0.0;
-      for (int i = 0; i < 3; ++i)
-      {
-        longest = std::max(longest,
-          length(particles[corners[i]].position - particles[corners[(i + 1) % 3]].position));
-      }
-      return glm::length(doubleAreaNormal(particles, corners)) > none * longest * longest &&
-        isTurned(particles, corners);
-    });
+    [&](const std::array<int, 3>& corners) { return isTurnedOver(particles, corners); });
 }
 
 /// Gives all particles in one place what those of them that cells use have together: the mean normal, and the area.

@@ -174,7 +174,8 @@ BoundaryCurves BoundaryParticles::make(
       this->Sampled.beginsCrease[n] != 0 };
   }
   keepMarked(particles, found);
-  thinOut(std::move(outcomes), this->Sampled.ranges, wanted, this->Result, parallelFor);
+  thinOut(*this->Surface.mesh, std::move(outcomes), this->Sampled.ranges, wanted, this->Result,
+    parallelFor);
   return std::move(this->Result);
 }
 

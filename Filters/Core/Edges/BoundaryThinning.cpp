@@ -43,14 +43,16 @@ bool areSidesOfJump(const BoundaryParticle& a, const BoundaryParticle& b)
 }
 
 /// Whether two particles bound two pieces of the surface, or parts of a piece in two elements, at a jump.
-bool areOfTwoPieces(const SurfacePieces& pieces, const Particle& a, const Particle& b)
+bool areOfTwoPieces(
+  const ElementMesh& mesh, const SurfacePieces& pieces, const Particle& a, const Particle& b)
 {
   return a.location.element != b.location.element &&
-    (a.jump != 0.0 || b.jump != 0.0 || !pieces.areSame(a.location, b.location));
+    (a.jump != 0.0 || b.jump != 0.0 || !pieces.areSame(a.location, b.location) ||
+      pieces.endBetween(mesh, a.location.element, b.location.element));
 }
 
-bool areTooNear(const BoundaryParticle& a, const BoundaryParticle& b, ThinnedCurves wanted,
-  const SurfacePieces& pieces)
+bool areTooNear(const ElementMesh& mesh, const BoundaryParticle& a, const BoundaryParticle& b,
+  ThinnedCurves wanted, const SurfacePieces& pieces)
 {
   if (a.isOnCrease || b.isOnCrease)
   {
@@ -60,7 +62,7 @@ bool areTooNear(const BoundaryParticle& a, const BoundaryParticle& b, ThinnedCur
   {
     return false;
   }
-  if (wanted == ThinnedCurves::OfPieces && areOfTwoPieces(pieces, a.particle, b.particle))
+  if (wanted == ThinnedCurves::OfPieces && areOfTwoPieces(mesh, pieces, a.particle, b.particle))
   {
     return false;
   }
@@ -182,8 +184,9 @@ void addOtherSides(BoundaryCurves& curves)
 
 } // namespace
 
-void thinOut(std::vector<CurvePlace> places, const std::vector<CurveRange>& ranges,
-  ThinnedCurves wanted, BoundaryCurves& curves, const ParallelFor& parallelFor)
+void thinOut(const ElementMesh& mesh, std::vector<CurvePlace> places,
+  const std::vector<CurveRange>& ranges, ThinnedCurves wanted, BoundaryCurves& curves,
+  const ParallelFor& parallelFor)
 {
   Buffer<BoundaryParticle>& particles = curves.particles;
   const std::vector<char> isAlone = passCracks(places, ranges, particles);
@@ -204,7 +207,8 @@ void thinOut(std::vector<CurvePlace> places, const std::vector<CurveRange>& rang
     grid.visit(points.positions[i], points.spacings[i],
       [&](std::size_t j)
       {
-        if (ranks[j] < ranks[i] && areTooNear(particles[i], particles[j], wanted, curves.pieces))
+        if (ranks[j] < ranks[i] &&
+          areTooNear(mesh, particles[i], particles[j], wanted, curves.pieces))
         {
           use(j);
         }

@@ -26,7 +26,8 @@ enum class ThinnedCurves
 /// \param places what became of the places on all curves
 /// \param ranges of places, one a curve
 /// \param curves their particles and places on creases; edges and thinned particles are added
-void thinOut(std::vector<CurvePlace> places, const std::vector<CurveRange>& ranges,
-  ThinnedCurves wanted, BoundaryCurves& curves, const ParallelFor& parallelFor);
+void thinOut(const ElementMesh& mesh, std::vector<CurvePlace> places,
+  const std::vector<CurveRange>& ranges, ThinnedCurves wanted, BoundaryCurves& curves,
+  const ParallelFor& parallelFor);
 
 } // namespace hop

@@ -1,8 +1,14 @@
 #include "Mesh/LooseParticles.h"
 
+#include "Mesh/ParticlesAround.h"
+#include "Mesh/TriangleNormal.h"
+
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <set>
+#include <tuple>
+#include <utility>
 
 namespace hop
 {
@@ -13,26 +19,116 @@ namespace
 /// particle may be joined to another sheet; smaller: it is left alone where the surface bends.
 constexpr double sheetThickness = 0.5;
 
+/// Whether a loose particle may be joined to triangles with a corner.
+bool areOnOneSheet(const ParticleNeighbors& neighbors, int loose, int corner)
+{
+  const glm::dvec3 normals(neighbors.normals[loose] + neighbors.normals[corner]);
+  const glm::dvec3 apart = neighbors.points.positions[corner] - neighbors.points.positions[loose];
+  const double spacing =
+    std::max(neighbors.points.spacings[loose], neighbors.points.spacings[corner]);
+  return neighbors.areOnOnePiece(loose, corner) &&
+    std::abs(glm::dot(apart, normals)) <= 2.0 * sheetThickness * spacing;
+}
+
+/// The triangles around one particle, as its tangent plane shows them.
+class Sight
+{
+public:
+  /// \param around see ParticlesAround
+  Sight(const ParticleNeighbors& neighbors, const std::vector<int>& around, int particle)
+    : Neighbors(neighbors)
+    , Around(around)
+    , Middle(particle)
+    , Plane(neighbors.points.positions[particle], neighbors.normals[particle],
+        neighbors.points.spacings[particle])
+  {
+  }
+
+  /// Whether a triangle has the particle inside, and the circle around it.
+  struct Inside
+  {
+    bool triangle = false;
+    bool circle = false;
+  };
+
+  Inside whereIn(const Triangle& triangle) const
+  {
+    // Particles that were added to fill holes have no neighbours that are known.
+    const auto mayBeJoined = [this](int corner)
+    {
+      return static_cast<std::size_t>(corner) < this->Neighbors.seen.size() &&
+        areOnOneSheet(this->Neighbors, this->Middle, corner);
+    };
+    if (!std::all_of(triangle.begin(), triangle.end(), mayBeJoined))
+    {
+      return {};
+    }
+    std::array<glm::dvec2, 3> x;
+    std::transform(triangle.begin(), triangle.end(), x.begin(),
+      [this](int corner) { return this->Plane.flat(this->Neighbors.points.positions[corner]); });
+    const std::array<double, 3> part{ crossOf(x[1], x[2]), crossOf(x[2], x[0]),
+      crossOf(x[0], x[1]) };
+    double sum = 0.0;
+    for (int n = 0; n < 3; ++n)
+    {
+      sum += glm::dot(x[n], x[n]) * part[n];
+    }
+    return { part[0] >= 0.0 && part[1] >= 0.0 && part[2] >= 0.0 &&
+        part[0] + part[1] + part[2] > 0.0,
+      sum > 0.0 };
+  }
+
+  /// A triangle that has the particle inside.
+  /// \param mayHave mayHave(corner)
+  template <class MayHave>
+  std::optional<Triangle> covering(const TriangleFans& fans, const MayHave& mayHave) const
+  {
+    std::optional<Triangle> found;
+    for (const int j : this->Around)
+    {
+      fans.visit(j,
+        [&](const LinkEdge& edge)
+        {
+          const Triangle triangle{ j, edge.from, edge.to };
+          if (!found && std::all_of(triangle.begin(), triangle.end(), mayHave) &&
+            this->whereIn(triangle).triangle)
+          {
+            found = triangle;
+          }
+        });
+    }
+    return found;
+  }
+
+private:
+  const ParticleNeighbors& Neighbors;
+  const std::vector<int>& Around;
+  int Middle;
+  TangentPlane Plane;
+};
+
 /// Inserts one particle.
 class Insertion
 {
 public:
-  Insertion(const ParticleNeighbors& neighbors, const ConstrainedEdges& edges, TriangleFans& fans,
-    int particle)
+  Insertion(const ParticleNeighbors& neighbors, const std::vector<int>& around,
+    const ConstrainedEdges& edges, TriangleFans& fans, int particle)
     : Neighbors(neighbors)
+    , Seen(neighbors, around, particle)
     , Edges(edges)
     , Fans(fans)
     , Middle(particle)
-    , Plane(this->at(particle), neighbors.normals[particle], neighbors.points.spacings[particle])
   {
   }
 
   void run()
   {
-    if (!this->findTriangle())
+    const auto covering = this->Seen.covering(this->Fans, [](int) { return true; });
+    if (!covering)
     {
       return;
     }
+    this->add(*covering);
     for (std::size_t n = 0; n < this->Cavity.size(); ++n)
     {
       this->grow(this->Cavity[n]);
@@ -52,66 +148,6 @@ public:
 
 private:
   const glm::dvec3& at(int particle) const { return this->Neighbors.points.positions[particle]; }
-  glm::dvec2 flat(int particle) const { return this->Plane.flat(this->at(particle)); }
-
-  bool isOnSheet(int particle) const
-  {
-    const glm::dvec3 normals(
-      this->Neighbors.normals[particle] + this->Neighbors.normals[this->Middle]);
-    const glm::dvec3 apart = (this->at(particle) - this->Plane.origin) * this->Plane.perSpacing;
-    return std::abs(glm::dot(apart, normals)) <= 2.0 * sheetThickness;
-  }
-
-  /// Whether a triangle has the particle inside, and the circle around it.
-  struct Inside
-  {
-    bool triangle = false;
-    bool circle = false;
-  };
-
-  Inside whereIn(const Triangle& triangle) const
-  {
-    // Particles that were added to fill holes have no neighbours that are known.
-    if (!std::all_of(triangle.begin(), triangle.end(),
-          [this](int corner)
-          { return static_cast<std::size_t>(corner) < this->Neighbors.seen.size(); }) ||
-      !std::all_of(
-        triangle.begin(), triangle.end(), [this](int corner) { return this->isOnSheet(corner); }))
-    {
-      return {};
-    }
-    std::array<glm::dvec2, 3> x;
-    std::transform(triangle.begin(), triangle.end(), x.begin(),
-      [this](int corner) { return this->flat(corner); });
-    const std::array<double, 3> part{ crossOf(x[1], x[2]), crossOf(x[2], x[0]),
-      crossOf(x[0], x[1]) };
-    double sum = 0.0;
-    for (int n = 0; n < 3; ++n)
-    {
-      sum += glm::dot(x[n], x[n]) * part[n];
-    }
-    return { part[0] >= 0.0 && part[1] >= 0.0 && part[2] >= 0.0 &&
-        part[0] + part[1] + part[2] > 0.0,
-      sum > 0.0 };
-  }
-
-  bool findTriangle()
-  {
-    for (const int* j = this->Neighbors.seen.begin(this->Middle);
-         this->Cavity.empty() && j != this->Neighbors.seen.end(this->Middle); ++j)
-    {
-      this->Fans.visit(*j,
-        [&](const LinkEdge& edge)
-        {
-          const Triangle triangle{ *j, edge.from, edge.to };
-          if (this->Cavity.empty() && this->whereIn(triangle).triangle)
-          {
-            this->add(triangle);
-          }
-        });
-    }
-    return !this->Cavity.empty();
-  }
 
   void add(const Triangle& triangle)
   {
@@ -131,7 +167,7 @@ private:
       const int a = triangle[n];
       const int b = triangle[(n + 1) % 3];
       const int behind = this->Edges.joins(a, b) ? -1 : this->Fans.apexOf(b, a);
-      const bool isTaken = behind >= 0 && this->whereIn({ b, a, behind }).circle;
+      const bool isTaken = behind >= 0 && this->Seen.whereIn({ b, a, behind }).circle;
       if (isTaken)
       {
         this->add({ b, a, behind });
@@ -154,7 +190,7 @@ private:
     for (const auto& [a, b] : this->Border)
     {
       const glm::dvec3 normal =
-        glm::cross(this->at(a) - this->Plane.origin, this->at(b) - this->Plane.origin);
+        glm::cross(this->at(a) - this->at(this->Middle), this->at(b) - this->at(this->Middle));
       for (const int corner : { this->Middle, a, b })
       {
         if (glm::dot(normal, glm::dvec3(this->Neighbors.normals[corner])) <= 0.0)
@@ -169,13 +205,119 @@ private:
   }
 
   const ParticleNeighbors& Neighbors;
+  Sight Seen;
   const ConstrainedEdges& Edges;
   TriangleFans& Fans;
   int Middle;
-  TangentPlane Plane;
   std::vector<Triangle> Cavity;
   std::set<Triangle> Known;
   std::vector<std::array<int, 2>> Border;
+};
+
+/// Puts one particle into the edge of which it makes the least detour. Where the surface bends by more than a star sees
+/// within a spacing, as at the rim of a fin, no triangle faces it.
+class EdgeInsertion
+{
+public:
+  EdgeInsertion(const ParticleNeighbors& neighbors, const std::vector<int>& around,
+    const ConstrainedEdges& edges, TriangleFans& fans, int particle)
+    : Neighbors(neighbors)
+    , Around(around)
+    , Edges(edges)
+    , Fans(fans)
+    , Middle(particle)
+  {
+  }
+
+  void run()
+  {
+    this->findEdges();
+    std::sort(this->Found.begin(), this->Found.end());
+    const auto good = std::find_if(this->Found.begin(), this->Found.end(),
+      [this](const EdgeBeside& edge) { return this->isGood(edge); });
+    if (good != this->Found.end())
+    {
+      const auto [before, after] = trianglesOf(*good, this->Middle);
+      std::for_each(
+        before.begin(), before.end(), [this](const Triangle& t) { this->Fans.remove(t); });
+      std::for_each(after.begin(), after.end(), [this](const Triangle& t) { this->Fans.add(t); });
+    }
+  }
+
+private:
+  /// An edge between two triangles.
+  struct EdgeBeside
+  {
+    /// By how much the way over the particle is longer, world units.
+    double detour = 0.0;
+    int from = -1, to = -1, left = -1, right = -1;
+
+    bool operator<(const EdgeBeside& other) const
+    {
+      return std::tie(this->detour, this->from, this->to) <
+        std::tie(other.detour, other.from, other.to);
+    }
+  };
+
+  const glm::dvec3& at(int particle) const { return this->Neighbors.points.positions[particle]; }
+
+  /// Particles that were added to fill holes have no neighbours that are known.
+  bool isKnown(int particle) const
+  {
+    return static_cast<std::size_t>(particle) < this->Neighbors.seen.size();
+  }
+
+  void findEdges()
+  {
+    for (const int from : this->Around)
+    {
+      if (areOnOneSheet(this->Neighbors, this->Middle, from))
+      {
+        this->Fans.visit(from,
+          [&](const LinkEdge& link)
+          {
+            // Of a triangle with the corners `from`, link.from and link.to: each edge between two triangles is met from
+            // both of its ends.
+            const int to = link.from;
+            const int right = this->Fans.apexOf(to, from);
+            if (from < to && right >= 0 && this->isKnown(to) && this->isKnown(link.to) &&
+              this->isKnown(right) && areOnOneSheet(this->Neighbors, this->Middle, to) &&
+              !this->Edges.joins(from, to))
+            {
+              const double detour = glm::distance(this->at(from), this->at(this->Middle)) +
+                glm::distance(this->at(this->Middle), this->at(to)) -
+                glm::distance(this->at(from), this->at(to));
+              this->Found.push_back({ detour, from, to, link.to, right });
+            }
+          });
+      }
+    }
+  }
+
+  static std::pair<std::array<Triangle, 2>, std::array<Triangle, 4>> trianglesOf(
+    const EdgeBeside& edge, int middle)
+  {
+    const auto& [detour, a, b, left, right] = edge;
+    return { { { { a, b, left }, { b, a, right } } },
+      { { { a, middle, left }, { middle, b, left }, { b, middle, right },
+        { middle, a, right } } } };
+  }
+
+  /// Whether no triangle would be turned away from a corner.
+  bool isGood(const EdgeBeside& edge) const
+  {
+    const auto after = trianglesOf(edge, this->Middle).second;
+    return std::none_of(after.begin(), after.end(),
+      [this](const Triangle& triangle)
+      { return isTurned(this->Neighbors.particles, triangle); });
+  }
+
+  const ParticleNeighbors& Neighbors;
+  const std::vector<int>& Around;
+  const ConstrainedEdges& Edges;
+  TriangleFans& Fans;
+  int Middle;
+  std::vector<EdgeBeside> Found;
 };
 
 /// Whether a particle is on no edge that tells where the surface ends: on edges in both directions alone, of which no side
@@ -187,17 +329,95 @@ bool isOnNoBoundary(const ConstrainedEdges& edges, int particle)
   return std::equal(after.begin(), after.end(), before.begin(), before.end());
 }
 
-} // namespace
-
-void joinLooseParticles(
-  const ParticleNeighbors& neighbors, const ConstrainedEdges& edges, TriangleFans& fans)
+/// The vertices of a piece of a mesh, if they are few, and none is on a constrained edge or was added to fill a hole.
+std::optional<std::set<int>> verticesOfIsland(
+  int start, std::size_t known, const ConstrainedEdges& edges, const TriangleFans& fans)
 {
+  // Larger: larger pieces have borders along which others may be joined to them; smaller: pieces stay double.
+  constexpr std::size_t most = 100;
+  std::set<int> vertices;
+  std::vector<int> pending{ start };
+  while (!pending.empty())
+  {
+    const int vertex = pending.back();
+    pending.pop_back();
+    if (vertices.size() > most || static_cast<std::size_t>(vertex) >= known ||
+      edges.isOnEdge(vertex))
+    {
+      return std::nullopt;
+    }
+    if (vertices.insert(vertex).second)
+    {
+      fans.visit(vertex,
+        [&](const LinkEdge& edge) { pending.insert(pending.end(), { edge.from, edge.to }); });
+    }
+  }
+  return vertices;
+}
+
+/// Drops the triangles of small pieces that lie on the rest of the mesh: their particles are joined to it, one by one.
+void takeIslandsApart(const ParticleNeighbors& neighbors, const ParticlesAround& particlesAround,
+  const ConstrainedEdges& edges, const std::vector<OpenLoop>& loops, TriangleFans& fans)
+{
+  for (const OpenLoop& loop : loops)
+  {
+    const bool isIsland = loop.isClosed && areaInside(neighbors.particles, loop.particles) < 0.0;
+    const auto vertices = isIsland
+      ? verticesOfIsland(loop.particles.front(), neighbors.seen.size(), edges, fans)
+      : std::nullopt;
+    if (!vertices || vertices->empty())
+    {
+      continue;
+    }
+    const auto isOther = [&](int corner) { return vertices->count(corner) == 0; };
+    const bool isCovered = std::all_of(vertices->begin(), vertices->end(),
+      [&](int vertex)
+      {
+        const std::vector<int> around = particlesAround.of(vertex);
+        return Sight(neighbors, around, vertex).covering(fans, isOther).has_value();
+      });
+    for (const int vertex : isCovered ? *vertices : std::set<int>())
+    {
+      fans.clear(vertex);
+    }
+  }
+}
+
+/// Particles without triangles that may be joined to some.
+std::vector<int> looseParticles(
+  const ParticleNeighbors& neighbors, const ConstrainedEdges& edges, const TriangleFans& fans)
+{
+  std::vector<int> loose;
   for (std::size_t i = 0; i < neighbors.seen.size(); ++i)
   {
     const int particle = static_cast<int>(i);
-    if (!fans.hasTriangles(particle) && isOnNoBoundary(edges, particle))
+    if (!fans.hasTriangles(particle) && isOnNoBoundary(edges, particle) &&
+      !neighbors.isReplaced(particle))
     {
-      Insertion(neighbors, edges, fans, particle).run();
+      loose.push_back(particle);
+    }
+  }
+  return loose;
+}
+
+} // namespace
+
+void joinLooseParticles(const ParticleNeighbors& neighbors, const ConstrainedEdges& edges,
+  const std::vector<OpenLoop>& loops, TriangleFans& fans)
+{
+  if (loops.empty() && looseParticles(neighbors, edges, fans).empty())
+  {
+    return;
+  }
+  const ParticlesAround particlesAround(neighbors.points);
+  takeIslandsApart(neighbors, particlesAround, edges, loops, fans);
+  for (const int particle : looseParticles(neighbors, edges, fans))
+  {
+    const std::vector<int> around = particlesAround.of(particle);
+    Insertion(neighbors, around, edges, fans, particle).run();
+    if (!fans.hasTriangles(particle))
+    {
+      EdgeInsertion(neighbors, around, edges, fans, particle).run();
     }
   }
 }

@@ -4,7 +4,9 @@
 #include "Mesh/LooseParticles.h"
 #include "Mesh/ManifoldVertices.h"
 #include "Mesh/ParticleStars.h"
+#include "Mesh/ParticlesAround.h"
 #include "Mesh/SharedEdges.h"
+#include "Mesh/SmallBodies.h"
 #include "Mesh/TriangleNormal.h"
 #include "Support/Interruptible.h"
 
@@ -35,42 +37,74 @@ std::vector<int> findUnused(const std::vector<int>& places, const TriangleFans& 
   return unused;
 }
 
-/// Leaves out particles that a mesh in pieces, of whose topology nothing is proven, does not need if it has no holes: one
-/// or two alone, in the midst of the surface and beside particles of the mesh, as where it bends within a spacing. A
-/// component has more of them, and pieces have particles on their boundary curves.
+/// Whether a particle stands on a strip between two boundary curves that is narrower than particles tell.
+bool isOnStripWithoutWidth(const Particle& particle)
+{
+  // In units of the spacing: the distance of particles on two sides of a slit (BoundaryThinning.cpp).
+  constexpr double none = 0.02;
+  constexpr double opposite = -0.9; // cosine
+  const auto isHere = [&](const ClipPlane& plane)
+  { return plane.isBoundary() && plane.distance <= none * particle.spacing; };
+  for (const ClipPlane& one : particle.clips)
+  {
+    for (const ClipPlane& other : particle.clips)
+    {
+      if (isHere(one) && isHere(other) && dot(one.normal, other.normal) < opposite)
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Leaves out particles that a mesh in pieces, of whose topology nothing is proven, does not need if it has no holes: few
+/// alone, in the midst of the surface and beside particles of the mesh, as where it bends within a spacing. A component
+/// has more of them, and pieces have particles on their boundary curves. Those on pieces without width have no triangles.
 void leaveOutSpare(
   const ParticleNeighbors& neighbors, const ConstrainedEdges& edges, std::vector<int>& unused)
 {
+  if (unused.empty())
+  {
+    return;
+  }
+  constexpr int leastOfComponent = 6; // LeastParticles.h
   const std::vector<int> all = unused;
+  const ParticlesAround around(neighbors.points);
   const auto isSpare = [&](int p)
   {
+    if (isOnStripWithoutWidth(neighbors.particles[p]))
+    {
+      return true;
+    }
     if (static_cast<std::size_t>(p) >= neighbors.seen.size() || edges.isOnEdge(p) ||
       neighbors.particles[p].jump != 0.0)
     {
       return false;
     }
     int used = 0, others = 0;
-    for (const int other : neighbors.of(p))
+    for (const int other : around.of(p))
     {
       const bool isUnused = std::binary_search(all.begin(), all.end(), other);
       used += neighbors.areOnOnePiece(p, other) && !isUnused ? 1 : 0;
       others += isUnused ? 1 : 0;
     }
-    return used > 0 && others < 2;
+    return used > 0 && others + 1 < leastOfComponent;
   };
   unused.erase(std::remove_if(unused.begin(), unused.end(), isSpare), unused.end());
 }
 
-/// Counts triangles that are turned away from the normal of a corner. A closed mesh has its faults there, if it has any.
+/// Counts triangles that are turned away from the normal of a corner. A closed mesh has its faults, if it has any, where
+/// they are turned from all corners.
 void countTurned(const Buffer<Particle>& particles, SurfaceMesh& mesh)
 {
   const bool areFaults = mesh.atFaults.empty();
   for (const std::array<int, 3>& corners : mesh.triangles)
   {
-    if (isTurned(particles, corners))
+    if (isTurnedOver(particles, corners))
     {
       ++mesh.turnedTriangles;
-      if (areFaults)
+      if (areFaults && isTurnedFromAll(particles, corners))
       {
         mesh.atFaults.insert(mesh.atFaults.end(), corners.begin(), corners.end());
       }
@@ -149,7 +183,14 @@ SurfaceMesh meshSurface(const Isosurface& whole, ConstrainedEdges edges, Distrib
     mesh.copies.insert(mesh.copies.end(), copies.begin(), copies.end());
     isOpen = keepOneFan(fans, parallel);
   }
-  joinLooseParticles(neighbors, edges, fans);
+  const auto openLoops = [&]()
+  { return findOpenLoops(distribution.particles, edges, fans, parallel); };
+  std::vector<OpenLoop> loops = openLoops();
+  if (closeSmallBodies(neighbors, edges, loops, fans))
+  {
+    loops = openLoops();
+  }
+  joinLooseParticles(neighbors, edges, loops, fans);
   splitSharedEdges(surface, firstInPlace(distribution.edges, distribution.particles.size()),
     distribution, fans, parallel);
   const std::vector<int> places = firstInPlace(distribution.edges, distribution.particles.size());

@@ -144,6 +144,15 @@ void TriangleFans::remove(const Triangle& triangle)
   }
 }
 
+void TriangleFans::clear(int vertex)
+{
+  const Fan own(this->begin(vertex), this->end(vertex));
+  for (const LinkEdge& edge : own)
+  {
+    this->remove({ vertex, edge.from, edge.to });
+  }
+}
+
 std::vector<Triangle> TriangleFans::triangles(const ParallelFor& parallelFor) const
 {
   const std::size_t chunkCount = (this->Places.size() + VerticesPerChunk - 1) / VerticesPerChunk;

@@ -53,6 +53,8 @@ public:
   void add(const Triangle& triangle);
   /// \pre the triangle is there
   void remove(const Triangle& triangle);
+  /// Removes all triangles of a vertex.
+  void clear(int vertex);
   /// For a vertex that was appended to the particles.
   void appendVertex();
   /// \pre the last vertex was appended, and has no triangle

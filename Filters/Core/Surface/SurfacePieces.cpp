@@ -77,6 +77,19 @@ SurfacePieces::SurfacePieces(const ElementMesh& mesh, const std::vector<float>& 
   }
 }
 
+bool SurfacePieces::endBetween(const ElementMesh& mesh, int element, int other) const
+{
+  const auto faces = static_cast<int>(facts(mesh.elements[element].domain).faces.size());
+  for (int face = 0; !this->areOne() && face < faces; ++face)
+  {
+    if (mesh.neighbor(element, face).element == other && this->Ends[faceSlot(element, face)] != 0)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 bool SurfacePieces::areOnEnd(const ElementMesh& mesh, const Location& a, const Location& b) const
 {
   if (this->areOne() || !this->areSame(a, b))

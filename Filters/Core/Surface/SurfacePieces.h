@@ -27,6 +27,9 @@ public:
     return this->areOne() || this->OfElement[a.element] == this->OfElement[b.element];
   }
 
+  /// Whether the surface ends at a face that joins two elements.
+  bool endBetween(const ElementMesh& mesh, int element, int other) const;
+
   /// Whether a face at which the surface ends holds two places of a piece, so that a line between them is the piece's own
   /// end.
   bool areOnEnd(const ElementMesh& mesh, const Location& a, const Location& b) const;
