@@ -1,14 +1,10 @@
 #include "Mesh/LooseParticles.h"
 
 #include "Mesh/ParticlesAround.h"
-#include "Mesh/TriangleNormal.h"
-
 #include <algorithm>
 #include <array>
 #include <optional>
 #include <set>
-#include <tuple>
-#include <utility>
 
 namespace hop
 {
@@ -214,112 +210,6 @@ private:
   std::vector<std::array<int, 2>> Border;
 };
 
-/// Puts one particle into the edge of which it makes the least detour. Where the surface bends by more than a star sees
-/// within a spacing, as at the rim of a fin, no triangle faces it.
-class EdgeInsertion
-{
-public:
-  EdgeInsertion(const ParticleNeighbors& neighbors, const std::vector<int>& around,
-    const ConstrainedEdges& edges, TriangleFans& fans, int particle)
-    : Neighbors(neighbors)
-    , Around(around)
-    , Edges(edges)
-    , Fans(fans)
-    , Middle(particle)
-  {
-  }
-
-  void run()
-  {
-    this->findEdges();
-    std::sort(this->Found.begin(), this->Found.end());
-    const auto good = std::find_if(this->Found.begin(), this->Found.end(),
-      [this](const EdgeBeside& edge) { return this->isGood(edge); });
-    if (good != this->Found.end())
-    {
-      const auto [before, after] = trianglesOf(*good, this->Middle);
-      std::for_each(
-        before.begin(), before.end(), [this](const Triangle& t) { this->Fans.remove(t); });
-      std::for_each(after.begin(), after.end(), [this](const Triangle& t) { this->Fans.add(t); });
-    }
-  }
-
-private:
-  /// An edge between two triangles.
-  struct EdgeBeside
-  {
-    /// By how much the way over the particle is longer, world units.
-    double detour = 0.0;
-    int from = -1, to = -1, left = -1, right = -1;
-
-    bool operator<(const EdgeBeside& other) const
-    {
-      return std::tie(this->detour, this->from, this->to) <
-        std::tie(other.detour, other.from, other.to);
-    }
-  };
-
-  const glm::dvec3& at(int particle) const { return this->Neighbors.points.positions[particle]; }
-
-  /// Particles that were added to fill holes have no neighbours that are known.
-  bool isKnown(int particle) const
-  {
-    return static_cast<std::size_t>(particle) < this->Neighbors.seen.size();
-  }
-
-  void findEdges()
-  {
-    for (const int from : this->Around)
-    {
-      if (areOnOneSheet(this->Neighbors, this->Middle, from))
-      {
-        this->Fans.visit(from,
-          [&](const LinkEdge& link)
-          {
-            // Of a triangle with the corners `from`, link.from and link.to: each edge between two triangles is met from
-            // both of its ends.
-            const int to = link.from;
-            const int right = this->Fans.apexOf(to, from);
-            if (from < to && right >= 0 && this->isKnown(to) && this->isKnown(link.to) &&
-              this->isKnown(right) && areOnOneSheet(this->Neighbors, this->Middle, to) &&
-              !this->Edges.joins(from, to))
-            {
-              const double detour = glm::distance(this->at(from), this->at(this->Middle)) +
-                glm::distance(this->at(this->Middle), this->at(to)) -
-                glm::distance(this->at(from), this->at(to));
-              this->Found.push_back({ detour, from, to, link.to, right });
-            }
-          });
-      }
-    }
-  }
-
-  static std::pair<std::array<Triangle, 2>, std::array<Triangle, 4>> trianglesOf(
-    const EdgeBeside& edge, int middle)
-  {
-    const auto& [detour, a, b, left, right] = edge;
-    return { { { { a, b, left }, { b, a, right } } },
-      { { { a, middle, left }, { middle, b, left }, { b, middle, right },
-        { middle, a, right } } } };
-  }
-
-  /// Whether no triangle would be turned away from a corner.
-  bool isGood(const EdgeBeside& edge) const
-  {
-    const auto after = trianglesOf(edge, this->Middle).second;
-    return std::none_of(after.begin(), after.end(),
-      [this](const Triangle& triangle)
-      { return isTurned(this->Neighbors.particles, triangle); });
-  }
-
-  const ParticleNeighbors& Neighbors;
-  const std::vector<int>& Around;
-  const ConstrainedEdges& Edges;
-  TriangleFans& Fans;
-  int Middle;
-  std::vector<EdgeBeside> Found;
-};
-
 /// Whether a particle is on no edge that tells where the surface ends: on edges in both directions alone, of which no side
 /// has a triangle, as chains are led back along themselves (EdgeChains.h).
 bool isOnNoBoundary(const ConstrainedEdges& edges, int particle)
@@ -415,10 +305,6 @@ void joinLooseParticles(const ParticleNeighbors& neighbors, const ConstrainedEdg
   {
     const std::vector<int> around = particlesAround.of(particle);
     Insertion(neighbors, around, edges, fans, particle).run();
-    if (!fans.hasTriangles(particle))
-    {
-      EdgeInsertion(neighbors, around, edges, fans, particle).run();
-    }
   }
 }
 

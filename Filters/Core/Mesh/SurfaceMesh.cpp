@@ -58,9 +58,10 @@ bool isOnStripWithoutWidth(const Particle& particle)
   return false;
 }
 
-/// Leaves out particles that a mesh in pieces, of whose topology nothing is proven, does not need if it has no holes: few
-/// alone, in the midst of the surface and beside particles of the mesh, as where it bends within a spacing. A component
-/// has more of them, and pieces have particles on their boundary curves. Those on pieces without width have no triangles.
+/// Leaves out particles that a mesh in pieces, of whose topology nothing is proven, does not need if it has no holes: one
+/// or two alone, in the midst of the surface and beside particles of the mesh, as where it bends within a spacing. A
+/// component has more of them, and pieces have particles on their boundary curves. Those on strips without width have no
+/// triangles.
 void leaveOutSpare(
   const ParticleNeighbors& neighbors, const ConstrainedEdges& edges, std::vector<int>& unused)
 {
@@ -68,7 +69,6 @@ void leaveOutSpare(
   {
     return;
   }
-  constexpr int leastOfComponent = 6; // LeastParticles.h
   const std::vector<int> all = unused;
   const ParticlesAround around(neighbors.points);
   const auto isSpare = [&](int p)
@@ -89,7 +89,7 @@ void leaveOutSpare(
       used += neighbors.areOnOnePiece(p, other) && !isUnused ? 1 : 0;
       others += isUnused ? 1 : 0;
     }
-    return used > 0 && others + 1 < leastOfComponent;
+    return used > 0 && others < 2;
   };
   unused.erase(std::remove_if(unused.begin(), unused.end(), isSpare), unused.end());
 }

@@ -72,6 +72,31 @@ bool endOppositely(const Particle& a, const Particle& b)
   return false;
 }
 
+/// Whether two particles, none of which has another one in its place, are on the two sides of a crease: a little beside each
+/// other or over each other, as where the field jumps by less than makes the surface end.
+bool areOnTwoSidesOfCrease(const Particle& a, const Particle& b)
+{
+  // In units of the spacing. Larger: the two sides of a strip do not see each other; smaller: creases bend by more.
+  constexpr double onLine = 0.05;
+  const glm::dvec3 apart = (b.position - a.position).xyz;
+  const auto isOnLine = [&](const Particle& particle, const ClipPlane& plane)
+  {
+    return plane.exists() && !plane.isBoundary() && plane.distance <= onLine * particle.spacing &&
+      std::abs(glm::dot(apart, plane.normal.xyz)) <= onLine * particle.spacing;
+  };
+  for (const ClipPlane& one : a.clips)
+  {
+    for (const ClipPlane& other : b.clips)
+    {
+      if (isOnLine(a, one) && isOnLine(b, other) && dot(one.normal, other.normal) < -0.5)
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 } // namespace
 
 ParticlePlaces::ParticlePlaces(const Distribution& distribution, const ParallelFor& parallelFor)
@@ -81,12 +106,17 @@ ParticlePlaces::ParticlePlaces(const Distribution& distribution, const ParallelF
       particles.size(), [this](std::size_t i) { return this->particles[i].position.xyz; },
       [this](std::size_t i) { return this->particles[i].spacing; }, parallelFor)
   , normals(particles.size())
+  , isShared(particles.size(), 0)
 {
   forAll(parallelFor, this->normals.size(),
     [&](std::size_t i) { this->normals[i] = this->particles[i].normal.xyz; });
   for (const int replaced : distribution.edges.replaced)
   {
     this->normals[replaced] = glm::vec3(0.0f);
+  }
+  for (const auto& [a, b] : distribution.edges.coincident)
+  {
+    this->isShared[a] = this->isShared[b] = 1;
   }
 }
 
@@ -121,15 +151,20 @@ bool TangentView::isOnSheet(int particle) const
     (cosine > SameSheet::Alike || this->turnsAsExpected(particle));
 }
 
-/// Whether a neighbour and the middle are on the two sides of a slit, whose sheets may reach over each other. At the
-/// slit's tip an edge joins them.
+/// Whether a neighbour and the middle are on the two sides of a slit or of a crease, whose sheets may reach over each other.
+/// At the tip an edge joins them.
 bool TangentView::isAcrossSlit(const FlatNeighbor& neighbor) const
 {
   const Particle& here = this->Particles.particles[this->Middle];
   const Particle& there = this->Particles.particles[neighbor.index];
-  return here.jump != 0.0 && there.jump != 0.0 && here.location.element != there.location.element &&
-    this->Edges.isOnEdge(this->Middle) && this->Edges.isOnEdge(neighbor.index) &&
-    !this->Edges.joins(this->Middle, neighbor.index) && endOppositely(here, there);
+  const bool areAtJump = here.jump != 0.0 && there.jump != 0.0;
+  const auto isAlone = [this](int particle)
+  { return !this->Particles.pieces.areOne() && !this->Particles.isShared[particle]; };
+  return here.location.element != there.location.element && this->Edges.isOnEdge(this->Middle) &&
+    this->Edges.isOnEdge(neighbor.index) && !this->Edges.joins(this->Middle, neighbor.index) &&
+    (areAtJump ? endOppositely(here, there)
+               : isAlone(this->Middle) && isAlone(neighbor.index) &&
+          areOnTwoSidesOfCrease(here, there));
 }
 
 /// Collects the constrained edges that end at a neighbour and have the middle to their left. Others bound the other side

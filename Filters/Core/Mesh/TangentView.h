@@ -33,6 +33,8 @@ struct ParticlePlaces
   SpacedPoints points;
   /// Zero, which is on no sheet, for those that are replaced (SurfaceEdges.h).
   Buffer<glm::vec3> normals;
+  /// Marks those in whose places there are others.
+  std::vector<char> isShared;
 };
 
 /// Who is near whom on the surface.

@@ -79,15 +79,19 @@ SurfacePieces::SurfacePieces(const ElementMesh& mesh, const std::vector<float>& 
 
 bool SurfacePieces::endBetween(const ElementMesh& mesh, int element, int other) const
 {
-  const auto faces = static_cast<int>(facts(mesh.elements[element].domain).faces.size());
-  for (int face = 0; !this->areOne() && face < faces; ++face)
+  const auto endsAt = [&](int here, int there)
   {
-    if (mesh.neighbor(element, face).element == other && this->Ends[faceSlot(element, face)] != 0)
+    const auto faces = static_cast<int>(facts(mesh.elements[here].domain).faces.size());
+    for (int face = 0; face < faces; ++face)
     {
-      return true;
+      if (mesh.neighbor(here, face).element == there && this->Ends[faceSlot(here, face)] != 0)
+      {
+        return true;
+      }
     }
-  }
-  return false;
+    return false;
+  };
+  return !this->areOne() && (endsAt(element, other) || endsAt(other, element));
 }
 
 bool SurfacePieces::areOnEnd(const ElementMesh& mesh, const Location& a, const Location& b) const

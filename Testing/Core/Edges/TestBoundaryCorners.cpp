@@ -195,10 +195,40 @@ TEST(BoundaryThinning, LeavesTheEndOfTheDomainAtCornersOfClosedSlits)
     corner.otherSide = { 1, { { 0, 1, 0 } }, 0.0 };
     curves.particles.push_back(corner);
   }
-  thinOut({}, {}, ThinnedCurves::OfSplats, curves, {});
+  thinOut(makeMesh({}), {}, {}, ThinnedCurves::OfSplats, curves, {});
   ASSERT_EQ(curves.particles.size(), 1u);
   EXPECT_EQ(curves.particles[0].side.outward.xyz, glm::dvec3(0, 1, 0));
   EXPECT_FALSE(curves.particles[0].otherSide.exists());
+}
+
+/// Curves along the end of the domain, side by side in two elements. Where the surface ends between these, each element has
+/// its own.
+TEST(BoundaryThinning, KeepsCurvesOnTwoSidesOfAnEnd)
+{
+  const ElementMesh mesh = makeMesh({ Domain::Hexahedron, { 1, 1, 1 }, 2 });
+  const int behind = mesh.neighbor(0, 0).element >= 0 ? 0 : 1; // of two opposite faces
+  const int other = mesh.neighbor(0, behind).element;
+  for (const bool ends : { true, false })
+  {
+    BoundaryCurves curves;
+    std::vector<float> tolerances(
+      MaximumFaces * mesh.elements.size(), std::numeric_limits<float>::infinity());
+    tolerances[faceSlot(0, behind)] = ends ? 0.0f : std::numeric_limits<float>::infinity();
+    curves.pieces = SurfacePieces(mesh, tolerances);
+    for (const int element : { 0, other })
+    {
+      BoundaryParticle end;
+      end.particle.position = { { element == 0 ? 0.0 : 0.2 * spacing, 0, 0 } };
+      end.particle.normal = { { 0, 0, 1 } };
+      end.particle.location.element = element;
+      end.patch.position = end.particle.position.xyz;
+      end.patch.spacing = spacing;
+      end.side = { 4, { { 0, 1, 0 } }, 0.0 };
+      curves.particles.push_back(end);
+    }
+    thinOut(mesh, {}, {}, ThinnedCurves::OfPieces, curves, {});
+    EXPECT_EQ(curves.particles.size(), ends ? 2u : 1u);
+  }
 }
 
 } // namespace

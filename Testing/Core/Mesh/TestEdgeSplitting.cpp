@@ -39,6 +39,13 @@ TEST(EdgeSplitting, IsAtParticlesOnAnEdgeInTheirOrder)
   EXPECT_EQ(split(distribution, { { 0, 1 } }), (Edges{ { 0, 3 }, { 2, 1 }, { 3, 2 } }));
 }
 
+TEST(EdgeSplitting, IsNotAtParticlesThatOthersReplace)
+{
+  Distribution distribution = above({ { 0.499999, 0.0 } }, 0.0);
+  distribution.edges.replaced = { 2 };
+  EXPECT_EQ(split(distribution, { { 0, 1 } }), (Edges{ { 0, 1 } }));
+}
+
 TEST(EdgeSplitting, IsAtParticlesBeyondTheChordOfACurve)
 {
   for (const double fromCurve : { 0.0, 0.2 })

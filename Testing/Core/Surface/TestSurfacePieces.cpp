@@ -96,6 +96,10 @@ TEST(SurfacePieces, HoldPlacesOnTheirEnds)
   const auto areOnEnd = [&](const Location& a, const Location& b)
   { return cut.pieces.areOnEnd(cut.mesh, a, b); };
   EXPECT_TRUE(cut.pieces.areSame(Cut::at(0, 0, 0, 0), Cut::at(above, 0, 0, 0)));
+  EXPECT_TRUE(cut.pieces.endBetween(cut.mesh, 0, above));
+  EXPECT_TRUE(cut.pieces.endBetween(cut.mesh, above, 0));
+  EXPECT_FALSE(cut.pieces.endBetween(cut.mesh, 0, 7)) << "no neighbours";
+  EXPECT_FALSE(SurfacePieces().endBetween(cut.mesh, 0, above)) << "a continuous field";
   EXPECT_TRUE(areOnEnd(Cut::at(0, 0.2, 0.3, 1.0), Cut::at(0, 0.7, 0.6, 1.0)));
   EXPECT_FALSE(areOnEnd(Cut::at(0, 0.2, 0.3, 1.0), Cut::at(0, 0.7, 0.6, 0.9)));
   // On an edge of the slit, by the number of the element beside it.
