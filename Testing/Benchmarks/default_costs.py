@@ -7,6 +7,8 @@ spacing left as they come. Times are of the filter alone, the best of N runs (de
 first table has the processor time of a run on one thread, and others as its multiples, all of them run in turns:
   Draft, High   the other levels of Quality
   number        NumberOfParticles, with the number that the spacing gives
+  Triangles     OutputType; then what these cost beyond the particles, those on creases and the proof of the topology
+                with them, in microseconds a particle, and what the mesh lacks
 and the elapsed time on two threads, which only tells something where two processors are free. The second table, with
 --all, has
   warm          processor time of Warm Start after a step of the isovalue by STEP of the array's range, as a multiple
@@ -73,6 +75,15 @@ def facts(reader, **properties):
     return found
 
 
+def lack_of_mesh(reader):
+    """Holes and particles left over."""
+    proxy = make(reader, OutputType="Triangles", PassDiagnostics=1)
+    proxy.UpdatePipeline()
+    lack = [int(proxy.FieldData[name].GetRange(0)[1]) for name in ("MeshOpenLoops", "MeshUnusedParticles")]
+    simple.Delete(proxy)
+    return lack
+
+
 def stepped(reader, chosen):
     """The isovalues a step higher, or lower where that would be more than the array has."""
     array = reader.PointData[chosen["array"]]
@@ -105,8 +116,8 @@ def measure(path, repetitions, everything):
     if result["particles"] == 0:
         return result
     variants = {"one thread": {}, "Draft": {"Quality": "Draft"}, "High": {"Quality": "High"},
-                "number": {"NumberOfParticles": result["particles"]}}
-    result |= in_turns(reader, repetitions, variants)
+                "number": {"NumberOfParticles": result["particles"]}, "Triangles": {"OutputType": "Triangles"}}
+    result |= in_turns(reader, repetitions, variants) | {"lacks": lack_of_mesh(reader)}
     use_threads(2)
     result |= in_turns(reader, repetitions, {"two threads": {}})
     use_threads(1)
@@ -121,13 +132,15 @@ def measure(path, repetitions, everything):
 
 def print_costs(results):
     print("\n| file | surface | particles | evaluations a particle | s | µs a particle | two threads, s | µs a particle "
-          "| Draft | High | number |\n|---|---|---|---|---|---|---|---|---|---|---|")
+          "| Draft | High | number | Triangles | µs beyond | holes | left over |\n" + 15 * "|---" + "|")
     for r in results:
         surface = f"{r['array']} = {', '.join(f'{v:.4g}' for v in r['isovalues'])}"
         cpu, elapsed = r["one thread"]["cpu"], r["two threads"]["wall"]
-        others = " | ".join(f"{r[name]['cpu'] / cpu:.2f}" for name in ("Draft", "High", "number"))
+        others = " | ".join(f"{r[name]['cpu'] / cpu:.2f}" for name in ("Draft", "High", "number", "Triangles"))
+        beyond = 1e6 * (r["Triangles"]["cpu"] - cpu) / r["particles"]
         print(f"| `{r['file']}` | {surface} | {r['particles']:,} | {r['evaluations']:.1f} | {cpu:.3f} "
-              f"| {1e6 * cpu / r['particles']:.1f} | {elapsed:.3f} | {1e6 * elapsed / r['particles']:.1f} | {others} |")
+              f"| {1e6 * cpu / r['particles']:.1f} | {elapsed:.3f} | {1e6 * elapsed / r['particles']:.1f} | {others} "
+              f"| {beyond:.1f} | {r['lacks'][0]} | {r['lacks'][1]} |")
 
 
 def print_more(results):
