@@ -99,7 +99,7 @@ bool projectAlong(const ActiveFaces& faces, const Isosurface& surface, SurfaceWa
 {
   const Domain domain = surface.mesh->elements[place.element].domain;
   double travel = 0.0;
-  for (int step = 0; step < SurfaceWalker::MaximumNewtonSteps; ++step)
+  for (int n = 0; n < SurfaceWalker::MaximumNewtonSteps; ++n)
   {
     const FieldPoint point = walker.evaluate(place).point;
     if (surface.holds(point, reach))
@@ -117,7 +117,10 @@ bool projectAlong(const ActiveFaces& faces, const Isosurface& surface, SurfaceWa
     {
       return false;
     }
-    place.u = broughtInside(domain, place.u + (-point.value / rate) * along);
+    // At a node with the isovalue the surface is in the corner of the element, where the step ends.
+    const ReferenceVector step = (-point.value / rate) * along;
+    const double share = findExit(domain, place.u, step, faces).fraction;
+    place.u = broughtInside(domain, place.u + share * step);
   }
   return false;
 }
