@@ -25,13 +25,6 @@ bool hasMoreSheets(const Distribution& lifted, const Distribution& own)
     more * static_cast<double>(own.particles.size());
 }
 
-/// Whether the surface jumps from element to element by more than rounding.
-bool jumps(const Distribution& distribution)
-{
-  constexpr double rounding = 1e-3; // in spacings
-  return distribution.report.largestJump > rounding;
-}
-
 /// Whether a mesh has holes, or particles without a triangle.
 bool isOpen(const ParticleMesh& mesh)
 {
@@ -110,7 +103,7 @@ void MeshRepair::run(IsovalueParticles& some)
     return;
   }
   this->ParticlesLeft = std::max(alwaysAllowed, timesOwn * some.mesh.particles);
-  const bool isDiscontinuous = jumps(some.distribution);
+  const bool isDiscontinuous = some.distribution.report.hasJumps();
   const bool isLiftable = !isDiscontinuous && isOpen(some.mesh);
   // Around singular points more particles are of little use.
   const bool besideFirst = isLiftable && some.distribution.report.singularPoints > 0;

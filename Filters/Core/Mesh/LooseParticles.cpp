@@ -107,13 +107,15 @@ private:
 class Insertion
 {
 public:
+  /// \param mayTurn whether triangles may be turned away from one of their corners
   Insertion(const ParticleNeighbors& neighbors, const std::vector<int>& around,
-    const ConstrainedEdges& edges, TriangleFans& fans, int particle)
+    const ConstrainedEdges& edges, TriangleFans& fans, int particle, bool mayTurn)
     : Neighbors(neighbors)
     , Seen(neighbors, around, particle)
     , Edges(edges)
     , Fans(fans)
     , Middle(particle)
+    , MayTurn(mayTurn)
   {
   }
 
@@ -175,6 +177,23 @@ private:
     }
   }
 
+  /// Whether a triangle between the particle and an edge of the border faces its corners, or, where the surface bends by
+  /// more than a right angle within a spacing, their mean normal.
+  bool faces(const std::array<int, 2>& edge) const
+  {
+    const glm::dvec3 normal = glm::cross(
+      this->at(edge[0]) - this->at(this->Middle), this->at(edge[1]) - this->at(this->Middle));
+    double sum = 0.0;
+    bool isTurned = false;
+    for (const int corner : { this->Middle, edge[0], edge[1] })
+    {
+      const double facing = glm::dot(normal, glm::dvec3(this->Neighbors.normals[corner]));
+      sum += facing;
+      isTurned = isTurned || facing <= 0.0;
+    }
+    return sum > 0.0 && (!isTurned || this->MayTurn);
+  }
+
   /// Whether the border surrounds the particle once, through every corner, and no triangle would be turned away.
   bool isGood() const
   {
@@ -183,21 +202,14 @@ private:
     {
       corners.insert(triangle.begin(), triangle.end());
     }
-    for (const auto& [a, b] : this->Border)
+    for (const std::array<int, 2>& edge : this->Border)
     {
-      const glm::dvec3 normal =
-        glm::cross(this->at(a) - this->at(this->Middle), this->at(b) - this->at(this->Middle));
-      for (const int corner : { this->Middle, a, b })
-      {
-        if (glm::dot(normal, glm::dvec3(this->Neighbors.normals[corner])) <= 0.0)
-        {
-          return false;
-        }
-      }
-      begins.insert(a);
+      begins.insert(edge[0]);
     }
     return begins == corners && this->Border.size() == corners.size() &&
-      this->Cavity.size() + 2 == corners.size();
+      this->Cavity.size() + 2 == corners.size() &&
+      std::all_of(this->Border.begin(), this->Border.end(),
+        [this](const std::array<int, 2>& edge) { return this->faces(edge); });
   }
 
   const ParticleNeighbors& Neighbors;
@@ -205,6 +217,7 @@ private:
   const ConstrainedEdges& Edges;
   TriangleFans& Fans;
   int Middle;
+  bool MayTurn;
   std::vector<Triangle> Cavity;
   std::set<Triangle> Known;
   std::vector<std::array<int, 2>> Border;
@@ -301,10 +314,13 @@ void joinLooseParticles(const ParticleNeighbors& neighbors, const ConstrainedEdg
   }
   const ParticlesAround particlesAround(neighbors.points);
   takeIslandsApart(neighbors, particlesAround, edges, loops, fans);
-  for (const int particle : looseParticles(neighbors, edges, fans))
+  for (const bool mayTurn : { false, true })
   {
-    const std::vector<int> around = particlesAround.of(particle);
-    Insertion(neighbors, around, edges, fans, particle).run();
+    for (const int particle : looseParticles(neighbors, edges, fans))
+    {
+      const std::vector<int> around = particlesAround.of(particle);
+      Insertion(neighbors, around, edges, fans, particle, mayTurn).run();
+    }
   }
 }
 

@@ -106,6 +106,7 @@ ParticlePlaces::ParticlePlaces(const Distribution& distribution, const ParallelF
       particles.size(), [this](std::size_t i) { return this->particles[i].position.xyz; },
       [this](std::size_t i) { return this->particles[i].spacing; }, parallelFor)
   , normals(particles.size())
+  , hasJumps(distribution.report.hasJumps())
   , isShared(particles.size(), 0)
 {
   forAll(parallelFor, this->normals.size(),
@@ -159,7 +160,7 @@ bool TangentView::isAcrossSlit(const FlatNeighbor& neighbor) const
   const Particle& there = this->Particles.particles[neighbor.index];
   const bool areAtJump = here.jump != 0.0 && there.jump != 0.0;
   const auto isAlone = [this](int particle)
-  { return !this->Particles.pieces.areOne() && !this->Particles.isShared[particle]; };
+  { return this->Particles.hasJumps && !this->Particles.isShared[particle]; };
   return here.location.element != there.location.element && this->Edges.isOnEdge(this->Middle) &&
     this->Edges.isOnEdge(neighbor.index) && !this->Edges.joins(this->Middle, neighbor.index) &&
     (areAtJump ? endOppositely(here, there)

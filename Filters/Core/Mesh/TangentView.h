@@ -33,6 +33,8 @@ struct ParticlePlaces
   SpacedPoints points;
   /// Zero, which is on no sheet, for those that are replaced (SurfaceEdges.h).
   Buffer<glm::vec3> normals;
+  /// Whether the two sides of creases may be a little apart.
+  bool hasJumps;
   /// Marks those in whose places there are others.
   std::vector<char> isShared;
 };

@@ -138,6 +138,13 @@ struct DistributionReport
   bool aborted = false;
   /// Why nothing was computed; empty if all is well.
   std::string error;
+
+  /// Whether the surface jumps from element to element by more than rounding.
+  bool hasJumps() const
+  {
+    constexpr double rounding = 1e-3; // in spacings
+    return this->largestJump > rounding;
+  }
 };
 
 struct Distribution
