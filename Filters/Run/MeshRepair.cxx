@@ -31,14 +31,18 @@ bool isOpen(const ParticleMesh& mesh)
   return mesh.openLoops > 0 || mesh.unusedParticles > 0;
 }
 
-/// Turned triangles that are as bad as a hole; chosen by experiment. Larger: sheets that nearly cross come back through each
-/// other; smaller: holes stay for the sake of few slivers.
-constexpr std::int64_t turnedPerHole = 10;
+/// Turned triangles that are as bad as a particle without a triangle; chosen by experiment. Larger: sheets that nearly cross
+/// come back through each other; smaller: holes stay for the sake of few slivers.
+constexpr std::int64_t turnedPerParticle = 10;
+
+/// Particles without a triangle that are as bad as a hole, at which the mesh lacks an area; chosen by experiment.
+constexpr std::int64_t particlesPerHole = 5;
 
 /// How bad a mesh is: what it lacks, and triangles that are turned away.
 std::int64_t faultsOf(const ParticleMesh& mesh)
 {
-  return turnedPerHole * lackOf(mesh) + mesh.turnedTriangles;
+  const std::int64_t lack = lackOf(mesh) + (particlesPerHole - 1) * mesh.openLoops;
+  return turnedPerParticle * lack + mesh.turnedTriangles;
 }
 
 /// What was found of singular places is said of the surface itself, not of the lifted one.
@@ -288,7 +292,7 @@ bool MeshRepair::isInPlaceOf(
   return faultsOf(other.mesh) < faultsOf(own.mesh) &&
     other.mesh.openLength <= own.mesh.openLength &&
     other.mesh.turnedTriangles <=
-    std::max({ own.mesh.turnedTriangles, triangles / onePercent, turnedPerHole }) &&
+    std::max({ own.mesh.turnedTriangles, triangles / onePercent, turnedPerParticle }) &&
     !(onAnother && hasMoreSheets(other.distribution, own.distribution)) &&
     isCoveredBy(own.distribution.particles, own.mesh.nodes, other.distribution.particles,
       other.mesh.nodes, std::ref(loops));

@@ -252,7 +252,9 @@ std::optional<std::set<int>> verticesOfIsland(
     if (vertices.insert(vertex).second)
     {
       fans.visit(vertex,
-        [&](const LinkEdge& edge) { pending.insert(pending.end(), { edge.from, edge.to }); });
+        [&](const LinkEdge& edge) {
+          pending.insert(pending.end(), { edge.from, edge.to });
+        });
     }
   }
   return vertices;

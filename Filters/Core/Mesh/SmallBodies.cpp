@@ -149,7 +149,8 @@ private:
   {
     const Buffer<Particle>& particles = this->Neighbors.particles;
     const glm::dvec3 normals = (particles[triangle[0]].normal + particles[triangle[1]].normal +
-      particles[triangle[2]].normal).xyz;
+      particles[triangle[2]].normal)
+                                 .xyz;
     return glm::dot(doubleAreaNormal(particles, triangle), normals) > 0.0;
   }
 

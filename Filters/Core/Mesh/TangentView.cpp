@@ -163,9 +163,9 @@ bool TangentView::isAcrossSlit(const FlatNeighbor& neighbor) const
   { return this->Particles.hasJumps && !this->Particles.isShared[particle]; };
   return here.location.element != there.location.element && this->Edges.isOnEdge(this->Middle) &&
     this->Edges.isOnEdge(neighbor.index) && !this->Edges.joins(this->Middle, neighbor.index) &&
-    (areAtJump ? endOppositely(here, there)
-               : isAlone(this->Middle) && isAlone(neighbor.index) &&
-          areOnTwoSidesOfCrease(here, there));
+    (areAtJump
+        ? endOppositely(here, there)
+        : isAlone(this->Middle) && isAlone(neighbor.index) && areOnTwoSidesOfCrease(here, there));
 }
 
 /// Collects the constrained edges that end at a neighbour and have the middle to their left. Others bound the other side

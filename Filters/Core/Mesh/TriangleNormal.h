@@ -46,8 +46,8 @@ inline bool isTurnedOver(const Buffer<Particle>& particles, const std::array<int
 /// angle within a spacing, no triangle suits all of them.
 inline bool isTurnedFromAll(const Buffer<Particle>& particles, const std::array<int, 3>& corners)
 {
-  const WorldVector normals = particles[corners[0]].normal + particles[corners[1]].normal +
-    particles[corners[2]].normal;
+  const WorldVector normals =
+    particles[corners[0]].normal + particles[corners[1]].normal + particles[corners[2]].normal;
   return glm::dot(doubleAreaNormal(particles, corners), normals.xyz) <= 0.0;
 }
 

@@ -75,7 +75,8 @@ TEST(ConvexHull, OfPointsInAPlaneIsNone)
 {
   EXPECT_TRUE(convexHull({}).empty());
   EXPECT_TRUE(convexHull({ { 1, 2, 3 }, { 1, 2, 3 } }).empty());
-  EXPECT_TRUE(convexHull({ { 0, 0, 1 }, { 1, 0, 1 }, { 0, 1, 1 }, { 1, 1, 1 }, { 3, 4, 1 } }).empty());
+  EXPECT_TRUE(
+    convexHull({ { 0, 0, 1 }, { 1, 0, 1 }, { 0, 1, 1 }, { 1, 1, 1 }, { 3, 4, 1 } }).empty());
 }
 
 } // namespace
