@@ -342,7 +342,7 @@ std::int64_t unusedWith(int more, Meshed meshed)
   {
     Particle turned = nearest;
     turned.position.xyz += nearest.spacing * glm::dvec3(0.3 + 0.1 * n, 0.2 * n, 0.0);
-    turned.normal = { { 1.0, 0.0, 0.0 } };
+    turned.normal = { { 0.6, 0.0, 0.8 } }; // those of the sheet point down
     distribution.particles.push_back(turned);
   }
   const Isosurface surface{ &meshed.elements, 0.0, 1e-9 };
