@@ -16,13 +16,15 @@ enum class ThinnedCurves
   OfSplats,
   /// Not on two sides of a slit or a strip: each has boundary edges of a mesh.
   OfMesh,
-  /// Nor in two elements at a jump: pieces of a mesh of a discontinuous field.
+  /// Nor in two elements at a jump, or on two sides of a face at which the surface ends: pieces of a mesh of a discontinuous
+  /// field.
   OfPieces
 };
 
 /// Of particles that are too near to each other the first stays; in meshes, one on a corner before others. If the surface
 /// ends at both on the two sides of a slit, it goes on there, and the one that stays ends at no face, but for the other face of
 /// a corner.
+/// \param mesh that the particles are on
 /// \param places what became of the places on all curves
 /// \param ranges of places, one a curve
 /// \param curves their particles and places on creases; edges and thinned particles are added

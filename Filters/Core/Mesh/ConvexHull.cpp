@@ -8,7 +8,7 @@ namespace hop
 namespace
 {
 
-/// Adds one point after the other (Preparata and Hong 1977, without their order).
+/// Adds one point after the other, by what it sees of the hull of those before (beneath and beyond).
 class Hull
 {
 public:

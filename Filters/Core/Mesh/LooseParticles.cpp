@@ -1,6 +1,7 @@
 #include "Mesh/LooseParticles.h"
 
 #include "Mesh/ParticlesAround.h"
+
 #include <algorithm>
 #include <array>
 #include <optional>

@@ -43,9 +43,10 @@ public:
       return false;
     }
     const std::vector<Triangle> hull = this->hullOn(side);
-    // Euler's formula: all particles are corners of a closed surface.
+    // Euler's formula: all particles are corners of a closed surface. The hull of a patch has a back, which is turned.
     const bool isBody = hull.size() + 4 == 2 * this->Particles.size() &&
-      std::all_of(hull.begin(), hull.end(), [this](const Triangle& t) { return this->isOn(t); });
+      std::none_of(hull.begin(), hull.end(),
+        [this](const Triangle& t) { return isTurnedFromMean(this->Neighbors.particles, t); });
     if (isBody)
     {
       std::for_each(
@@ -142,16 +143,6 @@ private:
       }
     }
     return hull;
-  }
-
-  /// Whether a triangle faces to where the surface does between its corners: of a patch the hull has a back.
-  bool isOn(const Triangle& triangle) const
-  {
-    const Buffer<Particle>& particles = this->Neighbors.particles;
-    const glm::dvec3 normals = (particles[triangle[0]].normal + particles[triangle[1]].normal +
-      particles[triangle[2]].normal)
-                                 .xyz;
-    return glm::dot(doubleAreaNormal(particles, triangle), normals) > 0.0;
   }
 
   const ParticleNeighbors& Neighbors;

@@ -104,7 +104,7 @@ void countTurned(const Buffer<Particle>& particles, SurfaceMesh& mesh)
     if (isTurnedOver(particles, corners))
     {
       ++mesh.turnedTriangles;
-      if (areFaults && isTurnedFromAll(particles, corners))
+      if (areFaults && isTurnedFromMean(particles, corners))
       {
         mesh.atFaults.insert(mesh.atFaults.end(), corners.begin(), corners.end());
       }

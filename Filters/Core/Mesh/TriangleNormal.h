@@ -44,7 +44,7 @@ inline bool isTurnedOver(const Buffer<Particle>& particles, const std::array<int
 
 /// Whether it is turned away from the mean of the normals of its corners: where the surface bends by more than a right
 /// angle within a spacing, no triangle suits all of them.
-inline bool isTurnedFromAll(const Buffer<Particle>& particles, const std::array<int, 3>& corners)
+inline bool isTurnedFromMean(const Buffer<Particle>& particles, const std::array<int, 3>& corners)
 {
   const WorldVector normals =
     particles[corners[0]].normal + particles[corners[1]].normal + particles[corners[2]].normal;
